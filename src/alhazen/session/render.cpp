@@ -7,6 +7,7 @@
 #include <ctime>
 #include <memory>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/load.h"
@@ -51,6 +52,19 @@ std::string renderers_where(bool (Renderer::*has)() const) {
         names += (names.empty() ? "" : ", ") + std::string(entry.name);
     }
     return names;
+}
+
+/// Of renderers that promise all light.
+void check_scattering(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
+    if (!renderer.follows_light() || renderer.scatters_in_volumes()) return;
+    for (const Material& material : scene.materials) {
+        if (material.scattering.coefficient.is_black()) continue;
+        throw Error(ErrorKind::Usage,
+                    fmt::format("material '{}' scatters light inside of volumes, which is for {}; "
+                                "renderer '{}' scatters at surfaces only",
+                                escape_controls(material.name),
+                                renderers_where(&Renderer::scatters_in_volumes), options.renderer));
+    }
 }
 
 void check_camera(const Camera& camera, const RenderOptions& options, const Renderer& renderer) {
@@ -98,6 +112,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
+    check_scattering(original, options, *renderer);
     check_camera(find_camera(original, options.camera).camera, options, *renderer);
     const Scene scene = adjusted(original, options, *renderer);
     const CameraDescription& camera = find_camera(scene, options.camera);
@@ -236,6 +251,13 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
             fmt::format("renderer '{}' leaves out the scene's exact optics (fresnel, "
                         "beer); 'whitted' and 'distributed' have them",
                         options.renderer));
+    }
+    const auto scatters = [](const Material& m) { return !m.scattering.coefficient.is_black(); };
+    if (!renderer.follows_light() &&
+        std::any_of(scene.materials.begin(), scene.materials.end(), scatters)) {
+        notes.push_back(fmt::format("renderer '{}' scatters no light inside of volumes; {} does",
+                                    options.renderer,
+                                    renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
