@@ -10,7 +10,7 @@ namespace {
 using namespace alhazen::testing;
 
 TEST(SmoothLobes, AMirrorSendsLightBackAtTheSameAngle) {
-    const Bsdf bsdf = bsdf_of_lobe(Mirror{}, {0.9, 0.8, 0.7});
+    const Bsdf bsdf = bsdf_of_lobe(Mirror{}, {0.9, 0.8, 0.7, 0.7});
     const Vec3 view = view_at(0.3);
     const auto s = bsdf.sample(view, 0.4, {0.1, 0.9}, Transport::Radiance);
     ASSERT_TRUE(s && s->singular);
@@ -77,7 +77,7 @@ TEST(SmoothLobes, WhittedsRefractionReflectsNothingBelowTheCriticalAngle) {
 }
 
 TEST(SmoothLobes, AThinSheetLetsLightGoStraightOn) {
-    const Bsdf bsdf = bsdf_of_lobe(ThinSheet{{0.5, 0.6, 0.7}});
+    const Bsdf bsdf = bsdf_of_lobe(ThinSheet{{0.5, 0.6, 0.7, 0.7}});
     const Vec3 view = view_at(0.3);
     const auto s = bsdf.sample(view, 0.2, {}, Transport::Radiance);
     ASSERT_TRUE(s && s->singular);
