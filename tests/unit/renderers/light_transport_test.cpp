@@ -319,7 +319,7 @@ TEST(CameraLens, JoinsAPointWhereItsEyeRayStarted) {
     const Camera cameras[] = {
         camera, OrthographicCamera{{0, 0, 5}, {0.1, 0, -1}, {3, 0, 0}, {0, 2, 0}},
         look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Equidistant, 3.0, 1.2),
-        look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Equisolid, 4.0, 1.0),
+        look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Equisolid, 2.5, 1.0),
         look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Panorama, 3.0, 2.0)};
     SceneMaker empty;
     empty.add(Sphere{});

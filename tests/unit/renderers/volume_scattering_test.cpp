@@ -166,6 +166,7 @@ TEST(VolumeScattering, ALampInFogShinesByTheIntegralAlongTheView) {
     const Vec3 lamp{0.5, 0, 1};
     for (const double g : {0.0, -0.4, 0.7}) {
         SceneMaker maker = looking_down();
+        maker.description().conventions.shading.clamp_attenuation = false;
         maker.add(BoxShape{{-50, -50, -2}, {50, 50, 50}},
                   maker.material(fog(absorption, scattering, g)));
         maker.add(rectangle({-40, -40, -1}, {80, 0, 0}, {0, 80, 0}), maker.material(matt({})));
