@@ -217,6 +217,7 @@ TEST(VolumeScattering, RenderersThatHaveNoneSaySo) {
                   std::string(entry.name) == "path_tracing")
             << entry.name;
     }
+    EXPECT_FALSE(make_renderer("path_tracing:manifold=on")->scatters_in_volumes());
 }
 
 }  // namespace

@@ -54,6 +54,12 @@ class PathChance {
         return {random_at(seed_, id.pixel.id(), id.number, place),
                 random_at(seed_, id.pixel.id(), id.number, place + 1)};
     }
+    /// Numbers of what draws many: the `number`-th of a place (a bounce, say) of the sample.
+    [[nodiscard]] double extra(const SampleId& id, std::uint32_t place,
+                               std::uint32_t number) const {
+        return random_at(seed_, id.pixel.id(), id.number,
+                         kExtra | std::uint64_t{place} << 32 | number);
+    }
     [[nodiscard]] float time(const SampleId& id) const {
         // Below 1, where the double may round up to it.
         return std::min(static_cast<float>(draw(id, kTime).x), 0x1.fffffep-1f);
@@ -64,6 +70,7 @@ class PathChance {
     static constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
     static constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
+    static constexpr std::uint64_t kExtra = std::uint64_t{1} << 62;
 
     [[nodiscard]] static std::uint32_t pair_of(int bounce, BouncePair pair) {
         return kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair;

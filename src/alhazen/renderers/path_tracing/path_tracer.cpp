@@ -18,7 +18,7 @@ constexpr double kBeforeLight = 1.0 - 1e-7;
 
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                        const Illumination& lights, const PathSettings& settings,
-                       LightLayers* layers)
+                       LightLayers* layers, const ManifoldScene* manifold)
     : job_(job),
       scene_(job.scene),
       lights_(lights),
@@ -31,7 +31,10 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       has_scattering_(
           std::any_of(scene_.materials.begin(), scene_.materials.end(),
                       [](const Material& m) { return !m.scattering.coefficient.is_black(); })),
-      layers_(layers) {}
+      layers_(layers),
+      manifold_(manifold) {
+    if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
+}
 
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
@@ -144,7 +147,10 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     add_emission(path, ray, hit, point, sum);
     if (point.material->unlit || path.scatterings >= settings_.depth) return;
     scatter_.set(scene_, point, path.media, waves(path));
-    if (scatter_.has_density()) add_direct_light(path, point, sum);
+    if (scatter_.has_density()) {
+        add_direct_light(path, point, sum);
+        if (chains_) add_chains(path, point, sum);
+    }
     scatter(path, point);
 }
 
@@ -152,6 +158,9 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
                               const ShadingPoint& point, Spectrum& sum) {
     const Rgb& emission = point.material->emission;
     if (emission.is_black()) return;
+    if (manifold_ != nullptr && manifold_->finds(path.trail, hit, point.surface, ray.direction)) {
+        return;
+    }
     Spectrum light = path.throughput * waves(path).emission(emission);
     if (!path.singular) {
         // What shows its colour whatever the light is no lamp.
@@ -250,11 +259,27 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     ++path.drawn;
     ++path.scatterings;
     path.singular = false;
+    path.trail = {};
     path.density = henyey_greenstein(dot(ray.direction, direction), g);
     path.from = at;
     path.travelled = 0.0;
     path.kind = RayKind::Refraction;
     if (survives(path)) go_on(path, {ray.origin, direction});
+}
+
+void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
+    const ManifoldLight::Receiver at{
+        point.surface, scatter_,          path.media,
+        path.time,     waves(path),       settings_.depth - path.scatterings - 1,
+        chance_,       ids_[path.sample], static_cast<std::uint32_t>(path.drawn)};
+    chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {
+        const int scatterings = path.scatterings + 1 + arrived.bends;
+        const Spectrum light = limited(path.throughput * arrived.light, scatterings);
+        if (layers_ != nullptr) {
+            parts_[path.sample].add(light, scatterings, first_along(path, arrived.direction));
+        }
+        sum += light;
+    });
 }
 
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
@@ -273,6 +298,11 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         if (++path.met > kMaxPassedSurfaces) return;
     } else {
         ++path.scatterings;
+        if (drawn->singular) {
+            path.trail.go_on(point.surface, drawn->transmitted);
+        } else {
+            path.trail.begin(drawn->density);
+        }
         path.singular = drawn->singular;
         path.density = drawn->density;
         path.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};

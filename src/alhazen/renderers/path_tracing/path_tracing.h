@@ -25,7 +25,7 @@ class PathTracing final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
 
-    [[nodiscard]] bool scatters_in_volumes() const override { return true; }
+    [[nodiscard]] bool scatters_in_volumes() const override { return !settings_.manifold; }
 
   private:
     PathSettings settings_;
