@@ -281,6 +281,7 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
     gold.conductor = Conductor{measured.index, measured.extinction, "gold"};
     metal.conductor = Conductor{n.color(), n.color(), ""};
     water.dielectric = Dielectric{n.color()};
+    water.scattering = {n.color(), -0.3};
     water.index.value = 1.33;
     for (const Material& m : {gold, metal, water}) scene.materials.push_back({m, {}});
     expect_round_trip(scene);
