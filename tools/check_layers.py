@@ -160,7 +160,8 @@ INSIDE = {
         "textures": [],
         "materials": ["optics", "textures"],
         "microfacets": ["optics"],
-        "bsdf": ["microfacets", "materials"],
+        "spectrum": [],
+        "bsdf": ["microfacets", "materials", "spectrum"],
     },
     "shapes": {
         "core": [],

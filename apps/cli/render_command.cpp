@@ -412,9 +412,10 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Draw the tables of lane_carpenter over the scan lines as an animated SVG")
         ->type_name("FILE");
     command
-        ->add_option("--photons", args->photons,
-                     "Write the photons of photon_mapping, or of the first pass of sppm or vcm, as points "
-                     "of a PLY file")
+        ->add_option(
+            "--photons", args->photons,
+            "Write the photons of photon_mapping, or of the first pass of sppm or vcm, as points "
+            "of a PLY file")
         ->type_name("FILE.ply");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });

@@ -86,8 +86,8 @@ TEST(MergedPathWeight, IsThatOfTheSumsAlongBothSides) {
         const auto& v = path.vertices;
         const std::size_t k = 2 + random.below(m - 1);
         if (v[k].singular) continue;
-        SideSums light = SideSums::at_light(v[0].from_light, path.joined, path.hit,
-                                            v[1].from_light);
+        SideSums light =
+            SideSums::at_light(v[0].from_light, path.joined, path.hit, v[1].from_light);
         for (std::size_t i = 1; i < k; ++i) {
             light = light.after(v[i - 1].from_eye, v[i].singular, i > 1, path.merging,
                                 v[i + 1].from_light);
@@ -112,7 +112,7 @@ TEST(Vcm, AnIntegratingSphereShowsTheSumOfTheSeries) {
     maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1.0);
     maker.add(ball({0, 0, 0}, 3), maker.material(shining({0.5, 0.5, 0.5}, {0.5, 0.2, 0.8})));
     const Scene scene = maker.compile();
-    const Rgb seen = mean_of(picture_of(scene, "vcm:photons=2000,radius=0.3,pilot=off", 8, 64));
+    const Rgb seen = mean_of(picture_of(scene, "vcm:photons=2000,radius=0.3,pilot=off", 8, 32));
     EXPECT_NEAR(seen.r, 0.5 / (1 - 0.5), 0.01);
     EXPECT_NEAR(seen.g, 0.5 / (1 - 0.2), 0.01);
     EXPECT_NEAR(seen.b, 0.5 / (1 - 0.8), 0.04);
@@ -217,14 +217,14 @@ std::vector<NamedRoom> rooms() {
              m.add(rectangle({-0.9, -0.6, 1.1}, {0.9, 0, 0}, {0, 1.2, 0.2}), m.material(sheet));
          })});
     // Half of the light there meets the wall, and a quarter would if chance decided twice.
-    all.push_back({"half a wall", room([](SceneMaker& m) {
-                       add_lamp(m, 0.5, {4, 4, 4});
-                       Material half = matt({0.9, 0.9, 0.9});
-                       half.alpha_mode = AlphaMode::Blend;
-                       half.alpha.value = 0.5;
-                       m.add(rectangle({-0.9, 0.2, 0.1}, {1.8, 0, 0}, {0, 0, 1.4}),
-                             m.material(half));
-                   })});
+    all.push_back(
+        {"half a wall", room([](SceneMaker& m) {
+             add_lamp(m, 0.5, {4, 4, 4});
+             Material half = matt({0.9, 0.9, 0.9});
+             half.alpha_mode = AlphaMode::Blend;
+             half.alpha.value = 0.5;
+             m.add(rectangle({-0.9, 0.2, 0.1}, {1.8, 0, 0}, {0, 0, 1.4}), m.material(half));
+         })});
     all.push_back({"sun and sky", room([](SceneMaker& m) {
                        m.description().picture.background = Rgb{0.5, 0.6, 0.9};
                        m.light(DirectionalLight{.to_light = normalize(Vec3{0.2, -1, 0.8}),
@@ -238,12 +238,12 @@ TEST(Vcm, AgreesWithPathTracingInSevenRooms) {
     // 56 cases: a t of 22 degrees of freedom beyond 5.7 is seen in one of 1800 runs.
     constexpr double kMost = 5.7, kBias = 0.005;
     for (const NamedRoom& r : rooms()) {
-        const Blocks truth = blocks_of(r.scene, "path_tracing", 64);
+        const Blocks truth = blocks_of(r.scene, "path_tracing", 32);
         double whole = 0.0;
         for (const double mean : truth.mean) whole += mean / 4;
         for (const std::string renderer :
              {"vcm:photons=1000,radius=0.03,pilot=off", "vcm:photons=200,radius=0.1,pilot=off"}) {
-            const Blocks found = blocks_of(r.scene, renderer, 24);
+            const Blocks found = blocks_of(r.scene, renderer, 12);
             const double bias = renderer.find("0.1") != std::string::npos ? 4 * kBias : kBias;
             for (std::size_t i = 0; i < 4; ++i) {
                 const double error = std::hypot(found.error[i], truth.error[i]);
@@ -258,7 +258,8 @@ TEST(Vcm, AgreesWithPathTracingInSevenRooms) {
 
 TEST(Vcm, WithoutMergingIsBidirectional) {
     const Scene scene = room_of_glass();
-    const Film a = picture_of(scene, "vcm:merge=off", 8, 4), b = picture_of(scene, "bidirectional", 8, 4);
+    const Film a = picture_of(scene, "vcm:merge=off", 8, 4),
+               b = picture_of(scene, "bidirectional", 8, 4);
     for (int i = 0; i < 64; ++i) EXPECT_EQ(a.at(i % 8, i / 8), b.at(i % 8, i / 8)) << i;
 }
 
@@ -299,8 +300,7 @@ TEST(Vcm, SaysWhatItCannotDo) {
     const Scene lit = room([](SceneMaker& m) { add_lamp(m, 0.3, {9, 8, 6}); });
     EXPECT_NE(message_of(lit, "vcm:photons=0").find("photons=0"), std::string::npos);
     EXPECT_NE(message_of(lit, "vcm:pilot=maybe").find("off, say, choose"), std::string::npos);
-    EXPECT_NE(message_of(lit, "vcm:photons=1000000000,memory=1").find("memory"),
-              std::string::npos);
+    EXPECT_NE(message_of(lit, "vcm:photons=1000000000,memory=1").find("memory"), std::string::npos);
     SamplingPlan rounds;
     rounds.noise = 0.1;
     EXPECT_NE(message_of(lit, "vcm", rounds).find("takes --spp"), std::string::npos);

@@ -121,10 +121,10 @@ void expect_power(ClaimRun& run, const std::string& what, const PhotonScene& des
     const Scene scene = compile(described.d);
     const Illumination lights(scene);
     const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera, .control = {1}};
-    const PhotonShot shot{100000, kinds, 1000, 5};
+    const PhotonShot shot{.count = 100000, .kinds = kinds, .depth = 1000, .seed = 5};
     double sum = 0.0;
     for (const Photon& photon : shoot_photons(job, lights, shot, 1u << 24, "photons").photons) {
-        sum += photon.light().g;
+        sum += photon.light().b;
     }
     run.expect(what + ": power that arrives over what was sent", fmt::format("{:.5f}", sum / power),
                fmt::format("1 +- {}", tolerance), std::abs(sum / power - 1.0) <= tolerance);
@@ -177,8 +177,9 @@ void claim_g2(ClaimRun& run) {
                        std::abs(bias - expected) <= 0.005);
         }
     }
-    run.note("A point of light in a ball of glass over a floor, of which only photons know: "
-             "brightness in closed form. The bias is that of a disc of the radius of each pass.");
+    run.note(
+        "A point of light in a ball of glass over a floor, of which only photons know: "
+        "brightness in closed form. The bias is that of a disc of the radius of each pass.");
 }
 
 void claim_g3(ClaimRun& run) {
@@ -201,8 +202,8 @@ void claim_g3(ClaimRun& run) {
     PhotonScene inside = black_room();
     inside.add(Sphere{{0, 0, 0}, 0.9}, inside.glass());
     inside.point({0.3, 0, 0}, {1, 1, 1});
-    expect_power(run, "point in a ball of glass", inside,
-                 {PhotonKind::Direct, PhotonKind::Caustic}, per_color, 0.005);
+    expect_power(run, "point in a ball of glass", inside, {PhotonKind::Direct, PhotonKind::Caustic},
+                 per_color, 0.005);
 
     PhotonScene series;
     series.camera(look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1.0));

@@ -10,8 +10,8 @@
 /// strategy of one vertex from the light has a density of its own for it.
 /// Conventions: vertex 0 is the light, 1 to m are surfaces, m + 1 is the lens. Strategy s has s
 /// vertices from the light. Densities are by area; those of a light without a place by solid
-/// angle. A singular vertex scatters by a singular lobe: nothing is joined to it. Merged at vertex k
-/// is a path whose vertices 0 .. k come from the light and k .. m + 1 from the eye, k in 2 .. m:
+/// angle. A singular vertex scatters by a singular lobe: nothing is joined to it. Merged at vertex
+/// k is a path whose vertices 0 .. k come from the light and k .. m + 1 from the eye, k in 2 .. m:
 /// light that comes straight from a lamp is left to the other strategies. A density of 0 counts as
 /// 1, for it occurs in all strategies.
 

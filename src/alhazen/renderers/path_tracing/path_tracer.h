@@ -28,7 +28,7 @@ struct EyePath {
     std::uint32_t met = 0;     ///< surfaces on its way
     int scatterings = 0;
     int drawn = 0;  ///< scatterings and straight passes: places of its random numbers
-    Rgb throughput{1, 1, 1};
+    Spectrum throughput{1, 1, 1, 1};
     double eta_scale = 1;  ///< of radiance, undone where roulette looks at the throughput
     bool singular = true;  ///< the last scattering: no light is sampled for it
     double density = 0;    ///< of the last scattering
@@ -53,19 +53,19 @@ class PathTracer {
         std::uint32_t sample;
         int scatterings;
         FirstScattering first;
-        Rgb light;
+        Spectrum light;
     };
 
-    void bounce(std::span<Rgb> radiance, bool first);
+    void bounce(bool first);
     /// Adds light at the end of a path to its sample.
-    void add(const EyePath& path, const Rgb& light, Rgb& sum);
-    void add_joined(std::span<Rgb> radiance);
-    void escape(const EyePath& path, const Ray& ray, Rgb& sum);
+    void add(const EyePath& path, const Spectrum& light, Spectrum& sum);
+    void add_joined();
+    void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
-              Rgb& sum);
+              Spectrum& sum);
     void add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
-                      const ShadingPoint& point, Rgb& sum);
-    void add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum);
+                      const ShadingPoint& point, Spectrum& sum);
+    void add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
     void scatter(EyePath& path, const ShadingPoint& point);
     /// What a scattering along `direction` does with light, where it is the first.
     [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
@@ -74,8 +74,9 @@ class PathTracer {
         next_paths_.push_back(path);
         next_rays_.push_back(ray);
     }
+    [[nodiscard]] const Wavelengths& waves(const EyePath&) const { return kColorChannels; }
     /// Light at the end of a path of that many scatterings.
-    [[nodiscard]] Rgb limited(const Rgb& light, int scatterings) const;
+    [[nodiscard]] Spectrum limited(const Spectrum& light, int scatterings) const;
 
     const RenderJob& job_;
     const Scene& scene_;
@@ -91,6 +92,7 @@ class PathTracer {
     std::vector<LightParts> parts_;  ///< [sample of the batch]
     std::vector<JoinedLight> joined_;
     std::span<const SampleId> ids_;
+    std::vector<Spectrum> light_;  ///< [sample of the batch]
     std::vector<EyePath> paths_, next_paths_;
     std::vector<Ray> rays_, next_rays_;
 };

@@ -48,8 +48,8 @@ template <class Record, class WalkWith>
                     NumberedRecords<Record>& take = takes[i];
                     take = {};
                     if (job.stop_requested()) return;
-                    auto walk = walk_with(take.counters,
-                                          job.count_tests ? &take.counters.tests : nullptr);
+                    auto walk =
+                        walk_with(take.counters, job.count_tests ? &take.counters.tests : nullptr);
                     const std::uint64_t from = first + i * kTogether;
                     const std::uint64_t to = std::min(from + kTogether, first + numbers);
                     for (std::uint64_t n = from; n < to; ++n) {

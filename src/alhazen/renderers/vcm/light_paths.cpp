@@ -54,9 +54,9 @@ SideSums LightPathWalk::begin(const LightRay& light, double& facing) const {
     const Vec3 to_light = first.scatter.view();
     const Illumination::LightPoint place = lights_.point_of_light(light.place, light.ray.origin);
     const LitPoint at{first.surface.point, first.scatter.normal(), first.scatter.transmits()};
-    facing = place.normal != Vec3{} ? std::abs(dot(to_light, place.normal)) /
-                                          (first.distance * first.distance)
-                                    : 1.0;
+    facing = place.normal != Vec3{}
+                 ? std::abs(dot(to_light, place.normal)) / (first.distance * first.distance)
+                 : 1.0;
     const double joined = facing * lights_.density(at, place, to_light, first.distance);
     return SideSums::at_light(place.infinite ? light.direction_density : light.place_density,
                               joined, place.is_hit, first.density);
@@ -66,9 +66,8 @@ void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facin
                          std::size_t number, std::vector<LightVertex>& kept) const {
     if (!v.connects() || v.throughput.is_black() || !v.throughput.is_finite()) return;
     const Vec3& p = v.surface.point;
-    const Rgb power =
-        (1.0 / (v.coverage * static_cast<double>(shot_.count))) * v.throughput;
-    kept.push_back({{as_floats(p.x, p.y, p.z), as_floats(power.r, power.g, power.b),
+    const Spectrum power = (1.0 / (v.coverage * static_cast<double>(shot_.count))) * v.throughput;
+    kept.push_back({{as_floats(p.x, p.y, p.z), as_floats(power.a, power.b, power.c),
                      OctahedralVector(v.scatter.view()), OctahedralVector(v.scatter.geometric())},
                     sums,
                     facing,
@@ -78,15 +77,15 @@ void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facin
 bool LightPathWalk::shoot(std::uint64_t number, std::vector<LightVertex>& kept) {
     const SampleId id = LightPathNumbers::id(shot_.first + number);
     const LightRay light = lights_.emit(chance_.draw(id, kChoice).y, chance_.draw(id, kPlace),
-                                        chance_.draw(id, kAlong));
+                                        chance_.draw(id, kAlong), *shot_.waves);
     const float time = job_.scene.has_motion ? chance_.time(id) : 0.0f;
-    const WalkStart start = start_of(light, time, media_);
+    const WalkStart start = start_of(light, time, media_, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
-    walk_.walk(Transport::Importance, start,
-               {chance_, id, PathChance::kFirstBounce, shot_.settings.depth,
-                shot_.settings.roulette},
-               path_);
-    set_falloff(lights_, light, path_);
+    walk_.walk(
+        Transport::Importance, start,
+        {chance_, id, PathChance::kFirstBounce, shot_.settings.depth, shot_.settings.roulette},
+        path_);
+    set_falloff(lights_, light, *shot_.waves, path_);
     if (path_.size() < 2) return true;
     double facing = 1.0;
     SideSums sums = begin(light, facing);

@@ -40,7 +40,8 @@ struct LightPathShot {
     std::uint64_t count = 0;  ///< of the pass
     std::uint64_t first = 0;  ///< number of its first path
     PathSettings settings;
-    double merging = 0;  ///< WholePath::merging
+    double merging = 0;                          ///< WholePath::merging
+    const Wavelengths* waves = &kColorChannels;  ///< of all paths
 };
 
 /// The numbers of light paths: of one sampler for a whole picture.

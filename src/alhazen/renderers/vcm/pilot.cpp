@@ -120,8 +120,7 @@ PilotFinding make_pilot_run(const RenderJob& job, const Film& film, const VcmSet
         const double rays = rays_of(render_merging(part, picture, settings, work));
         // All pixels of the frame share the light paths of a pass.
         const auto light_rays = static_cast<double>(work.light_rays);
-        return rays - (1.0 - share) * light_rays +
-               kRaysOfMerge * static_cast<double>(work.merged);
+        return rays - (1.0 - share) * light_rays + kRaysOfMerge * static_cast<double>(work.merged);
     });
     const PilotPictures joining = run([&](const RenderJob& part, Film& picture) {
         return rays_of(Bidirectional(settings.paths).render(part, picture));
@@ -138,8 +137,8 @@ PilotFinding make_pilot_run(const RenderJob& job, const Film& film, const VcmSet
     finding.sentence = fmt::format(
         "vcm: a pilot run of {} passes at {} x {} pixels says that merging {}: its variance times "
         "cost is {} of bidirectional, and {} of path_tracing",
-        kPilotPasses, width, height, finding.pays ? "pays" : "does not pay",
-        beside(merged, joined), beside(merged, by_eye));
+        kPilotPasses, width, height, finding.pays ? "pays" : "does not pay", beside(merged, joined),
+        beside(merged, by_eye));
     return finding;
 }
 

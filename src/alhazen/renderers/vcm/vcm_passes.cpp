@@ -33,8 +33,7 @@ void record_density(const LightVertexGrid& grid, const RenderJob& job, const Fil
     record_photon_layer(job, film, [&](const Vec3& point, const Vec3& normal) {
         const PhotonFits fits(normal, false);
         double count = 0.0;
-        grid.for_near(point,
-                      [&](const LightVertex& v) { count += fits(v.photon) ? 1.0 : 0.0; });
+        grid.for_near(point, [&](const LightVertex& v) { count += fits(v.photon) ? 1.0 : 0.0; });
         return count / (kPi * grid.radius() * grid.radius());
     });
 }
@@ -59,18 +58,18 @@ RenderReport render_merging(const RenderJob& job, Film& film, const VcmSettings&
     const LightPathNumbers numbers(passes.job(), mix64(~job.seed));
     const auto most = static_cast<std::size_t>(
         std::min(settings.memory * 1e6 / LightVertexGrid::kBytesOfPhoton, 0x1p31));
-    LightPathShot shot{settings.photons, 0, settings.paths, 0.0};
+    LightPathShot shot{.count = settings.photons, .settings = settings.paths};
     double radius = settings.radius;
     bool merges = lights.shines(), complete = true;
     for (std::uint32_t pass = 0; pass < passes.count() && complete; ++pass) {
         NumberedRecords<LightVertex> kept;
         shot.merging = kPi * radius * radius * static_cast<double>(shot.count);
         if (merges) {
-            kept = shoot_numbers<LightVertex>(
-                passes.job(), shot.count, most, "vcm",
-                [&](RayCounters& counters, TraversalStats* stats) {
-                    return LightPathWalk(numbers, lights, shot, counters, stats);
-                });
+            kept = shoot_numbers<LightVertex>(passes.job(), shot.count, most, "vcm",
+                                              [&](RayCounters& counters, TraversalStats* stats) {
+                                                  return LightPathWalk(numbers, lights, shot,
+                                                                       counters, stats);
+                                              });
             passes.report().counters += kept.counters;
             work.light_rays += kept.counters.total_cast();
             complete = !job.stop_requested();

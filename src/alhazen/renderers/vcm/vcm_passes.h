@@ -17,7 +17,7 @@ enum class Pilot : std::uint8_t {
 inline constexpr const char* kPilotNames[] = {"off", "say", "choose"};
 
 struct VcmSettings {
-    bool merge = true;          ///< false: the picture is that of `bidirectional`
+    bool merge = true;  ///< false: the picture is that of `bidirectional`
     Pilot pilot = Pilot::Say;
     std::uint64_t photons = 0;  ///< light paths of a pass to merge with; 0: one for each pixel of
                                 ///< the frame, kUsualMost at most

@@ -14,7 +14,7 @@ VcmTracer::VcmTracer(const RenderJob& job, std::size_t at_once, RayCounters& cou
     set_merging(pass->merging);
 }
 
-void VcmTracer::merge(Rgb& sum) {
+void VcmTracer::merge(Spectrum& sum) {
     const std::vector<PathVertex>& path = eye_path();
     if (!(pass_.merging > 0.0)) return;
     SideSums sums;
@@ -35,21 +35,21 @@ void VcmTracer::merge(Rgb& sum) {
     pass_.merged.fetch_add(merged, std::memory_order_relaxed);
 }
 
-Rgb VcmTracer::merged_at(std::size_t b, const SideSums& eye, std::uint64_t& merged) const {
+Spectrum VcmTracer::merged_at(std::size_t b, const SideSums& eye, std::uint64_t& merged) const {
     const PathVertex& z = eye_path()[b - 1];
     double facing = 0.0;
     if (b >= 2) {
         const PathVertex& last = eye_path()[b - 2];
-        facing = std::abs(dot(z.scatter.view(), last.scatter.geometric())) /
-                 (z.distance * z.distance);
+        facing =
+            std::abs(dot(z.scatter.view(), last.scatter.geometric())) / (z.distance * z.distance);
     }
     const PhotonFits fits(z.scatter);
     const auto most = static_cast<std::uint32_t>(settings().depth) + 1;
-    Rgb light;
+    Spectrum light;
     pass_.grid.for_near(z.surface.point, [&](const LightVertex& y) {
         if (y.number + b > most || !fits(y.photon)) return;
         ++merged;
-        const Rgb scattered = scattered_light(z.scatter, y.photon, LightPart::All);
+        const Spectrum scattered = scattered_light(z.scatter, y.photon, LightPart::All);
         if (scattered.is_black()) return;
         const Vec3 from = y.photon.from.vector();
         light += weight_of_merged(y.sums, y.facing * z.scatter.density(from), eye,

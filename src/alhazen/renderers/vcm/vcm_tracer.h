@@ -12,7 +12,7 @@ namespace alhazen {
 /// The light paths of a pass.
 struct MergePass {
     const LightVertexGrid& grid;
-    double merging;  ///< WholePath::merging
+    double merging;                        ///< WholePath::merging
     std::atomic<std::uint64_t> merged{0};  ///< pairs of vertices, counted
 };
 
@@ -23,9 +23,10 @@ class VcmTracer final : public BidirectionalTracer {
               MergePass* pass);
 
   private:
-    void merge(Rgb& sum) override;
+    void merge(Spectrum& sum) override;
     /// Radiance that eye vertex b - 1 scatters by what is merged with it.
-    [[nodiscard]] Rgb merged_at(std::size_t b, const SideSums& eye, std::uint64_t& merged) const;
+    [[nodiscard]] Spectrum merged_at(std::size_t b, const SideSums& eye,
+                                     std::uint64_t& merged) const;
 
     MergePass& pass_;
 };

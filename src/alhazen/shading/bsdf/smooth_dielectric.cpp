@@ -33,7 +33,7 @@ std::optional<BsdfSample> SmoothDielectric::sample(const Vec3& view, double choi
                       1.0 / eta};
 }
 
-Rgb SmoothDielectric::albedo(const Vec3& view) const {
+Spectrum SmoothDielectric::albedo(const Vec3& view) const {
     double cosine_behind = 0;
     const double r = reflected_share(*this, view, cosine_behind);
     return r * reflection_tint + (1.0 - r) * transmission_tint;
@@ -43,7 +43,7 @@ std::optional<BsdfSample> ThinSheet::sample(const Vec3& view, double, const Vec2
                                             Transport) const {
     return BsdfSample{-view, tint, 1.0, true};
 }
-Rgb ThinSheet::albedo(const Vec3&) const {
+Spectrum ThinSheet::albedo(const Vec3&) const {
     return tint;
 }
 
