@@ -8,11 +8,14 @@ of all pixels and of those around the caustic. Processor seconds, the least of t
 """
 
 import argparse
+import math
 import os
 import resource
 import shutil
+import struct
 import subprocess
 import tempfile
+import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 GLASS = [("line", (0, 0.004), (0.8, 0.004)), ("curve", (0.8, 0.004), (0.85, 0.004), (0.85, 0.05), (0.8, 0.06)),
@@ -24,9 +27,10 @@ GLASS = [("line", (0, 0.004), (0.8, 0.004)), ("curve", (0.8, 0.004), (0.85, 0.00
          ("curve", (0.68, 2.7), (0.8, 2.28), (1.15, 1.98), (1.15, 1.5)),
          ("curve", (1.15, 1.5), (1.15, 1.13), (0.92, 0.82), (0.43, 0.61)),
          ("curve", (0.43, 0.61), (0.3, 0.55), (0.15, 0.52), (0, 0.52))]
-COGNAC = [("line", (0, 0.5), (0, 0.5)), ("curve", (0, 0.5), (0.15, 0.5), (0.31, 0.53), (0.44, 0.585)),
-          ("curve", (0.44, 0.585), (0.93, 0.795), (1.17, 1.12), (1.17, 1.5)),
-          ("line", (1.17, 1.5), (1.17, 1.8)), ("line", (1.17, 1.8), (0, 1.8))]
+# A little inside of the glass: POV-Ray forgets the colour of a body that overlaps another.
+COGNAC = [("curve", (0, 0.523), (0.15, 0.523), (0.3, 0.553), (0.428, 0.612)),
+          ("curve", (0.428, 0.612), (0.918, 0.822), (1.147, 1.132), (1.147, 1.5)),
+          ("line", (1.147, 1.5), (1.147, 1.8)), ("line", (1.147, 1.8), (0, 1.8))]
 
 
 def lathe(profile):
@@ -35,8 +39,6 @@ def lathe(profile):
     for kind, *given in profile:
         if kind == "line":
             (ax, ay), (bx, by) = given
-            if (ax, ay) == (bx, by):
-                continue
             given = [(ax + (bx - ax) * k / 3, ay + (by - ay) * k / 3) for k in range(4)]
         points += given
     listed = ", ".join(f"<{x:.6g}, {y:.6g}>" for x, y in points)
@@ -45,7 +47,6 @@ def lathe(profile):
 
 def body(index, color, distance):
     """Clear, by Fresnel, absorbing by Beer's law: POV-Ray's light falls by exp(-(1 - fade_color) way / distance)."""
-    import math
     short = 0.1
     fade = ", ".join(f"{1 + short * math.log(c) / distance:.6g}" for c in color)
     return (f"pigment {{ rgbf <1, 1, 1, 1> }} finish {{ ambient 0 diffuse 0 specular 0 reflection {{ 0, 1 fresnel on }} "
@@ -85,13 +86,29 @@ def processor_seconds(command):
 
 
 def pixels(path, side):
-    """Shown values, 8 bits of red, green and blue, by ImageMagick or the Python imaging library."""
-    if shutil.which("convert"):
-        return subprocess.run(["convert", path, "-depth", "8", "rgb:-"], check=True, capture_output=True).stdout
-    from PIL import Image
-    picture = Image.open(path).convert("RGB")
-    assert picture.size == (side, side)
-    return picture.tobytes()
+    """The bytes of a PNG picture of 8 bits, red, green and blue."""
+    with open(path, "rb") as source:
+        data = source.read()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            assert struct.unpack(">IIBB", data[at + 8:at + 18]) == (side, side, 8, 2), path
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    rows, width = zlib.decompress(packed), 3 * side
+    above, shown = bytearray(width), bytearray()
+    for y in range(side):
+        kind, row = rows[y * (width + 1)], bytearray(rows[y * (width + 1) + 1:(y + 1) * (width + 1)])
+        for x in range(width):
+            left, up, corner = (row[x - 3], above[x], above[x - 3]) if x >= 3 else (0, above[x], 0)
+            guess = left + up - corner
+            nearest = min((left, up, corner), key=lambda value: abs(guess - value))
+            row[x] = (row[x] + (0, left, up, (left + up) // 2, nearest)[kind]) & 255
+        shown += row
+        above = row
+    return bytes(shown)
 
 
 def noise(a, b, side):
