@@ -130,6 +130,26 @@ class Illumination {
     [[nodiscard]] double density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,
                                  double distance) const;
 
+    /// A place of a light, from which light sets out into any direction.
+    struct LightPick {
+        PlaceInLight place;
+        Vec3 at;      ///< a point; of parallel light the unit direction to it
+        Vec3 normal;  ///< unit, of a surface; else zero
+        bool infinite = false;
+        bool is_hit = false;  ///< rays can hit it
+        double density = 0;   ///< by area; of a point or a direction the probability; 0: none
+    };
+    /// By power; never of the environment, nor of points that do not fall with distance.
+    [[nodiscard]] LightPick pick(double choice, const Vec2& u) const;
+    [[nodiscard]] bool picks_any() const;
+    /// What it sends to a point, unhindered: of a surface radiance times the cosine there, of a
+    /// point intensity, of parallel light irradiance across it.
+    [[nodiscard]] Spectrum sent(const LightPick& from, const Vec3& to,
+                                const Wavelengths& waves) const;
+    /// Whether `pick` may give what a ray along `direction` hit, with light against the ray.
+    [[nodiscard]] bool may_pick(const Hit& hit, const Surface& surface,
+                                const Vec3& direction) const;
+
   private:
     struct Data;
     std::unique_ptr<const Data> data_;

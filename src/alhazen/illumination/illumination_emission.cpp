@@ -118,6 +118,11 @@ void Illumination::Data::set_sources() {
     }
     if (environment) powers.push_back(4.0 * kPi * disc * mean_power(environment->mean()));
     sources = LightChooser(powers);
+    for (std::size_t i = 0; i < parallel.size(); ++i) {
+        if (light_at_point(near_count() + i) != nullptr) powers[near_count() + i] = 0.0;
+    }
+    if (environment) powers.pop_back();
+    picked = LightChooser(powers);
 }
 
 LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direction,

@@ -55,6 +55,10 @@ class ScatterPoint {
     [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf_.lambert(); }
     [[nodiscard]] bool has_singular() const { return bsdf_.has_singular(); }
     [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
+    /// What its singular lobes do with light that goes to the view.
+    [[nodiscard]] SingularLight singular(Transport transport) const {
+        return bsdf_.singular(local_view_, transport);
+    }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }
     [[nodiscard]] const Vec3& geometric() const { return geometric_; }
     [[nodiscard]] const Vec3& view() const { return view_; }

@@ -10,7 +10,7 @@ namespace alhazen {
 
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                        const Illumination& lights, const PathSettings& settings,
-                       LightLayers* layers)
+                       LightLayers* layers, const ManifoldScene* manifold)
     : job_(job),
       scene_(job.scene),
       lights_(lights),
@@ -20,7 +20,10 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      layers_(layers) {}
+      layers_(layers),
+      manifold_(manifold) {
+    if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
+}
 
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
@@ -127,7 +130,10 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     add_emission(path, ray, hit, point, sum);
     if (point.material->unlit || path.scatterings >= settings_.depth) return;
     scatter_.set(scene_, point, path.media, waves(path));
-    if (scatter_.has_density()) add_direct_light(path, point, sum);
+    if (scatter_.has_density()) {
+        add_direct_light(path, point, sum);
+        if (chains_) add_chains(path, point, sum);
+    }
     scatter(path, point);
 }
 
@@ -135,6 +141,9 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
                               const ShadingPoint& point, Spectrum& sum) {
     const Rgb& emission = point.material->emission;
     if (emission.is_black()) return;
+    if (manifold_ != nullptr && manifold_->finds(path.trail, hit, point.surface, ray.direction)) {
+        return;
+    }
     Spectrum light = path.throughput * waves(path).emission(emission);
     if (!path.singular) {
         // What shows its colour whatever the light is no lamp.
@@ -176,6 +185,21 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
                  limited(light, scatterings), *to);
 }
 
+void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
+    const ManifoldLight::Receiver at{
+        point.surface, scatter_,          path.media,
+        path.time,     waves(path),       settings_.depth - path.scatterings - 1,
+        chance_,       ids_[path.sample], static_cast<std::uint32_t>(path.drawn)};
+    chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {
+        const int scatterings = path.scatterings + 1 + arrived.bends;
+        const Spectrum light = limited(path.throughput * arrived.light, scatterings);
+        if (layers_ != nullptr) {
+            parts_[path.sample].add(light, scatterings, first_along(path, arrived.direction));
+        }
+        sum += light;
+    });
+}
+
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
     const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
@@ -192,6 +216,11 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         if (++path.met > kMaxPassedSurfaces) return;
     } else {
         ++path.scatterings;
+        if (drawn->singular) {
+            path.trail.go_on(point.surface, drawn->transmitted);
+        } else {
+            path.trail.begin(drawn->density);
+        }
         path.singular = drawn->singular;
         path.density = drawn->density;
         path.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};

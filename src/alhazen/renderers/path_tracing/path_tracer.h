@@ -13,6 +13,7 @@
 #include "alhazen/renderers/light_transport/path_chance.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/manifold/manifold_light.h"
 
 namespace alhazen {
 
@@ -36,12 +37,14 @@ struct EyePath {
     double travelled = 0;  ///< since then
     MediumStack media;
     FirstScattering first;  ///< only where layers of light are wanted
+    ChainTrail trail;       ///< only where chains are sought
 };
 
 class PathTracer {
   public:
     PathTracer(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
-               const PathSettings& settings, LightLayers* layers);
+               const PathSettings& settings, LightLayers* layers,
+               const ManifoldScene* manifold = nullptr);
 
     /// `rays`: those through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
@@ -66,6 +69,8 @@ class PathTracer {
     void add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
                       const ShadingPoint& point, Spectrum& sum);
     void add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
+    /// Light by way of mirrors and glass.
+    void add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
     void scatter(EyePath& path, const ShadingPoint& point);
     /// What a scattering along `direction` does with light, where it is the first.
     [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
@@ -89,6 +94,8 @@ class PathTracer {
     LightBatch shadows_;
     ScatterPoint scatter_;
     LightLayers* layers_;            ///< null: none is wanted
+    const ManifoldScene* manifold_;  ///< null: no chains are sought
+    std::optional<ManifoldLight> chains_;
     std::vector<LightParts> parts_;  ///< [sample of the batch]
     std::vector<JoinedLight> joined_;
     std::span<const SampleId> ids_;

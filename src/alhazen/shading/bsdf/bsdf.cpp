@@ -239,6 +239,27 @@ double Bsdf::straight_probability(const Vec3& view) const {
     return sum;
 }
 
+SingularLight Bsdf::singular(const Vec3& view, Transport transport) const {
+    SingularLight light;
+    if (!(view.z > 0.0)) return light;
+    for (const Part& part : parts_) {
+        const auto add = [&](const Spectrum& share, const Vec3& direction, Spectrum& sum) {
+            const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
+            const Spectrum own = through(part.covers, cosine) * (part.weight * share);
+            if (is_usable(own)) sum += own;
+        };
+        if (const auto* const mirror = std::get_if<Mirror>(&part.lobe)) {
+            add(mirror->albedo(view), view, light.reflected);
+        } else if (const auto* const glass = std::get_if<SmoothDielectric>(&part.lobe)) {
+            const SmoothDielectric::Shares shares = glass->shares(view, transport);
+            add(shares.reflected, view, light.reflected);
+            add(shares.transmitted, {0, 0, -shares.cosine_behind}, light.transmitted);
+            light.eta = glass->eta;
+        }
+    }
+    return light;
+}
+
 bool Bsdf::transmits() const {
     return std::ranges::any_of(parts_, [](const Part& p) {
         return std::visit([]<class L>(const L&) { return !L::kSingular && L::kTransmits; }, p.lobe);

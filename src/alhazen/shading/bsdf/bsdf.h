@@ -34,6 +34,13 @@ inline constexpr std::size_t kMaxLobes = 18;
 /// A set of covers (bits by their index in the Bsdf).
 using CoverSet = std::uint32_t;
 
+/// Light that comes from single directions, as the weights of samples without a choice.
+struct SingularLight {
+    Spectrum reflected;    ///< share of the light from the mirror direction
+    Spectrum transmitted;  ///< of that from the refracted direction; 0 beyond the critical angle
+    double eta = 0;        ///< index on the side of the view over that behind; 0: nothing refracts
+};
+
 class Bsdf {
   public:
     /// Adds a lobe `weight` times, below `covers`. More than kMaxLobes: the one that matters least
@@ -63,6 +70,8 @@ class Bsdf {
     [[nodiscard]] std::optional<Spectrum> lambert() const;
     /// Whether light comes back or goes on in single directions.
     [[nodiscard]] bool has_singular() const;
+    /// What mirrors and smooth glass do with light that goes to `view`, all such lobes together.
+    [[nodiscard]] SingularLight singular(const Vec3& view, Transport transport) const;
     /// Whether `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const;
     /// Whether some lobe transmits, singular ones too.

@@ -33,6 +33,15 @@ std::optional<BsdfSample> SmoothDielectric::sample(const Vec3& view, double choi
                       1.0 / eta};
 }
 
+SmoothDielectric::Shares SmoothDielectric::shares(const Vec3& view, Transport transport) const {
+    Shares result;
+    const double r = reflected_share(*this, view, result.cosine_behind);
+    const double radiance = transport == Transport::Radiance ? eta * eta : 1.0;
+    result.reflected = r * reflection_tint;
+    result.transmitted = (radiance * (1.0 - r)) * transmission_tint;
+    return result;
+}
+
 Spectrum SmoothDielectric::albedo(const Vec3& view) const {
     double cosine_behind = 0;
     const double r = reflected_share(*this, view, cosine_behind);

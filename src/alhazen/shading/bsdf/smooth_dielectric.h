@@ -21,6 +21,12 @@ struct SmoothDielectric {
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
+    /// What `sample` gives for either side, times its probability.
+    struct Shares {
+        Spectrum reflected, transmitted;
+        double cosine_behind = 0;
+    };
+    [[nodiscard]] Shares shares(const Vec3& view, Transport transport) const;
 };
 
 /// A sheet so thin that light leaves it in the direction in which it came.

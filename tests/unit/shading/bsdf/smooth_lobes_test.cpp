@@ -52,6 +52,29 @@ TEST(SmoothLobes, ReflectedAndRefractedLightAreAll) {
     }
 }
 
+TEST(SmoothLobes, SingularLightIsWhatSamplesGiveWithoutAChoice) {
+    Bsdf bsdf;
+    bsdf.add({0.2, 0.3, 0.4, 0.4}, Lambert{});
+    bsdf.add({0.5, 0.4, 0.3, 0.3}, Mirror{});
+    bsdf.add({0.9, 0.8, 0.7, 0.7}, SmoothDielectric{.eta = 1 / 1.5});
+    for (const Transport transport : {Transport::Radiance, Transport::Importance}) {
+        const Vec3 view = view_at(0.4);
+        const SingularLight light = bsdf.singular(view, transport);
+        EXPECT_EQ(light.eta, 1 / 1.5);
+        Spectrum reflected, transmitted;
+        constexpr int kChoices = 20000;
+        for (int i = 0; i < kChoices; ++i) {
+            const auto s = bsdf.sample(view, (i + 0.5) / kChoices, {0.5, 0.5}, transport);
+            if (!s || !s->singular) continue;
+            (s->direction.z < 0.0 ? transmitted : reflected) += (1.0 / kChoices) * s->weight;
+        }
+        for (int k = 0; k < Spectrum::kCount; ++k) {
+            EXPECT_NEAR(reflected[k], light.reflected[k], 1e-3);
+            EXPECT_NEAR(transmitted[k], light.transmitted[k], 1e-3);
+        }
+    }
+}
+
 TEST(SmoothLobes, BeyondTheCriticalAngleNothingPasses) {
     const double index = 1.52;
     const Vec3 view = view_at(std::cos(std::asin(1.0 / index) + 1e-6));
