@@ -7,6 +7,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/sampling_plan.h"
 
 namespace alhazen {
