@@ -140,6 +140,7 @@ INSIDE = {
         "photons": ["light_transport"],
         "photon_mapping": ["photons"],
         "sppm": ["photons"],
+        "vcm": ["bidirectional", "photons"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
         "distributed": ["whitted"],

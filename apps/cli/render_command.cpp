@@ -283,6 +283,7 @@ int run(const RenderArguments& args) {
     }
     if (!args.quiet) {
         for (const std::string& note : result.notes) tell("warning: {}\n", note);
+        for (const std::string& remark : result.remarks) tell("{}\n", remark);
     }
     if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
     if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);
@@ -421,9 +422,10 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Draw the tables of lane_carpenter over the scan lines as an animated SVG")
         ->type_name("FILE");
     command
-        ->add_option("--photons", args->photons,
-                     "Write the photons of photon_mapping, or of the first pass of sppm, as points "
-                     "of a PLY file")
+        ->add_option(
+            "--photons", args->photons,
+            "Write the photons of photon_mapping, or of the first pass of sppm or vcm, as points "
+            "of a PLY file")
         ->type_name("FILE.ply");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });

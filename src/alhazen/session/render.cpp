@@ -154,6 +154,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.scan_lines = report.scan_lines;
     result.beams = report.beams;
     result.notes = report.notes;
+    result.remarks = report.remarks;
     result.layers = std::move(aovs.layers());
     return result;
 }

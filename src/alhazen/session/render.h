@@ -73,7 +73,7 @@ struct RenderResult {
     std::shared_ptr<const SamplingReport> sampling;    ///< of RenderOptions::sampling, else null
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
     std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
-    std::vector<std::string> notes;                    ///< RenderReport::notes
+    std::vector<std::string> notes, remarks;           ///< of RenderReport
     PhotonCloud photons;                               ///< of RenderOptions::keep_photons
 };
 

@@ -13,7 +13,7 @@
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/photon_mapping/irradiance_cache.h"
 #include "alhazen/renderers/photons/photon_grid.h"
-#include "alhazen/renderers/sppm/sppm.h"
+#include "alhazen/renderers/photons/photon_passes.h"
 #include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
 

@@ -78,6 +78,8 @@ struct RenderReport {
     std::shared_ptr<const SamplingReport> sampling;  ///< of RenderJob::sampling, else null
     /// For the user: what the picture lacks, what was mended.
     std::vector<std::string> notes;
+    /// For the user: what was found out on the way, nothing to worry about.
+    std::vector<std::string> remarks;
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }
