@@ -113,9 +113,9 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
     check_scattering(original, options, *renderer);
-    check_camera(find_camera(original, options.camera).camera, options, *renderer);
+    check_camera(chosen_camera(original, options).camera, options, *renderer);
     const Scene scene = adjusted(original, options, *renderer);
-    const CameraDescription& camera = find_camera(scene, options.camera);
+    const CameraDescription& camera = chosen_camera(scene, options);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
     const double aspect = static_cast<double>(frame.width) / frame.height;
     RenderResult result(Film(frame.width, frame.height,
@@ -160,6 +160,10 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
 }
 
 }  // namespace
+
+const CameraDescription& chosen_camera(const Scene& scene, const RenderOptions& options) {
+    return options.view != nullptr ? *options.view : find_camera(scene, options.camera);
+}
 
 FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options, double aspect) {
     if (options.protocol == Protocol::Spd) return {kSpdRays, kSpdRays};
@@ -269,7 +273,7 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
                         "centres; 'distributed' does not",
                         options.renderer));
     }
-    const CameraDescription& described = find_camera(scene, options.camera);
+    const CameraDescription& described = chosen_camera(scene, options);
     const Camera& camera = described.camera;
     if (scene.has_motion || !described.keys.empty()) {
         notes.push_back(
