@@ -25,8 +25,8 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The packets of a batch that go as such. After a failure some are not tried: the more, the more
-/// failures in a row, those of earlier batches among them.
+/// The packets of a batch that are tried. After a failure some are not: the more, the more failures
+/// in a row, those of earlier batches among them.
 class PacketTrials {
   public:
     explicit PacketTrials(PacketFailures* memory) : memory_(memory) {
@@ -47,11 +47,10 @@ class PacketTrials {
         --skip_;
         return true;
     }
-    void failed() {
-        failures_ = std::min(failures_ + 1, kMaxPacketBackoff);
+    void tried(bool failed) {
+        failures_ = failed ? std::min(failures_ + 1, kMaxPacketBackoff) : 0;
         skip_ = (1u << failures_) - 1;
     }
-    void succeeded() { failures_ = 0; }
 
   private:
     static constexpr std::uint32_t kPlaces = 16;
@@ -77,15 +76,20 @@ HWY_INLINE std::uint64_t wanted_rays(std::span<const bool> occluded) {
     return wanted;
 }
 
-/// Traces up to 64 rays, one packet per main axis and sign: six at most. Returns those of `wanted`
-/// that are left.
+struct PacketOutcome {
+    std::uint64_t alone;  ///< rays that are left
+    bool slow;            ///< no faster than rays one by one
+};
+
+/// Traces up to 64 rays, those of `wanted`: one packet per main axis and sign, six at most.
 template <class Leaves, class Result, class Stats>
-HWY_NOINLINE std::uint64_t trace_packets(const WideBvhScene& scene,
+HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
                                          const PrefetchTable& prefetch_table,
                                          std::span<const Ray> rays, std::span<Result> results,
                                          std::uint64_t wanted, Stats stats) {
     const WideBvhLayout& layout = *scene.layout;
     std::uint64_t rest = wanted, alone = 0;
+    std::uint32_t work = 0;
     while (rest != 0) {
         RayPacket packet;
         std::uint64_t used = rest;
@@ -93,17 +97,20 @@ HWY_NOINLINE std::uint64_t trace_packets(const WideBvhScene& scene,
         if (used == 0) break;  // none can be used
         rest &= ~used;
         alone |= used;
-        if (!made || std::popcount(used) < kMinPacketRays) continue;
+        const auto count = static_cast<std::uint32_t>(std::popcount(used));
+        if (!made || count < kMinPacketRays) continue;
         Leaves leaves(scene, rays, results, packet);
-        if (!traverse_packet<Leaves::kOrdered>(layout.tree.nodes.data(), layout.tree.root,
-                                               prefetch_table, packet, leaves, kMaxPacketWork,
-                                               stats)) {
-            continue;
-        }
+        const bool done = traverse_packet<Leaves::kOrdered>(
+            layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet, leaves,
+            kMaxPacketWork * count, stats);
+        work += leaves.work;
+        if (!done) continue;
         leaves.finish(stats);
         alone &= ~used;
     }
-    return alone | rest;
+    alone |= rest;
+    const auto traced = static_cast<std::uint32_t>(std::popcount(wanted & ~alone));
+    return {alone, work > kFairPacketWork * traced || (traced == 0 && wanted != 0)};
 }
 
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
@@ -132,15 +139,15 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         }
         const std::span<Result> here = results.subspan(i, count);
         const std::uint64_t wanted = wanted_rays(here);
-        std::uint64_t alone = trace_packets<Leaves>(scene, prefetch_table, rays.subspan(i, count),
-                                                    here, wanted, stats);
-        if (alone == wanted && wanted != 0) {
-            trials.failed();
+        const PacketOutcome outcome =
+            trace_packets<Leaves>(scene, prefetch_table, rays.subspan(i, count), here, wanted,
+                                  stats);
+        trials.tried(outcome.slow);
+        if (outcome.alone == ~std::uint64_t{0} >> (kPacketRays - count)) {
             otherwise(i, count);
             continue;
         }
-        trials.succeeded();
-        for (; alone != 0; alone &= alone - 1) {
+        for (std::uint64_t alone = outcome.alone; alone != 0; alone &= alone - 1) {
             otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
         }
     }

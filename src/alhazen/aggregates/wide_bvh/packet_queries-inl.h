@@ -68,7 +68,7 @@ class PacketLeaves {
     HWY_INLINE void visit_triangles(std::uint32_t number, std::uint32_t groups, Stats stats) {
         const TriangleBlock& block = scene_.layout->triangles[number];
         SeenBlock seen(block, packet_);
-        work += 2;
+        work += 4;
         // Byte g: the triangles that group g may hit.
         std::uint64_t pairs = 0;
         std::uint32_t any = 0;
@@ -106,7 +106,7 @@ class PacketLeaves {
     HWY_NOINLINE void visit_shapes(const Block* blocks, std::uint32_t count, std::uint32_t among,
                                    Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
-            work += 2;
+            work += 4;
             const BlockBoxes boxes(*blocks);
             Floats nearest;
             std::uint32_t rest = packet_.meet_boxes(boxes.rows(), nearest);
@@ -124,6 +124,7 @@ class PacketLeaves {
                 std::uint32_t groups =
                     among & packet_.meet_groups(&boxes.rows()[0][lane], kBlockWidth);
                 if (groups != 0) groups &= packet_.meet_ball(b.center, b.radius);
+                work += 6 * static_cast<std::uint32_t>(std::popcount(groups));
                 changed_ |= visit_shape(blocks->ids[lane].id(), groups, stats);
             }
         }
@@ -173,9 +174,9 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
                           TrianglePlace place, FilteredGroup& found, Stats stats) {
         RayGroup& group = packet_.groups[g];
         // A finer bound takes less time than the test in double of the rays near an edge.
-        if ((bits_of(found.candidates) & ~bits_of(found.sure) & group.used) != 0 &&
-            !refine_group(block, lane, packet_, group, found)) {
-            return false;
+        if ((bits_of(found.candidates) & ~bits_of(found.sure) & group.used) != 0) {
+            work += 3;
+            if (!refine_group(block, lane, packet_, group, found)) return false;
         }
         const GroupFloats s_max = load_lanes<kGroupRays>(group.s_max);
         store_lanes(select_lanes(found.sure, min_lanes(found.hi, s_max), s_max), group.s_max);
@@ -243,6 +244,7 @@ class OccludedPacket : public PacketLeaves<OccludedPacket> {
         std::uint32_t rest = bits_of(filtered.candidates) & group.used & ~sure;
         if (rest != 0) {
             FilteredGroup fine;
+            work += 3;
             if (refine_group(block, lane, packet_, group, fine)) {
                 sure |= bits_of(fine.sure) & rest;
                 rest &= bits_of(fine.candidates) & ~sure;

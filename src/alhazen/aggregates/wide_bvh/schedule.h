@@ -29,11 +29,14 @@ enum class Schedule {
 inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 
 /// Fewest rays of a packet: fewer are no faster than single rays.
-inline constexpr int kMinPacketRays = 16;
-/// Work after which a packet gives up: 1 per node, 2 per leaf block, 1 per triangle and group of
-/// rays. About half the cost of its rays one by one.
-inline constexpr std::uint32_t kMaxPacketWork = 1000;
-/// After n failures in a row, n at most this, 2^n - 1 packets are traced as single rays.
+inline constexpr std::uint32_t kMinPacketRays = 16;
+/// Work of a packet for each of its rays, from which on it is no faster than they are one by one:
+/// 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the finer filter decides;
+/// a unit is about 50 instructions. A packet that took more counts as a failure.
+inline constexpr std::uint32_t kFairPacketWork = 14;
+/// Work for each of its rays after which a packet gives up.
+inline constexpr std::uint32_t kMaxPacketWork = 20;
+/// After n failures in a row, n at most this, 2^n - 1 packets are not tried.
 inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 /// Largest tree whose coherent rays in no packet are traced one by one, bytes. The stream hides the
 /// latency of memory; a tree in the caches has little, and neighbouring rays predict each other's

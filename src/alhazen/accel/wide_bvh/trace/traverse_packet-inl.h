@@ -57,7 +57,7 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet,
 
 /// Visits the leaves that groups of the packet meet, nearest first if `kOrdered`, else from slot 0
 /// on: `leaf.visit(ref, groups, stats)` may shrink the packet, and returns true to stop. False when
-/// it gave up: after `max_work` nodes and units of `leaf.work`.
+/// it gave up: `leaf.work`, two a node beside what the leaves add, exceeds `max_work`.
 template <bool kOrdered, class Leaf, class Stats>
 HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
                                 const PrefetchTable& prefetch_table, const RayPacket& packet,
@@ -73,7 +73,8 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
             if (leaf.visit(top.ref, groups, stats)) return true;
             continue;
         }
-        if (++leaf.work > max_work) return false;
+        leaf.work += 2;
+        if (leaf.work > max_work) return false;
         const WideNode& node = nodes[top.ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
