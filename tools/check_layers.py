@@ -106,6 +106,7 @@ INSIDE = {
     "geometry": {
         "": [],
         "cones": [""],
+        "mirrors": [],
         "motion": [""],
         "polygon": [""],
         "facets": ["polygon"],
@@ -132,7 +133,8 @@ INSIDE = {
         "lane_carpenter": ["core"],
         "light_transport": ["core"],
         "ambient_occlusion": ["light_transport"],
-        "path_tracing": ["light_transport"],
+        "manifold": ["light_transport"],
+        "path_tracing": ["manifold"],
         "light_tracing": ["path_tracing"],
         "bidirectional": ["path_tracing"],
         "photons": ["light_transport"],
@@ -159,7 +161,8 @@ INSIDE = {
         "textures": [],
         "materials": ["optics", "textures"],
         "microfacets": ["optics"],
-        "bsdf": ["microfacets", "materials"],
+        "spectrum": [],
+        "bsdf": ["microfacets", "materials", "spectrum"],
     },
     "shapes": {
         "core": [],

@@ -21,8 +21,8 @@ inline Vec3 view_at(double cosine, double turn = 0.4) {
 
 /// Light from white surroundings (of radiance 1 times the square of their index) to `view`, by
 /// `samples` points of a Kronecker lattice.
-inline Rgb furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 15) {
-    Rgb sum;
+inline Spectrum furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 15) {
+    Spectrum sum;
     for (int i = 0; i < samples; ++i) {
         const auto u = [&](int dimension) {
             return scrambled_sobol(7, static_cast<std::uint32_t>(i), dimension);
@@ -69,7 +69,7 @@ struct NamedBsdf {
     double error = 1e-3;  ///< of its energy, relative: that of the tables
 };
 
-inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Rgb& weight = {1, 1, 1}) {
+inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Spectrum& weight = {1, 1, 1, 1}) {
     Bsdf bsdf;
     bsdf.add(weight, lobe);
     return bsdf;
@@ -86,11 +86,11 @@ inline std::vector<NamedBsdf> lobes_with_density(const std::vector<double>& roug
     for (const double r : roughnesses) {
         const std::string at = ", roughness " + std::to_string(r);
         const double alpha = r * r, exponent = 2.0 / (alpha * alpha) - 2.0;
-        add("Oren-Nayar" + at, OrenNayar{{1, 1, 1}, r});
+        add("Oren-Nayar" + at, OrenNayar{{1, 1, 1, 1}, r});
         add("rough mirror" + at, RoughReflection({alpha, alpha}, SchlickTerm{}));
         add("rough sheet" + at, RoughSheet({alpha, alpha}));
-        add("rough glass" + at, RoughDielectric(alpha, 1.0 / 1.5, {1, 1, 1}, {1, 1, 1}));
-        add("rough glass from inside" + at, RoughDielectric(alpha, 1.5, {1, 1, 1}, {1, 1, 1}),
+        add("rough glass" + at, RoughDielectric(alpha, 1.0 / 1.5, {1, 1, 1, 1}, {1, 1, 1, 1}));
+        add("rough glass from inside" + at, RoughDielectric(alpha, 1.5, {1, 1, 1, 1}, {1, 1, 1, 1}),
             5e-3);
         add("Phong" + at, Phong(exponent), 5e-3);
         add("Blinn-Phong" + at, BlinnPhong(exponent));

@@ -60,7 +60,7 @@ inline void expect_equal_densities(const Scene& scene, const Illumination& light
     for (int i = 0; i < count; ++i) {
         const double choice = random.uniform();
         const Vec2 u{random.uniform(), random.uniform()};
-        const LightDraw draw = lights.draw(at, choice, u);
+        const LightDraw draw = lights.draw(at, choice, u, kColorChannels);
         if (!(draw.density > 0.0)) continue;
         ASSERT_FALSE(draw.singular);
         ASSERT_NEAR(length(draw.to_light), 1.0, 1e-9);
@@ -138,7 +138,7 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
     for (int i = 0; i < draws; ++i) {
         const double choice = random.uniform();
         const Vec2 u{random.uniform(), random.uniform()};
-        const LightDraw draw = lights.draw(at, choice, u);
+        const LightDraw draw = lights.draw(at, choice, u, kColorChannels);
         std::size_t bin = kBins * kBins;
         const double z = dot(draw.to_light, cone.axis);
         if (draw.density > 0.0 && z > cone.cosine) {
@@ -178,14 +178,14 @@ inline double sidak_level(int tests) {
 }
 
 /// Mean of radiance * cosine / density over draws that nothing blocks: the irradiance.
-inline Rgb mean_irradiance(const Scene& scene, const Illumination& lights, const LitPoint& at,
-                           int draws, std::uint64_t seed = 3) {
+inline Spectrum mean_irradiance(const Scene& scene, const Illumination& lights, const LitPoint& at,
+                                int draws, std::uint64_t seed = 3) {
     RandomStream random(seed);
-    Rgb sum;
+    Spectrum sum;
     for (int i = 0; i < draws; ++i) {
         const double choice = (i + random.uniform()) / draws;
         const Vec2 u{random.uniform(), random.uniform()};
-        const LightDraw draw = lights.draw(at, choice, u);
+        const LightDraw draw = lights.draw(at, choice, u, kColorChannels);
         const double cosine = dot(at.normal, draw.to_light);
         if (!(draw.density > 0.0) || !(cosine > 0.0)) continue;
         const Ray ray{at.point, draw.to_light, 1e-9,
@@ -205,7 +205,7 @@ inline double irradiance_z(const Scene& scene, const Illumination& lights, const
     const Vec3 x = perpendicular(at.normal), y = cross(at.normal, x);
     for (int i = 0; i < count; ++i) {
         const Vec2 u{random.uniform(), random.uniform()};
-        const LightDraw draw = lights.draw(at, random.uniform(), u);
+        const LightDraw draw = lights.draw(at, random.uniform(), u, kColorChannels);
         const double cosine = dot(at.normal, draw.to_light);
         double drawn = 0.0;
         if (draw.density > 0.0 && cosine > 0.0) {
@@ -213,7 +213,7 @@ inline double irradiance_z(const Scene& scene, const Illumination& lights, const
                 at.point, draw.to_light, 1e-9,
                 std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-7) : kInfinity};
             if (!scene.aggregate->occluded(shadow, {nullptr, draw.passes})) {
-                drawn = cosine / draw.density * draw.radiance.g;
+                drawn = cosine / draw.density * draw.radiance.b;
             }
         }
         const double r = std::sqrt(random.uniform()), angle = 2.0 * kPi * random.uniform();
@@ -229,7 +229,7 @@ inline double irradiance_z(const Scene& scene, const Illumination& lights, const
             const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color, {}};
             if (seen) met = kPi * evaluate(m, scene.textures, lookup).emission.g;
         } else {
-            met = kPi * lights.environment(d).g;
+            met = kPi * lights.environment(d, kColorChannels).b;
         }
         sums[0] += drawn;
         sums[1] += met;

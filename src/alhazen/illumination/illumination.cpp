@@ -151,13 +151,13 @@ namespace {
 
 /// A light at a point or from one direction, chosen with that probability.
 LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& at,
-                        double probability) {
+                        double probability, const Wavelengths& waves) {
     const LightSample s = sample(light, at.point, scene.conventions.shading.clamp_attenuation);
     LightDraw draw;
     if (s.intensity.is_black() || !s.intensity.is_finite()) return draw;
     draw.to_light = s.to_light;
     draw.distance = s.distance;
-    draw.radiance = kPi * s.intensity;
+    draw.radiance = waves.emission(kPi * s.intensity);
     draw.density = probability;
     draw.singular = true;
     draw.passes = mask_of(RayKind::Shadow);
@@ -165,11 +165,11 @@ LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& 
 }
 
 LightDraw draw_environment(const Environment& environment, const LitPoint& at, double probability,
-                           const Vec2& u) {
+                           const Vec2& u, const Wavelengths& waves) {
     LightDraw draw;
     draw.to_light = environment.sample(at.normal, at.both_sides, u);
     draw.distance = kInfinity;
-    draw.radiance = environment.radiance(draw.to_light);
+    draw.radiance = waves.emission(environment.radiance(draw.to_light));
     draw.density = probability * environment.density(at.normal, at.both_sides, draw.to_light);
     draw.passes = mask_of(RayKind::Shadow);
     return draw;
@@ -177,7 +177,8 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
 
 }  // namespace
 
-LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) const {
+LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u,
+                             const Wavelengths& waves) const {
     const Data& d = *data_;
     if (choice >= d.near_share) {
         const double rest = (choice - d.near_share) / (1.0 - d.near_share);
@@ -185,9 +186,9 @@ LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) c
         const double probability = (1.0 - d.near_share) * chosen.probability;
         if (!(probability > 0.0)) return {};
         LightDraw draw = d.is_environment(chosen.light)
-                             ? draw_environment(*d.environment, at, probability, u)
+                             ? draw_environment(*d.environment, at, probability, u, waves)
                              : draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]],
-                                             at, probability);
+                                             at, probability, waves);
         draw.place.source = d.near_count() + chosen.light;
         return draw;
     }
@@ -195,7 +196,7 @@ LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) c
     const double probability = d.near_share * chosen.probability;
     if (!(probability > 0.0)) return {};
     if (const Light* light = d.point_light(chosen.light)) {
-        LightDraw draw = draw_singular(*d.scene, *light, at, probability);
+        LightDraw draw = draw_singular(*d.scene, *light, at, probability, waves);
         draw.place.source = chosen.light;
         return draw;
     }
@@ -209,11 +210,11 @@ LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) c
     draw.density = probability * s.density;
     draw.passes = mask_of(RayKind::Shadow);
     if (chosen.light < d.emitters.size()) {
-        draw.radiance =
-            d.emitters.radiance(chosen.light, at.point, s.to_light, s.distance, s.parameters);
+        draw.radiance = waves.emission(
+            d.emitters.radiance(chosen.light, at.point, s.to_light, s.distance, s.parameters));
     } else {
         // No ray sees it: as a light of one direction, with its irradiance.
-        draw.radiance = (1.0 / s.density) * emitter.radiance;
+        draw.radiance = waves.emission((1.0 / s.density) * emitter.radiance);
         draw.density = probability;
         draw.singular = true;
     }
@@ -230,8 +231,9 @@ double Illumination::density(const LitPoint& at, const Ray& ray, const Hit& hit,
     return probability * alhazen::density(data_->emitters[*found], at.point, there);
 }
 
-Rgb Illumination::environment(const Vec3& direction) const {
-    return data_->environment ? data_->environment->radiance(direction) : Rgb{};
+Spectrum Illumination::environment(const Vec3& direction, const Wavelengths& waves) const {
+    return data_->environment ? waves.emission(data_->environment->radiance(direction))
+                              : Spectrum{};
 }
 
 double Illumination::environment_density(const LitPoint& at, const Vec3& direction) const {

@@ -19,6 +19,7 @@
 #include "alhazen/illumination/lit_point.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
@@ -32,7 +33,7 @@ struct PlaceInLight {
 struct LightDraw {
     Vec3 to_light;          ///< unit
     double distance = 0;    ///< to the light; infinite where it has no place
-    Rgb radiance;           ///< that arrives unhindered; of a singular light what it gives a
+    Spectrum radiance;      ///< that arrives unhindered; of a singular light what it gives a
                             ///< surface across its direction (irradiance)
     double density = 0;     ///< by solid angle; of a singular light the probability of its choice;
                             ///< 0: no light from there
@@ -45,7 +46,7 @@ struct LightDraw {
 struct LightRay {
     Ray ray;
     Vec3 normal;                   ///< unit, of the surface; the direction where there is none
-    Rgb radiance;                  ///< of singular places: intensity; of parallel light: irradiance
+    Spectrum radiance;             ///< of singular places: intensity; of parallel light: irradiance
     double place_density = 0;      ///< by area, choice included; of a singular place: of the choice
     double direction_density = 0;  ///< by solid angle; of singular directions: 1
     bool singular_place = false;   ///< a point
@@ -81,7 +82,8 @@ class Illumination {
     [[nodiscard]] bool leaves_some_to_chance() const;
 
     /// A direction to a light. `choice` and `u` in [0, 1).
-    [[nodiscard]] LightDraw draw(const LitPoint& at, double choice, const Vec2& u) const;
+    [[nodiscard]] LightDraw draw(const LitPoint& at, double choice, const Vec2& u,
+                                 const Wavelengths& waves) const;
 
     /// The density with which `draw(at)` gives the direction of a ray that hit an emitting surface
     /// `distance` away; 0 where `draw` never gives it.
@@ -89,12 +91,13 @@ class Illumination {
                                  const Surface& surface, double distance) const;
 
     /// The radiance that a ray finds which leaves the scene.
-    [[nodiscard]] Rgb environment(const Vec3& direction) const;
+    [[nodiscard]] Spectrum environment(const Vec3& direction, const Wavelengths& waves) const;
     /// The density with which `draw(at)` gives that direction to the environment.
     [[nodiscard]] double environment_density(const LitPoint& at, const Vec3& direction) const;
 
     /// A ray from a light into the scene.
-    [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction) const;
+    [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction,
+                                const Wavelengths& waves) const;
     /// Densities with which `emit` gives a ray from a point of an emitting surface.
     struct EmitDensity {
         double place = 0, direction = 0;
@@ -117,7 +120,8 @@ class Illumination {
     [[nodiscard]] LightPoint point_of_light(const PlaceInLight& place, const Vec3& point) const;
     /// What a light with a singular place gives a surface across its direction at a point: by its
     /// own falloff, which need not be that of its rays (the inverse square).
-    [[nodiscard]] Rgb irradiance(const PlaceInLight& place, const Vec3& point) const;
+    [[nodiscard]] Spectrum irradiance(const PlaceInLight& place, const Vec3& point,
+                                      const Wavelengths& waves) const;
     /// With which `emit` gives a ray from there along `direction` to the point `lit`.
     [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction,
                                            const Vec3& lit) const;
@@ -125,6 +129,26 @@ class Illumination {
     /// solid angle where it has an extent.
     [[nodiscard]] double density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,
                                  double distance) const;
+
+    /// A place of a light, from which light sets out into any direction.
+    struct LightPick {
+        PlaceInLight place;
+        Vec3 at;      ///< a point; of parallel light the unit direction to it
+        Vec3 normal;  ///< unit, of a surface; else zero
+        bool infinite = false;
+        bool is_hit = false;  ///< rays can hit it
+        double density = 0;   ///< by area; of a point or a direction the probability; 0: none
+    };
+    /// By power; never of the environment, nor of points that do not fall with distance.
+    [[nodiscard]] LightPick pick(double choice, const Vec2& u) const;
+    [[nodiscard]] bool picks_any() const;
+    /// What it sends to a point, unhindered: of a surface radiance times the cosine there, of a
+    /// point intensity, of parallel light irradiance across it.
+    [[nodiscard]] Spectrum sent(const LightPick& from, const Vec3& to,
+                                const Wavelengths& waves) const;
+    /// Whether `pick` may give what a ray along `direction` hit, with light against the ray.
+    [[nodiscard]] bool may_pick(const Hit& hit, const Surface& surface,
+                                const Vec3& direction) const;
 
   private:
     struct Data;

@@ -35,6 +35,7 @@ struct Illumination::Data {
     LightChooser far;       ///< [of parallel, then environment]
     double near_share = 0;  ///< probability that a near light is chosen
     LightChooser sources;   ///< for `emit`, by power
+    LightChooser picked;    ///< for `pick`, by power
 
     [[nodiscard]] std::size_t near_count() const {
         return emitters.size() + hidden.size() + points.size();

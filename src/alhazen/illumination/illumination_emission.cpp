@@ -83,13 +83,14 @@ double power_of_point(const Light& light, double squared) {
                       light);
 }
 
-LightRay emit_from_point(const Light& light, double probability, const Vec2& direction) {
+LightRay emit_from_point(const Light& light, double probability, const Vec2& direction,
+                         const Wavelengths& waves) {
     LightRay out;
     const double cosine = cosine_of_cone(light);
     const Vec3 d = in_cone(axis_of_cone(light), cosine, direction);
     out.ray = {position_of(light), d};
     out.normal = d;
-    out.radiance = intensity_towards(light, d);
+    out.radiance = waves.emission(intensity_towards(light, d));
     out.place_density = probability;
     out.direction_density = 1.0 / (2.0 * kPi * (1.0 - cosine));
     out.singular_place = true;
@@ -117,15 +118,21 @@ void Illumination::Data::set_sources() {
     }
     if (environment) powers.push_back(4.0 * kPi * disc * mean_power(environment->mean()));
     sources = LightChooser(powers);
+    for (std::size_t i = 0; i < parallel.size(); ++i) {
+        if (light_at_point(near_count() + i) != nullptr) powers[near_count() + i] = 0.0;
+    }
+    if (environment) powers.pop_back();
+    picked = LightChooser(powers);
 }
 
-LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direction) const {
+LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direction,
+                            const Wavelengths& waves) const {
     const Data& d = *data_;
     const ChosenLight chosen = d.sources.choose(choice);
     LightRay out;
     if (!(chosen.probability > 0.0)) return out;
     if (const Light* light = d.light_at_point(chosen.light)) {
-        out = emit_from_point(*light, chosen.probability, direction);
+        out = emit_from_point(*light, chosen.probability, direction, waves);
         out.place.source = chosen.light;
         return out;
     }
@@ -137,12 +144,12 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
         if (d.is_environment(far_light)) {
             const Vec3 from = d.environment->sample(direction);
             out.ray = ray_from_afar(d.center, d.radius, -from, place);
-            out.radiance = d.environment->radiance(from);
+            out.radiance = waves.emission(d.environment->radiance(from));
             out.direction_density = d.environment->density(from);
         } else {
             const auto& sun = std::get<DirectionalLight>(d.scene->lights[d.parallel[far_light]]);
             out.ray = ray_from_afar(d.center, d.radius, -sun.to_light, place);
-            out.radiance = kPi * sun.color;
+            out.radiance = waves.emission(kPi * sun.color);
             out.direction_density = 1.0;
             out.singular_direction = true;
         }
@@ -165,12 +172,13 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
     out.ray = {p.point + (kOffSurface * reach) * out.normal, along};
     out.place_density = chosen.probability * p.density;
     out.direction_density = cosine / (e.two_sided ? 2.0 * kPi : kPi);
-    out.radiance = e.radiance;
+    Rgb radiance = e.radiance;
     if (chosen.light < d.emitters.size()) {
         const double away = std::sqrt(e.area);
-        out.radiance = d.emitters.radiance(chosen.light, p.point + away * out.normal, -out.normal,
-                                           away, p.parameters);
+        radiance = d.emitters.radiance(chosen.light, p.point + away * out.normal, -out.normal, away,
+                                       p.parameters);
     }
+    out.radiance = waves.emission(radiance);
     return out;
 }
 

@@ -41,11 +41,12 @@ Illumination::LightPoint Illumination::point_of_light(const PlaceInLight& place,
     return at;
 }
 
-Rgb Illumination::irradiance(const PlaceInLight& place, const Vec3& point) const {
+Spectrum Illumination::irradiance(const PlaceInLight& place, const Vec3& point,
+                                  const Wavelengths& waves) const {
     const Light* const light = data_->light_at_point(place.source);
     if (light == nullptr) return {};
     const bool clamp = data_->scene->conventions.shading.clamp_attenuation;
-    return kPi * sample(*light, point, clamp).intensity;
+    return waves.emission(kPi * sample(*light, point, clamp).intensity);
 }
 
 double Illumination::density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,

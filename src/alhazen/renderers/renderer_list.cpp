@@ -57,6 +57,8 @@ std::unique_ptr<Renderer> make_ambient_occlusion(RendererSettings& settings) {
 std::unique_ptr<Renderer> make_path_tracing(RendererSettings& settings) {
     PathSettings paths = path_settings(settings);
     paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
+    static constexpr const char* kManifold[] = {"off", "on"};
+    paths.manifold = settings.choice("manifold", 0, kManifold) == 1;
     return std::make_unique<PathTracing>(paths);
 }
 
@@ -126,7 +128,8 @@ std::span<const RendererEntry> renderers() {
          }},
         {"path_tracing",
          "all light by random paths from the eye, lights sampled at each surface (Kajiya 1986, "
-         "Veach 1997); depth=N, roulette=N, clamp=X",
+         "Veach 1997); depth=N, roulette=N, clamp=X, manifold=on|off (light by way of mirrors and "
+         "glass by walks, Hanika 2015, Zeltner 2020)",
          [](RendererSettings& settings) { return make_path_tracing(settings); }},
         {"photon_mapping",
          "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "

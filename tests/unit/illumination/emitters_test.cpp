@@ -127,10 +127,10 @@ TEST(Emitters, ASphereLightsAPlaneByTheClosedForm) {
     // A sphere wholly above the horizon: pi L (r / d)^2 cos.
     for (const double x : {0.0, 1.0, 4.0}) {
         const double d2 = 9.0 + x * x;
-        const Rgb found = mean_irradiance(scene, lights, {{x, 0, 0}, {0, 0, 1}}, 20000);
+        const Spectrum found = mean_irradiance(scene, lights, {{x, 0, 0}, {0, 0, 1}}, 20000);
         const double truth = kPi * 2.0 / d2 * (3.0 / std::sqrt(d2));
-        EXPECT_NEAR(found.r / truth, 1.0, 2e-3) << x;
-        EXPECT_NEAR(found.g / found.r, 1.5, 1e-9);
+        EXPECT_NEAR(found.a / truth, 1.0, 2e-3) << x;
+        EXPECT_NEAR(found.b / found.a, 1.5, 1e-9);
     }
 }
 
@@ -146,16 +146,16 @@ TEST(Emitters, ARectangleLightsAPlaneByTheClosedForm) {
     const double a = 1.0 / 1.5, b = 2.0 / 1.5;
     const double sa = std::sqrt(1 + a * a), sb = std::sqrt(1 + b * b);
     const double factor = (a / sa * std::atan(b / sa) + b / sb * std::atan(a / sb)) / (2.0 * kPi);
-    const Rgb found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 40000);
-    EXPECT_NEAR(found.r / (kPi * 2.0 * factor), 1.0, 2e-3);
+    const Spectrum found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 40000);
+    EXPECT_NEAR(found.a / (kPi * 2.0 * factor), 1.0, 2e-3);
 }
 
 TEST(Emitters, AnEmittingSphereLightsItsOwnInsideEvenly) {
     const Scene scene = lamp_of(Sphere{{0, 0, 0}, 2});
     const Illumination lights(scene);
     for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{0, 0, -1.9}, Vec3{0, 0, -2}}) {
-        const Rgb found = mean_irradiance(scene, lights, {p, {0, 0, 1}}, 20000);
-        EXPECT_NEAR(found.r / (kPi * 2.0), 1.0, 0.02) << p.z;
+        const Spectrum found = mean_irradiance(scene, lights, {p, {0, 0, 1}}, 20000);
+        EXPECT_NEAR(found.a / (kPi * 2.0), 1.0, 0.02) << p.z;
     }
 }
 
@@ -265,7 +265,7 @@ TEST(Emitters, WhatMovesIsLeftToChanceAndWhatRestsBesideItIsNot) {
     };
     EXPECT_GT(density({-1, 0, 3}), 0.0);
     for (int i = 0; i < 50; ++i) {
-        const LightDraw draw = lights.draw(kAt, i / 50.0, {0.4, 0.6});
+        const LightDraw draw = lights.draw(kAt, i / 50.0, {0.4, 0.6}, kColorChannels);
         EXPECT_FALSE(draw.density > 0.0 && draw.distance < 4.0 && draw.to_light.x > 0.2);
     }
     expect_equal_densities(scene, lights, kAt, 1e-5);
@@ -283,7 +283,7 @@ TEST(Emitters, SolidsOfConstructiveGeometryAreLeftToChance) {
     const Illumination lights(scene);
     EXPECT_TRUE(lights.shines());
     EXPECT_EQ(density_along(scene, lights, kAt, {0, 0, 1}), 0.0);
-    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}).density, 0.0);
+    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}, kColorChannels).density, 0.0);
 }
 
 TEST(Emitters, OfNoAreaAreNeverDrawn) {
@@ -297,11 +297,11 @@ TEST(Emitters, OfNoAreaAreNeverDrawn) {
     for (const LightChoice choice : {LightChoice::Uniform, LightChoice::Power, LightChoice::Tree}) {
         const Illumination lights(scene, {.choice = choice});
         for (int i = 0; i < 100; ++i) {
-            const LightDraw draw = lights.draw(kAt, i / 100.0, {0.3, i / 100.0});
+            const LightDraw draw = lights.draw(kAt, i / 100.0, {0.3, i / 100.0}, kColorChannels);
             EXPECT_TRUE(std::isfinite(draw.density) && draw.radiance.is_finite());
             EXPECT_FALSE(std::isnan(draw.to_light.x));
         }
-        (void)lights.emit(0.5, {0.5, 0.5}, {0.5, 0.5});
+        (void)lights.emit(0.5, {0.5, 0.5}, {0.5, 0.5}, kColorChannels);
     }
 }
 
@@ -329,7 +329,7 @@ TEST(Emitters, WhatDoesNotFaceThePointGivesNothing) {
     std::swap(up.edge_u, up.edge_v);
     const Scene scene = lamp_of(up, {}, false);
     const Illumination lights(scene);
-    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}).density, 0.0);
+    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}, kColorChannels).density, 0.0);
 }
 
 TEST(Emitters, HiddenAreaLightsGiveTheIrradianceOfTheirDirection) {
@@ -345,9 +345,9 @@ TEST(Emitters, HiddenAreaLightsGiveTheIrradianceOfTheirDirection) {
     double sum = 0.0;
     for (int i = 0; i < 1000; ++i) {
         const double u = random.uniform(), v = random.uniform();
-        const LightDraw draw = lights.draw(kAt, 0.5, {u, v});
+        const LightDraw draw = lights.draw(kAt, 0.5, {u, v}, kColorChannels);
         ASSERT_TRUE(draw.singular);
-        sum += draw.radiance.r / draw.density;
+        sum += draw.radiance.a / draw.density;
     }
     const double sine2 = 1.0 / (0.1 * 0.1 + 0.2 * 0.2 + 9.0);
     EXPECT_NEAR(sum / 1000 / (2.0 * 2.0 * kPi * (1.0 - std::sqrt(1.0 - sine2))), 1.0, 1e-9);
@@ -358,9 +358,9 @@ TEST(Emitters, PunctualLightsAreTimesPi) {
     maker.light(PointLight{.position = {0, 0, 2}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
     const Scene scene = maker.compile();
     const Illumination lights(scene);
-    const LightDraw draw = lights.draw({{0, 0, 0}, {0, 0, 1}}, 0.3, {0.5, 0.5});
+    const LightDraw draw = lights.draw({{0, 0, 0}, {0, 0, 1}}, 0.3, {0.5, 0.5}, kColorChannels);
     EXPECT_TRUE(draw.singular);
-    EXPECT_DOUBLE_EQ(draw.radiance.r / draw.density, kPi / 4);
+    EXPECT_DOUBLE_EQ(draw.radiance.a / draw.density, kPi / 4);
     EXPECT_EQ(draw.distance, 2.0);
 }
 
@@ -370,9 +370,9 @@ TEST(Emitters, TheBackgroundLightsEvenly) {
     maker.add(Sphere{{0, 0, -9}, 0.1});
     const Scene scene = maker.compile();
     const Illumination lights(scene);
-    const Rgb found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 100);
-    EXPECT_NEAR(found.r, 0.5 * kPi, 1e-9);
-    EXPECT_NEAR(lights.environment({1, 0, 0}).b, 1.0, 1e-12);
+    const Spectrum found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 100);
+    EXPECT_NEAR(found.a, 0.5 * kPi, 1e-9);
+    EXPECT_NEAR(lights.environment({1, 0, 0}, kColorChannels).c, 1.0, 1e-12);
 }
 
 TEST(Emitters, EmittedPowerIsAreaTimesPiTimesRadiance) {
@@ -387,9 +387,9 @@ TEST(Emitters, EmittedPowerIsAreaTimesPiTimesRadiance) {
             const double choice = (i + 0.5) / kRays;
             const Vec2 place{random.uniform(), random.uniform()};
             const Vec2 direction{random.uniform(), random.uniform()};
-            const LightRay out = lights.emit(choice, place, direction);
+            const LightRay out = lights.emit(choice, place, direction, kColorChannels);
             const double cosine = dot(out.normal, out.ray.direction);
-            power += out.radiance.r * cosine / (out.place_density * out.direction_density) / kRays;
+            power += out.radiance.a * cosine / (out.place_density * out.direction_density) / kRays;
             if (i % 100 != 0) continue;
             // A ray back to the start finds the same densities.
             const Ray back{out.ray.origin + 1e-7 * out.normal, -out.normal};
@@ -403,8 +403,8 @@ TEST(Emitters, EmittedPowerIsAreaTimesPiTimesRadiance) {
         EXPECT_GT(power, 0.0);
     }
     const Scene ball = lamp_of(Sphere{{0, 0, 3}, 0.5}, {}, false);
-    const LightRay out = Illumination(ball).emit(0.5, {0.3, 0.2}, {0.1, 0.7});
-    EXPECT_NEAR(out.radiance.r * dot(out.normal, out.ray.direction) /
+    const LightRay out = Illumination(ball).emit(0.5, {0.3, 0.2}, {0.1, 0.7}, kColorChannels);
+    EXPECT_NEAR(out.radiance.a * dot(out.normal, out.ray.direction) /
                     (out.place_density * out.direction_density),
                 kPi * 2.0 * kPi, 1e-9);
 }

@@ -207,11 +207,11 @@ TEST(Environments, IlluminationDrawsThem) {
         int other_texel = 0;  // rounding at the edge of one
         for (int i = 0; i < 500; ++i) {
             const double c = random.uniform(), u = random.uniform(), v = random.uniform();
-            const LightDraw draw = lights.draw(at, c, {u, v});
+            const LightDraw draw = lights.draw(at, c, {u, v}, kColorChannels);
             ASSERT_GT(draw.density, 0.0);
             EXPECT_TRUE(std::isinf(draw.distance));
             if (lights.environment_density(at, draw.to_light) != draw.density) ++other_texel;
-            EXPECT_EQ(lights.environment(draw.to_light), draw.radiance);
+            EXPECT_EQ(lights.environment(draw.to_light, kColorChannels), draw.radiance);
         }
         EXPECT_EQ(other_texel, 0);
         // Power of what it sends into the sphere around the scene.
@@ -219,9 +219,10 @@ TEST(Environments, IlluminationDrawsThem) {
         constexpr int kRays = 20000;
         for (int i = 0; i < kRays; ++i) {
             const double u = random.uniform(), v = random.uniform();
-            const LightRay out = lights.emit(0.5, {random.uniform(), random.uniform()}, {u, v});
+            const LightRay out =
+                lights.emit(0.5, {random.uniform(), random.uniform()}, {u, v}, kColorChannels);
             ASSERT_TRUE(out.infinite);
-            power += out.radiance.g / (out.place_density * out.direction_density) / kRays;
+            power += out.radiance.b / (out.place_density * out.direction_density) / kRays;
             // Its ray comes to all of the disc, and to nothing beside it.
             const Vec3 beside = out.ray.origin + 3.0 * perpendicular(out.ray.direction);
             EXPECT_EQ(lights.environment_emit_density(out.ray.direction, out.ray.at(1.0)).place,

@@ -69,16 +69,17 @@ TEST(IesProfile, ALightWithOneSendsItsLumens) {
     const Scene scene = maker.compile();
     const Illumination lights(scene);
     // Below: straight down.
-    const LightDraw draw = lights.draw({{0, 0, 0}, {0, 0, 1}, false}, 0.3, {0.5, 0.5});
-    EXPECT_NEAR(draw.radiance.g / draw.density, 600.0 / kLumensPerWatt / 4.0, 1e-12);
+    const LightDraw draw =
+        lights.draw({{0, 0, 0}, {0, 0, 1}, false}, 0.3, {0.5, 0.5}, kColorChannels);
+    EXPECT_NEAR(draw.radiance.b / draw.density, 600.0 / kLumensPerWatt / 4.0, 1e-12);
     RandomStream random(1);
     double watts = 0.0;
     constexpr int kRays = 40000;
     for (int i = 0; i < kRays; ++i) {
         const double u = (i + 0.5) / kRays, v = random.uniform();
-        const LightRay out = lights.emit(random.uniform(), {0.5, 0.5}, {u, v});
+        const LightRay out = lights.emit(random.uniform(), {0.5, 0.5}, {u, v}, kColorChannels);
         ASSERT_TRUE(out.singular_place);
-        watts += out.radiance.g / (out.place_density * out.direction_density) / kRays;
+        watts += out.radiance.b / (out.place_density * out.direction_density) / kRays;
     }
     const double lumens = light.profile.profile->lumens();
     EXPECT_NEAR(watts * kLumensPerWatt / lumens, 1.0, 1e-3);

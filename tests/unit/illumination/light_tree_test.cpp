@@ -179,10 +179,10 @@ double variance_at_points(const Scene& scene, LightChoice choice) {
         double sum = 0.0, squares = 0.0;
         for (int i = 0; i < kDraws; ++i) {
             const double c = random.uniform(), u = random.uniform(), v = random.uniform();
-            const LightDraw draw = lights.draw(at, c, {u, v});
+            const LightDraw draw = lights.draw(at, c, {u, v}, kColorChannels);
             const double cosine = dot(at.normal, draw.to_light);
             const double x =
-                draw.density > 0.0 && cosine > 0.0 ? cosine / draw.density * draw.radiance.g : 0.0;
+                draw.density > 0.0 && cosine > 0.0 ? cosine / draw.density * draw.radiance.b : 0.0;
             sum += x;
             squares += x * x;
         }
@@ -213,7 +213,8 @@ TEST(LightTree, TakesManyLights) {
     RandomStream random(8);
     for (int i = 0; i < 1000; ++i) {
         const double c = random.uniform(), u = random.uniform(), v = random.uniform();
-        if (lights.draw({{0, 0, 0}, {0, 0, 1}, false}, c, {u, v}).density > 0.0) ++lit;
+        if (lights.draw({{0, 0, 0}, {0, 0, 1}, false}, c, {u, v}, kColorChannels).density > 0.0)
+            ++lit;
     }
     EXPECT_GT(lit, 500);
 }

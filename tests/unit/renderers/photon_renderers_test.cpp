@@ -337,7 +337,7 @@ TEST(IrradianceCache, InterpolatesWithinItsReachOnItsSide) {
     EXPECT_FALSE(cache.irradiance({0, 0, 0}, {0, 0, -1}));
     // Half way between two records of equal reach lies their mean.
     cache.add({{0.2, 0, 0}, {0, 0, 1}, {3, 4, 5}, 1.0});
-    EXPECT_NEAR(cache.irradiance({0.1, 0, 0}, {0, 0, 1})->r, 2.0, 1e-12);
+    EXPECT_NEAR(cache.irradiance({0.1, 0, 0}, {0, 0, 1})->a, 2.0, 1e-12);
     // What lies behind does not count.
     cache.add({{0, 0, 9}, {0, 0, 1}, {7, 7, 7}, 10.0});
     EXPECT_FALSE(cache.irradiance({0, 0, 7.9}, {0, 0, 1}));

@@ -140,7 +140,7 @@ ShotPhotons shot_of(const Scene& scene, const PhotonShot& shot, int threads = 1)
 }
 Rgb power_of(const std::vector<Photon>& photons) {
     Rgb sum;
-    for (const Photon& p : photons) sum += p.light();
+    for (const Photon& p : photons) sum += kColorChannels.color(p.light());
     return sum;
 }
 const PhotonKinds kAll{PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect};
@@ -295,7 +295,7 @@ TEST(Caustics, ABallLensSendsTheRefractedPowerIntoItsCone) {
     const ShotPhotons shot = shot_of(lens.scene, {100000, {PhotonKind::Caustic}, 64, 5});
     double cone = 0.0;
     for (const Photon& p : shot.photons) {
-        if (p.from.vector().z > std::cos(kCone)) cone += p.light().g;
+        if (p.from.vector().z > std::cos(kCone)) cone += p.light().b;
     }
     EXPECT_NEAR(power_of(shot.photons).g, lens.power, 2e-3 * lens.power);
     EXPECT_NEAR(cone, expected * lens.power, 0.005 * lens.power);
@@ -394,8 +394,8 @@ TEST(ProjectionMap, AimsNowhereWhereNothingReflects) {
     const Illumination lights(scene);
     const ProjectionMap projection(job, lights, 3, counters);
     EXPECT_EQ(projection.marked(), 0u);
-    const LightRay aimed = projection.emit(0.3, {0.1, 0.2}, {0.4, 0.5});
-    const LightRay plain = lights.emit(0.3, {0.1, 0.2}, {0.4, 0.5});
+    const LightRay aimed = projection.emit(0.3, {0.1, 0.2}, {0.4, 0.5}, kColorChannels);
+    const LightRay plain = lights.emit(0.3, {0.1, 0.2}, {0.4, 0.5}, kColorChannels);
     EXPECT_EQ(aimed.ray.direction.y, plain.ray.direction.y);
     EXPECT_EQ(aimed.direction_density, plain.direction_density);
 }
@@ -452,7 +452,7 @@ TEST(Caustics, ARingHasItsCuspAtHalfItsRadius) {
     for (const Photon& p : shot.photons) {
         const Vec3 at = p.point();
         if (p.from.vector().x < 0.0 || std::abs(at.y) > 0.01) continue;
-        if (at.x > 0.2 && at.x < 0.9) strips[int(std::floor(at.x * 25))] += p.light().g;
+        if (at.x > 0.2 && at.x < 0.9) strips[int(std::floor(at.x * 25))] += p.light().b;
     }
     const auto brightest = std::max_element(strips.begin(), strips.end(),
                                             [](auto& a, auto& b) { return a.second < b.second; });

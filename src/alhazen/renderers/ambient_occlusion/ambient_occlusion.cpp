@@ -52,6 +52,7 @@ class OcclusionEstimator {
                        std::span<Rgb> radiance) {
         paths_.clear();
         rays_.clear();
+        light_.assign(rays.size(), {});
         for (std::size_t i = 0; i < rays.size(); ++i) {
             Path& path = paths_.emplace_back();
             path.time = camera_.time(chance_, ids[i]);
@@ -67,19 +68,22 @@ class OcclusionEstimator {
                     return;
                 }
                 ++counters_[RayKind::Eye].hit;
-                look_around(*point, ids[k], paths_[k].time, radiance[k]);
+                look_around(*point, ids[k], paths_[k].time, light_[k]);
             });
         shadows_.finish();
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            radiance[i] += kColorChannels.color(light_[i]);
     }
 
   private:
-    void look_around(const ShadingPoint& point, const SampleId& id, float time, Rgb& sum) {
+    void look_around(const ShadingPoint& point, const SampleId& id, float time, Spectrum& sum) {
         const ShadingFrame frame = ShadingFrame::of(point.normal, {});
         const Vec3 direction =
             frame.to_world(on_hemisphere(chance_.draw(id, 0, PathChance::kDirection)));
         if (!(dot(direction, point.geometric) > 0.0)) return;
         const Rgb color = settings_.albedo ? point.material->albedo : Rgb{1, 1, 1};
-        shadows_.add(leaving_ray(point.surface, direction, reach_), time, {}, color, sum);
+        shadows_.add(leaving_ray(point.surface, direction, reach_), time, {}, kColorChannels,
+                     kColorChannels.reflectance(color), sum);
     }
 
     const RenderJob& job_;
@@ -92,6 +96,7 @@ class OcclusionEstimator {
     LightBatch shadows_;
     std::vector<Path> paths_;
     std::vector<Ray> rays_;
+    std::vector<Spectrum> light_;  ///< [ray]
 };
 
 class OcclusionTiles final : public TiledRenderer {

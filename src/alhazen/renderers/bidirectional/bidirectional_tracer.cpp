@@ -52,15 +52,18 @@ void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span
                                         std::span<Rgb> radiance) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (job_.stop_requested()) return;
-        trace(ids[i], rays[i], radiance[i]);
+        const Spectrum light = trace(ids[i], rays[i]);
+        radiance[i] = waves_->color(light);
     }
     lens_light_.paths.fetch_add(rays.size(), std::memory_order_relaxed);
 }
 
-void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum) {
+Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
+    Spectrum sum;
     const float time = camera_.time(chance_, id);
     const Ray ray = camera_.through_lens(chance_, id, central, time);
     WalkStart start{.ray = ray, .time = time, .media = camera_.media()};
+    start.waves = waves_;
     start.parallel = lens_.is_parallel();
     start.density =
         start.parallel ? lens_.parallel_density() : lens_.direction_density(ray.direction, time);
@@ -73,14 +76,14 @@ void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum
     light_.clear();
     const LightRay light =
         lights_.emit(chance_.draw(id, kLightPairs).x, chance_.draw(id, kLightPairs + 1),
-                     chance_.draw(id, kLightPairs + 2));
-    const WalkStart from_light = start_of(light, time, media_);
+                     chance_.draw(id, kLightPairs + 2), *waves_);
+    const WalkStart from_light = start_of(light, time, media_, *waves_);
     if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
         begin_.place = lights_.point_of_light(light.place, light.ray.origin);
         begin_.emit = {light.place_density, light.direction_density};
         walk_.walk(Transport::Importance, from_light,
                    {chance_, id, kLightWalk, settings_.depth, settings_.roulette}, light_);
-        set_falloff(lights_, light, light_);
+        set_falloff(lights_, light, *waves_, light_);
     }
 
     for (std::size_t b = 1; b <= eye_.size(); ++b) {
@@ -94,6 +97,7 @@ void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum
             if (static_cast<int>(a + b) <= settings_.depth) join(a, b, time, sum);
         }
     }
+    return sum;
 }
 
 void BidirectionalTracer::begin_path(std::size_t a, std::size_t b) {
@@ -134,10 +138,10 @@ void BidirectionalTracer::set_light(const LightEnd& end, const LitPoint& at, con
     path_.joined = there(drawn);
 }
 
-void BidirectionalTracer::hit_light(std::size_t b, Rgb& sum) {
+void BidirectionalTracer::hit_light(std::size_t b, Spectrum& sum) {
     const PathVertex& last = eye_[b - 1];
     if (last.emission.is_black()) return;
-    const Rgb light = last.throughput * last.emission;
+    const Spectrum light = last.throughput * last.emission;
     if (b == 1) {
         sum += light;
         return;
@@ -155,9 +159,9 @@ void BidirectionalTracer::hit_light(std::size_t b, Rgb& sum) {
     sum += path_weight(path_, 0) * light;
 }
 
-void BidirectionalTracer::hit_environment(Rgb& sum) {
+void BidirectionalTracer::hit_environment(Spectrum& sum) {
     if (!escape_.is) return;
-    const Rgb light = escape_.throughput * lights_.environment(escape_.direction);
+    const Spectrum light = escape_.throughput * lights_.environment(escape_.direction, *waves_);
     if (light.is_black()) return;
     const std::size_t b = eye_.size();
     if (b == 0) {
@@ -178,14 +182,15 @@ void BidirectionalTracer::hit_environment(Rgb& sum) {
     sum += path_weight(path_, 0) * light;
 }
 
-void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float time, Rgb& sum) {
+void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float time, Spectrum& sum) {
     const PathVertex& v = eye_[b - 1];
     if (!v.connects()) return;
     const auto pair = kDrawPairs + 2 * static_cast<std::uint32_t>(b);
     const LitPoint at = lit(v);
-    const LightDraw drawn = lights_.draw(at, chance_.draw(id, pair).x, chance_.draw(id, pair + 1));
+    const LightDraw drawn =
+        lights_.draw(at, chance_.draw(id, pair).x, chance_.draw(id, pair + 1), *waves_);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
-    Rgb light = v.scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    Spectrum light = v.scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
     LightEnd end;
     const double away = std::isfinite(drawn.distance) ? drawn.distance : 0.0;
@@ -200,22 +205,22 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     }
     light = (path_weight(path_, 1) / drawn.density) * (v.throughput * light);
     const Ray ray = leaving_ray(v.surface, drawn.to_light, kBeforeLight * drawn.distance);
-    sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light)) * light;
+    sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light), *waves_) * light;
 }
 
-void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Rgb& sum) {
+void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectrum& sum) {
     const PathVertex &y = light_[a - 1], &z = eye_[b - 1];
     if (!y.connects() || !z.connects()) return;
     const Vec3 offset = y.surface.point - z.surface.point;
     const double squared = length_squared(offset), distance = std::sqrt(squared);
     if (!(distance > 0.0)) return;
     const Vec3 to_y = offset / distance, to_z = -to_y;
-    const Rgb at_z = z.scatter.value(to_y, Transport::Radiance);
+    const Spectrum at_z = z.scatter.value(to_y, Transport::Radiance);
     if (at_z.is_black()) return;
-    const Rgb at_y = y.scatter.value(to_z, Transport::Importance);
+    const Spectrum at_y = y.scatter.value(to_z, Transport::Importance);
     if (at_y.is_black()) return;
-    Rgb light = (y.scatter.importance_correction(to_z) / squared) *
-                (y.throughput * at_y * z.throughput * at_z);
+    Spectrum light = (y.scatter.importance_correction(to_z) / squared) *
+                     (y.throughput * at_y * z.throughput * at_z);
     begin_path(a, b);
     of_light(a - 1).from_eye =
         by_area(z.scatter.density(to_y), to_y, y.scatter.geometric(), distance);
@@ -233,7 +238,7 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Rgb& su
     light = path_weight(path_, static_cast<int>(a) + 1) * light;
     if (light.is_black()) return;
     const Ray ray = leaving_ray(z.surface, to_y, kBeforeLight * distance);
-    sum += joins_.passing(ray, time, absorption_towards(z, to_y)) * light;
+    sum += joins_.passing(ray, time, absorption_towards(z, to_y), *waves_) * light;
 }
 
 void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float time) {
@@ -242,7 +247,7 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     const auto joined = lens_.connect(
         y.surface.point, chance_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
     if (!joined || !y.scatter.is_seen_from(joined->to_lens)) return;
-    const Rgb value = y.scatter.value(joined->to_lens, Transport::Importance);
+    const Spectrum value = y.scatter.value(joined->to_lens, Transport::Importance);
     if (value.is_black()) return;
     begin_path(a, 0);
     of_light(a - 1).from_eye =
@@ -252,11 +257,13 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     const PathVertex& first = light_[0];
     set_light(begin_, lit(first), first.scatter.view(), first.distance, a == 1 ? back : first.back,
               first.scatter.geometric());
-    Rgb light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
-                y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
-    light =
-        light * joins_.seen(from_lens(y, *joined), time, absorption_towards(y, joined->to_lens));
-    if (!light.is_black() && !lens_light_.splats.add(joined->film, light)) ++counters_.non_finite;
+    Spectrum light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
+                     y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
+    light = light * joins_.seen(from_lens(y, *joined), time, absorption_towards(y, joined->to_lens),
+                                *waves_);
+    if (!light.is_black() && !lens_light_.splats.add(joined->film, waves_->color(light))) {
+        ++counters_.non_finite;
+    }
 }
 
 }  // namespace alhazen

@@ -40,14 +40,15 @@ class BidirectionalTracer {
         Illumination::EmitDensity emit;
     };
 
-    void trace(const SampleId& id, const Ray& ray, Rgb& sum);
+    /// The light of the sample that its eye path carries.
+    [[nodiscard]] Spectrum trace(const SampleId& id, const Ray& ray);
     /// What the last eye vertex emits, or the environment behind it.
-    void hit_light(std::size_t b, Rgb& sum);
-    void hit_environment(Rgb& sum);
+    void hit_light(std::size_t b, Spectrum& sum);
+    void hit_environment(Spectrum& sum);
     /// Eye vertex b - 1 and a light that is drawn for it.
-    void join_light(const SampleId& id, std::size_t b, float time, Rgb& sum);
+    void join_light(const SampleId& id, std::size_t b, float time, Spectrum& sum);
     /// Light vertex a - 1 and eye vertex b - 1.
-    void join(std::size_t a, std::size_t b, float time, Rgb& sum);
+    void join(std::size_t a, std::size_t b, float time, Spectrum& sum);
     /// Light vertex a - 1 and the lens.
     void join_lens(const SampleId& id, std::size_t a, float time);
 
@@ -78,6 +79,7 @@ class BidirectionalTracer {
     std::vector<PathVertex> eye_, light_;
     RandomWalk::Escape escape_;
     LightEnd begin_;  ///< of `light_`
+    const Wavelengths* waves_ = &kColorChannels;
     WholePath path_;
 };
 

@@ -56,30 +56,35 @@ class LightTiles final : public TileRenderer {
 
   private:
     void trace(const SampleId& id) {
+        const Wavelengths& waves = kColorChannels;
         const float time = camera_.time(chance_, id);
         const Vec2 choice = chance_.draw(id, kLightPairs);
         const LightRay light = lights_.emit(choice.x, chance_.draw(id, kLightPairs + 1),
-                                            chance_.draw(id, kLightPairs + 2));
-        const WalkStart start = start_of(light, time, media_);
+                                            chance_.draw(id, kLightPairs + 2), waves);
+        const WalkStart start = start_of(light, time, media_, waves);
         if (start.throughput.is_black() || !start.throughput.is_finite()) return;
         walk_.walk(Transport::Importance, start,
                    {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
-        set_falloff(lights_, light, vertices_);
-        for (std::uint32_t i = 0; const PathVertex& v : vertices_)
-            join(v, id, kLensPairs + i++, time);
+        set_falloff(lights_, light, waves, vertices_);
+        for (std::uint32_t i = 0; const PathVertex& v : vertices_) {
+            join(v, id, kLensPairs + i++, time, waves);
+        }
     }
 
-    void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time) {
+    void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time,
+              const Wavelengths& waves) {
         if (!v.connects()) return;
         const auto joined = lens_.connect(v.surface.point, chance_.draw(id, pair), time);
         if (!joined || !v.scatter.is_seen_from(joined->to_lens)) return;
-        const Rgb value = v.scatter.value(joined->to_lens, Transport::Importance);
+        const Spectrum value = v.scatter.value(joined->to_lens, Transport::Importance);
         if (value.is_black()) return;
-        Rgb light = v.scatter.importance_correction(joined->to_lens) * joined->density *
-                    (v.throughput * value);
-        light = light *
-                joins_.seen(from_lens(v, *joined), time, absorption_towards(v, joined->to_lens));
-        if (!light.is_black() && !splats_.add(joined->film, light)) ++counters_.non_finite;
+        Spectrum light = v.scatter.importance_correction(joined->to_lens) * joined->density *
+                         (v.throughput * value);
+        light = light * joins_.seen(from_lens(v, *joined), time,
+                                    absorption_towards(v, joined->to_lens), waves);
+        if (!light.is_black() && !splats_.add(joined->film, waves.color(light))) {
+            ++counters_.non_finite;
+        }
     }
 
     const RenderJob& job_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 
@@ -27,16 +26,17 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
     waiting_.reserve(kMostRays);
 }
 
-void LightBatch::add(const Ray& ray, float time, const Rgb& absorption, const Rgb& light,
-                     Rgb& sum) {
+void LightBatch::add(const Ray& ray, float time, const Rgb& absorption, const Wavelengths& waves,
+                     const Spectrum& light, Spectrum& sum) {
     if (rays_.size() == kMostRays) finish();
-    const Rgb left = absorption.is_black()
-                         ? light
-                         : light * transmittance(absorption, ray.t_max * length(ray.direction));
+    const Spectrum left = absorption.is_black()
+                              ? light
+                              : light * transmittance(waves.absorption(absorption),
+                                                      ray.t_max * length(ray.direction));
     if (left.is_black()) return;
     rays_.push_back(ray);
     times_.push_back(time);
-    waiting_.push_back({left, &sum});
+    waiting_.push_back({left, &waves, &sum});
 }
 
 void LightBatch::finish() {
@@ -50,7 +50,7 @@ void LightBatch::finish() {
         if (!met[i]) {
             *w.sum += w.light;
         } else if (!scene_.all_opaque) {
-            *w.sum += through_surfaces(rays_[i], times_[i], RayKind::Shadow) * w.light;
+            *w.sum += through_surfaces(rays_[i], times_[i], RayKind::Shadow, *w.waves) * w.light;
         }
     }
     rays_.clear();
@@ -66,25 +66,29 @@ void LightBatch::find_met(std::span<bool> met) {
     }
 }
 
-Rgb LightBatch::passing(const Ray& ray, float time, const Rgb& absorption) {
-    return passing(ray, time, RayKind::Shadow, absorption);
+Spectrum LightBatch::passing(const Ray& ray, float time, const Rgb& absorption,
+                             const Wavelengths& waves) {
+    return passing(ray, time, RayKind::Shadow, absorption, waves);
 }
 
-Rgb LightBatch::seen(const Ray& from_eye, float time, const Rgb& absorption) {
-    return passing(from_eye, time, RayKind::Eye, absorption);
+Spectrum LightBatch::seen(const Ray& from_eye, float time, const Rgb& absorption,
+                          const Wavelengths& waves) {
+    return passing(from_eye, time, RayKind::Eye, absorption, waves);
 }
 
-Rgb LightBatch::passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption) {
+Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption,
+                             const Wavelengths& waves) {
     ++count_.cast;
-    const Rgb left = absorption.is_black()
-                         ? Rgb{1, 1, 1}
-                         : transmittance(absorption, ray.t_max * length(ray.direction));
+    const Spectrum left = absorption.is_black() ? Spectrum::all(1)
+                                                : transmittance(waves.absorption(absorption),
+                                                                ray.t_max * length(ray.direction));
     if (!scene_.aggregate->occluded(ray, query(time, kind))) return left;
     ++count_.hit;
-    return scene_.all_opaque ? Rgb{} : left * through_surfaces(ray, time, kind);
+    return scene_.all_opaque ? Spectrum{} : left * through_surfaces(ray, time, kind, waves);
 }
 
-Rgb LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind) {
+Spectrum LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind,
+                                      const Wavelengths& waves) {
     crossings_.clear();
     if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return {};
     if (has_single_sided_ && kind != RayKind::Eye) {
@@ -93,26 +97,27 @@ Rgb LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind) {
         crossings_.clear();
         scene_.aggregate->all_hits(ray, crossings_, query(time, kind));
     }
-    Rgb share{1, 1, 1};
+    Spectrum share = Spectrum::all(1);
     for (const Hit& crossing : crossings_) {
-        share = share * through(ray, time, kind, crossing);
+        share = share * through(ray, time, kind, crossing, waves);
         if (share.is_black()) break;
     }
     return share;
 }
 
-Rgb LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing) const {
+Spectrum LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
+                             const Wavelengths& waves) const {
     ShadingPoint point;
     set_shading_point(scene_, ray, crossing, {false, 0.0, time, kind != RayKind::Eye}, {}, point);
     const double coverage = point.material->coverage;
-    if (coverage == 0.0) return {1, 1, 1};
-    Rgb covered;
+    if (coverage == 0.0) return Spectrum::all(1);
+    Spectrum covered;
     if (point.material->thin) {
         ScatterPoint scatter;
-        scatter.set(scene_, point, {});
+        scatter.set(scene_, point, {}, waves);
         covered = scatter.straight();
     }
-    return (1.0 - coverage) * Rgb{1, 1, 1} + coverage * covered;
+    return Spectrum::all(1.0 - coverage) + coverage * covered;
 }
 
 }  // namespace alhazen

@@ -12,6 +12,7 @@
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
@@ -20,20 +21,25 @@ class LightBatch {
     LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
     /// Adds `light` to `sum`, now or in `finish`, times what passes along `ray` up to its t_max;
-    /// `absorption`: of the medium in between. Sums are added to in the order of the calls.
-    void add(const Ray& ray, float time, const Rgb& absorption, const Rgb& light, Rgb& sum);
+    /// `absorption`: of the medium in between; `waves` stays until `finish`. Sums are added to in
+    /// the order of the calls.
+    void add(const Ray& ray, float time, const Rgb& absorption, const Wavelengths& waves,
+             const Spectrum& light, Spectrum& sum);
     /// Casts the gathered rays.
     void finish();
 
     /// The share that passes along one ray.
-    [[nodiscard]] Rgb passing(const Ray& ray, float time, const Rgb& absorption);
+    [[nodiscard]] Spectrum passing(const Ray& ray, float time, const Rgb& absorption,
+                                   const Wavelengths& waves);
     /// The same along a ray from the eye.
-    [[nodiscard]] Rgb seen(const Ray& from_eye, float time, const Rgb& absorption);
+    [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const Rgb& absorption,
+                                const Wavelengths& waves);
 
   private:
     struct Waiting {
-        Rgb light;
-        Rgb* sum;
+        Spectrum light;
+        const Wavelengths* waves;
+        Spectrum* sum;
     };
 
     [[nodiscard]] RayQuery query(float time, RayKind kind = RayKind::Shadow) const {
@@ -41,9 +47,12 @@ class LightBatch {
     }
     void find_met(std::span<bool> met);
     /// Of a ray that meets something.
-    [[nodiscard]] Rgb through_surfaces(const Ray& ray, float time, RayKind kind);
-    [[nodiscard]] Rgb through(const Ray& ray, float time, RayKind kind, const Hit& crossing) const;
-    [[nodiscard]] Rgb passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption);
+    [[nodiscard]] Spectrum through_surfaces(const Ray& ray, float time, RayKind kind,
+                                            const Wavelengths& waves);
+    [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
+                                   const Wavelengths& waves) const;
+    [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption,
+                                   const Wavelengths& waves);
 
     const Scene& scene_;
     RayCount& count_;

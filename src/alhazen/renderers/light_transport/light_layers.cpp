@@ -10,7 +10,8 @@ constexpr std::array kKinds{AovKind::Emission,     AovKind::Direct,   AovKind::I
                             AovKind::Diffuse,      AovKind::Specular, AovKind::Transmission,
                             AovKind::LightVariance};
 
-Rgb part_of(AovKind kind, const LightParts& parts, const Rgb& radiance) {
+/// Of the layers but the variance.
+Spectrum part_of(AovKind kind, const LightParts& parts) {
     switch (kind) {
         case AovKind::Emission:
             return parts.emission;
@@ -22,10 +23,8 @@ Rgb part_of(AovKind kind, const LightParts& parts, const Rgb& radiance) {
             return parts.direct.diffuse + parts.indirect.diffuse;
         case AovKind::Specular:
             return parts.direct.specular + parts.indirect.specular;
-        case AovKind::Transmission:
-            return parts.direct.transmitted + parts.indirect.transmitted;
         default:
-            return radiance;
+            return parts.direct.transmitted + parts.indirect.transmitted;
     }
 }
 
@@ -61,14 +60,17 @@ LightLayers::LightLayers(const PixelBox& crop, const AovSet& wanted, double mean
     }
 }
 
-void LightLayers::add(const SampleId& id, const LightParts& parts, const Rgb& radiance) {
+void LightLayers::add(const SampleId& id, const LightParts& parts, const Wavelengths& waves,
+                      const Rgb& radiance) {
     if (!radiance.is_finite()) return;
     const std::size_t pixel = std::size_t(id.pixel.y - crop_.y0) * std::size_t(crop_.width()) +
                               std::size_t(id.pixel.x - crop_.x0);
     ++counts_[pixel];
     if (!signs_.empty()) signs_[pixel] += id.sign;
     for (Layer& layer : layers_) {
-        const Rgb light = part_of(layer.kind, parts, radiance);
+        const Rgb light = layer.kind == AovKind::LightVariance
+                              ? radiance
+                              : waves.color(part_of(layer.kind, parts));
         layer.plain[pixel] += light;
         if (!layer.with_signs.empty()) layer.with_signs[pixel] += id.sign * light;
         if (!layer.squares.empty()) layer.squares[pixel] += light * light;

@@ -17,21 +17,22 @@
 #include "alhazen/imaging/film/sample_sum.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/estimator.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
 /// What the first scattering from the eye did with light.
 struct FirstScattering {
     bool transmitted = false;
-    Rgb diffuse{};  ///< share of matt lobes in what was reflected
+    Spectrum diffuse{};  ///< share of matt lobes in what was reflected
 };
 
 /// The light of one sample.
 struct LightParts {
-    Rgb emission;
+    Spectrum emission;
     struct Scattered {
-        Rgb diffuse, specular, transmitted;
-        void add(const Rgb& light, const FirstScattering& first) {
+        Spectrum diffuse, specular, transmitted;
+        void add(const Spectrum& light, const FirstScattering& first) {
             if (first.transmitted) {
                 transmitted += light;
             } else {
@@ -39,12 +40,12 @@ struct LightParts {
                 specular += light - first.diffuse * light;
             }
         }
-        [[nodiscard]] Rgb sum() const { return diffuse + specular + transmitted; }
+        [[nodiscard]] Spectrum sum() const { return diffuse + specular + transmitted; }
     };
     Scattered direct, indirect;
 
     /// `scatterings`: of the light on its way.
-    void add(const Rgb& light, int scatterings, const FirstScattering& first) {
+    void add(const Spectrum& light, int scatterings, const FirstScattering& first) {
         if (scatterings == 0) {
             emission += light;
         } else {
@@ -61,7 +62,9 @@ class LightLayers {
     /// Whether any of them is wanted.
     [[nodiscard]] static bool has_any(const AovSet& wanted);
 
-    void add(const SampleId& id, const LightParts& parts, const Rgb& radiance);
+    /// `radiance`: the sum of the parts as a colour.
+    void add(const SampleId& id, const LightParts& parts, const Wavelengths& waves,
+             const Rgb& radiance);
     void write(AovFilm& film) const;
 
   private:

@@ -10,9 +10,10 @@
 namespace alhazen {
 
 /// The walk of a ray of light. Its throughput is black where it carries nothing.
-[[nodiscard]] inline WalkStart start_of(const LightRay& light, float time,
-                                        const MediaFinder& media) {
+[[nodiscard]] inline WalkStart start_of(const LightRay& light, float time, const MediaFinder& media,
+                                        const Wavelengths& waves) {
     WalkStart start;
+    start.waves = &waves;
     start.ray = light.ray;
     start.time = time;
     const double densities = light.place_density * light.direction_density;
@@ -30,13 +31,13 @@ namespace alhazen {
 }
 
 /// Gives the vertices of a path from a point the light's own falloff over its first distance.
-inline void set_falloff(const Illumination& lights, const LightRay& light,
+inline void set_falloff(const Illumination& lights, const LightRay& light, const Wavelengths& waves,
                         std::vector<PathVertex>& vertices) {
     if (!light.singular_place || vertices.empty()) return;
     const double squared = vertices[0].distance * vertices[0].distance;
-    const Rgb arrives = lights.irradiance(light.place, vertices[0].surface.point);
-    Rgb factor;
-    for (int i = 0; i < 3; ++i) {
+    const Spectrum arrives = lights.irradiance(light.place, vertices[0].surface.point, waves);
+    Spectrum factor;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
         if (light.radiance[i] > 0.0) factor[i] = squared * arrives[i] / light.radiance[i];
     }
     for (PathVertex& v : vertices) v.throughput = v.throughput * factor;

@@ -37,7 +37,7 @@ MediumStack MediaFinder::around(const Vec3& point, float time) const {
         Hit hit;
         if (!scene_.aggregate->closest(ray, hit, {nullptr, kAllRays, time})) break;
         set_shading_point(scene_, ray, hit, {!media.empty(), 0.0, time, true}, {}, at);
-        scatter.set(scene_, at, media);
+        scatter.set(scene_, at, media, kColorChannels);
         if (at.material->coverage > 0.0 && scatter.bounds_volume()) scatter.cross(media);
         left -= hit.t;
         if (!(left > 0.0)) break;

@@ -48,6 +48,12 @@ class PathChance {
         if (coverage >= 1.0) return true;
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
+    /// Numbers of what draws many: the `number`-th of a place (a bounce, say) of the sample.
+    [[nodiscard]] double extra(const SampleId& id, std::uint32_t place,
+                               std::uint32_t number) const {
+        return random_at(seed_, id.pixel.id(), id.number,
+                         kExtra | std::uint64_t{place} << 32 | number);
+    }
     [[nodiscard]] float time(const SampleId& id) const {
         // Below 1, where the double may round up to it.
         return std::min(static_cast<float>(draw(id, kTime).x), 0x1.fffffep-1f);
@@ -57,6 +63,7 @@ class PathChance {
     static constexpr std::uint32_t kStratified = 3;  ///< bounces
     static constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
+    static constexpr std::uint64_t kExtra = std::uint64_t{1} << 62;
 
     [[nodiscard]] static std::uint32_t pair_of(int bounce, BouncePair pair) {
         return kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "alhazen/renderers/core/attenuation.h"
-
 namespace alhazen {
 
 bool RandomWalk::find(Ray& ray, const WalkLuck& luck, float time, bool inside) {
@@ -36,7 +34,8 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
     Ray ray = start.ray;
-    Rgb throughput = start.throughput;
+    const Wavelengths& waves = *start.waves;
+    Spectrum throughput = start.throughput;
     double density = start.density;
     bool parallel = start.parallel;
     double eta_scale = 1.0;
@@ -47,7 +46,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             const Medium* const medium = media.here();
             escape_.is = true;
             if (medium != nullptr) {
-                throughput = throughput * transmittance(medium->absorption,
+                throughput = throughput * transmittance(waves.absorption(medium->absorption),
                                                         std::numeric_limits<double>::infinity());
             }
             escape_.direction = ray.direction;
@@ -56,7 +55,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             return;
         }
         if (const Medium* const medium = media.here(); medium != nullptr) {
-            throughput = throughput * transmittance(medium->absorption, segment_);
+            throughput = throughput * transmittance(waves.absorption(medium->absorption), segment_);
         }
         const double cosine = std::abs(dot(ray.direction, point_.geometric));
         PathVertex& v = vertices.emplace_back();
@@ -69,7 +68,9 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         if (from_eye) {
             const bool lights_others =
                 vertices.size() >= 2 && !vertices[vertices.size() - 2].singular;
-            if (!point_.material->unlit || !lights_others) v.emission = point_.material->emission;
+            if (!point_.material->unlit || !lights_others) {
+                v.emission = waves.emission(point_.material->emission);
+            }
             if (!v.emission.is_black()) {
                 v.emit = lights_.emit_density(hit_, point_.surface, -ray.direction);
                 if (vertices.size() >= 2) {
@@ -81,7 +82,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
                 }
             }
         }
-        v.scatter.set(scene_, point_, media, true);
+        v.scatter.set(scene_, point_, media, waves, true);
         if (point_.material->unlit || static_cast<int>(vertices.size()) == luck.most) return;
 
         const Vec2 u = luck.chance.draw(luck.id, pair);

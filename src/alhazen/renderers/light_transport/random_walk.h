@@ -21,13 +21,13 @@ namespace alhazen {
 struct PathVertex {
     ShapeSurface surface;
     ScatterPoint scatter;
-    Rgb throughput;         ///< of the path up to the vertex
+    Spectrum throughput;    ///< of the path up to the vertex
     double density = 0;     ///< with which its own side finds it
     double reverse = 0;     ///< with which the other side would, once it has two more vertices
     double back = 0;        ///< by solid angle, of what it was found from, once it has one more
     bool singular = false;  ///< the path went on from it by a singular lobe
     MediumStack media;      ///< in front of it
-    Rgb emission;           ///< of it towards the path
+    Spectrum emission;      ///< of it towards the path
     Illumination::EmitDensity emit;  ///< of that light
     double joined = 0;               ///< density with which it is drawn for the vertex before
     double distance = 0;             ///< from the vertex before
@@ -38,7 +38,8 @@ struct PathVertex {
 /// The beginning of a walk.
 struct WalkStart {
     Ray ray;
-    Rgb throughput{1, 1, 1};
+    Spectrum throughput{1, 1, 1, 1};
+    const Wavelengths* waves = &kColorChannels;
     /// By solid angle; by area across the ray where it is parallel; 0: singular.
     double density = 0;
     bool parallel = false;
@@ -70,7 +71,7 @@ class RandomWalk {
     struct Escape {
         bool is = false;
         Vec3 direction;
-        Rgb throughput;
+        Spectrum throughput;
         double density = 0;  ///< 0: singular
     };
     [[nodiscard]] const Escape& escape() const { return escape_; }

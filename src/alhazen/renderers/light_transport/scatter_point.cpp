@@ -27,7 +27,7 @@ Bsdf bsdf_at(const Scene& scene, const Surface& surface, const BsdfPlace& place)
 }  // namespace
 
 void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-                       bool both_ways) {
+                       const Wavelengths& waves, bool both_ways) {
     const Surface& surface = point.surface;
     const MaterialSample& material = *point.material;
     geometric_ = point.geometric;
@@ -41,8 +41,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     inside_ = {part_of(surface), material.index, material.absorption,
                static_cast<std::uint32_t>(surface.materials[0])};
     media_known_ = point.behind.known;
-    BsdfPlace place;
-    place.from_inside = !entering_;
+    BsdfPlace place{.from_inside = !entering_, .waves = waves};
     if (media_known_) {
         behind_inside_ = point.behind.inside;
         inside_.absorption = point.behind.absorption;
@@ -61,7 +60,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     from_behind_ = bsdf_at(scene, surface, place);
 }
 
-Rgb ScatterPoint::value(const Vec3& direction, Transport transport) const {
+Spectrum ScatterPoint::value(const Vec3& direction, Transport transport) const {
     const Vec3 local = frame_.to_local(direction);
     if (!sides_agree(direction, local)) return {};
     return std::abs(local.z) * bsdf_.value(local_view_, local, transport);

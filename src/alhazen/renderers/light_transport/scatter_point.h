@@ -17,7 +17,7 @@ namespace alhazen {
 
 struct Scattered {
     Vec3 direction;         ///< unit
-    Rgb weight;             ///< value * |cosine| / density
+    Spectrum weight;        ///< value * |cosine| / density
     double density = 0;     ///< by solid angle; of a singular one its probability
     bool singular = false;  ///< its direction has no density
     bool transmitted = false;
@@ -29,12 +29,12 @@ class ScatterPoint {
   public:
     /// `media`: around the path before the surface. `both_ways`: `reverse_density` will be asked.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-             bool both_ways = false);
+             const Wavelengths& waves, bool both_ways = false);
 
     /// value * |cosine| for light from `direction`; singular lobes apart.
-    [[nodiscard]] Rgb value(const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& direction, Transport transport) const;
     /// Share of matt lobes in `value`.
-    [[nodiscard]] Rgb diffuse_share(const Vec3& direction) const {
+    [[nodiscard]] Spectrum diffuse_share(const Vec3& direction) const {
         return bsdf_.diffuse_share(local_view_, frame_.to_local(direction));
     }
     /// With which `sample` gives `direction`.
@@ -46,15 +46,19 @@ class ScatterPoint {
                                                   Transport transport) const;
 
     /// The share of light that goes straight on through a thin sheet.
-    [[nodiscard]] Rgb straight() const { return bsdf_.straight(local_view_); }
+    [[nodiscard]] Spectrum straight() const { return bsdf_.straight(local_view_); }
     /// With which `sample` does that.
     [[nodiscard]] double straight_probability() const {
         return thin_ ? bsdf_.straight_probability(local_view_) : 0.0;
     }
     [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
-    [[nodiscard]] std::optional<Rgb> lambert() const { return bsdf_.lambert(); }
+    [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf_.lambert(); }
     [[nodiscard]] bool has_singular() const { return bsdf_.has_singular(); }
     [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
+    /// What its singular lobes do with light that goes to the view.
+    [[nodiscard]] SingularLight singular(Transport transport) const {
+        return bsdf_.singular(local_view_, transport);
+    }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }
     [[nodiscard]] const Vec3& geometric() const { return geometric_; }
     [[nodiscard]] const Vec3& view() const { return view_; }

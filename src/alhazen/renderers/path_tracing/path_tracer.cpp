@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 
 namespace alhazen {
 
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                        const Illumination& lights, const PathSettings& settings,
-                       LightLayers* layers)
+                       LightLayers* layers, const ManifoldScene* manifold)
     : job_(job),
       scene_(job.scene),
       lights_(lights),
@@ -21,7 +20,10 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      layers_(layers) {}
+      layers_(layers),
+      manifold_(manifold) {
+    if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
+}
 
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
@@ -38,17 +40,20 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         path.inside = !path.media.empty();
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
     }
+    light_.assign(rays.size(), {});
     if (layers_ != nullptr) parts_.assign(rays.size(), {});
     for (bool first = true; !paths_.empty(); first = false) {
         if (job_.stop_requested()) return;
-        bounce(radiance, first);
+        bounce(first);
     }
-    for (std::size_t i = 0; layers_ != nullptr && i < rays.size(); ++i) {
-        layers_->add(ids[i], parts_[i], radiance[i]);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Wavelengths& waves = kColorChannels;
+        radiance[i] = waves.color(light_[i]);
+        if (layers_ != nullptr) layers_->add(ids[i], parts_[i], waves, radiance[i]);
     }
 }
 
-void PathTracer::bounce(std::span<Rgb> radiance, bool first) {
+void PathTracer::bounce(bool first) {
     next_paths_.clear();
     next_rays_.clear();
     joined_.clear();
@@ -59,27 +64,27 @@ void PathTracer::bounce(std::span<Rgb> radiance, bool first) {
         [&](std::size_t k) -> const EyePath& { return paths_[k]; },
         [&](std::size_t k, const ShadingPoint* point, double t) {
             EyePath& path = paths_[k];
-            Rgb& sum = radiance[path.sample];
+            Spectrum& sum = light_[path.sample];
             if (point == nullptr) return escape(path, rays_[k], sum);
             ++counters_[path.kind].hit;
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
         });
     shadows_.finish();
-    if (layers_ != nullptr) add_joined(radiance);
+    if (layers_ != nullptr) add_joined();
     paths_.swap(next_paths_);
     rays_.swap(next_rays_);
 }
 
-void PathTracer::add(const EyePath& path, const Rgb& light, Rgb& sum) {
-    const Rgb shown = limited(light, path.scatterings);
+void PathTracer::add(const EyePath& path, const Spectrum& light, Spectrum& sum) {
+    const Spectrum shown = limited(light, path.scatterings);
     if (layers_ != nullptr) parts_[path.sample].add(shown, path.scatterings, path.first);
     sum += shown;
 }
 
-void PathTracer::add_joined(std::span<Rgb> radiance) {
+void PathTracer::add_joined() {
     for (const JoinedLight& joined : joined_) {
         parts_[joined.sample].add(joined.light, joined.scatterings, joined.first);
-        radiance[joined.sample] += joined.light;
+        light_[joined.sample] += joined.light;
     }
 }
 
@@ -88,17 +93,18 @@ FirstScattering PathTracer::first_along(const EyePath& path, const Vec3& directi
     return {dot(direction, scatter_.geometric()) < 0.0, scatter_.diffuse_share(direction)};
 }
 
-Rgb PathTracer::limited(const Rgb& light, int scatterings) const {
+Spectrum PathTracer::limited(const Spectrum& light, int scatterings) const {
     if (!(settings_.clamp > 0.0) || scatterings < 2) return light;
     const double largest = light.max();
     return largest > settings_.clamp ? (settings_.clamp / largest) * light : light;
 }
 
-void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) {
-    Rgb light = path.throughput * lights_.environment(ray.direction);
+void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
+    Spectrum light = path.throughput * lights_.environment(ray.direction, waves(path));
     if (light.is_black()) return;
     if (const Medium* medium = path.media.here(); medium != nullptr) {
-        light = light * transmittance(medium->absorption, std::numeric_limits<double>::infinity());
+        light = light * transmittance(waves(path).absorption(medium->absorption),
+                                      std::numeric_limits<double>::infinity());
     }
     if (!path.singular) {
         const double other = lights_.environment_density(path.from, ray.direction);
@@ -108,9 +114,10 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) {
 }
 
 void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
-                      double t, Rgb& sum) {
+                      double t, Spectrum& sum) {
     if (const Medium* medium = path.media.here(); medium != nullptr) {
-        path.throughput = path.throughput * transmittance(medium->absorption, t);
+        path.throughput =
+            path.throughput * transmittance(waves(path).absorption(medium->absorption), t);
     }
     path.travelled += t;
     path.cone = path.cone.from(t);
@@ -122,16 +129,22 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     }
     add_emission(path, ray, hit, point, sum);
     if (point.material->unlit || path.scatterings >= settings_.depth) return;
-    scatter_.set(scene_, point, path.media);
-    if (scatter_.has_density()) add_direct_light(path, point, sum);
+    scatter_.set(scene_, point, path.media, waves(path));
+    if (scatter_.has_density()) {
+        add_direct_light(path, point, sum);
+        if (chains_) add_chains(path, point, sum);
+    }
     scatter(path, point);
 }
 
 void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
-                              const ShadingPoint& point, Rgb& sum) {
+                              const ShadingPoint& point, Spectrum& sum) {
     const Rgb& emission = point.material->emission;
     if (emission.is_black()) return;
-    Rgb light = path.throughput * emission;
+    if (manifold_ != nullptr && manifold_->finds(path.trail, hit, point.surface, ray.direction)) {
+        return;
+    }
+    Spectrum light = path.throughput * waves(path).emission(emission);
     if (!path.singular) {
         // What shows its colour whatever the light is no lamp.
         if (point.material->unlit) return;
@@ -141,13 +154,13 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
     add(path, light, sum);
 }
 
-void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum) {
+void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
     const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
     const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
-    const LightDraw drawn = lights_.draw(at, choices.y, place);
+    const LightDraw drawn = lights_.draw(at, choices.y, place, waves(path));
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
-    Rgb light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
     double weight = 1.0 / drawn.density;
     if (!drawn.singular) {
@@ -158,17 +171,33 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
     const int scatterings = path.scatterings + 1;
-    Rgb* to = &sum;
+    Spectrum* to = &sum;
     if (layers_ != nullptr) {
         to = &joined_
                   .emplace_back(JoinedLight{path.sample, scatterings,
-                                            first_along(path, drawn.to_light), Rgb{}})
+                                            first_along(path, drawn.to_light), Spectrum{}})
                   .light;
     }
     // The light itself does not block its ray.
     constexpr double kBefore = 1.0 - 1e-7;
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{}, limited(light, scatterings), *to);
+                 medium != nullptr ? medium->absorption : Rgb{}, waves(path),
+                 limited(light, scatterings), *to);
+}
+
+void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
+    const ManifoldLight::Receiver at{
+        point.surface, scatter_,          path.media,
+        path.time,     waves(path),       settings_.depth - path.scatterings - 1,
+        chance_,       ids_[path.sample], static_cast<std::uint32_t>(path.drawn)};
+    chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {
+        const int scatterings = path.scatterings + 1 + arrived.bends;
+        const Spectrum light = limited(path.throughput * arrived.light, scatterings);
+        if (layers_ != nullptr) {
+            parts_[path.sample].add(light, scatterings, first_along(path, arrived.direction));
+        }
+        sum += light;
+    });
 }
 
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
@@ -187,6 +216,11 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         if (++path.met > kMaxPassedSurfaces) return;
     } else {
         ++path.scatterings;
+        if (drawn->singular) {
+            path.trail.go_on(point.surface, drawn->transmitted);
+        } else {
+            path.trail.begin(drawn->density);
+        }
         path.singular = drawn->singular;
         path.density = drawn->density;
         path.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};

@@ -13,6 +13,7 @@
 #include "alhazen/renderers/light_transport/path_chance.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/manifold/manifold_light.h"
 
 namespace alhazen {
 
@@ -28,7 +29,7 @@ struct EyePath {
     std::uint32_t met = 0;     ///< surfaces on its way
     int scatterings = 0;
     int drawn = 0;  ///< scatterings and straight passes: places of its random numbers
-    Rgb throughput{1, 1, 1};
+    Spectrum throughput{1, 1, 1, 1};
     double eta_scale = 1;  ///< of radiance, undone where roulette looks at the throughput
     bool singular = true;  ///< the last scattering: no light is sampled for it
     double density = 0;    ///< of the last scattering
@@ -36,12 +37,14 @@ struct EyePath {
     double travelled = 0;  ///< since then
     MediumStack media;
     FirstScattering first;  ///< only where layers of light are wanted
+    ChainTrail trail;       ///< only where chains are sought
 };
 
 class PathTracer {
   public:
     PathTracer(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
-               const PathSettings& settings, LightLayers* layers);
+               const PathSettings& settings, LightLayers* layers,
+               const ManifoldScene* manifold = nullptr);
 
     /// `rays`: those through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
@@ -53,19 +56,21 @@ class PathTracer {
         std::uint32_t sample;
         int scatterings;
         FirstScattering first;
-        Rgb light;
+        Spectrum light;
     };
 
-    void bounce(std::span<Rgb> radiance, bool first);
+    void bounce(bool first);
     /// Adds light at the end of a path to its sample.
-    void add(const EyePath& path, const Rgb& light, Rgb& sum);
-    void add_joined(std::span<Rgb> radiance);
-    void escape(const EyePath& path, const Ray& ray, Rgb& sum);
+    void add(const EyePath& path, const Spectrum& light, Spectrum& sum);
+    void add_joined();
+    void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
-              Rgb& sum);
+              Spectrum& sum);
     void add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
-                      const ShadingPoint& point, Rgb& sum);
-    void add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum);
+                      const ShadingPoint& point, Spectrum& sum);
+    void add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
+    /// Light by way of mirrors and glass.
+    void add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
     void scatter(EyePath& path, const ShadingPoint& point);
     /// What a scattering along `direction` does with light, where it is the first.
     [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
@@ -74,8 +79,9 @@ class PathTracer {
         next_paths_.push_back(path);
         next_rays_.push_back(ray);
     }
+    [[nodiscard]] const Wavelengths& waves(const EyePath&) const { return kColorChannels; }
     /// Light at the end of a path of that many scatterings.
-    [[nodiscard]] Rgb limited(const Rgb& light, int scatterings) const;
+    [[nodiscard]] Spectrum limited(const Spectrum& light, int scatterings) const;
 
     const RenderJob& job_;
     const Scene& scene_;
@@ -88,9 +94,12 @@ class PathTracer {
     LightBatch shadows_;
     ScatterPoint scatter_;
     LightLayers* layers_;            ///< null: none is wanted
+    const ManifoldScene* manifold_;  ///< null: no chains are sought
+    std::optional<ManifoldLight> chains_;
     std::vector<LightParts> parts_;  ///< [sample of the batch]
     std::vector<JoinedLight> joined_;
     std::span<const SampleId> ids_;
+    std::vector<Spectrum> light_;  ///< [sample of the batch]
     std::vector<EyePath> paths_, next_paths_;
     std::vector<Ray> rays_, next_rays_;
 };

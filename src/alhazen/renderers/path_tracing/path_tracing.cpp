@@ -17,19 +17,35 @@ constexpr std::size_t kSamplesAtOnce = 1024;
 
 class PathTiles final : public TiledRenderer {
   public:
-    PathTiles(const Illumination& lights, const PathSettings& settings, LightLayers* layers)
-        : lights_(lights), settings_(settings), layers_(layers) {}
+    PathTiles(const Illumination& lights, const PathSettings& settings, LightLayers* layers,
+              const ManifoldScene* manifold)
+        : lights_(lights), settings_(settings), layers_(layers), manifold_(manifold) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
         return std::make_unique<RoundRenderer<PathTracer>>(job, kSamplesAtOnce, lights_, settings_,
-                                                           layers_);
+                                                           layers_, manifold_);
     }
 
   private:
     const Illumination& lights_;
     PathSettings settings_;
     LightLayers* layers_;
+    const ManifoldScene* manifold_;
 };
+
+/// What is left out or too dark.
+void add_notes(const ManifoldScene& manifold, std::vector<std::string>& notes) {
+    if (const std::uint64_t cut = manifold.cut) {
+        notes.push_back(std::to_string(cut) +
+                        " estimates of light by way of mirrors and glass ended"
+                        " after " +
+                        std::to_string(kMostTrials) + " trials: there the picture is too dark");
+    }
+    if (manifold.parts.leaves_some_out()) {
+        notes.push_back("more than " + std::to_string(kMostSpecularParts) +
+                        " parts are mirrors or glass: the others are left to paths");
+    }
+}
 
 }  // namespace
 
@@ -46,8 +62,15 @@ RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
         layers.emplace(film.crop(), job.aovs->wanted(),
                        FilterKernel(*plan.filter, plan.radius).mean_sign());
     }
-    const PathTiles tiles(lights, settings, layers ? &*layers : nullptr);
+    std::optional<ManifoldScene> manifold;
+    if (settings.manifold) {
+        manifold.emplace(job.scene, lights);
+        if (!manifold->finds_any()) manifold.reset();
+    }
+    const PathTiles tiles(lights, settings, layers ? &*layers : nullptr,
+                          manifold ? &*manifold : nullptr);
     RenderReport report = render_in_rounds(tiles, planned, film);
+    if (manifold) add_notes(*manifold, report.notes);
     if (layers) layers->write(*job.aovs);
     return report;
 }

@@ -23,18 +23,20 @@ double mirrored_bits(std::uint32_t n) {
 
 }  // namespace
 
-Rgb GatheringEye::photon_light(const SeenPoint& at) {
+Spectrum GatheringEye::photon_light(const SeenPoint& at) {
     const Vec3& point = at.surface.point;
-    const Rgb caustic = density_.radiance(maps_.caustic, at.scatter, point, LightPart::NotGlossy);
+    const Spectrum caustic =
+        density_.radiance(maps_.caustic, at.scatter, point, LightPart::NotGlossy);
     if (gather_ > 0) {
-        const std::optional<Rgb> matt = cache_ != nullptr ? at.scatter.lambert() : std::nullopt;
+        const std::optional<Spectrum> matt =
+            cache_ != nullptr ? at.scatter.lambert() : std::nullopt;
         return caustic + (matt ? matt_light(at, *matt) : gathered(at));
     }
     return caustic + density_.radiance(maps_.global, at.scatter, point, LightPart::NotGlossy);
 }
 
-Rgb GatheringEye::matt_light(const SeenPoint& at, const Rgb& reflectance) {
-    std::optional<Rgb> irradiance = cache_->irradiance(at.surface.point, at.scatter.normal());
+Spectrum GatheringEye::matt_light(const SeenPoint& at, const Spectrum& reflectance) {
+    std::optional<Spectrum> irradiance = cache_->irradiance(at.surface.point, at.scatter.normal());
     if (!irradiance) {
         const IrradianceRecord record = record_at(at);
         if (records_ != nullptr) records_->push_back(record);
@@ -77,10 +79,10 @@ IrradianceRecord GatheringEye::record_at(const SeenPoint& at) {
     return record;
 }
 
-Rgb GatheringEye::gathered(const SeenPoint& at) {
+Spectrum GatheringEye::gathered(const SeenPoint& at) {
     constexpr double kGolden = 0.6180339887498949;
     const Vec3 shift{at.numbers.at(0), at.numbers.at(1), at.numbers.at(2)};
-    Rgb sum;
+    Spectrum sum;
     for (int k = 0; k < gather_; ++k) {
         const Vec2 u{fraction(static_cast<double>(k) / gather_ + shift.x),
                      fraction(mirrored_bits(static_cast<std::uint32_t>(k)) + shift.y)};
@@ -99,14 +101,14 @@ Rgb GatheringEye::gathered(const SeenPoint& at) {
     return (1.0 / gather_) * sum;
 }
 
-Rgb GatheringEye::arriving(PathEnd& path, const PathNumbers& numbers, double& distance) {
-    Rgb sum;
+Spectrum GatheringEye::arriving(PathEnd& path, const PathNumbers& numbers, double& distance) {
+    Spectrum sum;
     for (int surface = 0; surface < settings_.depth; ++surface) {
         if (!next_.find(path, numbers)) return sum;
         const ShadingPoint& point = next_.point();
         if (surface == 0) distance = path.travelled;
         if (point.material->unlit) return sum;
-        met_.set(scene_, point, path.media);
+        met_.set(scene_, point, path.media, waves_);
         if (met_.has_density()) {
             sum += path.throughput *
                    density_.radiance(maps_.global, met_, point.surface.point, LightPart::All);

@@ -18,7 +18,7 @@ class GatheringEye final : public PhotonEye {
     GatheringEye(const RenderJob& job, std::size_t, RayCounters& counters,
                  const Illumination& lights, const PhotonMaps& maps,
                  const PhotonMappingSettings& settings, const IrradianceCache* cache)
-        : PhotonEye(job, counters, lights, settings.paths),
+        : PhotonEye(job, counters, lights, settings.paths, kColorChannels),
           maps_(maps),
           cache_(cache),
           gather_(settings.gather),
@@ -28,13 +28,13 @@ class GatheringEye final : public PhotonEye {
     void keep_records(std::vector<IrradianceRecord>* records) { records_ = records; }
 
   private:
-    [[nodiscard]] Rgb photon_light(const SeenPoint& at) override;
-    [[nodiscard]] Rgb gathered(const SeenPoint& at);
+    [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override;
+    [[nodiscard]] Spectrum gathered(const SeenPoint& at);
     /// The same for a matt surface, by way of the cache.
-    [[nodiscard]] Rgb matt_light(const SeenPoint& at, const Rgb& reflectance);
+    [[nodiscard]] Spectrum matt_light(const SeenPoint& at, const Spectrum& reflectance);
     [[nodiscard]] IrradianceRecord record_at(const SeenPoint& at);
     /// The light that a gathering ray brings. Sets the distance to what it meets first.
-    [[nodiscard]] Rgb arriving(PathEnd& path, const PathNumbers& numbers, double& distance);
+    [[nodiscard]] Spectrum arriving(PathEnd& path, const PathNumbers& numbers, double& distance);
 
     const PhotonMaps& maps_;
     const IrradianceCache* cache_;  ///< may be null

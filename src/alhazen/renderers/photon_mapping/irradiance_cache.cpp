@@ -49,8 +49,8 @@ void IrradianceCache::add(const IrradianceRecord& record) {
     }
 }
 
-std::optional<Rgb> IrradianceCache::irradiance(const Vec3& point, const Vec3& normal) const {
-    Rgb sum;
+std::optional<Spectrum> IrradianceCache::irradiance(const Vec3& point, const Vec3& normal) const {
+    Spectrum sum;
     double weights = 0.0;
     for (const auto& [level, cells] : levels_) {
         const auto cell = cells.cells.find(cache_cell(point, level));

@@ -15,14 +15,14 @@
 #include <optional>
 #include <vector>
 
-#include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
+#include "alhazen/shading/spectrum/spectrum.h"
 
 namespace alhazen {
 
 struct IrradianceRecord {
     Vec3 point, normal;
-    Rgb irradiance;
+    Spectrum irradiance;
     double distance = 0;  ///< harmonic mean of those to the surfaces around
 };
 
@@ -33,7 +33,7 @@ class IrradianceCache {
 
     void add(const IrradianceRecord& record);
     /// None where no record is near enough.
-    [[nodiscard]] std::optional<Rgb> irradiance(const Vec3& point, const Vec3& normal) const;
+    [[nodiscard]] std::optional<Spectrum> irradiance(const Vec3& point, const Vec3& normal) const;
     [[nodiscard]] double error() const { return error_; }
     [[nodiscard]] std::size_t size() const { return records_.size(); }
 

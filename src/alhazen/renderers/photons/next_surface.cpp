@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -15,7 +14,8 @@ constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
 void absorb(PathEnd& path, double distance) {
     const Medium* const medium = path.media.here();
     if (medium == nullptr) return;
-    path.throughput = path.throughput * transmittance(medium->absorption, distance);
+    path.throughput =
+        path.throughput * transmittance(path.waves->absorption(medium->absorption), distance);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct PathEnd {
     float time = 0;
     RayCone cone;
     MediumStack media;
-    Rgb throughput{1, 1, 1};
+    const Wavelengths* waves = &kColorChannels;
+    Spectrum throughput{1, 1, 1, 1};
     double travelled = 0;   ///< since the last scattering
     std::uint32_t met = 0;  ///< surfaces on its way
 };

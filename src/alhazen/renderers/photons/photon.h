@@ -14,8 +14,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
+#include "alhazen/shading/spectrum/spectrum.h"
 
 namespace alhazen {
 
@@ -62,7 +62,7 @@ struct Photon {
     OctahedralVector normal;       ///< geometric, on that side
 
     [[nodiscard]] Vec3 point() const { return {position[0], position[1], position[2]}; }
-    [[nodiscard]] Rgb light() const { return {power[0], power[1], power[2]}; }
+    [[nodiscard]] Spectrum light() const { return {power[0], power[1], power[2], power[2]}; }
 };
 static_assert(sizeof(Photon) == 32);
 

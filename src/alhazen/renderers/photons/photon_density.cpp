@@ -23,14 +23,14 @@ double filter_weight(DensityFilter filter, double share) {
     return 1.0;
 }
 
-Rgb scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part) {
+Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part) {
     const Vec3 from = photon.from.vector();
-    const Rgb value = at.value(from, Transport::Radiance);
+    const Spectrum value = at.value(from, Transport::Radiance);
     if (value.is_black()) return {};
     if (part == LightPart::NotGlossy && at.density(from) > kGlossyDensity) return {};
     // Flux by area counts the geometric cosine, the value that of the shading normal.
     const double cosine = std::abs(dot(from, at.geometric()));
-    return cosine > 0.0 ? (1.0 / cosine) * (value * photon.light()) : Rgb{};
+    return cosine > 0.0 ? (1.0 / cosine) * (value * photon.light()) : Spectrum{};
 }
 
 double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal) {
@@ -61,8 +61,8 @@ double usual_radius(const PhotonTree& tree, std::size_t nearest) {
     return 2.0 * std::sqrt(*most);
 }
 
-Rgb PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
-                            LightPart part) {
+Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
+                                 LightPart part) {
     double squared = map.radius * map.radius;
     map.tree.nearest(point, map.nearest, squared, PhotonFits(at), found_);
     if (found_.empty()) return {};
@@ -72,7 +72,7 @@ Rgb PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const 
         first = 1;
     }
     if (!(squared > 0.0)) return {};
-    Rgb sum;
+    Spectrum sum;
     for (std::size_t i = first; i < found_.size(); ++i) {
         const Photon& photon = map.tree.photons()[found_[i].node];
         sum += filter_weight(map.filter, found_[i].squared / squared) *

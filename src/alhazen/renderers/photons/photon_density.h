@@ -50,7 +50,8 @@ inline constexpr double kGlossyDensity = 1.0;
 enum class LightPart : std::uint8_t { All, NotGlossy };
 
 /// Radiance towards the view for the light of a photon, of unit density by area.
-[[nodiscard]] Rgb scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part);
+[[nodiscard]] Spectrum scattered_light(const ScatterPoint& at, const Photon& photon,
+                                       LightPart part);
 
 /// A tree of photons and how it is looked at.
 struct PhotonMap {
@@ -70,8 +71,8 @@ struct PhotonMap {
 /// Estimates of one thread.
 class PhotonDensity {
   public:
-    [[nodiscard]] Rgb radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
-                               LightPart part);
+    [[nodiscard]] Spectrum radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
+                                    LightPart part);
 
   private:
     std::vector<PhotonTree::Near> found_;

@@ -8,11 +8,12 @@
 namespace alhazen {
 
 PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
-                     const PathSettings& settings)
+                     const PathSettings& settings, const Wavelengths& waves)
     : job_(job),
       scene_(job.scene),
       counters_(counters),
       settings_(settings),
+      waves_(waves),
       lights_(lights),
       chance_(job),
       camera_(job),
@@ -22,17 +23,21 @@ PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumina
 void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                               std::span<Rgb> radiance) {
     // Shadow rays are cast together, and their light is added last, whatever the batch.
+    light_.assign(rays.size(), {});
     direct_.assign(rays.size(), {});
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (job_.stop_requested()) return;
-        trace(ids[i], rays[i], radiance[i], direct_[i]);
+        trace(ids[i], rays[i], light_[i], direct_[i]);
     }
     shadows_.finish();
-    for (std::size_t i = 0; i < rays.size(); ++i) radiance[i] += direct_[i];
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        radiance[i] = waves_.color(light_[i] + direct_[i]);
+    }
 }
 
-void PhotonEye::trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct) {
+void PhotonEye::trace(const SampleId& id, const Ray& ray, Spectrum& sum, Spectrum& direct) {
     PathEnd path;
+    path.waves = &waves_;
     path.time = camera_.time(chance_, id);
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
@@ -47,7 +52,7 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct)
         const ShadingPoint& point = next_.point();
         sum += emitted(path, last);
         if (point.material->unlit || last.scatterings >= settings_.depth) return;
-        scatter_.set(scene_, point, path.media);
+        scatter_.set(scene_, point, path.media, waves_);
         if (scatter_.has_density()) {
             add_direct_light(id, event, path, direct);
             const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(event) + 1,
@@ -73,16 +78,17 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct)
     }
 }
 
-Rgb PhotonEye::escaped(const PathEnd& path, const Last& last) const {
-    const Rgb light = path.throughput * lights_.environment(path.ray.direction);
+Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
+    const Spectrum light = path.throughput * lights_.environment(path.ray.direction, waves_);
     if (light.is_black() || last.singular) return light;
     const double other = lights_.environment_density(last.from, path.ray.direction);
     return power_heuristic(last.density, other) * light;
 }
 
-Rgb PhotonEye::emitted(const PathEnd& path, const Last& last) const {
+Spectrum PhotonEye::emitted(const PathEnd& path, const Last& last) const {
     const ShadingPoint& point = next_.point();
-    const Rgb light = path.throughput * point.material->emission;
+    if (point.material->emission.is_black()) return {};
+    const Spectrum light = path.throughput * waves_.emission(point.material->emission);
     if (light.is_black() || last.singular) return light;
     // What shows its colour whatever the light is no lamp.
     if (point.material->unlit) return {};
@@ -91,13 +97,14 @@ Rgb PhotonEye::emitted(const PathEnd& path, const Last& last) const {
     return power_heuristic(last.density, other) * light;
 }
 
-void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& path, Rgb& direct) {
+void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& path,
+                                 Spectrum& direct) {
     const ShadingPoint& point = next_.point();
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
     const LightDraw drawn = lights_.draw(at, chance_.draw(id, event, PathChance::kChoices).y,
-                                         chance_.draw(id, event, PathChance::kLight));
+                                         chance_.draw(id, event, PathChance::kLight), waves_);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
-    const Rgb light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    const Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
     double weight = 1.0 / drawn.density;
     const double other = drawn.singular ? 0.0 : scatter_.density(drawn.to_light);
@@ -108,8 +115,8 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     // The light itself does not block its ray.
     constexpr double kBefore = 1.0 - 1e-7;
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{}, path.throughput * (weight * light),
-                 direct);
+                 medium != nullptr ? medium->absorption : Rgb{}, waves_,
+                 path.throughput * (weight * light), direct);
 }
 
 bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int event) const {

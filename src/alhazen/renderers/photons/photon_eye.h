@@ -32,8 +32,9 @@ struct SeenPoint {
 
 class PhotonEye {
   public:
+    /// `waves`: of all its paths.
     PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
-              const PathSettings& settings);
+              const PathSettings& settings, const Wavelengths& waves);
     virtual ~PhotonEye() = default;
     PhotonEye(const PhotonEye&) = delete;
     PhotonEye& operator=(const PhotonEye&) = delete;
@@ -44,12 +45,13 @@ class PhotonEye {
 
   protected:
     /// The radiance that the point scatters, without direct light and glossy directions.
-    [[nodiscard]] virtual Rgb photon_light(const SeenPoint& at) = 0;
+    [[nodiscard]] virtual Spectrum photon_light(const SeenPoint& at) = 0;
 
     const RenderJob& job_;
     const Scene& scene_;
     RayCounters& counters_;
     const PathSettings settings_;
+    const Wavelengths& waves_;
 
   private:
     /// The state of a path besides its end.
@@ -61,10 +63,10 @@ class PhotonEye {
         int scatterings = 0;
     };
     // `event`: scatterings and straight passes so far, for random numbers.
-    void trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct);
-    [[nodiscard]] Rgb escaped(const PathEnd& path, const Last& last) const;
-    [[nodiscard]] Rgb emitted(const PathEnd& path, const Last& last) const;
-    void add_direct_light(const SampleId& id, int event, const PathEnd& path, Rgb& direct);
+    void trace(const SampleId& id, const Ray& ray, Spectrum& sum, Spectrum& direct);
+    [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
+    [[nodiscard]] Spectrum emitted(const PathEnd& path, const Last& last) const;
+    void add_direct_light(const SampleId& id, int event, const PathEnd& path, Spectrum& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
                                 int event) const;
 
@@ -74,7 +76,7 @@ class PhotonEye {
     NextSurface next_;
     LightBatch shadows_;
     ScatterPoint scatter_;
-    std::vector<Rgb> direct_;  ///< [sample]
+    std::vector<Spectrum> light_, direct_;  ///< [sample]
 };
 
 }  // namespace alhazen

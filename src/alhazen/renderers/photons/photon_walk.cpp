@@ -36,27 +36,28 @@ LightRay PhotonWalk::leave_light(std::uint64_t number) const {
     const auto in_set = static_cast<std::uint32_t>(number % kMaxSamples);
     const double choice = sampler_->at(set, 0, in_set).x;
     const Vec2 place = sampler_->at(set, 1, in_set), direction = sampler_->at(set, 2, in_set);
-    return shot_.projection != nullptr ? shot_.projection->emit(choice, place, direction)
-                                       : lights_.emit(choice, place, direction);
+    return shot_.projection != nullptr
+               ? shot_.projection->emit(choice, place, direction, *shot_.waves)
+               : lights_.emit(choice, place, direction, *shot_.waves);
 }
 
-Rgb PhotonWalk::falloff(const LightRay& light, const Vec3& point, double distance) const {
-    if (!light.singular_place) return {1, 1, 1};
-    const Rgb arrives = lights_.irradiance(light.place, point);
-    Rgb factor;
-    for (int i = 0; i < 3; ++i) {
+Spectrum PhotonWalk::falloff(const LightRay& light, const Vec3& point, double distance) const {
+    if (!light.singular_place) return Spectrum::all(1);
+    const Spectrum arrives = lights_.irradiance(light.place, point, *shot_.waves);
+    Spectrum factor;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
         if (light.radiance[i] > 0.0)
             factor[i] = distance * distance * arrives[i] / light.radiance[i];
     }
     return factor;
 }
 
-void PhotonWalk::store(PhotonKind kind, const Rgb& power, std::vector<Photon>& stored) const {
+void PhotonWalk::store(PhotonKind kind, const Spectrum& power, std::vector<Photon>& stored) const {
     if (!shot_.kinds.has(kind) || power.is_black() || !power.is_finite()) return;
     const Vec3& p = next_.point().surface.point;
     const double share = 1.0 / static_cast<double>(shot_.count);
     stored.push_back({floats(p.x, p.y, p.z),
-                      floats(share * power.r, share * power.g, share * power.b),
+                      floats(share * power.a, share * power.b, share * power.c),
                       OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});
 }
 
@@ -76,16 +77,17 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     if (scene_.has_motion) {
         time = std::min(static_cast<float>(numbers.at(kTimeOfPhoton)), 0x1.fffffep-1f);
     }
-    const WalkStart start = start_of(light, time, media_);
+    const WalkStart start = start_of(light, time, media_, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
+    path.waves = shot_.waves;
     path.throughput = start.throughput;
     path.time = time;
     path.media = start.media;
     const double begun = start.throughput.max();
-    Rgb fall{1, 1, 1};
+    Spectrum fall = Spectrum::all(1);
     PhotonKind kind = PhotonKind::Direct;
     bool scattered = false;
     for (int surface = 0; surface < shot_.depth; ++surface) {
@@ -93,7 +95,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         const ShadingPoint& point = next_.point();
         if (point.material->unlit) return true;
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
-        scatter_.set(scene_, point, path.media);
+        scatter_.set(scene_, point, path.media, *shot_.waves);
         if (scatter_.has_density()) store(kind, fall * path.throughput, stored);
         const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
         const auto drawn =
@@ -109,7 +111,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             }
             if (!scattered) path.throughput = fall * path.throughput;
             scattered = true;
-            fall = {1, 1, 1};
+            fall = Spectrum::all(1);
         }
         const double turned = scatter_.importance_correction(drawn->direction);
         NextSurface::go_on(path, point.surface, scatter_, *drawn);

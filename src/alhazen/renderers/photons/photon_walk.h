@@ -28,7 +28,8 @@ struct PhotonShot {
     PhotonKinds kinds;        ///< to be stored
     int depth = 64;           ///< largest number of surfaces
     std::uint64_t seed = 0;
-    const ProjectionMap* projection = nullptr;  ///< where lights send them; null: everywhere
+    const Wavelengths* waves = &kColorChannels;  ///< of all photons
+    const ProjectionMap* projection = nullptr;   ///< where lights send them; null: everywhere
 };
 
 class PhotonWalk {
@@ -42,8 +43,8 @@ class PhotonWalk {
   private:
     [[nodiscard]] LightRay leave_light(std::uint64_t number) const;
     /// Of a light with a place: its own falloff over that of its rays.
-    [[nodiscard]] Rgb falloff(const LightRay& light, const Vec3& point, double distance) const;
-    void store(PhotonKind kind, const Rgb& power, std::vector<Photon>& stored) const;
+    [[nodiscard]] Spectrum falloff(const LightRay& light, const Vec3& point, double distance) const;
+    void store(PhotonKind kind, const Spectrum& power, std::vector<Photon>& stored) const;
     [[nodiscard]] bool survives(PathEnd& path, double begun, const PathNumbers& numbers,
                                 std::uint64_t dimension) const;
 

@@ -23,14 +23,14 @@ constexpr std::size_t kFewLights = 4, kFewStrata = 16, kMostStrata = 64;
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
 bool meets_mirror(const Scene& scene, const LightRay& light, const MediaFinder& media,
                   const PathNumbers& numbers, NextSurface& next, ScatterPoint& scatter) {
-    const WalkStart start = start_of(light, 0.0f, media);
+    const WalkStart start = start_of(light, 0.0f, media, kColorChannels);
     if (start.throughput.is_black()) return false;
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
     path.media = start.media;
     if (!next.find(path, numbers) || next.point().material->unlit) return false;
-    scatter.set(scene, next.point(), path.media);
+    scatter.set(scene, next.point(), path.media, kColorChannels);
     return scatter.has_singular();
 }
 
@@ -42,7 +42,7 @@ ProjectionMap::ProjectionMap(const RenderJob& job, const Illumination& lights, s
     std::set<std::size_t> sources;
     for (std::size_t i = 0; i < kMostStrata; ++i) {
         const double choice = (static_cast<double>(i) + 0.5) / kMostStrata;
-        sources.insert(lights.emit(choice, {0.5, 0.5}, {0.5, 0.5}).place.source);
+        sources.insert(lights.emit(choice, {0.5, 0.5}, {0.5, 0.5}, kColorChannels).place.source);
     }
     strata_ = sources.size() == 1 ? 1 : sources.size() <= kFewLights ? kFewStrata : kMostStrata;
     side_ = sources.size() == 1 ? 96 : sources.size() <= kFewLights ? 64 : 32;
@@ -66,7 +66,7 @@ ProjectionMap::ProjectionMap(const RenderJob& job, const Illumination& lights, s
 
 bool ProjectionMap::is_afar(std::size_t stratum) const {
     const double choice = (static_cast<double>(stratum) + 0.5) / static_cast<double>(strata_);
-    return lights_.emit(choice, {0.5, 0.5}, {0.5, 0.5}).infinite;
+    return lights_.emit(choice, {0.5, 0.5}, {0.5, 0.5}, kColorChannels).infinite;
 }
 
 std::vector<std::uint8_t> ProjectionMap::tried(const RenderJob& job, std::uint64_t seed,
@@ -84,8 +84,8 @@ std::vector<std::uint8_t> ProjectionMap::tried(const RenderJob& job, std::uint64
             for (std::size_t cell = row * side_; cell < (row + 1) * side_; ++cell) {
                 for (int k = 0; k < trials && marks[cell] == 0; ++k) {
                     const PathNumbers n{seed, cell, static_cast<std::uint64_t>(k)};
-                    const LightRay light =
-                        emit_in(cell, 1.0, n.at(0), {n.at(1), n.at(2)}, {n.at(3), n.at(4)});
+                    const LightRay light = emit_in(cell, 1.0, n.at(0), {n.at(1), n.at(2)},
+                                                   {n.at(3), n.at(4)}, kColorChannels);
                     // Light without a place is sent everywhere.
                     marks[cell] =
                         light.infinite || meets_mirror(job.scene, light, media, n, next, scatter);
@@ -113,11 +113,11 @@ std::vector<std::uint8_t> ProjectionMap::widened(const std::vector<std::uint8_t>
 }
 
 LightRay ProjectionMap::emit_in(std::size_t cell, double share, double choice, const Vec2& place,
-                                const Vec2& direction) const {
+                                const Vec2& direction, const Wavelengths& waves) const {
     const std::size_t stratum = cell / (side_ * side_);
     LightRay light = lights_.emit(
         std::min((static_cast<double>(stratum) + choice) / static_cast<double>(strata_), kBelowOne),
-        place, direction);
+        place, direction, waves);
     if (!(light.place_density > 0.0)) return light;
     if (light.infinite) {
         light.place_density *= share;
@@ -133,7 +133,7 @@ LightRay ProjectionMap::emit_in(std::size_t cell, double share, double choice, c
     const Vec3 along = normalize(Vec3{across * std::cos(angle), across * std::sin(angle), z});
     const double aimed = share / (4.0 * kPi);
     if (light.singular_place) {
-        light.radiance = lights_.irradiance(light.place, light.ray.origin + along);
+        light.radiance = lights_.irradiance(light.place, light.ray.origin + along, waves);
         light.direction_density = aimed;
         light.normal = along;
     } else {
@@ -146,8 +146,9 @@ LightRay ProjectionMap::emit_in(std::size_t cell, double share, double choice, c
     return light;
 }
 
-LightRay ProjectionMap::emit(double choice, const Vec2& place, const Vec2& direction) const {
-    if (sums_.empty()) return lights_.emit(choice, place, direction);
+LightRay ProjectionMap::emit(double choice, const Vec2& place, const Vec2& direction,
+                             const Wavelengths& waves) const {
+    if (sums_.empty()) return lights_.emit(choice, place, direction, waves);
     const double sought = choice * sums_.back();
     const auto found = std::upper_bound(sums_.begin(), sums_.end() - 1, sought);
     const auto cell = static_cast<std::size_t>(found - sums_.begin());
@@ -156,7 +157,7 @@ LightRay ProjectionMap::emit(double choice, const Vec2& place, const Vec2& direc
     // What the choice of the cell leaves of the number chooses the light.
     const double rest = std::clamp((sought - before) / own, 0.0, kBelowOne);
     const double share = own / sums_.back() * static_cast<double>(cells());
-    return emit_in(cell, share, rest, place, direction);
+    return emit_in(cell, share, rest, place, direction, waves);
 }
 
 }  // namespace alhazen

@@ -27,7 +27,8 @@ class ProjectionMap {
                   RayCounters& counters);
 
     /// Illumination::emit, aimed. All numbers in [0, 1).
-    [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction) const;
+    [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction,
+                                const Wavelengths& waves) const;
 
     /// Cells from which mirrors or glass may be met; 0: all are alike.
     [[nodiscard]] std::size_t marked() const { return marked_; }
@@ -36,7 +37,7 @@ class ProjectionMap {
   private:
     /// A ray of a cell; `share`: the density of the cell over that of even cells.
     [[nodiscard]] LightRay emit_in(std::size_t cell, double share, double choice, const Vec2& place,
-                                   const Vec2& direction) const;
+                                   const Vec2& direction, const Wavelengths& waves) const;
     [[nodiscard]] bool is_afar(std::size_t stratum) const;
     [[nodiscard]] std::vector<std::uint8_t> tried(const RenderJob& job, std::uint64_t seed,
                                                   RayCounters& counters) const;

@@ -34,12 +34,12 @@ class PassEye final : public PhotonEye {
   public:
     PassEye(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
             const PathSettings& paths, const PhotonGrid& grid)
-        : PhotonEye(job, counters, lights, paths), grid_(grid) {}
+        : PhotonEye(job, counters, lights, paths, kColorChannels), grid_(grid) {}
 
   private:
-    [[nodiscard]] Rgb photon_light(const SeenPoint& at) override {
+    [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override {
         const PhotonFits fits(at.scatter);
-        Rgb sum;
+        Spectrum sum;
         grid_.for_near(at.surface.point, [&](const Photon& photon) {
             if (fits(photon)) sum += scattered_light(at.scatter, photon, LightPart::NotGlossy);
         });

@@ -14,14 +14,14 @@ inline constexpr bool singular_v = std::remove_cvref_t<L>::kSingular;
 bool is_singular(const Lobe& lobe) {
     return std::visit([](const auto& l) { return singular_v<decltype(l)>; }, lobe);
 }
-Rgb albedo_of(const Lobe& lobe, const Vec3& view) {
+Spectrum albedo_of(const Lobe& lobe, const Vec3& view) {
     return std::visit([&](const auto& l) { return l.albedo(view); }, lobe);
 }
-Rgb value_of(const Lobe& lobe, const Vec3& view, const Vec3& direction, Transport transport) {
+Spectrum value_of(const Lobe& lobe, const Vec3& view, const Vec3& direction, Transport transport) {
     return std::visit(
         [&]<class L>(const L& l) {
             if constexpr (L::kSingular) {
-                return Rgb{};
+                return Spectrum{};
             } else {
                 return l.value(view, direction, transport);
             }
@@ -46,13 +46,13 @@ bool is_matt(const Lobe& lobe) {
            std::holds_alternative<LambertTransmission>(lobe);
 }
 /// NaN and infinities count as nothing.
-bool is_usable(const Rgb& weight) {
+bool is_usable(const Spectrum& weight) {
     return weight.is_finite() && weight.max() > 0.0;
 }
 
 }  // namespace
 
-void Bsdf::add(const Rgb& weight, const Lobe& lobe, CoverSet covers) {
+void Bsdf::add(const Spectrum& weight, const Lobe& lobe, CoverSet covers) {
     if (!is_usable(weight)) return;
     const Part part{weight, covers, lobe};
     if (!parts_.full()) {
@@ -112,25 +112,27 @@ Bsdf::Choice Bsdf::choose(const Vec3& view) const {
     return choice;
 }
 
-Rgb Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport) const {
+Spectrum Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport) const {
     return value(view, direction, transport, false);
 }
 
-Rgb Bsdf::diffuse_share(const Vec3& view, const Vec3& direction) const {
-    const Rgb all = value(view, direction, Transport::Radiance, false);
-    const Rgb matt = value(view, direction, Transport::Radiance, true);
+Spectrum Bsdf::diffuse_share(const Vec3& view, const Vec3& direction) const {
+    const Spectrum all = value(view, direction, Transport::Radiance, false);
+    const Spectrum matt = value(view, direction, Transport::Radiance, true);
     const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-    return {share(matt.r, all.r), share(matt.g, all.g), share(matt.b, all.b)};
+    Spectrum result;
+    for (int i = 0; i < Spectrum::kCount; ++i) result[i] = share(matt[i], all[i]);
+    return result;
 }
 
-Rgb Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport,
-                bool only_matt) const {
+Spectrum Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport,
+                     bool only_matt) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return {};
     const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
-    Rgb sum;
+    Spectrum sum;
     for (const Part& part : parts_) {
         if (only_matt && !is_matt(part.lobe)) continue;
-        const Rgb value = part.weight * value_of(part.lobe, view, direction, transport);
+        const Spectrum value = part.weight * value_of(part.lobe, view, direction, transport);
         if (!is_usable(value)) continue;
         sum += part.covers != 0 ? through(part.covers, cosine) * value : value;
     }
@@ -188,11 +190,12 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     return sample;
 }
 
-Rgb Bsdf::albedo(const Vec3& view) const {
+Spectrum Bsdf::albedo(const Vec3& view) const {
     if (!(view.z > 0.0)) return {};
-    Rgb sum;
+    Spectrum sum;
     for (const Part& part : parts_) {
-        const Rgb albedo = through(part.covers, view.z) * part.weight * albedo_of(part.lobe, view);
+        const Spectrum albedo =
+            through(part.covers, view.z) * part.weight * albedo_of(part.lobe, view);
         if (is_usable(albedo)) sum += albedo;
     }
     return sum;
@@ -202,8 +205,8 @@ bool Bsdf::has_density() const {
     return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
 }
 
-std::optional<Rgb> Bsdf::lambert() const {
-    Rgb sum;
+std::optional<Spectrum> Bsdf::lambert() const {
+    Spectrum sum;
     for (const Part& part : parts_) {
         if (is_singular(part.lobe)) continue;
         const auto* const matt = std::get_if<Lambert>(&part.lobe);
@@ -217,8 +220,8 @@ bool Bsdf::has_singular() const {
     return std::ranges::any_of(parts_, [](const Part& p) { return is_singular(p.lobe); });
 }
 
-Rgb Bsdf::straight(const Vec3& view) const {
-    Rgb sum;
+Spectrum Bsdf::straight(const Vec3& view) const {
+    Spectrum sum;
     for (const Part& part : parts_) {
         const auto* const sheet = std::get_if<ThinSheet>(&part.lobe);
         if (sheet == nullptr) continue;
@@ -234,6 +237,27 @@ double Bsdf::straight_probability(const Vec3& view) const {
         if (std::holds_alternative<ThinSheet>(parts_[i].lobe)) sum += choice.share[i];
     }
     return sum;
+}
+
+SingularLight Bsdf::singular(const Vec3& view, Transport transport) const {
+    SingularLight light;
+    if (!(view.z > 0.0)) return light;
+    for (const Part& part : parts_) {
+        const auto add = [&](const Spectrum& share, const Vec3& direction, Spectrum& sum) {
+            const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
+            const Spectrum own = through(part.covers, cosine) * (part.weight * share);
+            if (is_usable(own)) sum += own;
+        };
+        if (const auto* const mirror = std::get_if<Mirror>(&part.lobe)) {
+            add(mirror->albedo(view), view, light.reflected);
+        } else if (const auto* const glass = std::get_if<SmoothDielectric>(&part.lobe)) {
+            const SmoothDielectric::Shares shares = glass->shares(view, transport);
+            add(shares.reflected, view, light.reflected);
+            add(shares.transmitted, {0, 0, -shares.cosine_behind}, light.transmitted);
+            light.eta = glass->eta;
+        }
+    }
+    return light;
 }
 
 bool Bsdf::transmits() const {

@@ -19,12 +19,13 @@
 #include <span>
 
 #include "alhazen/base/inline_vector.h"
-#include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/shading/bsdf/cover.h"
 #include "alhazen/shading/bsdf/lobe.h"
 #include "alhazen/shading/bsdf/transport.h"
 #include "alhazen/shading/materials/material.h"
+#include "alhazen/shading/spectrum/spectrum.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
@@ -33,20 +34,28 @@ inline constexpr std::size_t kMaxLobes = 18;
 /// A set of covers (bits by their index in the Bsdf).
 using CoverSet = std::uint32_t;
 
+/// Light that comes from single directions, as the weights of samples without a choice.
+struct SingularLight {
+    Spectrum reflected;    ///< share of the light from the mirror direction
+    Spectrum transmitted;  ///< of that from the refracted direction; 0 beyond the critical angle
+    double eta = 0;        ///< index on the side of the view over that behind; 0: nothing refracts
+};
+
 class Bsdf {
   public:
     /// Adds a lobe `weight` times, below `covers`. More than kMaxLobes: the one that matters least
     /// is left out.
-    void add(const Rgb& weight, const Lobe& lobe, CoverSet covers = 0);
+    void add(const Spectrum& weight, const Lobe& lobe, CoverSet covers = 0);
     /// A layer over lobes to be added; null set where there is no place for more.
     CoverSet add_cover(const Cover& cover);
     /// All lobes of another, each `weight` times: materials that are blended.
     void add(const Bsdf& other, double weight);
 
     /// Per steradian, without singular lobes.
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     /// Share of matt lobes in `value`; 0 where that is black.
-    [[nodiscard]] Rgb diffuse_share(const Vec3& view, const Vec3& direction) const;
+    [[nodiscard]] Spectrum diffuse_share(const Vec3& view, const Vec3& direction) const;
     /// With which `sample(view)` gives `direction`, by solid angle, without singular lobes. (A
     /// sample's own density is this.)
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
@@ -54,32 +63,34 @@ class Bsdf {
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
     /// Share of the light from all directions that goes to `view`, or a close approximation.
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
     /// False: only singular lobes, or none: lights need not be sampled.
     [[nodiscard]] bool has_density() const;
     /// The reflectance where all that is not singular is one matt reflection; else none.
-    [[nodiscard]] std::optional<Rgb> lambert() const;
+    [[nodiscard]] std::optional<Spectrum> lambert() const;
     /// Whether light comes back or goes on in single directions.
     [[nodiscard]] bool has_singular() const;
+    /// What mirrors and smooth glass do with light that goes to `view`, all such lobes together.
+    [[nodiscard]] SingularLight singular(const Vec3& view, Transport transport) const;
     /// Whether `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const;
     /// Whether some lobe transmits, singular ones too.
     [[nodiscard]] bool lets_through() const;
     /// Share that thin sheets let go straight on: what a shadow ray keeps.
-    [[nodiscard]] Rgb straight(const Vec3& view) const;
+    [[nodiscard]] Spectrum straight(const Vec3& view) const;
     /// With which `sample` goes straight on through a thin sheet.
     [[nodiscard]] double straight_probability(const Vec3& view) const;
     [[nodiscard]] std::size_t lobe_count() const { return parts_.size(); }
 
   private:
     struct Part {
-        Rgb weight;
+        Spectrum weight;
         CoverSet covers = 0;
         Lobe lobe;
     };
     /// `value` of the lobes that are matt, or of all.
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport,
-                            bool only_matt) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction, Transport transport,
+                                 bool only_matt) const;
     /// Probabilities of the parts, for a view.
     struct Choice {
         std::array<double, kMaxLobes> share;
@@ -101,6 +112,8 @@ struct BsdfPlace {
     /// own two sides (CSG walls); else 0: by the material's index and `from_inside`.
     double eta = 0;
     bool from_inside = false;  ///< the view is inside the volume that the surface bounds
+    /// Of the path.
+    const Wavelengths& waves = kColorChannels;
 };
 
 /// The BSDF of a material at a point.

@@ -20,7 +20,8 @@ Lobe reflection_lobe(double roughness, const FresnelTerm& fresnel) {
     return RoughReflection({alpha, alpha}, fresnel);
 }
 
-Lobe boundary_lobe(double roughness, double eta, const Rgb& reflection, const Rgb& transmission) {
+Lobe boundary_lobe(double roughness, double eta, const Spectrum& reflection,
+                   const Spectrum& transmission) {
     const double alpha = roughness * roughness;
     if (alpha < kSmoothAlpha || std::abs(eta - 1.0) < 1e-3) {
         return SmoothDielectric{eta, reflection, transmission};
@@ -59,22 +60,27 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
     const double scale = sum > 1.0 ? 1.0 / sum : 1.0;
 
     Bsdf bsdf;
-    bsdf.add(scale * diffuse, Lambert{});
-    if (!highlight.is_black()) bsdf.add(scale * highlight, BlinnPhong(exponent));
+    const auto add = [&](const Rgb& share, const Lobe& lobe) {
+        bsdf.add(place.waves.reflectance(scale * share), lobe);
+    };
+    add(diffuse, Lambert{});
+    if (!highlight.is_black()) add(highlight, BlinnPhong(exponent));
     const double roughness = roughness_of(m, textures, lookup);
-    if (!mirror.is_black()) bsdf.add(scale * mirror, reflection_lobe(roughness, SchlickTerm{}));
+    if (!mirror.is_black()) add(mirror, reflection_lobe(roughness, SchlickTerm{}));
     if (!refracted.is_black()) {
         const double eta = eta_at(place, value_at(m.index, textures, lookup));
-        bsdf.add(scale * refracted, SmoothDielectric{.eta = eta, .fresnel = false});
+        add(refracted, SmoothDielectric{.eta = eta, .fresnel = false});
     }
     return bsdf;
 }
 
 Bsdf bsdf_of_conductor(const Material& m, const Conductor& c, std::span<const Texture> textures,
-                       const SurfaceLookup& lookup) {
+                       const SurfaceLookup& lookup, const BsdfPlace& place) {
     Bsdf bsdf;
     const double roughness = roughness_of(m, textures, lookup);
-    bsdf.add({1, 1, 1}, reflection_lobe(roughness, ConductorTerm{c.index, c.extinction}));
+    const ConductorTerm term{place.waves.optical_constant(c.index),
+                             place.waves.optical_constant(c.extinction)};
+    bsdf.add(Spectrum::all(1), reflection_lobe(roughness, term));
     return bsdf;
 }
 
@@ -83,7 +89,7 @@ Bsdf bsdf_of_dielectric(const Material& m, std::span<const Texture> textures,
     Bsdf bsdf;
     const double roughness = roughness_of(m, textures, lookup);
     const double eta = eta_at(place, value_at(m.index, textures, lookup));
-    bsdf.add({1, 1, 1}, boundary_lobe(roughness, eta, {1, 1, 1}, {1, 1, 1}));
+    bsdf.add(Spectrum::all(1), boundary_lobe(roughness, eta, Spectrum::all(1), Spectrum::all(1)));
     return bsdf;
 }
 
@@ -96,7 +102,7 @@ Bsdf bsdf_of(const Material& material, std::span<const Texture> textures,
                                           place);
     }
     if (material.conductor) {
-        return bsdf_of_conductor(material, *material.conductor, textures, lookup);
+        return bsdf_of_conductor(material, *material.conductor, textures, lookup, place);
     }
     if (material.dielectric) return bsdf_of_dielectric(material, textures, lookup, place);
     return bsdf_of_coefficients(material, textures, lookup, place);

@@ -13,8 +13,8 @@ namespace alhazen {
 [[nodiscard]] Lobe reflection_lobe(double roughness, const FresnelTerm& fresnel);
 
 /// The boundary of a clear body, smooth or rough.
-[[nodiscard]] Lobe boundary_lobe(double roughness, double eta, const Rgb& reflection,
-                                 const Rgb& transmission);
+[[nodiscard]] Lobe boundary_lobe(double roughness, double eta, const Spectrum& reflection,
+                                 const Spectrum& transmission);
 
 [[nodiscard]] Bsdf bsdf_of_metallic_roughness(const Material& material,
                                               const MetallicRoughness& parameters,

@@ -33,13 +33,14 @@ class LayerMaker {
         metallic_ = scalar(p_.metallic);
         transmission_ = scalar(p_.transmission);
         roughness_ = scalar(p_.roughness);
-        base_ = clipped(lookup_.color.rgb() * color_at(p_.base_color, textures_, lookup_));
+        base_ = place_.waves.reflectance(
+            clipped(lookup_.color.rgb() * color_at(p_.base_color, textures_, lookup_)));
         add_coat();
         add_sheen();
         read_grooves();
         read_film();
         if (metallic_ > 0.0) {
-            bsdf_.add(grey(metallic_), face_lobe({base_, {1, 1, 1}}), covers_);
+            bsdf_.add(grey(metallic_), face_lobe({base_, Spectrum::all(1)}), covers_);
         }
         if (metallic_ < 1.0) add_dielectric();
         return bsdf_;
@@ -49,22 +50,21 @@ class LayerMaker {
     [[nodiscard]] double scalar(const ScalarInput& input) const {
         return clipped(value_at(input, textures_, lookup_));
     }
-    [[nodiscard]] static Rgb grey(double x) { return {x, x, x}; }
+    [[nodiscard]] static Spectrum grey(double x) { return Spectrum::all(x); }
 
     void add_coat() {
         const double strength = scalar(p_.coat.strength);
         if (!(strength > 0.0)) return;
         const double roughness = scalar(p_.coat.roughness);
-        const SchlickTerm fresnel{grey(0.04), grey(1)};
-        bsdf_.add(grey(strength), reflection_lobe(roughness, fresnel));
-        covers_ |= bsdf_.add_cover(Cover::face(roughness * roughness, fresnel, strength));
+        bsdf_.add(grey(strength), reflection_lobe(roughness, SchlickTerm{grey(0.04), grey(1)}));
+        covers_ |= bsdf_.add_cover(Cover::face(roughness * roughness, 0.04, 1.0, strength));
     }
 
     void add_sheen() {
         const Rgb color = clipped(color_at(p_.sheen.color, textures_, lookup_));
         if (color.is_black()) return;
         const double roughness = scalar(p_.sheen.roughness);
-        bsdf_.add({1, 1, 1}, Sheen{color, roughness}, covers_);
+        bsdf_.add(grey(1), Sheen{place_.waves.reflectance(color), roughness}, covers_);
         covers_ |= bsdf_.add_cover(Cover::sheen(roughness, color.max()));
     }
 
@@ -101,18 +101,18 @@ class LayerMaker {
         if (ggx_.x < kSmoothAlpha) return Mirror{term(base)};
         return RoughReflection(ggx_, term(base), axis_);
     }
-    /// What the face leaves to the body. A film's colours change with the angle: the brightest
-    /// counts, so that energy is lost rather than made.
-    [[nodiscard]] Cover face_cover(const SchlickTerm& base) const {
-        SchlickTerm most = base;
+    /// What the face leaves to the body, the same at all wavelengths. A film's colours change with
+    /// the angle: the brightest counts, so that energy is lost rather than made.
+    [[nodiscard]] Cover face_cover(const Rgb& f0, double f90) const {
+        double most = f0.max();
         if (film_share_ > 0.0) {
+            const SchlickTerm base{kColorChannels.reflectance(f0), grey(f90)};
             for (const double cosine : {1.0, 0.8, 0.6, 0.4, 0.2}) {
-                const SchlickTerm fit = schlick_fit(term(base), cosine);
-                most.f0 = grey(std::max(most.f0.max(), fit.f0.max()));
+                most = std::max(most, schlick_fit(term(base), cosine).f0.max());
             }
-            most.f90 = grey(1);
+            f90 = 1.0;
         }
-        return Cover::face(std::sqrt(ggx_.x * ggx_.y), most);
+        return Cover::face(std::sqrt(ggx_.x * ggx_.y), most, f90);
     }
 
     void add_dielectric() {
@@ -122,7 +122,8 @@ class LayerMaker {
         const double index = m_.index.value;
         const bool reflects_all = index == 0.0;
         const double at_normal = reflects_all ? 1.0 : normal_reflectance_of(index);
-        const SchlickTerm fresnel{strength * clipped(at_normal * tint), grey(strength)};
+        const Rgb f0 = strength * clipped(at_normal * tint);
+        const SchlickTerm fresnel{place_.waves.reflectance(f0), grey(strength)};
         const double share = 1.0 - metallic_;
         const bool thin = !(p_.thickness.value > 0.0) || reflects_all;
         const double matt = share * (1.0 - transmission_), clear = share * transmission_;
@@ -131,8 +132,8 @@ class LayerMaker {
         const bool filmed = film_share_ > 0.0 && !place_.from_inside;
         const double faces = thin || filmed ? share : matt;
         if (faces > 0.0) bsdf_.add(grey(faces), face_lobe(fresnel), covers_);
-        if (fresnel.f0.max() >= 1.0) return;  // nothing gets past the face
-        const Cover cover = face_cover(fresnel);
+        if (f0.max() >= 1.0) return;  // nothing gets past the face
+        const Cover cover = face_cover(f0, strength);
         bsdf_.add(grey(matt), CoveredMatt(base_, cover), covers_);
         if (!(clear > 0.0)) return;
         if (thin || filmed) {
@@ -149,7 +150,8 @@ class LayerMaker {
             return;
         }
         bsdf_.add(grey(clear),
-                  boundary_lobe(roughness_, eta_at(place_, index), strength * clipped(tint), base_),
+                  boundary_lobe(roughness_, eta_at(place_, index),
+                                place_.waves.reflectance(strength * clipped(tint)), base_),
                   covers_);
     }
 
@@ -166,7 +168,7 @@ class LayerMaker {
     Bsdf bsdf_;
     CoverSet covers_ = 0;  ///< of the layers above
     double metallic_ = 0, transmission_ = 0, roughness_ = 1;
-    Rgb base_;
+    Spectrum base_;
     Ggx ggx_;
     Vec2 axis_{1, 0};
     double film_share_ = 0, film_nm_ = 0;

@@ -9,12 +9,12 @@
 
 namespace alhazen {
 
-Cover Cover::face(double alpha, const SchlickTerm& fresnel, double share) {
+Cover Cover::face(double alpha, double f0, double f90, double share) {
     Cover cover;
     cover.share_ = std::clamp(share, 0.0, 1.0);
     cover.roughness_ = alpha;
-    cover.f0_ = std::clamp(fresnel.f0.max(), 0.0, 1.0);
-    cover.f90_ = std::clamp(fresnel.f90.max(), 0.0, 1.0);
+    cover.f0_ = std::clamp(f0, 0.0, 1.0);
+    cover.f90_ = std::clamp(f90, 0.0, 1.0);
     if (alpha >= kSmoothAlpha) {
         const double mean = cover.f0_ + (cover.f90_ - cover.f0_) / 21.0;
         const double single = ggx_mean_albedo(alpha).sum();

@@ -5,16 +5,14 @@
 /// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", Imageworks 2017, section
 /// 4 (albedo scaling).
 
-#include "alhazen/shading/bsdf/fresnel_term.h"
-
 namespace alhazen {
 
 class Cover {
   public:
     Cover() = default;
-    /// A face of this roughness alpha; of the colours of Schlick's formula the largest channels
-    /// count. `share`: how much of the surface it covers.
-    [[nodiscard]] static Cover face(double alpha, const SchlickTerm& fresnel, double share = 1);
+    /// A face of this roughness alpha that reflects f0 + (f90 - f0) (1 - cosine)^5: of colours the
+    /// largest channels. `share`: how much of the surface it covers.
+    [[nodiscard]] static Cover face(double alpha, double f0, double f90, double share = 1);
     /// Fibres; `color`: their largest channel.
     [[nodiscard]] static Cover sheen(double roughness, double color);
 

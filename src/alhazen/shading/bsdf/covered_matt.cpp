@@ -5,10 +5,10 @@
 
 namespace alhazen {
 
-CoveredMatt::CoveredMatt(const Rgb& color, const Cover& cover)
+CoveredMatt::CoveredMatt(const Spectrum& color, const Cover& cover)
     : color_(color), cover_(cover), mean_(cover.mean_transmittance()) {}
 
-Rgb CoveredMatt::value(const Vec3& view, const Vec3& direction, Transport) const {
+Spectrum CoveredMatt::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     return matt_rest(cover_.transmittance(view.z), cover_.transmittance(direction.z), mean_) *
            color_;
@@ -25,7 +25,7 @@ std::optional<BsdfSample> CoveredMatt::sample(const Vec3& view, double, const Ve
                       cosine_density(direction)};
 }
 
-Rgb CoveredMatt::albedo(const Vec3& view) const {
+Spectrum CoveredMatt::albedo(const Vec3& view) const {
     return cover_.transmittance(view.z) * color_;
 }
 

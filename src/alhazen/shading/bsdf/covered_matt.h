@@ -19,17 +19,18 @@ class CoveredMatt {
   public:
     static constexpr bool kSingular = false, kTransmits = false;
 
-    CoveredMatt() : CoveredMatt({1, 1, 1}, {}) {}
-    CoveredMatt(const Rgb& color, const Cover& cover);
+    CoveredMatt() : CoveredMatt({1, 1, 1, 1}, {}) {}
+    CoveredMatt(const Spectrum& color, const Cover& cover);
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
   private:
-    Rgb color_;
+    Spectrum color_;
     Cover cover_;
     double mean_ = 1;  ///< transmittance of the cover
 };

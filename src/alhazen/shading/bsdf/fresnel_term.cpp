@@ -10,31 +10,36 @@ namespace alhazen {
 
 namespace {
 
-Rgb at(const SchlickTerm& t, double cosine) {
+Spectrum at(const SchlickTerm& t, double cosine) {
     return t.f0 + schlick_weight(cosine) * (t.f90 - t.f0);
 }
-Rgb at(const ConductorTerm& t, double cosine) {
-    Rgb result;
-    for (int i = 0; i < 3; ++i) {
-        result[i] = conductor_reflectance(cosine, t.index[i], t.extinction[i]);
+Spectrum at(const ConductorTerm& t, double cosine) {
+    Spectrum result;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        const bool again =
+            i > 0 && t.index[i] == t.index[i - 1] && t.extinction[i] == t.extinction[i - 1];
+        result[i] =
+            again ? result[i - 1] : conductor_reflectance(cosine, t.index[i], t.extinction[i]);
     }
     return result;
 }
-Rgb at(const DielectricTerm& t, double cosine) {
+Spectrum at(const DielectricTerm& t, double cosine) {
     const double r = dielectric_reflectance(cosine, t.eta);
-    return {r, r, r};
+    return Spectrum::all(r);
 }
-Rgb at(const FilmTerm& t, double cosine) {
-    const Rgb film = thin_film_reflectance(cosine, t.index, t.thickness_nm, t.base.f0);
+Spectrum at(const FilmTerm& t, double cosine) {
+    const Spectrum& f0 = t.base.f0;
+    const Rgb c = thin_film_reflectance(cosine, t.index, t.thickness_nm, {f0.a, f0.b, f0.c});
+    const Spectrum film{c.r, c.g, c.b, c.b};
     return (1.0 - t.share) * at(t.base, cosine) + t.share * film;
 }
 
 /// f90 of Schlick's formula through `value` at this cosine; where the formula hardly depends on it,
 /// the usual 1 by and by.
-Rgb f90_through(const Rgb& f0, const Rgb& value, double cosine) {
+Spectrum f90_through(const Spectrum& f0, const Spectrum& value, double cosine) {
     const double w = schlick_weight(cosine);
-    Rgb result;
-    for (int i = 0; i < 3; ++i) {
+    Spectrum result;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
         const double exact = w > 0.0 ? f0[i] + (value[i] - f0[i]) / w : 1.0;
         const double trust = std::min(1.0, 20.0 * w);
         result[i] = std::clamp(1.0 + trust * (exact - 1.0), 0.0, 1.0);
@@ -44,7 +49,7 @@ Rgb f90_through(const Rgb& f0, const Rgb& value, double cosine) {
 
 }  // namespace
 
-Rgb reflectance(const FresnelTerm& term, double cosine) {
+Spectrum reflectance(const FresnelTerm& term, double cosine) {
     return std::visit([&](const auto& t) { return at(t, cosine); }, term);
 }
 
@@ -53,22 +58,22 @@ SchlickTerm schlick_fit(const FresnelTerm& term, double cosine) {
                                  [&](const FilmTerm& t) {
                                      // A film's colour at the view says more than that at normal
                                      // incidence: it changes with the angle.
-                                     const Rgb now = at(t, cosine);
+                                     const Spectrum now = at(t, cosine);
                                      const double w = std::min(schlick_weight(cosine), 0.5);
-                                     SchlickTerm fit{{}, {1, 1, 1}};
-                                     for (int i = 0; i < 3; ++i) {
+                                     SchlickTerm fit{{}, {1, 1, 1, 1}};
+                                     for (int i = 0; i < Spectrum::kCount; ++i) {
                                          fit.f0[i] = std::clamp((now[i] - w) / (1.0 - w), 0.0, 1.0);
                                      }
                                      return fit;
                                  },
                                  [&](const auto& t) {
-                                     const Rgb f0 = at(t, 1.0);
+                                     const Spectrum f0 = at(t, 1.0);
                                      return SchlickTerm{f0, f90_through(f0, at(t, cosine), cosine)};
                                  }},
                       term);
 }
 
-Rgb mean_reflectance(const FresnelTerm& term) {
+Spectrum mean_reflectance(const FresnelTerm& term) {
     const auto of_schlick = [](const SchlickTerm& t) {
         return t.f0 + (1.0 / 21.0) * (t.f90 - t.f0);
     };
@@ -76,7 +81,7 @@ Rgb mean_reflectance(const FresnelTerm& term) {
     const auto by_quadrature = [](const auto& t) {
         constexpr double kPoints[] = {0.11270166537925831, 0.5, 0.88729833462074169};
         constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-        Rgb sum;
+        Spectrum sum;
         for (int i = 0; i < 3; ++i) sum += 2.0 * kPoints[i] * kWeights[i] * at(t, kPoints[i]);
         return sum;
     };

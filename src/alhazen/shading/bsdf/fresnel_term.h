@@ -5,17 +5,17 @@
 
 #include <variant>
 
-#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/shading/spectrum/spectrum.h"
 
 namespace alhazen {
 
 /// f0 + (f90 - f0) (1 - cosine)^5. All 1: an ideal mirror.
 struct SchlickTerm {
-    Rgb f0{1, 1, 1}, f90{1, 1, 1};
+    Spectrum f0{1, 1, 1, 1}, f90{1, 1, 1, 1};
 };
 /// Exact, of a complex index relative to the medium outside.
 struct ConductorTerm {
-    Rgb index, extinction;
+    Spectrum index, extinction;
 };
 /// Exact, where nothing that is transmitted matters. `eta`: index outside over inside.
 struct DielectricTerm {
@@ -30,12 +30,12 @@ struct FilmTerm {
 using FresnelTerm = std::variant<SchlickTerm, ConductorTerm, DielectricTerm, FilmTerm>;
 
 /// Share reflected at this cosine to the normal (of the microfacet).
-[[nodiscard]] Rgb reflectance(const FresnelTerm& term, double cosine);
+[[nodiscard]] Spectrum reflectance(const FresnelTerm& term, double cosine);
 
 /// A Schlick term that is near it for views at `cosine`. Exact of a Schlick term.
 [[nodiscard]] SchlickTerm schlick_fit(const FresnelTerm& term, double cosine);
 
 /// Mean over the hemisphere, weighted by the cosine: does not depend on the view.
-[[nodiscard]] Rgb mean_reflectance(const FresnelTerm& term);
+[[nodiscard]] Spectrum mean_reflectance(const FresnelTerm& term);
 
 }  // namespace alhazen

@@ -4,8 +4,8 @@
 
 namespace alhazen {
 
-Rgb Lambert::value(const Vec3&, const Vec3& direction, Transport) const {
-    return direction.z > 0.0 ? (1.0 / kPi) * color : Rgb{};
+Spectrum Lambert::value(const Vec3&, const Vec3& direction, Transport) const {
+    return direction.z > 0.0 ? (1.0 / kPi) * color : Spectrum{};
 }
 double Lambert::density(const Vec3&, const Vec3& direction) const {
     return cosine_density(direction);
@@ -14,12 +14,12 @@ std::optional<BsdfSample> Lambert::sample(const Vec3&, double, const Vec2& u, Tr
     const Vec3 direction = cosine_direction(u);
     return BsdfSample{direction, color, cosine_density(direction)};
 }
-Rgb Lambert::albedo(const Vec3&) const {
+Spectrum Lambert::albedo(const Vec3&) const {
     return color;
 }
 
-Rgb LambertTransmission::value(const Vec3&, const Vec3& direction, Transport) const {
-    return direction.z < 0.0 ? (1.0 / kPi) * color : Rgb{};
+Spectrum LambertTransmission::value(const Vec3&, const Vec3& direction, Transport) const {
+    return direction.z < 0.0 ? (1.0 / kPi) * color : Spectrum{};
 }
 double LambertTransmission::density(const Vec3&, const Vec3& direction) const {
     return cosine_density(flipped(direction));
@@ -29,7 +29,7 @@ std::optional<BsdfSample> LambertTransmission::sample(const Vec3&, double, const
     const Vec3 direction = cosine_direction(u);
     return BsdfSample{flipped(direction), color, cosine_density(direction)};
 }
-Rgb LambertTransmission::albedo(const Vec3&) const {
+Spectrum LambertTransmission::albedo(const Vec3&) const {
     return color;
 }
 

@@ -12,24 +12,26 @@ namespace alhazen {
 
 struct Lambert {
     static constexpr bool kSingular = false, kTransmits = false;
-    Rgb color{1, 1, 1};
+    Spectrum color{1, 1, 1, 1};
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 };
 
 struct LambertTransmission {
     static constexpr bool kSingular = false, kTransmits = true;
-    Rgb color{1, 1, 1};
+    Spectrum color{1, 1, 1, 1};
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 };
 
 }  // namespace alhazen

@@ -7,7 +7,7 @@ namespace alhazen {
 std::optional<BsdfSample> Mirror::sample(const Vec3& view, double, const Vec2&, Transport) const {
     return BsdfSample{mirrored(view), albedo(view), 1.0, true};
 }
-Rgb Mirror::albedo(const Vec3& view) const {
+Spectrum Mirror::albedo(const Vec3& view) const {
     return reflectance(fresnel, view.z);
 }
 

@@ -18,7 +18,7 @@ struct Mirror {
 
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 };
 
 }  // namespace alhazen

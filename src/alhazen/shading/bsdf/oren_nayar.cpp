@@ -23,9 +23,9 @@ double mean_single_bounce(double roughness) {
     return flatness(roughness) * (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * kPi)) * roughness);
 }
 /// Colour of the light that bounces more than once.
-Rgb several_bounces(const Rgb& color, double mean) {
-    Rgb result;
-    for (int i = 0; i < 3; ++i) {
+Spectrum several_bounces(const Spectrum& color, double mean) {
+    Spectrum result;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
         const double c = color[i];
         result[i] = c * c * mean / (1.0 - c * (1.0 - mean));
     }
@@ -34,7 +34,7 @@ Rgb several_bounces(const Rgb& color, double mean) {
 
 }  // namespace
 
-Rgb OrenNayar::value(const Vec3& view, const Vec3& direction, Transport) const {
+Spectrum OrenNayar::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     const double s = dot(view, direction) - view.z * direction.z;
     const double over = s > 0.0 ? s / std::max(view.z, direction.z) : s;
@@ -56,7 +56,7 @@ std::optional<BsdfSample> OrenNayar::sample(const Vec3& view, double, const Vec2
                       cosine_density(direction)};
 }
 
-Rgb OrenNayar::albedo(const Vec3& view) const {
+Spectrum OrenNayar::albedo(const Vec3& view) const {
     const double one = single_bounce(view.z, roughness);
     return one * color + (1.0 - one) * several_bounces(color, mean_single_bounce(roughness));
 }

@@ -16,8 +16,8 @@ Vec3 power_direction(const Vec2& u, double power) {
     const double s = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
     return {s * std::cos(angle), s * std::sin(angle), z};
 }
-Rgb grey(double x) {
-    return {x, x, x};
+Spectrum grey(double x) {
+    return Spectrum::all(x);
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ Phong::Phong(double exponent)
       alpha_(alpha_of_exponent(exponent_)),
       mean_missing_(1.0 - mean_phong_albedo(alpha_)) {}
 
-Rgb Phong::value(const Vec3& view, const Vec3& direction, Transport) const {
+Spectrum Phong::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     return grey(phong_lobe(view.z, direction.z, dot(mirrored(view), direction), exponent_) +
                 matt_rest(1.0 - phong_albedo(view.z, alpha_),
@@ -58,8 +58,8 @@ std::optional<BsdfSample> Phong::sample(const Vec3& view, double choice, const V
     return BsdfSample{direction, (direction.z / p) * value(view, direction, transport), p};
 }
 
-Rgb Phong::albedo(const Vec3&) const {
-    return {1, 1, 1};
+Spectrum Phong::albedo(const Vec3&) const {
+    return {1, 1, 1, 1};
 }
 
 BlinnPhong::BlinnPhong(double exponent)
@@ -67,7 +67,7 @@ BlinnPhong::BlinnPhong(double exponent)
       alpha_(alpha_of_exponent(exponent_)),
       mean_missing_(1.0 - mean_blinn_albedo(alpha_)) {}
 
-Rgb BlinnPhong::value(const Vec3& view, const Vec3& direction, Transport) const {
+Spectrum BlinnPhong::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     const Vec3 h = normalize(view + direction);
     return grey(blinn_lobe(view.z, direction.z, h.z, dot(view, h), exponent_) +
@@ -99,8 +99,8 @@ std::optional<BsdfSample> BlinnPhong::sample(const Vec3& view, double choice, co
     return BsdfSample{direction, (direction.z / p) * value(view, direction, transport), p};
 }
 
-Rgb BlinnPhong::albedo(const Vec3&) const {
-    return {1, 1, 1};
+Spectrum BlinnPhong::albedo(const Vec3&) const {
+    return {1, 1, 1, 1};
 }
 
 }  // namespace alhazen

@@ -22,11 +22,12 @@ class Phong {
     /// `exponent`: at least 0; at most 10^6.
     explicit Phong(double exponent);
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
   private:
     double exponent_, alpha_, mean_missing_;
@@ -39,11 +40,12 @@ class BlinnPhong {
     BlinnPhong() : BlinnPhong(80) {}
     explicit BlinnPhong(double exponent);
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
   private:
     double exponent_, alpha_, mean_missing_;

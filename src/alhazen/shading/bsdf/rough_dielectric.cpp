@@ -30,8 +30,8 @@ std::optional<RefractingFacet> refracting_facet(const Vec3& view, const Vec3& di
 
 }  // namespace
 
-RoughDielectric::RoughDielectric(double alpha, double eta, const Rgb& reflection,
-                                 const Rgb& transmission)
+RoughDielectric::RoughDielectric(double alpha, double eta, const Spectrum& reflection,
+                                 const Spectrum& transmission)
     : ggx_{std::clamp(alpha, kSmoothAlpha, 1.0), std::clamp(alpha, kSmoothAlpha, 1.0)},
       eta_(eta),
       reflection_(reflection),
@@ -56,7 +56,8 @@ double RoughDielectric::missing_behind(double mu) const {
     return 1.0 - dielectric_albedo(mu, ggx_.x, 1.0 / eta_).sum;
 }
 
-Rgb RoughDielectric::value(const Vec3& view, const Vec3& direction, Transport transport) const {
+Spectrum RoughDielectric::value(const Vec3& view, const Vec3& direction,
+                                Transport transport) const {
     if (direction.z > 0.0) {
         const Vec3 m = normalize(view + direction);
         const double one =
@@ -120,7 +121,7 @@ std::optional<BsdfSample> RoughDielectric::sample(const Vec3& view, double choic
                       false, direction.z < 0.0 ? 1.0 / eta_ : 1.0};
 }
 
-Rgb RoughDielectric::albedo(const Vec3& view) const {
+Spectrum RoughDielectric::albedo(const Vec3& view) const {
     const DielectricAlbedo one = dielectric_albedo(view.z, ggx_.x, eta_);
     const double rest = 1.0 - one.sum;
     return (one.reflected + rest * (1.0 - through_)) * reflection_ +

@@ -19,16 +19,18 @@ class RoughDielectric {
   public:
     static constexpr bool kSingular = false, kTransmits = true;
 
-    RoughDielectric() : RoughDielectric(0.1, 1.0 / 1.5, {1, 1, 1}, {1, 1, 1}) {}
+    RoughDielectric() : RoughDielectric(0.1, 1.0 / 1.5, {1, 1, 1, 1}, {1, 1, 1, 1}) {}
     /// `eta`: index on the side of the view over that behind; not nearer to 1 than 1e-3 (there is
     /// no boundary to speak of). Tints: of what is reflected, of what is transmitted.
-    RoughDielectric(double alpha, double eta, const Rgb& reflection, const Rgb& transmission);
+    RoughDielectric(double alpha, double eta, const Spectrum& reflection,
+                    const Spectrum& transmission);
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
   private:
     /// Probability of reflection, of two ways with these shares.
@@ -38,7 +40,7 @@ class RoughDielectric {
 
     Ggx ggx_;
     double eta_ = 1;
-    Rgb reflection_, transmission_;
+    Spectrum reflection_, transmission_;
     double mean_missing_ = 0, mean_missing_behind_ = 0;
     double through_ = 0;  ///< share of the matt parts that is transmitted
 };

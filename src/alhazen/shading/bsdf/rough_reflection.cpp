@@ -12,8 +12,8 @@ RoughReflection::RoughReflection(const Ggx& ggx, const FresnelTerm& fresnel, con
       axis_(axis),
       mean_alpha_(std::sqrt(ggx_.x * ggx_.y)),
       mean_single_(ggx_mean_albedo(mean_alpha_).sum()) {
-    const Rgb mean = mean_reflectance(fresnel);
-    for (int i = 0; i < 3; ++i) {
+    const Spectrum mean = mean_reflectance(fresnel);
+    for (int i = 0; i < Spectrum::kCount; ++i) {
         several_[i] = mean[i] * mean[i] * mean_single_ / (1.0 - mean[i] * (1.0 - mean_single_));
     }
 }
@@ -22,7 +22,7 @@ double RoughReflection::single(double mu) const {
     return ggx_albedo_sum(mu, mean_alpha_);
 }
 
-Rgb RoughReflection::value(const Vec3& view, const Vec3& direction, Transport) const {
+Spectrum RoughReflection::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     const Vec3 v = turned(view), l = turned(direction);
     const Vec3 m = normalize(v + l);
@@ -53,13 +53,13 @@ std::optional<BsdfSample> RoughReflection::sample(const Vec3& view, double choic
     return BsdfSample{direction, (direction.z / p) * value(view, direction, transport), p};
 }
 
-Rgb RoughReflection::albedo(const Vec3& view) const {
+Spectrum RoughReflection::albedo(const Vec3& view) const {
     const SplitAlbedo one = ggx_albedo(view.z, mean_alpha_);
     const SchlickTerm fit = schlick_fit(fresnel_, view.z);
     return one.at_f0 * fit.f0 + one.at_f90 * fit.f90 + (1.0 - one.sum()) * several_;
 }
 
-Rgb RoughSheet::value(const Vec3& view, const Vec3& direction, Transport transport) const {
+Spectrum RoughSheet::value(const Vec3& view, const Vec3& direction, Transport transport) const {
     return reflection_.value(view, flipped(direction), transport);
 }
 double RoughSheet::density(const Vec3& view, const Vec3& direction) const {
@@ -71,7 +71,7 @@ std::optional<BsdfSample> RoughSheet::sample(const Vec3& view, double choice, co
     if (sample) sample->direction = flipped(sample->direction);
     return sample;
 }
-Rgb RoughSheet::albedo(const Vec3& view) const {
+Spectrum RoughSheet::albedo(const Vec3& view) const {
     return reflection_.albedo(view);
 }
 

@@ -24,11 +24,12 @@ class RoughReflection {
     /// `axis`: the tangent along which the roughness is ggx.x, as a unit vector in the surface.
     RoughReflection(const Ggx& ggx, const FresnelTerm& fresnel, const Vec2& axis = {1, 0});
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
   private:
     [[nodiscard]] Vec3 turned(const Vec3& v) const {
@@ -45,7 +46,7 @@ class RoughReflection {
     Vec2 axis_{1, 0};
     double mean_alpha_ = 0;
     double mean_single_ = 1;  ///< mean of `single` over the hemisphere
-    Rgb several_;             ///< colour of light that met several facets
+    Spectrum several_;        ///< colour of light that met several facets
 };
 
 /// The same where the light goes on through a sheet of rough faces, in the mirror image of the
@@ -57,11 +58,12 @@ class RoughSheet {
     RoughSheet() = default;
     explicit RoughSheet(const Ggx& ggx) : reflection_(ggx, SchlickTerm{}) {}
 
-    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
+                                 Transport transport) const;
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+    [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
   private:
     RoughReflection reflection_;

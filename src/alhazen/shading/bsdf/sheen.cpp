@@ -8,7 +8,7 @@ namespace alhazen {
 // Directions are chosen evenly over the hemisphere: the lobe is wide, and the cosine of its albedo
 // would leave out the grazing ones, where it is brightest.
 
-Rgb Sheen::value(const Vec3& view, const Vec3& direction, Transport) const {
+Spectrum Sheen::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     return sheen_lobe(view.z, direction.z, normalize(view + direction).z, roughness) * color;
 }
@@ -25,7 +25,7 @@ std::optional<BsdfSample> Sheen::sample(const Vec3& view, double, const Vec2& u,
                       1.0 / (2.0 * kPi)};
 }
 
-Rgb Sheen::albedo(const Vec3& view) const {
+Spectrum Sheen::albedo(const Vec3& view) const {
     return sheen_albedo(view.z, roughness) * color;
 }
 

@@ -33,7 +33,16 @@ std::optional<BsdfSample> SmoothDielectric::sample(const Vec3& view, double choi
                       1.0 / eta};
 }
 
-Rgb SmoothDielectric::albedo(const Vec3& view) const {
+SmoothDielectric::Shares SmoothDielectric::shares(const Vec3& view, Transport transport) const {
+    Shares result;
+    const double r = reflected_share(*this, view, result.cosine_behind);
+    const double radiance = transport == Transport::Radiance ? eta * eta : 1.0;
+    result.reflected = r * reflection_tint;
+    result.transmitted = (radiance * (1.0 - r)) * transmission_tint;
+    return result;
+}
+
+Spectrum SmoothDielectric::albedo(const Vec3& view) const {
     double cosine_behind = 0;
     const double r = reflected_share(*this, view, cosine_behind);
     return r * reflection_tint + (1.0 - r) * transmission_tint;
@@ -43,7 +52,7 @@ std::optional<BsdfSample> ThinSheet::sample(const Vec3& view, double, const Vec2
                                             Transport) const {
     return BsdfSample{-view, tint, 1.0, true};
 }
-Rgb ThinSheet::albedo(const Vec3&) const {
+Spectrum ThinSheet::albedo(const Vec3&) const {
     return tint;
 }
 

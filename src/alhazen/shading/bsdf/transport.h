@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
+#include "alhazen/shading/spectrum/spectrum.h"
 
 namespace alhazen {
 
@@ -16,7 +16,7 @@ enum class Transport : std::uint8_t { Radiance, Importance };
 
 struct BsdfSample {
     Vec3 direction;         ///< unit, local; z < 0: transmitted
-    Rgb weight;             ///< value * |cosine| / density
+    Spectrum weight;        ///< value * |cosine| / density
     double density = 0;     ///< by solid angle; of a singular lobe the probability of its choice
     bool singular = false;  ///< its directions have no density
     double eta = 1;         ///< of a transmitted ray: index where it enters over where it came from

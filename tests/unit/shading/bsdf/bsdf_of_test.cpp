@@ -27,8 +27,8 @@ TEST(BsdfOf, AMattMaterialOfWhittedIsLambert) {
     Material m;
     m.diffuse.color = {0.6, 0.4, 0.2};
     const Bsdf bsdf = of(m);
-    EXPECT_NEAR(bsdf.value(view_at(0.5), view_at(0.2), Transport::Radiance).r, 0.6 / kPi, 1e-15);
-    EXPECT_EQ(bsdf.albedo(view_at(0.5)), (Rgb{0.6, 0.4, 0.2}));
+    EXPECT_NEAR(bsdf.value(view_at(0.5), view_at(0.2), Transport::Radiance).a, 0.6 / kPi, 1e-15);
+    EXPECT_EQ(bsdf.albedo(view_at(0.5)), (Spectrum{0.6, 0.4, 0.2, 0.2}));
     EXPECT_TRUE(bsdf.has_density());
     EXPECT_FALSE(bsdf.transmits());
 }
@@ -38,7 +38,7 @@ TEST(BsdfOf, TheMiddleOfAHighlightIsAsBrightAsWhitteds) {
     m.specular.color = {0.4, 0.4, 0.4};
     m.shininess.value = 50;
     // A light of intensity 1 gives the irradiance pi, and Whitted's equation ks (N.H)^ns = ks.
-    EXPECT_NEAR(kPi * of(m).value({0, 0, 1}, {0, 0, 1}, Transport::Radiance).r, 0.4, 0.004);
+    EXPECT_NEAR(kPi * of(m).value({0, 0, 1}, {0, 0, 1}, Transport::Radiance).a, 0.4, 0.004);
 }
 
 TEST(BsdfOf, CoefficientsAboveOneTogetherAreScaledDown) {
@@ -47,9 +47,9 @@ TEST(BsdfOf, CoefficientsAboveOneTogetherAreScaledDown) {
     m.reflective.color = {0.9, 0.9, 0.9};
     m.transmissive.color = {0.2, 0.2, 0.2};
     m.index.value = 1.0;
-    const Rgb sum = furnace(of(m), view_at(0.6));
-    EXPECT_NEAR(sum.r, 1.0, 1e-3);
-    EXPECT_NEAR(sum.g, 1.2 / 2.0, 1e-3);
+    const Spectrum sum = furnace(of(m), view_at(0.6));
+    EXPECT_NEAR(sum.a, 1.0, 1e-3);
+    EXPECT_NEAR(sum.b, 1.2 / 2.0, 1e-3);
 }
 
 TEST(BsdfOf, GlassReflectsFourPercentAndBendsTheRest) {
@@ -94,9 +94,9 @@ TEST(BsdfOf, SpecularTintsAndWeakensTheFace) {
     m.metallic_roughness->specular_color.color = {1, 0.5, 0};
     const auto s = of(m).sample({0, 0, 1}, 0.5, {}, Transport::Radiance);
     ASSERT_TRUE(s);
-    EXPECT_NEAR(s->weight.r, 0.02, 1e-12);
-    EXPECT_NEAR(s->weight.g, 0.01, 1e-12);
-    EXPECT_EQ(s->weight.b, 0.0);
+    EXPECT_NEAR(s->weight.a, 0.02, 1e-12);
+    EXPECT_NEAR(s->weight.b, 0.01, 1e-12);
+    EXPECT_EQ(s->weight.c, 0.0);
 }
 
 TEST(BsdfOf, ACoatAddsAHighlightAndDarkensWhatLiesBelow) {
@@ -113,9 +113,9 @@ TEST(BsdfOf, ACoatAddsAHighlightAndDarkensWhatLiesBelow) {
     const Bsdf coated = of(m);
     const Vec3 v = view_at(0.5), l = view_at(0.9);
     const double left = 1.0 - (0.04 + 0.96 * schlick_weight(0.5));
-    EXPECT_NEAR(coated.value(v, l, Transport::Radiance).r,
-                left * bare.value(v, l, Transport::Radiance).r, 1e-12);
-    EXPECT_NEAR(furnace(coated, v).r, 1.0 - left + left * 0.5, 1e-3);
+    EXPECT_NEAR(coated.value(v, l, Transport::Radiance).a,
+                left * bare.value(v, l, Transport::Radiance).a, 1e-12);
+    EXPECT_NEAR(furnace(coated, v).a, 1.0 - left + left * 0.5, 1e-3);
 }
 
 TEST(BsdfOf, GroovesStretchTheHighlightAcrossThem) {
@@ -125,7 +125,7 @@ TEST(BsdfOf, GroovesStretchTheHighlightAcrossThem) {
     p.anisotropy.strength = 0.9;
     m.metallic_roughness = p;
     const Vec3 v{0, 0, 1}, along = normalize(Vec3{0.4, 0, 1}), across = normalize(Vec3{0, 0.4, 1});
-    const auto value = [&](const Vec3& l) { return of(m).value(v, l, Transport::Radiance).r; };
+    const auto value = [&](const Vec3& l) { return of(m).value(v, l, Transport::Radiance).a; };
     EXPECT_GT(value(along), 3.0 * value(across));
     m.metallic_roughness->anisotropy.rotation = kPi / 2;
     EXPECT_GT(value(across), 3.0 * value(along));
@@ -143,9 +143,9 @@ TEST(BsdfOf, ARoughConductorHasTheColourOfItsMetal) {
     Material m;
     m.conductor = Conductor{{0.222, 0.428, 1.334}, {3.208, 2.461, 1.872}, "gold"};
     m.roughness.value = 0.3;
-    const Rgb c = furnace(of(m), view_at(0.9));
-    EXPECT_NEAR(c.r, 0.92, 0.02);
-    EXPECT_NEAR(c.b, 0.40, 0.02);
+    const Spectrum c = furnace(of(m), view_at(0.9));
+    EXPECT_NEAR(c.a, 0.92, 0.02);
+    EXPECT_NEAR(c.c, 0.40, 0.02);
 }
 
 TEST(BsdfOf, AClearBodyGivesBackAllLightHoweverRough) {
@@ -154,8 +154,8 @@ TEST(BsdfOf, AClearBodyGivesBackAllLightHoweverRough) {
     m.index.value = 1.5;
     for (const double r : {0.0, 0.4, 1.0}) {
         m.roughness.value = r;
-        EXPECT_NEAR(furnace(of(m), view_at(0.4)).r, 1.0, 1e-3);
-        EXPECT_NEAR(furnace(of(m, {.from_inside = true}), view_at(0.4)).r, 1.0, 5e-3);
+        EXPECT_NEAR(furnace(of(m), view_at(0.4)).a, 1.0, 1e-3);
+        EXPECT_NEAR(furnace(of(m, {.from_inside = true}), view_at(0.4)).a, 1.0, 5e-3);
     }
 }
 

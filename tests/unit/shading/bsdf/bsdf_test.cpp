@@ -16,7 +16,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 std::vector<NamedBsdf> bsdfs() {
     auto list = lobes_with_density({0.3, 0.7});
     for (const double r : {0.3, 0.8}) {
-        list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1}, r})});
+        list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1, 1}, r})});
         list.push_back(
             {"grooves", bsdf_of_lobe(RoughReflection({0.6, 0.1}, SchlickTerm{}, {0.6, 0.8}))});
         MetallicRoughness p;
@@ -101,9 +101,9 @@ TEST(Bsdf, TheWeightIsValueTimesCosineOverDensity) {
             const double p = b.bsdf.density(view, s->direction);
             ASSERT_GT(p, 0.0) << b.name;
             EXPECT_EQ(s->density, p) << b.name;
-            const Rgb expected =
+            const Spectrum expected =
                 (std::abs(s->direction.z) / p) * b.bsdf.value(view, s->direction, transport);
-            EXPECT_NEAR(s->weight.g, expected.g, 1e-12 * (1.0 + expected.g)) << b.name;
+            EXPECT_NEAR(s->weight.b, expected.b, 1e-12 * (1.0 + expected.b)) << b.name;
             EXPECT_NEAR(length(s->direction), 1.0, 1e-9) << b.name;
         }
     }
@@ -118,9 +118,9 @@ TEST(Bsdf, ThereIsADensityWhereThereIsAValue) {
             Vec3 d = any_direction(random);
             if (i % 5 == 0) d = normalize(Vec3{d.x, d.y, 1e-7 * d.z});
             for (const auto transport : {Transport::Radiance, Transport::Importance}) {
-                const Rgb value = b.bsdf.value(view, d, transport);
+                const Spectrum value = b.bsdf.value(view, d, transport);
                 ASSERT_TRUE(value.is_finite()) << b.name;
-                ASSERT_GE(std::min({value.r, value.g, value.b}), 0.0) << b.name;
+                ASSERT_GE(std::min({value.a, value.b, value.c}), 0.0) << b.name;
                 ASSERT_TRUE(value.is_black() || b.bsdf.density(view, d) > 0.0) << b.name;
             }
         }
@@ -130,17 +130,16 @@ TEST(Bsdf, ThereIsADensityWhereThereIsAValue) {
 TEST(Bsdf, LobesAreReciprocal) {
     RandomStream random(6);
     auto list = lobes_with_density({0.25, 0.5, 1.0});
-    list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1}, 0.4})});
+    list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1, 1}, 0.4})});
     list.push_back({"grooves", bsdf_of_lobe(RoughReflection({0.6, 0.1}, SchlickTerm{}))});
     list.push_back({"matt under a face",
-                    bsdf_of_lobe(CoveredMatt({0.8, 0.5, 0.3},
-                                             Cover::face(0.2, {{0.04, 0.04, 0.04}, {1, 1, 1}})))});
+                    bsdf_of_lobe(CoveredMatt({0.8, 0.5, 0.3}, Cover::face(0.2, 0.04, 1.0)))});
     for (const NamedBsdf& b : list) {
         for (int i = 0; i < 500; ++i) {
             const Vec3 v = view_at(random.uniform(0.01, 1), random.uniform(0, 6));
             const Vec3 l = view_at(random.uniform(0.01, 1), random.uniform(0, 6));
-            const double there = b.bsdf.value(v, l, Transport::Radiance).g;
-            const double back = b.bsdf.value(l, v, Transport::Radiance).g;
+            const double there = b.bsdf.value(v, l, Transport::Radiance).b;
+            const double back = b.bsdf.value(l, v, Transport::Radiance).b;
             EXPECT_NEAR(there, back, 1e-9 * (1.0 + there)) << b.name;
         }
     }
@@ -151,18 +150,19 @@ TEST(Bsdf, RefractedRadianceIsReciprocalOverTheSquareOfTheIndex) {
     for (const double r : {0.2, 0.5, 1.0}) {
         for (const double index : {1.2, 1.5, 2.4}) {
             const Bsdf above =
-                bsdf_of_lobe(RoughDielectric(r * r, 1.0 / index, {1, 1, 1}, {1, 1, 1}));
-            const Bsdf below = bsdf_of_lobe(RoughDielectric(r * r, index, {1, 1, 1}, {1, 1, 1}));
+                bsdf_of_lobe(RoughDielectric(r * r, 1.0 / index, {1, 1, 1, 1}, {1, 1, 1, 1}));
+            const Bsdf below =
+                bsdf_of_lobe(RoughDielectric(r * r, index, {1, 1, 1, 1}, {1, 1, 1, 1}));
             for (int i = 0; i < 500; ++i) {
                 const Vec3 v = view_at(random.uniform(0.02, 1), random.uniform(0, 6));
                 const Vec3 l = -view_at(random.uniform(0.02, 1), random.uniform(0, 6));
                 // Seen from below, the frame turned over: x stays, y and z change signs.
                 const auto over = [](const Vec3& d) { return Vec3{d.x, -d.y, -d.z}; };
-                const double there = above.value(v, l, Transport::Radiance).r;
-                const double back = below.value(over(l), over(v), Transport::Radiance).r;
+                const double there = above.value(v, l, Transport::Radiance).a;
+                const double back = below.value(over(l), over(v), Transport::Radiance).a;
                 // f(v <- l) / index_l^2 = f(l <- v) / index_v^2.
                 EXPECT_NEAR(there * index * index, back / 1.0, 1e-6 * (1e-3 + back));
-                const double adjoint = below.value(over(l), over(v), Transport::Importance).r;
+                const double adjoint = below.value(over(l), over(v), Transport::Importance).a;
                 EXPECT_NEAR(there, adjoint, 1e-6 * (1e-3 + there));
             }
         }
@@ -183,8 +183,8 @@ TEST(Bsdf, ImportanceIsTheAdjointOfRadianceBelowCovers) {
     for (int i = 0; i < 1000; ++i) {
         const Vec3 v = view_at(random.uniform(0.01, 1), random.uniform(0, 6));
         const Vec3 l = view_at(random.uniform(0.01, 1), random.uniform(0, 6));
-        const double there = bsdf.value(v, l, Transport::Radiance).g;
-        EXPECT_NEAR(there, bsdf.value(l, v, Transport::Importance).g, 1e-9 * (1.0 + there));
+        const double there = bsdf.value(v, l, Transport::Radiance).b;
+        EXPECT_NEAR(there, bsdf.value(l, v, Transport::Importance).b, 1e-9 * (1.0 + there));
     }
 }
 
@@ -211,9 +211,9 @@ TEST(Bsdf, BlendedMaterialsHaveTheMeanOfTheirValues) {
 
 TEST(Bsdf, MoreLobesThanItHoldsLeaveOutTheLeast) {
     Bsdf bsdf;
-    for (int i = 0; i < 30; ++i) bsdf.add(Rgb{1, 1, 1} * (i == 3 ? 0.001 : 0.03), Lambert{});
+    for (int i = 0; i < 30; ++i) bsdf.add(Spectrum::all(1) * (i == 3 ? 0.001 : 0.03), Lambert{});
     EXPECT_EQ(bsdf.lobe_count(), kMaxLobes);
-    EXPECT_NEAR(bsdf.albedo({0, 0, 1}).r, 0.03 * kMaxLobes, 1e-12);
+    EXPECT_NEAR(bsdf.albedo({0, 0, 1}).a, 0.03 * kMaxLobes, 1e-12);
 }
 
 TEST(Bsdf, WhatIsNoNumberIsHarmless) {

@@ -13,12 +13,12 @@ constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1};
 
 void expect_furnace(const NamedBsdf& b, double expected) {
     for (const double cosine : kViews) {
-        Rgb sum = furnace(b.bsdf, view_at(cosine), 1 << 14);
+        Spectrum sum = furnace(b.bsdf, view_at(cosine), 1 << 14);
         // Where these samples are too few to tell, more.
-        if (std::abs(sum.r - expected) > 0.7 * b.error * expected) {
+        if (std::abs(sum.a - expected) > 0.7 * b.error * expected) {
             sum = furnace(b.bsdf, view_at(cosine), 1 << 18);
         }
-        EXPECT_NEAR(sum.r, expected, b.error * expected) << b.name << ", view " << cosine;
+        EXPECT_NEAR(sum.a, expected, b.error * expected) << b.name << ", view " << cosine;
     }
 }
 
@@ -35,7 +35,7 @@ TEST(Furnace, EveryLobeOfWeightOneHalfGivesBackHalf) {
 }
 
 TEST(Furnace, AlbedoIsWhatTheFurnaceShows) {
-    const Rgb grey{0.5, 0.5, 0.5};
+    const Spectrum grey = Spectrum::all(0.5);
     for (const double r : {0.05, 0.2, 0.5, 0.8, 1.0}) {
         const double alpha = r * r;
         const std::vector<NamedBsdf> list = {
@@ -43,14 +43,14 @@ TEST(Furnace, AlbedoIsWhatTheFurnaceShows) {
             {"rough mirror of 0.5",
              bsdf_of_lobe(RoughReflection({alpha, alpha}, SchlickTerm{grey, grey}))},
             {"rough plastic face",
-             bsdf_of_lobe(
-                 RoughReflection({alpha, alpha}, SchlickTerm{{0.04, 0.04, 0.04}, {1, 1, 1}}))},
+             bsdf_of_lobe(RoughReflection({alpha, alpha},
+                                          SchlickTerm{Spectrum::all(0.04), Spectrum::all(1)}))},
             {"rough tinted glass", bsdf_of_lobe(RoughDielectric(alpha, 1 / 1.5, grey, grey))},
         };
         for (const NamedBsdf& b : list) {
             for (const double cosine : kViews) {
                 const Vec3 view = view_at(cosine);
-                EXPECT_NEAR(furnace(b.bsdf, view).r, b.bsdf.albedo(view).r, 1e-3)
+                EXPECT_NEAR(furnace(b.bsdf, view).a, b.bsdf.albedo(view).a, 1e-3)
                     << b.name << ", roughness " << r << ", view " << cosine;
             }
         }
@@ -119,7 +119,7 @@ TEST(Furnace, NoMaterialGivesBackMoreThanItGets) {
         p.film.strength.value = 0;
         p.anisotropy.strength = 1;
         list.push_back({"grooves", bsdf_of_parameters(p)});
-        list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1}, r})});
+        list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1, 1}, r})});
         for (const NamedBsdf& b : list) {
             for (const double cosine : kViews) {
                 EXPECT_LE(furnace(b.bsdf, view_at(cosine), 1 << 14).max(), 1.002)

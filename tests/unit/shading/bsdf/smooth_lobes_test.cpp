@@ -10,12 +10,12 @@ namespace {
 using namespace alhazen::testing;
 
 TEST(SmoothLobes, AMirrorSendsLightBackAtTheSameAngle) {
-    const Bsdf bsdf = bsdf_of_lobe(Mirror{}, {0.9, 0.8, 0.7});
+    const Bsdf bsdf = bsdf_of_lobe(Mirror{}, {0.9, 0.8, 0.7, 0.7});
     const Vec3 view = view_at(0.3);
     const auto s = bsdf.sample(view, 0.4, {0.1, 0.9}, Transport::Radiance);
     ASSERT_TRUE(s && s->singular);
     EXPECT_EQ(s->direction, (Vec3{-view.x, -view.y, view.z}));
-    EXPECT_EQ(s->weight, (Rgb{0.9, 0.8, 0.7}));
+    EXPECT_EQ(s->weight, (Spectrum{0.9, 0.8, 0.7, 0.7}));
     EXPECT_EQ(s->density, 1.0);
     EXPECT_FALSE(bsdf.has_density());
     EXPECT_TRUE(bsdf.value(view, s->direction, Transport::Radiance).is_black());
@@ -34,20 +34,43 @@ TEST(SmoothLobes, RefractionObeysSnellAndRadianceGrowsByTheSquareOfTheIndex) {
     EXPECT_EQ(s->eta, index);
     EXPECT_NEAR(s->density, 1.0 - r, 1e-14);
     // Radiance from glass is seen in air over the square of the index.
-    EXPECT_NEAR(s->weight.r, 1.0 / (index * index), 1e-14);
+    EXPECT_NEAR(s->weight.a, 1.0 / (index * index), 1e-14);
     const auto light = bsdf.sample(view, 0.999, {}, Transport::Importance);
-    EXPECT_NEAR(light->weight.r, 1.0, 1e-14);
+    EXPECT_NEAR(light->weight.a, 1.0, 1e-14);
     const auto back = bsdf_of_lobe(SmoothDielectric{.eta = index})
                           .sample(view_at(-s->direction.z), 0.999, {}, Transport::Radiance);
     EXPECT_NEAR(back->direction.z, -view.z, 1e-14);
-    EXPECT_NEAR(back->weight.r, index * index, 1e-13);
+    EXPECT_NEAR(back->weight.a, index * index, 1e-13);
 }
 
 TEST(SmoothLobes, ReflectedAndRefractedLightAreAll) {
     for (const double eta : {1 / 2.4, 1 / 1.33, 1.0, 1.33, 2.4}) {
         const Bsdf bsdf = bsdf_of_lobe(SmoothDielectric{.eta = eta});
         for (double cosine = 0.01; cosine < 1.0; cosine += 0.07) {
-            EXPECT_NEAR(furnace(bsdf, view_at(cosine), 4096).r, 1.0, 1e-12) << eta << cosine;
+            EXPECT_NEAR(furnace(bsdf, view_at(cosine), 4096).a, 1.0, 1e-12) << eta << cosine;
+        }
+    }
+}
+
+TEST(SmoothLobes, SingularLightIsWhatSamplesGiveWithoutAChoice) {
+    Bsdf bsdf;
+    bsdf.add({0.2, 0.3, 0.4, 0.4}, Lambert{});
+    bsdf.add({0.5, 0.4, 0.3, 0.3}, Mirror{});
+    bsdf.add({0.9, 0.8, 0.7, 0.7}, SmoothDielectric{.eta = 1 / 1.5});
+    for (const Transport transport : {Transport::Radiance, Transport::Importance}) {
+        const Vec3 view = view_at(0.4);
+        const SingularLight light = bsdf.singular(view, transport);
+        EXPECT_EQ(light.eta, 1 / 1.5);
+        Spectrum reflected, transmitted;
+        constexpr int kChoices = 20000;
+        for (int i = 0; i < kChoices; ++i) {
+            const auto s = bsdf.sample(view, (i + 0.5) / kChoices, {0.5, 0.5}, transport);
+            if (!s || !s->singular) continue;
+            (s->direction.z < 0.0 ? transmitted : reflected) += (1.0 / kChoices) * s->weight;
+        }
+        for (int k = 0; k < Spectrum::kCount; ++k) {
+            EXPECT_NEAR(reflected[k], light.reflected[k], 1e-3);
+            EXPECT_NEAR(transmitted[k], light.transmitted[k], 1e-3);
         }
     }
 }
@@ -61,7 +84,7 @@ TEST(SmoothLobes, BeyondTheCriticalAngleNothingPasses) {
             const auto s = bsdf.sample(view, choice, {}, Transport::Radiance);
             ASSERT_TRUE(s);
             EXPECT_GT(s->direction.z, 0.0);
-            EXPECT_NEAR(s->weight.g, 1.0, 1e-14);
+            EXPECT_NEAR(s->weight.b, 1.0, 1e-14);
         }
     }
 }
@@ -72,17 +95,17 @@ TEST(SmoothLobes, WhittedsRefractionReflectsNothingBelowTheCriticalAngle) {
         const auto s = bsdf.sample(view_at(0.2), choice, {}, Transport::Importance);
         ASSERT_TRUE(s);
         EXPECT_LT(s->direction.z, 0.0);
-        EXPECT_NEAR(s->weight.r, 1.0, 1e-14);
+        EXPECT_NEAR(s->weight.a, 1.0, 1e-14);
     }
 }
 
 TEST(SmoothLobes, AThinSheetLetsLightGoStraightOn) {
-    const Bsdf bsdf = bsdf_of_lobe(ThinSheet{{0.5, 0.6, 0.7}});
+    const Bsdf bsdf = bsdf_of_lobe(ThinSheet{{0.5, 0.6, 0.7, 0.7}});
     const Vec3 view = view_at(0.3);
     const auto s = bsdf.sample(view, 0.2, {}, Transport::Radiance);
     ASSERT_TRUE(s && s->singular);
     EXPECT_EQ(s->direction, -view);
-    EXPECT_EQ(s->weight, (Rgb{0.5, 0.6, 0.7}));
+    EXPECT_EQ(s->weight, (Spectrum{0.5, 0.6, 0.7, 0.7}));
     EXPECT_FALSE(bsdf.transmits());
 }
 

@@ -1,0 +1,106 @@
+#include "alhazen/renderers/manifold/chain_solver.h"
+
+#include <cmath>
+
+namespace alhazen {
+
+namespace {
+
+constexpr int kMostSteps = 24;
+constexpr int kMostHalvings = 6;
+/// Radians between the last direction and that to the light.
+constexpr double kConverged = 1e-10;
+/// Where no step makes it smaller, rounding has the last word: enough for an estimate.
+constexpr double kGoodEnough = 1e-7;
+
+/// The way from the last vertex to the end.
+struct Aim {
+    Vec3 direction;
+    double inverse_distance = 0;  ///< 0: infinitely far
+};
+
+Aim aim_from(const Chain& chain, const ChainEnd& end) {
+    if (end.infinite) return {end.at, 0.0};
+    const Vec3 way = end.at - chain.last().surface.point;
+    const double distance = length(way);
+    return {way / distance, 1.0 / distance};
+}
+
+/// By how much a chain misses: the angle, along two vectors perpendicular to the aim.
+struct Miss {
+    Aim aim;
+    Vec3 a, b;
+    Vec2 angle;
+
+    Miss(const Chain& chain, const ChainEnd& end) : aim(aim_from(chain, end)) {
+        a = perpendicular(aim.direction);
+        b = cross(aim.direction, a);
+        const Vec3& leaving = chain.last().leaving;
+        const Vec2 sine{dot(leaving, a), dot(leaving, b)};
+        const double size = std::hypot(sine.x, sine.y);
+        const double scale =
+            size > 1e-12 ? std::atan2(size, dot(leaving, aim.direction)) / size : 1.0;
+        angle = scale * sine;
+    }
+    [[nodiscard]] double size() const { return std::hypot(angle.x, angle.y); }
+    /// Its change by the first direction.
+    [[nodiscard]] Vec2 change(const ChainSlope& slope, std::size_t k) const {
+        const Vec3 turned = slope.direction[k] + aim.inverse_distance * slope.end[k];
+        return {dot(turned, a), dot(turned, b)};
+    }
+};
+
+/// The first direction that a step towards `miss` = 0 asks for, as a step of the first vertex.
+std::optional<Vec3> newton_step(const Miss& miss, const ChainSlope& slope) {
+    const Vec2 c0 = miss.change(slope, 0), c1 = miss.change(slope, 1);
+    const double determinant = c0.x * c1.y - c1.x * c0.y;
+    if (!(std::abs(determinant) > 0.0)) return std::nullopt;
+    const double s0 = (c1.x * miss.angle.y - c1.y * miss.angle.x) / determinant;
+    const double s1 = (c0.y * miss.angle.x - c0.x * miss.angle.y) / determinant;
+    const Vec3 step = s0 * slope.point[0] + s1 * slope.point[1];
+    if (!is_finite(step)) return std::nullopt;
+    return step;
+}
+
+}  // namespace
+
+bool walk_to(const ChainTracer& tracer, const ShapeSurface& from, std::uint64_t part,
+             const ChainIndices& indices, const ChainEnd& end, float time, Chain& chain) {
+    Chain tried;
+    double now = Miss(chain, end).size();
+    for (int i = 0; i < kMostSteps && now > kConverged; ++i) {
+        const std::optional<ChainSlope> slope = tracer.slope(chain, time);
+        if (!slope) return false;
+        const std::optional<Vec3> step = newton_step(Miss(chain, end), *slope);
+        if (!step) return false;
+        double share = 1.0, least = now;
+        for (int halved = 0; halved <= kMostHalvings; ++halved, share *= 0.5) {
+            const Vec3 to = chain.at[0].surface.point + share * *step - from.point;
+            const double away = length(to);
+            if (!(away > 0.0)) continue;
+            if (!tracer.follow(from, to / away, chain.kind, part, indices, time, tried)) continue;
+            least = Miss(tried, end).size();
+            if (least < now) break;
+        }
+        if (!(least < now)) return now < kGoodEnough;
+        // A walk that crawls gets nowhere in time.
+        if (least > 0.999 * now) return now < kGoodEnough;
+        chain = tried;
+        now = least;
+    }
+    return now <= kGoodEnough;
+}
+
+double spread_ratio(const ChainTracer& tracer, const Chain& chain, const ChainEnd& end,
+                    float time) {
+    const std::optional<ChainSlope> slope = tracer.slope(chain, time);
+    if (!slope) return 0.0;
+    const Miss miss(chain, end);
+    const Vec2 c0 = miss.change(*slope, 0), c1 = miss.change(*slope, 1);
+    const double angles = std::abs(c0.x * c1.y - c1.x * c0.y);
+    const double squared =
+        end.infinite ? 1.0 : miss.aim.inverse_distance * miss.aim.inverse_distance;
+    return angles > 0.0 && std::isfinite(angles) ? squared / angles : 0.0;
+}
+
+}  // namespace alhazen

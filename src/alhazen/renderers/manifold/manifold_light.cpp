@@ -1,0 +1,298 @@
+#include "alhazen/renderers/manifold/manifold_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/renderers/core/attenuation.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Parts whose chains are known, asked at every point: one is cheap.
+constexpr std::size_t kMostAlways = 4;
+/// Parts that are weighed one by one; of more one is chosen evenly.
+constexpr std::size_t kMostWeighed = 64;
+/// A visible ray ends before what it goes to.
+constexpr double kBefore = 1.0 - 1e-7;
+/// Chains whose first directions differ by less are one.
+constexpr double kSameDirection = 1e-5;
+
+/// Share of all directions in which a part may be met.
+double share_of_directions(const SpecularPart& part, const Vec3& from) {
+    if (!part.bounded) return 0.5;
+    const double squared = length_squared(part.around.center - from);
+    const double sine2 = part.around.radius * part.around.radius / squared;
+    if (!(sine2 < 1.0)) return 0.5;
+    return 0.5 * sine2 / (1.0 + std::sqrt(1.0 - sine2));
+}
+
+Vec3 in_cone(const Vec3& axis, double versine, const Vec2& u) {
+    const double z = 1.0 - u.x * versine;
+    const double across = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
+    const Vec3 a = perpendicular(axis), b = cross(axis, a);
+    return normalize(z * axis + (across * std::cos(angle)) * a + (across * std::sin(angle)) * b);
+}
+
+}  // namespace
+
+void ChainTrail::begin(double density) {
+    length = density <= kMostDensity ? 0 : kNone;
+}
+
+void ChainTrail::go_on(const Surface& surface, bool transmitted) {
+    if (length == kNone) return;
+    const std::uint64_t key = part_key(surface);
+    const bool is_next = length == 0 || (length == 1 && refracted && transmitted && key == part);
+    part = key;
+    refracted = transmitted;
+    length = is_next ? static_cast<std::uint8_t>(length + 1) : kNone;
+}
+
+bool ManifoldScene::finds(const ChainTrail& trail, const Hit& hit, const Surface& surface,
+                          const Vec3& direction) const {
+    if (trail.length == 0 || trail.length == ChainTrail::kNone) return false;
+    const SpecularPart* const part = parts.find(trail.part);
+    if (part == nullptr || !(trail.refracted ? part->refracts : part->reflects)) return false;
+    return lights.may_pick(hit, surface, direction);
+}
+
+ManifoldScene::ManifoldScene(const Scene& scene, const Illumination& of)
+    : parts(scene), lights(of) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const bool known = parts[i].sphere || parts[i].flat;
+        (known && always.size() < kMostAlways ? always : by_chance).push_back(i);
+    }
+}
+
+bool ManifoldLight::begin(const Receiver& at) {
+    at_ = &at;
+    number_ = 0;
+    const double light = next_number();
+    const Vec2 u{next_number(), next_number()};
+    pick_ = manifold_.lights.pick(light, u);
+    end_ = {pick_.at, pick_.infinite};
+    return pick_.density > 0.0;
+}
+
+ManifoldLight::Choice ManifoldLight::choose_part(double choice) const {
+    const std::vector<std::size_t>& some = manifold_.by_chance;
+    const std::size_t n = some.size();
+    if (n > kMostWeighed) {
+        const auto i = std::min(static_cast<std::size_t>(choice * double(n)), n - 1);
+        return {&manifold_.parts[some[i]], 1.0 / double(n)};
+    }
+    double weights[kMostWeighed], sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        // Never 0: what is small may send much.
+        weights[i] = share_of_directions(manifold_.parts[some[i]], at_->surface.point) + 1e-3;
+        sum += weights[i];
+    }
+    double left = choice * sum;
+    std::size_t i = 0;
+    while (i + 1 < n && left >= weights[i]) left -= weights[i++];
+    return {&manifold_.parts[some[i]], weights[i] / sum};
+}
+
+void ManifoldLight::find_by(const Choice& part) {
+    part_ = part;
+    for (const ChainKind kind :
+         {ChainKind::Reflection, ChainKind::Refraction, ChainKind::TwoRefractions}) {
+        if (may_be(kind)) find_kind(kind);
+    }
+}
+
+bool ManifoldLight::may_be(ChainKind kind) const {
+    const SpecularPart& part = *part_.part;
+    if (length_of(kind) > at_->most_bends) return false;
+    if (!(refracts(kind) ? part.refracts : part.reflects)) return false;
+    if (kind != ChainKind::Refraction || !part.closed) return true;
+    // From outside to outside it is crossed twice.
+    return part.box.contains(at_->surface.point) || (!end_.infinite && part.box.contains(end_.at));
+}
+
+MediumStack ManifoldLight::media_along(const Vec3& direction) const {
+    MediumStack media = at_->media;
+    if (dot(direction, at_->scatter.geometric()) < 0.0) at_->scatter.cross(media);
+    return media;
+}
+
+bool ManifoldLight::set_out(ChainKind kind, const Vec3& direction) {
+    chain_.kind = kind;
+    chain_.direction = direction;
+    MediumStack media = media_along(direction);
+    Ray ray = leaving_ray(at_->surface, direction);
+    RayKind ray_kind = RayKind::Reflection;
+    for (int i = 0; i < length_of(kind); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        ChainVertex& v = chain_.at[k];
+        if (!tracer_.find(ray, part_.part->key, ray_kind, at_->time, v)) return false;
+        if (refracts(kind)) {
+            set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {},
+                              point_);
+            vertex_.set(scene_, point_, media, at_->waves);
+            v.eta = vertex_.singular(Transport::Radiance).eta;
+            if (!(v.eta > 0.0)) return false;
+            vertex_.cross(media);
+        }
+        indices_.eta[k] = v.eta;
+        indices_.entering[k] = v.entering;
+        if (!ChainTracer::bend(refracts(kind), v)) return false;
+        ray = leaving_ray(v.surface, v.leaving);
+        ray_kind = RayKind::Refraction;
+    }
+    return true;
+}
+
+bool ManifoldLight::reach(ChainKind kind, const Vec3& seed) {
+    return set_out(kind, seed) &&
+           walk_to(tracer_, at_->surface, part_.part->key, indices_, end_, at_->time, chain_);
+}
+
+std::optional<ChainSeeds> ManifoldLight::all_seeds(ChainKind kind) {
+    const SpecularPart& part = *part_.part;
+    const Vec3& from = at_->surface.point;
+    if (part.flat && kind != ChainKind::TwoRefractions) {
+        const FlatPlace& flat = *part.flat;
+        if (kind == ChainKind::Reflection) {
+            return reflections_by_plane(flat.point, flat.normal, from, end_);
+        }
+        const double side = dot(from - flat.point, flat.normal);
+        if (!set_out(kind, side > 0.0 ? -flat.normal : flat.normal)) return std::nullopt;
+        return refractions_by_plane(flat.point, flat.normal, indices_.eta[0], from, end_);
+    }
+    if (!part.sphere) return std::nullopt;
+    if (kind == ChainKind::Reflection) return reflections_by_sphere(*part.sphere, from, end_);
+    if (kind != ChainKind::TwoRefractions) return std::nullopt;
+    const Vec3 to_center = part.sphere->center - from;
+    const auto outside = [&](const Vec3& p) {
+        return length(p - part.sphere->center) > part.sphere->radius;
+    };
+    if (!outside(from) || !(end_.infinite || outside(end_.at))) return ChainSeeds();
+    if (!set_out(kind, normalize(to_center)) || !(indices_.eta[0] <= 1.0)) return std::nullopt;
+    return refractions_by_ball(*part.sphere, 1.0 / indices_.eta[0], from, end_);
+}
+
+std::optional<Vec3> ManifoldLight::likely_seed(ChainKind kind) const {
+    const SpecularPart& part = *part_.part;
+    const Vec3& from = at_->surface.point;
+    // What is bent little goes nearly straight.
+    if (refracts(kind)) return normalize(end_.infinite ? end_.at : end_.at - from);
+    if (!part.bounded) return std::nullopt;
+    const ChainSeeds seeds = reflections_by_sphere(part.around, from, end_);
+    if (seeds.empty()) return std::nullopt;
+    return seeds[0];
+}
+
+Vec3 ManifoldLight::random_seed() {
+    const SpecularPart& part = *part_.part;
+    const Vec3& from = at_->surface.point;
+    const Vec2 u{next_number(), next_number()};
+    const double share = share_of_directions(part, from);
+    if (share >= 0.5) return in_cone({0, 0, 1}, 2.0, u);
+    return in_cone(normalize(part.around.center - from), 2.0 * share, u);
+}
+
+void ManifoldLight::find_kind(ChainKind kind) {
+    const std::optional<ChainSeeds> seeds = all_seeds(kind);
+    if (!seeds) return find_by_trials(kind);
+    for (const Vec3& seed : *seeds) {
+        if (reach(kind, seed)) note(light_along(), 1.0);
+    }
+}
+
+void ManifoldLight::find_by_trials(ChainKind kind) {
+    const std::optional<Vec3> likely = likely_seed(kind);
+    const bool known = likely && reach(kind, *likely);
+    const Vec3 first = chain_.direction;
+    if (known) note(light_along(), 1.0);
+
+    if (!reach(kind, random_seed())) return;
+    const Vec3 direction = chain_.direction;
+    if (known && length(direction - first) < kSameDirection) return;
+    const Spectrum light = light_along();
+    if (light.is_black()) return;
+    std::uint32_t trials = 1;
+    while (!(reach(kind, random_seed()) && length(chain_.direction - direction) < kSameDirection)) {
+        if (++trials < kMostTrials) continue;
+        ++manifold_.cut;
+        break;
+    }
+    chain_.direction = direction;
+    note(light, trials);
+}
+
+void ManifoldLight::note(const Spectrum& light, double times) {
+    if (light.is_black() || !light.is_finite()) return;
+    found_.push_back({chain_.direction, chain_.length(), (times / part_.probability) * light});
+}
+
+Spectrum ManifoldLight::light_along() {
+    const ScatterPoint& scatter = at_->scatter;
+    const Vec3& direction = chain_.direction;
+    if (pick_.is_hit && !(scatter.density(direction) <= kMostDensity)) return {};
+    const Spectrum value = scatter.value(direction, Transport::Radiance);
+    if (value.is_black()) return {};
+    const Spectrum sent = manifold_.lights.sent(pick_, chain_.last().surface.point, at_->waves);
+    if (sent.is_black()) return {};
+    const MediumStack first = media_along(direction);
+    MediumStack media = first;
+    const Spectrum through = through_vertices(media);
+    if (through.is_black()) return {};
+    const double spread = spread_ratio(tracer_, chain_, end_, at_->time);
+    const Spectrum light = (spread / pick_.density) * (value * (through * sent));
+    if (light.is_black()) return {};
+    return light * unhindered(first, media);
+}
+
+Spectrum ManifoldLight::through_vertices(MediumStack& media) {
+    Spectrum through = Spectrum::all(1.0);
+    for (int i = 0; i < chain_.length(); ++i) {
+        const ChainVertex& v = chain_.at[static_cast<std::size_t>(i)];
+        set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {}, point_);
+        vertex_.set(scene_, point_, media, at_->waves);
+        const SingularLight light = vertex_.singular(Transport::Radiance);
+        if (!refracts(chain_.kind)) {
+            through = through * light.reflected;
+            continue;
+        }
+        constexpr double kSameIndex = 1e-9;
+        if (!(std::abs(light.eta - v.eta) <= kSameIndex * v.eta)) return {};
+        through = through * light.transmitted;
+        vertex_.cross(media);
+    }
+    return through;
+}
+
+Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& last) {
+    // Between the vertices a refracted chain is in a medium of its own; a reflected one has one.
+    MediumStack media = first;
+    Spectrum share = Spectrum::all(1.0);
+    const ShapeSurface* from = &at_->surface;
+    Vec3 direction = chain_.direction;
+    const auto pass = [&](const MediumStack& in, double distance) {
+        const Medium* const medium = in.here();
+        const Rgb absorption = medium != nullptr ? medium->absorption : Rgb{};
+        share = share * shadows_.passing(leaving_ray(*from, direction, kBefore * distance),
+                                         at_->time, absorption, at_->waves);
+        return !share.is_black();
+    };
+    for (int i = 0; i < chain_.length(); ++i) {
+        const ChainVertex& v = chain_.at[static_cast<std::size_t>(i)];
+        if (!pass(media, v.travelled)) return {};
+        from = &v.surface;
+        direction = v.leaving;
+        if (i + 1 == chain_.length()) break;
+        set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {}, point_);
+        vertex_.set(scene_, point_, media, at_->waves);
+        vertex_.cross(media);
+    }
+    const double rest =
+        end_.infinite ? std::numeric_limits<double>::infinity() : length(end_.at - from->point);
+    if (!pass(last, rest)) return {};
+    return share;
+}
+
+}  // namespace alhazen
