@@ -21,7 +21,7 @@ struct ScheduledTree {
 Schedule choose_schedule(const ScheduledTree& tree, Coherence coherence) {
     if (tree.treeless) return Schedule::TreelessPackets;
     if (coherence == Coherence::Any) return Schedule::Stream;
-    if (tree.suits_packets) return tree.has_packets ? Schedule::Packets : Schedule::Stream;
+    if (tree.suits_packets && tree.has_packets) return Schedule::Packets;
     return tree.bytes <= kMaxSingleTreeBytes ? Schedule::Single : Schedule::Stream;
 }
 
