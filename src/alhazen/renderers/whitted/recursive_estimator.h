@@ -57,16 +57,6 @@ concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
 inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
-/// Coherence of shadow rays from neighbouring points: they converge where there is one light.
-inline Coherence coherence_of_shadows(std::span<const Light> lights) {
-    std::size_t places = 0, directions = 0;
-    for (const Light& light : lights) {
-        places += place_of(light) == LightPlace::Point;
-        directions += place_of(light) == LightPlace::Direction;
-    }
-    return places == 1 && directions == 0 ? Coherence::Coherent : Coherence::Any;
-}
-
 /// Traces batches of eye rays; keeps all memory from batch to batch.
 template <class Chance>
 class RecursiveEstimator {
@@ -77,7 +67,6 @@ class RecursiveEstimator {
           conventions_(job.scene.conventions.shading),
           counters_(counters),
           rays_at_once_(rays_at_once),
-          eye_shadows_(coherence_of_shadows(scene_.lights)),
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
@@ -128,8 +117,9 @@ class RecursiveEstimator {
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             const std::size_t media = optics_ ? optics_->mark() : 0;
+            shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
             meet_surfaces(part, depth, met == 0, front);
-            shadows_.finish(depth == 0 ? eye_shadows_ : Coherence::Any);
+            shadows_.finish();
             trace_all(front.next, depth + 1);
             if constexpr (TreeWatcher<Chance>) chance_.gather(front, depth);
             gather(front, part.radiance);
@@ -244,7 +234,7 @@ class RecursiveEstimator {
             if (!(cosine > 0.0)) continue;
             if constexpr (TreeWatcher<Chance>) chance_.see_light(here, l, cosine);
             shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
-                         seen.path, sum);
+                         seen.path, sum, here);
         }
     }
 
@@ -312,7 +302,6 @@ class RecursiveEstimator {
     const ShadingConventions& conventions_;
     RayCounters& counters_;
     std::size_t rays_at_once_;
-    Coherence eye_shadows_;  ///< of the shadow rays from surfaces that eye rays hit
     const std::vector<Rgb> ambient_;
     std::span<Hit> eye_hits_;  ///< of a batch that begins with its first ray; see keep_hits
     VisibleBatch visible_;
