@@ -46,6 +46,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     if (media_known_) {
         behind_inside_ = point.behind.inside;
         inside_.absorption = point.behind.absorption;
+        if (const auto& after = surface.media.after) {
+            inside_.material = static_cast<std::uint32_t>(*after);
+        }
     }
     const Spectrum all = etas(scene, point, media, waves);
     const bool disperses = !(all == Spectrum::all(all.a));

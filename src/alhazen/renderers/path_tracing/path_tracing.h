@@ -28,6 +28,8 @@ class PathTracing final : public LightTransportRenderer {
         return !settings_.manifold;  // chains know one index
     }
 
+    [[nodiscard]] bool scatters_in_volumes() const override { return !settings_.manifold; }
+
   private:
     PathSettings settings_;
 };

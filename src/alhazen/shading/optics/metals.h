@@ -24,7 +24,8 @@ struct MetalAtWave {
 struct Metal {
     std::string_view name;
     Rgb index, extinction;
-    std::span<const MetalAtWave> by_wave;  ///< as measured, ascending; from below 382 to above 780 nm
+    std::span<const MetalAtWave>
+        by_wave;  ///< as measured, ascending; from below 382 to above 780 nm
 };
 
 /// In the order of their names.
