@@ -74,9 +74,12 @@ INSIDE = {
         "motion": [],
     },
     "explain": {
+        "beams": [],
+        "cones": [],
+        "patches": [],
         "tree": [],
         "spans": [],
-        "": ["tree", "spans"],
+        "": ["beams", "cones", "patches", "tree", "spans"],
         "page": [""],
     },
     "formats": {

@@ -40,6 +40,18 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
         ConeTracingOptions{.tables = settings.choice("coverage", 0, kCoverage) == 1});
 }
 
+OpticsSettings optics_settings(RendererSettings& settings) {
+    static constexpr const char* kChoices[] = {"off", "on", "scene"};
+    const auto read = [&](const char* name) -> std::optional<bool> {
+        const std::size_t chosen = settings.choice(name, 2, kChoices);
+        return chosen == 2 ? std::nullopt : std::optional(chosen == 1);
+    };
+    OpticsSettings optics;
+    optics.fresnel = read("fresnel");
+    optics.beer = read("beer");
+    return optics;
+}
+
 PathSettings path_settings(RendererSettings& settings) {
     PathSettings paths;
     paths.depth = settings.whole("depth", paths.depth, 0, PathSettings::kMostDepth);
@@ -126,13 +138,18 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 
 std::span<const RendererEntry> renderers() {
     static constexpr std::array<RendererEntry, 14> table{{
-        {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
-         [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
+        {"whitted",
+         "recursive ray tracing: shadows, reflection, refraction (Whitted 1980); "
+         "fresnel=on|off|scene, beer=on|off|scene (exact optics)",
+         [](RendererSettings& settings) {
+             return std::unique_ptr<Renderer>(std::make_unique<Whitted>(optics_settings(settings)));
+         }},
         {"distributed",
          "the same with rays spread over lenses, lights with extent and rough reflections (Cook, "
-         "Porter and Carpenter 1984)",
-         [](RendererSettings&) {
-             return std::unique_ptr<Renderer>(std::make_unique<Distributed>());
+         "Porter and Carpenter 1984); fresnel=on|off|scene, beer=on|off|scene",
+         [](RendererSettings& settings) {
+             return std::unique_ptr<Renderer>(
+                 std::make_unique<Distributed>(optics_settings(settings)));
          }},
         {"light_tracing",
          "all light by random paths from the lights, joined to the lens at each surface (Arvo "

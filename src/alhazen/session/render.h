@@ -38,7 +38,9 @@ void apply_spd(ShadingConventions& shading, SamplingConventions& sampling);
 
 struct RenderOptions {
     std::string renderer = "whitted";
-    std::string camera;                ///< name or position; empty = the first
+    std::string camera;  ///< name or position; empty = the first
+    /// Instead of a camera of the scene; null: none.
+    const CameraDescription* view = nullptr;
     std::optional<int> width, height;  ///< one given: the other follows from the aspect ratio
     std::optional<PixelBox> crop;      ///< of the full frame; default all of it
     int samples_per_pixel = 1;
@@ -76,6 +78,10 @@ struct RenderResult {
     std::vector<std::string> notes, remarks;           ///< of RenderReport
     PhotonCloud photons;                               ///< of RenderOptions::keep_photons
 };
+
+/// The camera that the options choose. Throws Error (Usage) for a name that there is not.
+[[nodiscard]] const CameraDescription& chosen_camera(const Scene& scene,
+                                                     const RenderOptions& options);
 
 struct FrameSize {
     int width, height;

@@ -331,7 +331,7 @@ TEST(IrradianceCache, InterpolatesWithinItsReachOnItsSide) {
     for (const double x : {0.0, 0.1, -0.19}) {
         const auto found = cache.irradiance({x, 0, 0}, {0, 0, 1});
         ASSERT_TRUE(found) << x;
-        EXPECT_NEAR(found->b, 3.0, 1e-12);
+        EXPECT_NEAR(found->c, 3.0, 1e-12);
     }
     EXPECT_FALSE(cache.irradiance({0.21, 0, 0}, {0, 0, 1}));
     EXPECT_FALSE(cache.irradiance({0, 0, 0}, {0, 0, -1}));
