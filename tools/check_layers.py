@@ -74,9 +74,12 @@ INSIDE = {
         "motion": [],
     },
     "explain": {
+        "beams": [],
+        "cones": [],
+        "patches": [],
         "tree": [],
         "spans": [],
-        "": ["tree", "spans"],
+        "": ["beams", "cones", "patches", "tree", "spans"],
         "page": [""],
     },
     "formats": {
@@ -140,6 +143,7 @@ INSIDE = {
         "photons": ["light_transport"],
         "photon_mapping": ["photons"],
         "sppm": ["photons"],
+        "vcm": ["bidirectional", "photons"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
         "distributed": ["whitted"],

@@ -107,6 +107,14 @@ void add_explain(CLI::App& app, int& exit_status) {
         ->add_option("--view", args->view,
                      "Frame the whole scene from this side instead, degrees; 0,0 is the front")
         ->type_name("AZIMUTH,ELEVATION");
+    command
+        ->add_option(
+            "--renderer", args->explain.render.renderer,
+            "cone_tracing, beam_tracing: also their cones or beams for the pixel; the tree "
+            "of rays is that of whitted")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"whitted", "cone_tracing", "beam_tracing"}))
+        ->type_name("NAME");
     command->add_option("--depth", args->depth, "Recursion depth; default: the format's")
         ->check(CLI::Range(0, 1000));
     command

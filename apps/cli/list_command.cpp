@@ -9,6 +9,7 @@
 #include "alhazen/csg/csg_evaluator.h"
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/sampling/samplers/sampler.h"
 #include "commands.h"
@@ -59,14 +60,22 @@ void list_shapes() {
     print_entry("mesh", "triangles; bounds a volume where it closes");
 }
 
+void list_layers() {
+    for (const AovEntry& entry : aov_table()) print_entry(entry.name, entry.description);
+}
+
 struct Topic {
     const char* name;
     void (*print)();
 };
-constexpr Topic kTopics[] = {
-    {"renderers", list_renderers}, {"accelerators", list_accelerators}, {"csg", list_csg},
-    {"shapes", list_shapes},       {"formats", list_formats},           {"samplers", list_samplers},
-    {"filters", list_filters}};
+constexpr Topic kTopics[] = {{"renderers", list_renderers},
+                             {"accelerators", list_accelerators},
+                             {"csg", list_csg},
+                             {"shapes", list_shapes},
+                             {"formats", list_formats},
+                             {"samplers", list_samplers},
+                             {"filters", list_filters},
+                             {"layers", list_layers}};
 
 }  // namespace
 
@@ -74,7 +83,7 @@ void add_list(CLI::App& app, int& exit_status) {
     CLI::App* command =
         app.add_subcommand("list",
                            "List what can be chosen by name: renderers, accelerators, CSG "
-                           "evaluators, shapes, formats, samplers, filters");
+                           "evaluators, shapes, formats, samplers, filters, layers");
     const auto wanted = std::make_shared<std::string>();
     std::vector<std::string> names;
     for (const Topic& topic : kTopics) names.emplace_back(topic.name);

@@ -8,6 +8,7 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/cameras/projection.h"
 #include "alhazen/renderers/core/antialias_report.h"
 #include "alhazen/renderers/core/beam_report.h"
 #include "alhazen/renderers/core/renderer.h"
@@ -37,6 +38,7 @@ struct RenderArguments {
     SceneArguments scene;
     std::string output;
     std::string size, crop, encoding, protocol, stats, tables, photons, aovs, view, antialias;
+    std::string projection;
     int depth = -1;
     int bits = 8;
     bool full_float = false, aov_png = false, quiet = false, no_counts = false;
@@ -230,6 +232,7 @@ int run(const RenderArguments& args) {
     check_environment(args.environment, options.renderer);
     check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
+    if (!args.projection.empty()) (void)parse_projection(args.projection);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);
     check_effects(args);
     ProgressDisplay progress(args.quiet);
@@ -246,6 +249,7 @@ int run(const RenderArguments& args) {
     ViewWishes wishes{.environment = args.environment,
                       .image_limits = load_options.import.image_limits};
     if (!args.view.empty()) wishes.view = parse_view(args.view);
+    wishes.projection = args.projection;
     for (const std::string& note : prepare_view(loaded, options, wishes)) {
         if (!args.quiet) tell("{}\n", note);
     }
@@ -279,6 +283,7 @@ int run(const RenderArguments& args) {
     }
     if (!args.quiet) {
         for (const std::string& note : result.notes) tell("warning: {}\n", note);
+        for (const std::string& remark : result.remarks) tell("{}\n", remark);
     }
     if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
     if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);
@@ -344,9 +349,10 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Adaptive supersampling instead of --spp: rays through the corners of the "
                      "pixels, and more where their shades differ by more than threshold (0.05), "
                      "down to 1 / 2^depth (4) of a pixel; guarantee (on): and where an object may "
-                     "hide between rays. exact: the mean over the whole area of each pixel, of "
-                     "beam_tracing")
-        ->type_name("whitted[:threshold=T,depth=D,guarantee=on|off]|exact");
+                     "hide between rays. exact: the integral over the whole area of each pixel, or "
+                     "under a filter (`alhazen list filters`), of beam_tracing")
+        ->type_name(
+            "whitted[:threshold=T,depth=D,guarantee=on|off]|exact[:filter=NAME,radius=PIXELS]");
     command
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")
@@ -364,6 +370,11 @@ void add_render(CLI::App& app, int& exit_status) {
         ->add_option("--view", args->view,
                      "Frame the whole scene from this side instead, degrees; 0,0 is the front")
         ->type_name("AZIMUTH,ELEVATION");
+    command
+        ->add_option("--projection", args->projection,
+                     "How the camera sees, from where it is: fisheye, equisolid (180 degrees high "
+                     "unless given), panorama (all around), perspective (45)")
+        ->type_name("NAME[:DEGREES]");
     // CLI11 reads "-1" into an unsigned number as a huge one.
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")
         ->capture_default_str();
@@ -411,9 +422,10 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Draw the tables of lane_carpenter over the scan lines as an animated SVG")
         ->type_name("FILE");
     command
-        ->add_option("--photons", args->photons,
-                     "Write the photons of photon_mapping, or of the first pass of sppm, as points "
-                     "of a PLY file")
+        ->add_option(
+            "--photons", args->photons,
+            "Write the photons of photon_mapping, or of the first pass of sppm or vcm, as points "
+            "of a PLY file")
         ->type_name("FILE.ply");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 #include <spawn.h>
 
+#include <filesystem>
+#include <optional>
+
 #include "../viewer/http_server.h"
+#include "../viewer/redirect_file.h"
 #include "../viewer/view_page.h"
 #include "../viewer/view_session.h"
 #include "alhazen/aggregates/accelerator_table.h"
@@ -24,9 +28,9 @@ struct ViewArguments {
     bool allow_remote = false, no_open = false;
 };
 
-/// Opens the page in the user's browser; nothing happens where there is none.
-void open_in_browser(const std::string& url) {
-    std::string program = "xdg-open", address = url;
+/// Opens a page in the user's browser; nothing happens where there is none.
+void open_in_browser(const std::filesystem::path& page) {
+    std::string program = "xdg-open", address = page.string();
     char* arguments[] = {program.data(), address.data(), nullptr};
     pid_t child = 0;
     (void)posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
@@ -41,15 +45,22 @@ int run_view(ViewArguments& args) {
     }
     check_accelerator(args.scene.accelerator);
     viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
-    viewer::HttpServer server(
-        {.address = args.address,
-         .port = static_cast<std::uint16_t>(args.port),
-         .assets = viewer::view_page(),
-         .handler = [&](const viewer::Request& request) { return session.answer(request); },
-         .close = [&] { session.close(); }});
+    std::optional<viewer::RedirectFile> redirect;
+    viewer::HttpServer server({.address = args.address,
+                               .port = static_cast<std::uint16_t>(args.port),
+                               .assets = viewer::view_page(),
+                               .handler =
+                                   [&](const viewer::Request& request) {
+                                       if (redirect) redirect->remove();  // the page has its key
+                                       return session.answer(request);
+                                   },
+                               .close = [&] { session.close(); }});
     print("{}\n", server.url());
     (void)std::fflush(stdout);
-    if (!args.no_open) open_in_browser(server.url());
+    if (!args.no_open) {
+        redirect.emplace(server.url());
+        open_in_browser(redirect->path());
+    }
     server.run(stop_on_signals());
     return kDone;
 }

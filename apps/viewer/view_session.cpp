@@ -1,10 +1,7 @@
 #include "view_session.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
@@ -12,9 +9,11 @@
 #include "alhazen/explain/page/explanation_json.h"
 #include "alhazen/imaging/codecs/jpeg.h"
 #include "alhazen/imaging/codecs/png.h"
-#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
+#include "view_menus.h"
+#include "view_wishes.h"
 
 namespace alhazen::viewer {
 
@@ -28,38 +27,11 @@ std::string text_of(const json& value) {
 Response failure(int status, const std::string& message) {
     return {status, "application/json", text_of({{"error", message}}), ""};
 }
-
 Response closed() {
     return failure(503, "the viewer is closing");
 }
-
-Vec3 vector_in(const json& wish, const char* key) {
-    const json& v = wish.at(key);
-    const Vec3 vector{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
-    if (!is_finite(vector)) throw Error(ErrorKind::Usage, "the camera is not finite");
-    return vector;
-}
-
-Camera camera_in(const json& wish) {
-    const Vec3 eye = vector_in(wish, "eye"), look = vector_in(wish, "look");
-    const Vec3 right = vector_in(wish, "right"), up = vector_in(wish, "up");
-    if (look == Vec3{} || right == Vec3{} || up == Vec3{}) {
-        throw Error(ErrorKind::Usage, "the camera has no extent");
-    }
-    if (wish.value("parallel", false)) return OrthographicCamera{eye, look, right, up};
-    return PerspectiveCamera{eye, look, right, up};
-}
-
-json camera_json(const CameraDescription& described) {
-    const PicturePlane plane = picture_plane(described.camera);
-    const auto list = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
-    return {{"name", described.name},
-            {"eye", list(plane.eye)},
-            {"look", list(plane.forward)},
-            {"right", list(plane.right)},
-            {"up", list(plane.up)},
-            {"aspect", described.aspect},
-            {"parallel", std::holds_alternative<OrthographicCamera>(described.camera)}};
+Response overtaken() {
+    return {204, "text/plain", "", ""};
 }
 
 /// Resident memory of the process.
@@ -70,179 +42,213 @@ std::uint64_t resident_bytes() {
     return resident * 4096;
 }
 
-int whole_in(const json& wish, const char* key, int fallback, int least, int most) {
-    const int value = wish.value(key, fallback);
-    if (value < least || value > most) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("{} must be {} to {}, found {}", key, least, most, value));
+/// The picture of a frame; facts of a layer are added.
+EncodedImage picture_of(const RenderResult& result, const FrameWish& wish,
+                        const FilmConventions& conventions, json& facts) {
+    if (wish.layer == nullptr) {
+        PictureOptions picture;
+        picture.tone = wish.tone;
+        return encoded_picture(result.film, conventions, picture);
     }
-    return value;
-}
-
-/// Of those in the table, the ones that need no other geometry than is loaded.
-json renderer_menu() {
-    json menu = json::array();
-    for (const RendererEntry& entry : renderers()) {
-        const auto renderer = make_renderer(entry.name);
-        if (renderer->takes_triangles_within() > 0.0) continue;
-        menu.push_back({{"name", entry.name}, {"what", entry.description}});
+    LayerPicture layer = layer_picture(*wish.layer, result.layers, false);
+    json scale{{"name", wish.layer->name}, {"meaning", layer.meaning}};
+    if (layer.colors) {
+        scale["low"] = layer.colors->low;
+        scale["high"] = layer.colors->high;
+        scale["colors"] = layer.colors->colors == ColorScale::Colors::Heat ? "heat" : "grey";
     }
-    return menu;
+    facts["layer"] = std::move(scale);
+    return std::move(layer.image);
 }
 
 }  // namespace
 
+/// Ends the work that the client has in hand, and is in its place until it is destroyed.
+class ViewSession::Turn {
+  public:
+    Turn(ViewSession& session, const json& wish)
+        : session_(session),
+          client_(wish.value("client", "")),
+          flag_(std::make_shared<StopFlag>()) {
+        const std::lock_guard lock(session.turns_mutex_);
+        std::shared_ptr<StopFlag>& place = session.turns_[client_];
+        if (place) place->request();
+        place = flag_;
+        if (session.closing_) flag_->request();
+    }
+    ~Turn() {
+        const std::lock_guard lock(session_.turns_mutex_);
+        const auto place = session_.turns_.find(client_);
+        if (place->second == flag_) session_.turns_.erase(place);
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+    [[nodiscard]] const StopFlag* flag() const { return flag_.get(); }
+    /// The answer of a turn that was ended.
+    [[nodiscard]] Response ended() const {
+        const std::lock_guard lock(session_.turns_mutex_);
+        return session_.closing_ ? closed() : overtaken();
+    }
+
+  private:
+    ViewSession& session_;
+    std::string client_;
+    std::shared_ptr<StopFlag> flag_;
+};
+
 ViewSession::ViewSession(std::filesystem::path scene, LoadOptions options, int threads)
     : path_(std::move(scene)), load_(std::move(options)), threads_(threads) {
-    load_scene();
+    stamps_.take({path_});
+    read_files();
+    watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
+ViewSession::~ViewSession() = default;
 
-void ViewSession::load_scene() {
-    LoadedScene loaded = load(path_, load_);
-    FramingOptions framing;
-    framing.aspect = free_aspect(loaded.description.picture, {});
-    (void)complete_view(loaded.description, loaded.scene, framing);
-    own_camera_ = loaded.scene.cameras.size();
-    loaded.scene.cameras.push_back(loaded.scene.cameras.front());
-    loaded_ = std::move(loaded);
-    error_.clear();
-    FileTimes now = file_times();
-    if (now != seen_) ++version_;
-    seen_ = times_ = std::move(now);
-}
-
-ViewSession::FileTimes ViewSession::file_times() const {
-    FileTimes times;
-    std::error_code none;
-    times[path_] = std::filesystem::last_write_time(path_, none);
-    for (const auto& file : loaded_.description.files) {
-        times[file] = std::filesystem::last_write_time(file, none);
-    }
-    return times;
-}
-
-void ViewSession::reload_if_changed() {
-    const FileTimes now = file_times();
-    if (now == times_) return;
-    times_ = now;
+/// Reads the files and takes their stamps. Throws Error, with the stamps taken.
+void ViewSession::read_files() {
+    std::set<std::filesystem::path> known = stamps_.files();
+    stamps_.take(known);
+    const auto began = FileStamps::now();
+    const std::shared_ptr<const Loaded> before = loaded();
+    auto next = std::make_shared<Loaded>();
+    next->accelerator = before ? before->accelerator : load_.compile.accelerator;
+    next->version = before ? before->version + 1 : 1;
+    LoadOptions options = load_;
+    options.compile.accelerator = next->accelerator;
+    Diagnostics diagnostics;
     try {
-        load_scene();
-    } catch (const Error& error) {
-        error_ = error.what();
+        SceneDescription description = load_description(path_, options, diagnostics);
+        stamps_.add(diagnostics.files(), began);
+        next->scene = load(std::move(description), std::move(diagnostics), options);
+    } catch (const Error&) {
+        stamps_.add(diagnostics.files(), began);
+        throw;
     }
+    LoadedScene& scene = next->scene;
+    FramingOptions framing;
+    framing.aspect = free_aspect(scene.description.picture, {});
+    (void)complete_view(scene.description, scene.scene, framing);
+    json menus = view_menus(scene, next->accelerator);
+    const std::lock_guard lock(shown_mutex_);
+    loaded_ = std::move(next);
+    menus_ = std::move(menus);
+    error_.clear();
 }
 
-Response ViewSession::state() {
-    const std::lock_guard lock(scene_mutex_);
-    reload_if_changed();
-    json cameras = json::array(), accelerators = json::array();
-    for (std::size_t i = 0; i < own_camera_; ++i) {
-        cameras.push_back(camera_json(loaded_.scene.cameras[i]));
-    }
-    for (const AcceleratorEntry& entry : accelerator_table()) {
-        accelerators.push_back({{"name", entry.name}, {"what", entry.description}});
-    }
-    const FrameSize frame =
-        frame_size(loaded_.description.picture, {}, loaded_.scene.cameras.front().aspect);
-    return {200, "application/json",
-            text_of({{"scene", path_.filename().string()},
-                     {"version", version_},
-                     {"error", error_},
-                     {"memory", resident_bytes()},
-                     {"width", frame.width},
-                     {"height", frame.height},
-                     {"up", loaded_.description.up_axis == UpAxis::Z ? "z" : "y"},
-                     {"depth", loaded_.scene.conventions.shading.max_depth},
-                     {"accelerator", load_.compile.accelerator},
-                     {"cameras", std::move(cameras)},
-                     {"renderers", renderer_menu()},
-                     {"accelerators", std::move(accelerators)},
-                     {"curves", kToneCurveNames},
-                     {"steps", traceable_accelerators()}}),
-            ""};
-}
-
-/// Also puts the camera of the page into the scene, and changes the accelerator.
-RenderOptions ViewSession::options_of(const json& wish) {
-    const std::string accelerator = wish.value("accelerator", load_.compile.accelerator);
-    if (accelerator != load_.compile.accelerator) {
-        check_accelerator(accelerator);
-        const std::string before = std::exchange(load_.compile.accelerator, accelerator);
-        try {
-            load_scene();
-        } catch (const Error&) {
-            load_.compile.accelerator = before;
-            throw;
+void ViewSession::watch(const std::stop_token& stop) {
+    constexpr auto kPause = std::chrono::milliseconds(100);
+    while (!stop.stop_requested()) {
+        {
+            std::unique_lock lock(watch_mutex_);
+            (void)watch_ends_.wait_for(lock, stop, kPause, [] { return false; });
         }
+        if (stop.stop_requested() || !stamps_.changed()) continue;
+        std::string message;
+        try {
+            read_files();
+            continue;
+        } catch (const std::exception& error) {
+            message = error.what();
+        }
+        const std::lock_guard lock(shown_mutex_);
+        error_ = std::move(message);
     }
-    RenderOptions options;
-    options.width = whole_in(wish, "width", 640, 1, 4096);
-    options.height = whole_in(wish, "height", 360, 1, 4096);
-    CameraDescription& own = loaded_.scene.cameras[own_camera_];
-    own.camera = camera_in(wish.at("camera"));
-    own.aspect = static_cast<double>(*options.width) / *options.height;
-    own.keys.clear();
-    options.camera = std::to_string(own_camera_);
-    options.renderer = wish.value("renderer", "whitted");
-    options.samples_per_pixel = whole_in(wish, "samples", 1, 1, 1024);
-    if (wish.contains("depth")) options.max_depth = whole_in(wish, "depth", 5, 0, 100);
-    options.threads = threads_;
-    return options;
 }
 
-Response ViewSession::frame(const json& wish) {
-    const auto own = std::make_shared<StopFlag>();
+std::shared_ptr<const ViewSession::Loaded> ViewSession::loaded() const {
+    const std::lock_guard lock(shown_mutex_);
+    return loaded_;
+}
+
+std::shared_ptr<const ViewSession::Loaded> ViewSession::loaded_with(
+    const std::string& accelerator) {
+    std::shared_ptr<const Loaded> here = loaded();
+    if (accelerator.empty() || here->accelerator == accelerator) return here;
+    check_accelerator(accelerator);
+    const std::lock_guard building(build_mutex_);
+    here = loaded();
+    if (here->accelerator == accelerator) return here;
+    auto next = std::make_shared<Loaded>();
+    next->scene.description = here->scene.description;
+    next->scene.scene = here->scene.scene;
+    next->scene.scene.aggregate = nullptr;
+    next->accelerator = accelerator;
+    next->version = here->version;
+    LoadOptions options = load_;
+    options.compile.accelerator = accelerator;
+    build_aggregate(next->scene, options);
+    const std::lock_guard lock(shown_mutex_);
+    if (loaded_->version == next->version) {
+        loaded_ = next;
+        menus_["accelerator"] = accelerator;
+    }
+    return next;
+}
+
+Response ViewSession::state() const {
+    json state;
     {
-        const std::lock_guard lock(newest_mutex_);
-        if (closing_) return closed();
-        if (newest_) newest_->request();
-        newest_ = own;
+        const std::lock_guard lock(shown_mutex_);
+        state = menus_;
+        state["version"] = loaded_->version;
+        state["error"] = error_;
     }
-    const std::lock_guard lock(scene_mutex_);
-    if (own->requested()) return {204, "text/plain", "", ""};
-    RenderOptions options = options_of(wish);
-    options.stop = own.get();
-    const RenderResult result = render(loaded_, options);
-    if (!result.complete) return {204, "text/plain", "", ""};
-    PictureOptions picture;
-    picture.tone.stops = wish.value("exposure", 0.0);
-    if (!(std::abs(picture.tone.stops) <= 64.0)) throw Error(ErrorKind::Usage, "bad exposure");
-    const std::string curve = wish.value("curve", "none");
-    const auto* const names = std::begin(kToneCurveNames);
-    const auto* const found = std::find(names, std::end(kToneCurveNames), curve);
-    if (found == std::end(kToneCurveNames)) throw Error(ErrorKind::Usage, "no such curve");
-    picture.tone.curve = static_cast<ToneCurve>(found - names);
-    const EncodedImage image =
-        encoded_picture(result.film, loaded_.scene.conventions.film, picture);
-    const bool png = wish.value("png", false);
-    const std::vector<std::byte> bytes = png ? encode_png(image, {}) : encode_jpeg(image, 85);
-    return {200, png ? "image/png" : "image/jpeg",
-            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
-            text_of({{"seconds", result.seconds},
-                     {"rays", result.counters.total_cast()},
-                     {"threads", result.threads},
-                     {"version", version_}})};
+    state["memory"] = resident_bytes();
+    return {200, "application/json", text_of(state), ""};
 }
 
-Response ViewSession::explain(const json& wish) {
-    {  // The frame in hand can be rendered again.
-        const std::lock_guard lock(newest_mutex_);
-        if (closing_) return closed();
-        if (newest_) newest_->request();
-    }
-    const std::lock_guard lock(scene_mutex_);
+Response ViewSession::frame(const json& request) {
+    const Turn turn(*this, request);
+    FrameWish wish = frame_wish(request);
+    const std::shared_ptr<const Loaded> here = loaded_with(request.value("accelerator", ""));
+    wish.options.view = &wish.camera;
+    wish.options.threads = threads_;
+    wish.options.stop = turn.flag();
+    if (turn.flag()->requested()) return turn.ended();
+    const RenderResult result = render(here->scene, wish.options);
+    if (!result.complete) return turn.ended();
+    json facts{{"seconds", result.seconds},
+               {"rays", result.counters.total_cast()},
+               {"threads", result.threads},
+               {"version", here->version}};
+    const EncodedImage image = picture_of(result, wish, here->scene.scene.conventions.film, facts);
+    const std::vector<std::byte> bytes = wish.png ? encode_png(image, {}) : encode_jpeg(image, 85);
+    return {200, wish.png ? "image/png" : "image/jpeg",
+            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), text_of(facts)};
+}
+
+Response ViewSession::explain(const json& request) {
+    const Turn turn(*this, request);
+    const FrameWish wish = frame_wish(request);
+    const std::shared_ptr<const Loaded> here = loaded_with(request.value("accelerator", ""));
     ExplainOptions options;
-    options.render = options_of(wish);
-    options.x = wish.at("x").get<int>();
-    options.y = wish.at("y").get<int>();
-    options.accelerator = wish.value("steps", options.accelerator);
-    return {200, "application/json", explanation_json(explain_pixel(loaded_, options), -1), ""};
+    options.render = wish.options;
+    options.render.aovs = {};
+    options.render.view = &wish.camera;
+    options.render.threads = threads_;
+    options.render.stop = turn.flag();
+    options.x = request.at("x").get<int>();
+    options.y = request.at("y").get<int>();
+    options.sample = request.value("sample", 0);
+    options.accelerator = request.value("steps", options.accelerator);
+    const Explanation explanation = explain_pixel(here->scene, options);
+    if (!explanation.complete) return turn.ended();
+    return {200, "application/json", explanation_json(explanation, -1), ""};
+}
+
+Response ViewSession::stop(const json& wish) {
+    const std::lock_guard lock(turns_mutex_);
+    const auto turn = turns_.find(wish.value("client", ""));
+    if (turn != turns_.end()) turn->second->request();
+    return {200, "application/json", "{}", ""};
 }
 
 void ViewSession::close() {
-    const std::lock_guard lock(newest_mutex_);
+    watcher_.request_stop();
+    const std::lock_guard lock(turns_mutex_);
     closing_ = true;
-    if (newest_) newest_->request();
+    for (const auto& [client, flag] : turns_) flag->request();
 }
 
 Response ViewSession::answer(const Request& request) {
@@ -251,6 +257,7 @@ Response ViewSession::answer(const Request& request) {
         const json wish = json::parse(request.body);
         if (request.path == "/frame") return frame(wish);
         if (request.path == "/explain") return explain(wish);
+        if (request.path == "/stop") return stop(wish);
         return failure(404, "there is no such question");
     } catch (const json::exception& error) {
         return failure(400, error.what());

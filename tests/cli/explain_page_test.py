@@ -79,6 +79,18 @@ result.textContent = JSON.stringify(seen);
 document.body.append(result);
 </script>"""
 
+# What cones and beams take.
+FLAT = """alhazen 1
+conventions { max_depth = 3 }
+perspective_camera { eye = (0, 1, 6); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }
+ambient_light { color = 0.1 }
+point_light "key" { position = (3, 5, 4); color = (1, 1, 1) }
+material "mirror" { diffuse = 0.1; reflective = 0.8 }
+material "matt" { diffuse = (0.7, 0.6, 0.5) }
+box "block" { lo = (-2, 0, 0); hi = (-0.6, 1.2, 0.8); material = "mirror" }
+rectangle "floor" { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "matt" }
+"""
+
 
 def browser():
     for name in ("chromium", "chromium-browser", "google-chrome"):
@@ -169,11 +181,91 @@ class ExplainPage(unittest.TestCase):
         self.assertEqual(data["traversal"]["accelerator"], "kd_tree")
         self.assertEqual([w["accelerator"] for w in data["traversal"]["work"]], ["kd_tree", "list", "wide_bvh"])
 
+    def pixel_of(self, scene, renderer, x, y):
+        """The colour that the renderer gives a pixel."""
+        picture = self.folder / "pixel.pfm"
+        subprocess.run([ALHAZEN, "render", str(scene), "-o", str(picture), "--size", "60x45", "--renderer", renderer,
+                        "--crop", f"{x},{y},{x + 1},{y + 1}", "-q"], check=True, timeout=60)
+        return struct.unpack("<3f", picture.read_bytes()[-12:])
+
+    def of_method(self, scene, renderer, x, y):
+        result = subprocess.run([ALHAZEN, "explain", str(scene), "-o", "-", "--pixel", f"{x},{y}", "--size", "60x45",
+                                 "--renderer", renderer, "--steps", "list"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def check_cone(self, cone, background):
+        total = [cone["left"] * c for c in background]
+        for part in cone["parts"]:
+            total = plus(total, [part["weight"] * c for c in part["color"]])
+            self.assertTrue(0 < part["weight"] <= 1 and 0 < part["share"] <= 1.0001, part)
+            for onward in part["cones"]:
+                if onward["kind"] != "shadow":
+                    self.check_cone(onward, background)
+        for a, b in zip(total, cone["radiance"]):
+            self.assertAlmostEqual(a, b, delta=1e-9)
+
+    def test_cones_add_up_to_the_pixel_of_their_renderer(self):
+        scene = self.folder / "cones.alhazen"
+        scene.write_text(FLAT + 'sphere "ball" { center = (0.5, 1, 0); radius = 0.8; material = "mirror" }\n', encoding="utf-8")
+        kinds = set()
+        for x, y in ((18, 24), (34, 20), (43, 14)):  # block, ball, and its edge
+            data = self.of_method(scene, "cone_tracing", x, y)
+            tree = data["cones"]["tree"]
+            self.check_cone(tree, data["background"])
+            for a, b in zip(self.pixel_of(scene, "cone_tracing", x, y), tree["radiance"]):
+                self.assertAlmostEqual(a, b, delta=1e-6)
+            kinds |= {c["kind"] for p in tree["parts"] for c in p["cones"]}
+        self.assertEqual(kinds, {"shadow", "reflection"})
+        refused = self.of_method(self.scene, "cone_tracing", 22, 22)["cones"]
+        self.assertIn("torus", refused["unavailable"])
+
+    def test_pieces_of_beams_add_up_to_the_pixel_of_their_renderer(self):
+        scene = self.folder / "beams.alhazen"
+        scene.write_text(FLAT, encoding="utf-8")
+        deepest = 0
+        for x, y in ((18, 24), (30, 36), (40, 20), (2, 2)):
+            beams = self.of_method(scene, "beam_tracing", x, y)["beams"]
+            pieces = {p["id"]: p for p in beams["pieces"]}
+            total = [0, 0, 0]
+            for piece in beams["pieces"]:
+                self.assertTrue(-1e-9 <= piece["share"] <= 1 + 1e-6)
+                self.assertIn(piece["from"], pieces)
+                if not piece["here"]:
+                    continue
+                deepest = max(deepest, piece["depth"])
+                total = plus(total, piece["own"])
+                for light in piece["lights"]:
+                    total = plus(total, light["color"]) if light["here"] else total
+            self.assertAlmostEqual(sum(p["share"] for p in beams["pieces"] if p["depth"] == 0), 1, delta=1e-6)
+            for a, b, c in zip(self.pixel_of(scene, "beam_tracing", x, y), beams["color"], total):
+                self.assertAlmostEqual(a, b, delta=1e-6)
+                self.assertAlmostEqual(b, c, delta=1e-12)
+        self.assertGreater(deepest, 0, "no mirror image in view")
+
+    def test_patches_are_subdivided_around_their_crossings(self):
+        scene = self.folder / "patch.alhazen"
+        points = ", ".join(f"({x}, {0.6 * ((x + y) % 2)}, {y})" for x in range(-2, 2) for y in range(-2, 2))
+        scene.write_text(FLAT + f'bezier_patch "sheet" {{ points = [{points}]; material = "matt" }}\n', encoding="utf-8")
+        data = self.of_method(scene, "whitted", 30, 28)
+        [patch] = data["patches"]
+        self.assertEqual((patch["object"], patch["degree"], patch["cut"]), ("sheet", [3, 3], False))
+        self.assertTrue(patch["crossings"])
+        if data["tree"]["surfaces"][0]["object"] == "sheet":
+            self.assertAlmostEqual(patch["crossings"][0]["t"], data["tree"]["surfaces"][0]["t"], delta=1e-9)
+        met = {(p["level"], p["u"], p["v"]) for p in patch["parts"] if p["met"]}
+        deepest = max(p["level"] for p in patch["parts"])
+        for crossing in patch["crossings"]:
+            for level in range(deepest):
+                self.assertIn((level, int(crossing["u"] * 2 ** level), int(crossing["v"] * 2 ** level)), met)
+        self.assertLess(len(patch["parts"]), 600)
+
     def test_wrong_usage_says_what_was_expected(self):
         for options, message in ((("--pixel", "60,0", "-o", "-"), "is not in a picture of 60x45"),
                                  (("--pixel", "1;2", "-o", "-"), "expected X,Y"),
                                  (("--pixel", "1,2", "-o", "x.png"), "ends in .html or .json"),
                                  (("--pixel", "1,2", "-o", "-", "--sample", "1"), "the pixel has 1"),
+                                 (("--pixel", "1,2", "-o", "-", "--renderer", "sppm"), "beam_tracing"),
                                  (("--pixel", "1,2", "-o", "-", "--steps", "wide_bvh"), "traceable accelerators: list")):
             result = self.explain(*options)
             self.assertEqual(result.returncode, 2, result.stderr)

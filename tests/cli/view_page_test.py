@@ -9,6 +9,7 @@ Skipped, with a message, without a browser: `scripts/setup --browser` installs o
 import pathlib
 import sys
 import tempfile
+import time
 import unittest
 
 from browser_session import BrowserSession, browser
@@ -18,7 +19,7 @@ ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
 READY = "globalThis.viewer?.frames > 0 && viewer.image.complete && viewer.image.naturalWidth > 0"
 # The last frame of the view is shown: all levels are done.
-FINE = f"({READY}) && viewer.level >= 4 && viewer.shownGeneration === viewer.generation"
+FINE = f"({READY}) && viewer.done() && viewer.shownGeneration === viewer.generation"
 
 
 @unittest.skipIf(browser() is None, "no chromium here: scripts/setup --browser installs it")
@@ -97,6 +98,13 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: page.value("viewer.cameraMenu.value = '1'; viewer.cameraMenu.dispatchEvent(new Event('change'))"))
         page.value("viewer.accelerator.value = 'octree'; viewer.accelerator.dispatchEvent(new Event('change'))")
         page.wait(FINE)
+        # A layer has its scale, in words too.
+        self.changes(lambda: page.value("viewer.layer.value = 'depth'; viewer.layer.dispatchEvent(new Event('change'))"))
+        self.assertRegex(page.value("viewer.scale.textContent"), r"^depth\d")
+        self.assertIn("linear-gradient", page.value("document.querySelector('.bar-of-scale').style.background"))
+        self.shoot("view_layer")
+        self.changes(lambda: page.value("viewer.layer.value = ''; viewer.layer.dispatchEvent(new Event('change'))"))
+        self.assertTrue(page.value("viewer.scale.hidden"))
         # A click explains: the ball is in the middle.
         x, y = self.place(0.5, 0.5)
         page.mouse("mousePressed", x, y, 1)
@@ -113,13 +121,61 @@ class ViewPage(unittest.TestCase):
         page.wait("document.getElementById('message').textContent.includes('scene.alhazen:9:')")
         self.assertEqual(self.picture(), shown)
         self.shoot("view_error")
-        self.changes(lambda: (self.scene.write_text(SCENE.replace("radius = 1;", "radius = 0.5;"), encoding="utf-8"),
+        # The menus follow, and what was chosen stays.
+        better = SCENE.replace("radius = 1;", "radius = 0.5;").replace("point_light",
+            'perspective_camera "top" { eye = (0, 7, 1); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }\npoint_light')
+        self.changes(lambda: (self.scene.write_text(better, encoding="utf-8"),
                               page.wait("viewer.scene.version > 1 && document.getElementById('message').hidden")))
+        self.assertEqual(page.value("[...viewer.cameraMenu.options].map(o => o.text).join()"), "front,side,top")
+        self.assertEqual(page.value("viewer.cameraMenu.value + viewer.renderer.value"), "1ray_casting")
         self.check_quiet()
         # Without a server it says so, and keeps the picture.
         self.server.process.kill()
         page.wait("document.getElementById('message').textContent.includes('does not answer')")
         self.assertTrue(page.value(READY))
+
+    def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
+        self.open("900,700")
+        page = self.page
+        slow = "viewer.samples.value = '400'; viewer.samples.dispatchEvent(new Event('change'))"
+        page.value(slow)
+        page.wait("viewer.level === 3")
+        page.value("viewer.explain(0.5, 0.5)")
+        page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+        page.value("viewer.samples.value = '30'")
+        page.wait(FINE)
+        # Ended by nobody that the page knows of.
+        page.value(slow)
+        page.wait("viewer.level === 3")
+        self.assertEqual(self.server.ask("/stop", {"client": page.value("viewer.client")})[0], 200)
+        page.value("viewer.samples.value = '20'")
+        page.wait(FINE)
+        # Stop leaves it as it is; a change goes on.
+        page.value(slow)
+        page.wait("viewer.level === 3")
+        page.key("Escape") if page.value("viewer.image.focus() || true") else None
+        page.value("viewer.samples.value = '2'")
+        time.sleep(0.5)
+        self.assertEqual(page.value("viewer.level"), 3)
+        page.value("viewer.changed()")
+        page.wait(FINE)
+        self.check_quiet()
+
+    def test_methods_are_explained_by_their_cones_and_beams(self):
+        self.scene.write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith(("sphere", "plane"))) +
+                              'rectangle { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "mirror" }\n',
+                              encoding="utf-8")
+        self.open("1300,1000")
+        page = self.page
+        for renderer, place in (("cone_tracing", "#cones .cone"), ("beam_tracing", "#beams tbody tr")):
+            page.value(f"viewer.renderer.value = '{renderer}'; viewer.renderer.dispatchEvent(new Event('change'))")
+            page.wait(FINE)
+            page.value("viewer.explain(0.26, 0.8)")
+            page.wait(f"document.querySelectorAll('{place}').length > 0")
+            page.value("document.querySelector('#cones, #beams').scrollIntoView()")
+            self.shoot(f"view_{renderer}")
+        # A refused scene is said, and stays said.
+        self.check_quiet()
 
     def test_it_fits_a_phone_and_is_named_for_readers(self):
         self.open("480,1000")

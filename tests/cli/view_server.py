@@ -4,6 +4,7 @@ import json
 import re
 import socket
 import subprocess
+import time
 
 SCENE = """alhazen 1
 picture { width = 160; height = 120; background = (0.1, 0.15, 0.3) }
@@ -22,9 +23,9 @@ plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 class Server:
     """Starts the server of a scene, and asks it as a page would, or otherwise."""
 
-    def __init__(self, alhazen, scene, *options):
-        self.process = subprocess.Popen([alhazen, "view", str(scene), "--no-open", *options], stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+    def __init__(self, alhazen, scene, *options, open_page=False, environment=None):
+        command = [alhazen, "view", str(scene), *([] if open_page else ["--no-open"]), *options]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
         self.url = self.process.stdout.readline().strip()
         match = re.fullmatch(r"http://([^/]+):(\d+)/#([0-9a-f]{32})", self.url)
         if match is None:
@@ -69,6 +70,14 @@ class Server:
         lines = head.decode("latin-1").split("\r\n")
         status = int(lines[0].split()[1]) if lines[0] else 0
         return status, {k.lower(): v for k, v in (line.split(": ", 1) for line in lines[1:])}, rest
+
+    def wait_for(self, holds, seconds=20):
+        """The first state of which `holds` is true."""
+        begin = time.monotonic()
+        while not holds(state := self.state()):
+            assert time.monotonic() - begin < seconds, state
+            time.sleep(0.05)
+        return state
 
     def state(self):
         status, _, body = self.ask("/state", {})

@@ -5,8 +5,10 @@ Usage: view_server_test.py ALHAZEN
 """
 
 import json
+import os
 import pathlib
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -19,6 +21,11 @@ from view_server import SCENE, Server
 ALHAZEN = sys.argv[1]
 WISH = {"width": 80, "height": 60, "renderer": "whitted", "accelerator": "wide_bvh",
         "camera": {"eye": [0, 1, 6], "look": [0, 0, -1], "right": [0.9, 0, 0], "up": [0, 0.7, 0]}}
+
+# Every ray splits at every surface: 2^100 rays.
+DEEP = SCENE.replace("max_depth = 4", "max_depth = 4; min_contribution = 0") + '''
+material "glass" { transmissive = 0.9; reflective = 0.5; index = 1.3 }
+''' + "".join(f'sphere {{ center = (0, 1, 0); radius = {1.2 + 0.2 * i}; material = "glass" }}\n' for i in range(8))
 
 
 class ViewServer(unittest.TestCase):
@@ -199,6 +206,106 @@ class ViewServer(unittest.TestCase):
         thread.join(10)
         self.assertEqual(results, [204])
 
+    def in_hand(self, server, path, wish):
+        """Asks beside this thread; returns a function that waits for the status."""
+        results = []
+        thread = threading.Thread(target=lambda: results.append(server.ask(path, wish)[0]))
+        thread.start()
+        time.sleep(0.5)
+
+        def status():
+            thread.join(30)
+            return results[0]
+        return status
+
+    def test_frames_of_another_client_go_on(self):
+        long = {**WISH, "width": 400, "height": 300, "samples": 16, "client": "a"}
+        status = self.in_hand(self.server, "/frame", long)
+        self.assertEqual(self.server.ask("/frame", {**WISH, "client": "b"})[0], 200)
+        self.assertEqual(status(), 200)
+
+    def test_an_explanation_is_ended_by_a_newer_question_a_stop_and_the_end(self):
+        scene = self.scene.with_name("deep.alhazen")
+        scene.write_text(DEEP, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            long = {**WISH, "x": 40, "y": 30, "samples": 1024, "depth": 100, "steps": "list"}
+            for path in ("/frame", "/explain", "/stop"):
+                status = self.in_hand(server, "/explain", long)
+                begin = time.monotonic()
+                self.assertEqual(server.ask(path, {**WISH, "depth": 1, "x": 0, "y": 0})[0], 200)
+                self.assertEqual(status(), 204, path)
+                self.assertLess(time.monotonic() - begin, 5, path)
+            self.in_hand(server, "/explain", long)
+            begin = time.monotonic()
+        finally:
+            server.close()
+        self.assertLess(time.monotonic() - begin, 5)
+
+    def test_the_tree_of_an_explanation_has_a_bound_and_says_so(self):
+        scene = self.scene.with_name("deep.alhazen")
+        scene.write_text(DEEP, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            wish = {**WISH, "x": 40, "y": 30, "steps": "list"}
+            status, _, body = server.ask("/explain", {**wish, "depth": 100})
+            self.assertEqual(status, 200)
+            data = json.loads(body)
+            self.assertEqual(data["cut"], data["max_depth"])
+            self.assertLess(data["cut"], 64)
+            self.assertLessEqual(sum(data["rays"].values()), 10000)
+            self.assertLess(len(body), 32 << 20)
+            shallow = json.loads(server.ask("/explain", {**wish, "depth": data["cut"]})[2])
+            self.assertEqual((shallow["cut"], shallow["pixel"]), (False, data["pixel"]))
+        finally:
+            server.close()
+
+    def test_the_state_does_not_wait_for_a_frame(self):
+        long = {**WISH, "width": 2000, "height": 1500, "samples": 1024}
+        status = self.in_hand(self.server, "/frame", long)
+        for _ in range(5):
+            begin = time.monotonic()
+            self.server.state()
+            self.assertLess(time.monotonic() - begin, 1)
+        self.assertEqual(self.server.ask("/stop", {})[0], 200)
+        self.assertEqual(status(), 204)
+
+    def test_names_of_cameras_do_not_matter(self):
+        scene = self.scene.with_name("numbered.alhazen")
+        scene.write_text(SCENE.replace('"front"', '"2"').replace('"side"', '"0"'), encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            wish = {**WISH, "png": True}
+            self.assertEqual(server.ask("/frame", wish)[2], self.server.ask("/frame", wish)[2])
+            pixel = {**WISH, "x": 40, "y": 30, "steps": "list"}
+            here, there = (json.loads(s.ask("/explain", pixel)[2]) for s in (server, self.server))
+            self.assertEqual(here["tree"], there["tree"])
+        finally:
+            server.close()
+
+    def test_every_layer_of_the_table_is_a_picture_with_its_scale(self):
+        state = self.server.state()
+        listed = subprocess.run([ALHAZEN, "list", "layers"], capture_output=True, text=True).stdout
+        self.assertGreater(len(state["layers"]), 20)
+        pictures = set()
+        for entry in state["layers"]:
+            self.assertIn(f"  {entry['name']} ", listed)
+            status, headers, body = self.server.ask("/frame", {**WISH, "layer": entry["name"], "png": True})
+            self.assertEqual(status, 200, body)
+            layer = json.loads(headers["x-alhazen"])["layer"]
+            self.assertEqual(layer["name"], entry["name"])
+            self.assertEqual(struct.unpack(">II", body[16:24]), (80, 60), "the scale is not in the picture")
+            if "colors" in layer:
+                self.assertIn(layer["colors"], state["scales"])
+                self.assertLessEqual(layer["low"], layer["high"])
+            pictures.add(body)
+        self.assertGreater(len(pictures), 10)
+        layer = json.loads(self.server.ask("/frame", {**WISH, "layer": "depth"})[1]["x-alhazen"])["layer"]
+        self.assertAlmostEqual(layer["low"], 2.9056, delta=0.001)  # to the floor at the lower edge
+        status, _, body = self.server.ask("/frame", {**WISH, "layer": "none"})
+        self.assertEqual(status, 400)
+        self.assertIn("expected one of alpha, depth", json.loads(body)["error"])
+
     def test_a_changed_file_is_read_again_and_a_bad_one_keeps_the_last(self):
         scene = self.scene.with_name("changing.alhazen")
         scene.write_text(SCENE, encoding="utf-8")
@@ -207,14 +314,108 @@ class ViewServer(unittest.TestCase):
             version = server.state()["version"]
             frame = server.ask("/frame", {**WISH, "png": True})[2]
             scene.write_text(SCENE.replace("radius = 1;", "radius = = 1;"), encoding="utf-8")
-            state = server.state()
+            state = server.wait_for(lambda s: "changing.alhazen:9:" in s["error"])
             self.assertEqual(state["version"], version)
-            self.assertIn("changing.alhazen:9:", state["error"])
             self.assertEqual(server.ask("/frame", {**WISH, "png": True})[2], frame)
-            scene.write_text(SCENE.replace("radius = 1;", "radius = 0.5;"), encoding="utf-8")
-            state = server.state()
+            scene.write_text(SCENE.replace("radius = 1;", "radius = 0.5;").replace('"side"', '"left"'), encoding="utf-8")
+            state = server.wait_for(lambda s: s["version"] > version)
             self.assertEqual((state["version"], state["error"]), (version + 1, ""))
+            self.assertEqual([c["name"] for c in state["cameras"]], ["front", "left"])
             self.assertNotEqual(server.ask("/frame", {**WISH, "png": True})[2], frame)
+        finally:
+            server.close()
+
+    def test_a_change_that_time_and_size_do_not_show_is_seen(self):
+        scene = self.scene.with_name("racy.alhazen")
+        scene.write_text(SCENE, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            version = server.state()["version"]
+            scene.write_text(SCENE.replace("radius = 1;", "radius = 3;"), encoding="utf-8")
+            server.wait_for(lambda s: s["version"] > version)
+            stat = scene.stat()
+            scene.write_text(SCENE.replace("radius = 1;", "radius = 2;"), encoding="utf-8")
+            os.utime(scene, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+            server.wait_for(lambda s: s["version"] > version + 1, 5)
+        finally:
+            server.close()
+
+    def test_an_edit_while_the_file_is_loaded_is_not_lost(self):
+        scene = self.scene.with_name("slow.alhazen")
+        many = "".join(f"sphere {{ center = ({i % 300}, -500, {i // 300}); radius = 0.4; material = \"red\" }}\n"
+                       for i in range(60000))
+        scene.write_text(SCENE + many, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            for pause in (0.15, 0.4):
+                version = server.state()["version"]
+                scene.write_text(SCENE.replace("radius = 1;", "radius = 0.7;") + many, encoding="utf-8")
+                time.sleep(pause)
+                scene.write_text(SCENE.replace("radius = 1;", "radius = 0.5;"), encoding="utf-8")
+                wanted = self.server_of(SCENE.replace("radius = 1;", "radius = 0.5;"))
+                server.wait_for(lambda s: s["version"] > version)
+                begin = time.monotonic()
+                while server.ask("/frame", {**WISH, "png": True})[2] != wanted:
+                    self.assertLess(time.monotonic() - begin, 15, "the edit was lost")
+                    time.sleep(0.1)
+        finally:
+            server.close()
+
+    def server_of(self, text):
+        """The picture of a scene."""
+        scene = self.scene.with_name("other.alhazen")
+        scene.write_text(text, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            return server.ask("/frame", {**WISH, "png": True})[2]
+        finally:
+            server.close()
+
+    def test_a_missing_included_file_is_waited_for(self):
+        scene = self.scene.with_name("including.alhazen")
+        part = self.scene.with_name("included.alhazen")
+        scene.write_text(SCENE, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            version = server.state()["version"]
+            scene.write_text(SCENE + "include \"included.alhazen\"\n", encoding="utf-8")
+            state = server.wait_for(lambda s: s["error"])
+            self.assertIn("include", state["error"])
+            part.write_text("alhazen 1\nsphere { center = (1.5, 1, 0); radius = 0.5; material = \"red\" }\n", encoding="utf-8")
+            state = server.wait_for(lambda s: s["version"] > version)
+            self.assertEqual(state["error"], "")
+            frame = server.ask("/frame", {**WISH, "png": True})[2]
+            part.write_text("alhazen 1\nsphere { center = (1.5, 1, 0); radius = 0.9; material = \"red\" }\n", encoding="utf-8")
+            server.wait_for(lambda s: s["version"] > state["version"])
+            self.assertNotEqual(server.ask("/frame", {**WISH, "png": True})[2], frame)
+        finally:
+            server.close()
+
+    # ---- how the browser is opened
+    def test_the_key_is_not_in_the_arguments_of_the_browser(self):
+        folder = pathlib.Path(self.temporary.name) / "bin"
+        folder.mkdir()
+        seen = folder / "seen"
+        opener = folder / "xdg-open"
+        opener.write_text("#!/bin/sh\n{ echo \"$@\"; stat -c %a \"$1\" \"$(dirname \"$1\")\"; cat \"$1\"; } "
+                          f"> {seen}.part\nmv {seen}.part {seen}\n", encoding="utf-8")
+        opener.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "XDG_RUNTIME_DIR": str(folder)}
+        server = Server(ALHAZEN, self.scene, open_page=True, environment=environment)
+        try:
+            begin = time.monotonic()
+            while not seen.exists():
+                self.assertLess(time.monotonic() - begin, 20)
+                time.sleep(0.05)
+            arguments, *modes, page = seen.read_text(encoding="utf-8").split("\n", 3)
+            self.assertNotIn(server.token, arguments)
+            self.assertEqual(modes, ["600", "700"])
+            self.assertIn(f"url=http://{server.host}/#{server.token}", page)
+            path = pathlib.Path(arguments)
+            self.assertEqual(server.ask("/state", {}, Authorization="Bearer x")[0], 401)
+            self.assertTrue(path.exists(), "nobody had the key")
+            server.state()
+            self.assertFalse(path.parent.exists(), "the file is there after its use")
         finally:
             server.close()
 

@@ -52,50 +52,61 @@ class Viewer {
       sessionStorage.setItem("token", this.token);
       history.replaceState(null, "", location.pathname);
     }
-    this.level = 0;
-    this.generation = 0;
+    // What one page asks for ends what it asked for before; other pages are left alone.
+    this.client = Math.random().toString(36).slice(2);
+    this.level = this.generation = this.chain = this.frames = 0;
     this.undo = [];
+    this.problems = {};
     this.build();
     this.poll();
   }
   async ask(path, wish = {}) {
-    return fetch(path, {method: "POST", body: JSON.stringify(wish), headers: {Authorization: `Bearer ${this.token}`}});
+    return fetch(path, {method: "POST", body: JSON.stringify({...wish, client: this.client}),
+                        headers: {Authorization: `Bearer ${this.token}`}});
   }
-  say(text) {
-    const place = document.getElementById("message");
-    place.hidden = !text;
-    if (place.textContent !== text) place.textContent = text;
+  // One message of each kind; an empty one takes it back.
+  say(kind, text) {
+    this.problems[kind] = text;
+    const place = document.getElementById("message"), all = Object.values(this.problems).filter(t => t).join("\n");
+    place.hidden = !all;
+    if (place.textContent !== all) place.textContent = all;
   }
 
   build() {
     this.image = element("img", {class: "picture", tabindex: "0", alt: "The scene. Drag or arrow keys turn, shift moves, " +
-      "wheel or plus and minus zoom, W A S D walk, a click or Enter explains a pixel.", draggable: "false"});
+      "wheel or plus and minus zoom, W A S D walk, a click or Enter explains a pixel, Escape ends what is computed.",
+      draggable: "false"});
+    this.scale = element("div", {class: "scale", hidden: true});
     this.controls = element("form", {class: "controls", submit: e => e.preventDefault()});
     this.status = element("p", {id: "status", "aria-live": "off"});
     const block = element("textarea", {id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true});
     const button = (text, click) => element("button", {type: "button", click}, text);
     this.buttons = element("div", {class: "row"},
-      button("Undo", () => this.back()), button("Home", () => this.goHome()),
+      button("Undo", () => this.back()), button("Home", () => this.goHome()), button("Stop", () => this.stop()),
       button("Camera block", () => {
         block.value = this.camera.block();
         block.hidden = !block.hidden;
       }),
       button("Save picture", () => this.save()));
-    document.getElementById("viewer").append(element("div", {}, this.image, this.status),
+    document.getElementById("viewer").append(element("div", {}, this.image, this.scale, this.status),
       element("section", {"aria-label": "Settings"}, this.controls, this.buttons, block));
     this.listen();
   }
-  // Menus of what the program says that there is.
+  // Menus of what the program says that there is. What was chosen stays where it still is.
   fill(state) {
+    const chosen = Object.fromEntries([...this.controls.elements].map(e => [e.name, e.value]));
+    const focus = this.controls.contains(document.activeElement) ? document.activeElement.name : "";
     const menu = (key, label, entries, value) => {
-      const select = element("select", {change: () => this.changed()}, ...entries.map(e =>
+      const select = element("select", {name: key, change: () => this.changed()}, ...entries.map(e =>
         element("option", {value: e.value ?? e.name, title: e.what}, e.name)));
-      select.value = value;
+      const has = v => entries.some(e => (e.value ?? e.name) === v);
+      select.value = has(chosen[key]) ? chosen[key] : has(value) ? value : entries[0]?.value ?? entries[0]?.name;
       this[key] = select;
       return element("label", {}, label, select);
     };
     const field = (key, label, value, min, max, step = 1) => {
-      const input = element("input", {type: "number", min, max, step, value, change: () => this.changed()});
+      const input = element("input", {name: key, type: "number", min, max, step, value: chosen[key] ?? value,
+                                      change: () => this.changed()});
       this[key] = input;
       return element("label", {}, label, input);
     };
@@ -103,19 +114,33 @@ class Viewer {
     this.controls.replaceChildren(
       menu("cameraMenu", "camera", cameras, "0"), menu("renderer", "renderer", state.renderers, "whitted"),
       menu("accelerator", "accelerator", state.accelerators, state.accelerator),
+      menu("layer", "layer", [{name: "colours", value: "", what: "the picture"}, ...state.layers], ""),
+      menu("moving", "moving", [{name: "coarser", what: "the same renderer, as many pixels as 40 ms allow"},
+        {name: "flat", what: "ray_casting at half the width: no shadows, mirrors, glass"}], "coarser"),
       field("samples", "samples", 4, 1, 1024), field("depth", "depth", state.depth, 0, 100),
       field("exposure", "exposure", 0, -16, 16, 0.5),
       menu("curve", "tone curve", state.curves.map(c => ({name: c})), "none"),
       menu("steps", "steps of", state.steps.split(", ").map(s => ({name: s})), "kay_kajiya"));
     this.cameraMenu.addEventListener("change", () => {
       this.remember();
-      this.take(state.cameras[Number(this.cameraMenu.value)]);
+      this.take(this.scene.cameras[Number(this.cameraMenu.value)]);
     });
-    this.home = state.cameras[0];
+    if (focus) this[focus].focus();
+  }
+  // The file has changed: the chosen camera by its name, and the view where it still was that camera's.
+  refill(before, state) {
+    const old = before.cameras[Number(this.cameraMenu.value)];
+    const same = state.cameras.findIndex(c => c.name === old.name);
+    const index = same >= 0 ? same : Math.min(Number(this.cameraMenu.value), state.cameras.length - 1);
+    const depth = Number(this.depth.value) === before.depth;
+    this.fill(state);
+    if (depth) this.depth.value = String(state.depth);
+    this.cameraMenu.value = String(index);
+    if (["eye", "look", "right", "up"].every(k => norm(sub(this.camera[k], old[k])) === 0)) this.take(state.cameras[index]);
   }
   take(camera) {
     this.camera = new ViewCamera(camera, this.scene.up);
-    if (!this.camera.distance) this.camera.distance = this.range ?? 0.5 * norm(this.camera.eye) + 1;
+    if (!this.camera.distance) this.camera.distance = 0.5 * norm(this.camera.eye) + 1;
     this.changed();
   }
   goHome() {
@@ -128,50 +153,45 @@ class Viewer {
     try {
       const answer = await this.ask("/state");
       if (answer.status === 401) {
-        this.say("This page has no key to the server: open the address that `alhazen view` printed.");
+        this.say("server", "This page has no key to the server: open the address that `alhazen view` printed.");
         return;
       }
-      const state = await answer.json();
+      const state = await answer.json(), known = this.scene;
       this.memory = state.memory;
-      this.say(state.error);
-      const known = this.scene;
+      this.say("server", "");
+      this.say("file", state.error);
       this.scene = state;
       if (!known) {
         document.title = `${state.scene} \u2013 Alhazen`;
         this.fill(state);
-        await this.findRange(state.cameras[0]);
         this.take(state.cameras[0]);
-      } else if (known.version !== state.version || this.lost) this.changed();
+      } else if (known.version !== state.version) {
+        this.refill(known, state);
+        this.changed();
+      } else if (this.lost) this.changed();
       this.lost = false;
     } catch {
       this.lost = true;
-      this.say("The server does not answer: waiting for it.");
+      this.say("server", "The server does not answer: waiting for it.");
     }
     setTimeout(() => this.poll(), 500);
-  }
-  // The distance of what is in the middle: what the view turns around.
-  async findRange(camera) {
-    const wish = {...this.wish(new ViewCamera(camera, "y"), 64), samples: 1, x: 32, y: 18, steps: "list"};
-    const answer = await this.ask("/explain", {...wish, height: 36});
-    if (!answer.ok) return;
-    const first = (await answer.json()).tree.surfaces[0];
-    if (first) this.range = first.t;
   }
 
   wish(camera, width) {
     const height = Math.max(1, Math.round(width / camera.aspect));
     const {eye, look, right, up, parallel} = camera;
     return {camera: {eye, look, right, up, parallel}, width, height, renderer: this.renderer.value,
-            accelerator: this.accelerator.value, depth: Number(this.depth.value), exposure: Number(this.exposure.value),
-            curve: this.curve.value};
+            accelerator: this.accelerator.value, layer: this.layer.value, depth: Number(this.depth.value),
+            exposure: Number(this.exposure.value), curve: this.curve.value};
   }
   full() {
     return Math.max(64, Math.min(this.scene.width, 4096));
   }
-  // As wide as 40 ms allow, by the last frame; a quarter where nothing is known, half of the picture at most.
+  // As wide as 40 ms allow, by the last frame; an eighth where nothing is known, half of the picture at most.
   coarse() {
     const full = this.full();
-    if (!this.perPixel) return full / 4;
+    if (this.flat()) return full / 2;
+    if (!this.perPixel) return full / 8;
     return Math.min(full / 2, Math.max(64, Math.sqrt(0.04 / this.perPixel * this.camera.aspect)));
   }
   // The view is another one: coarse at first, and finer with each frame.
@@ -179,61 +199,101 @@ class Viewer {
     if (!this.camera || !this.scene) return;
     ++this.generation;
     this.level = 0;
-    this.next();
-  }
-  async next() {
-    const levels = [[1 / 4, 1], [1 / 2, 1], [1, 1], [1, Number(this.samples.value)]];
-    if (this.level >= levels.length || (this.level === 3 && levels[3][1] === 1)) return;
+    if (this.explaining) this.explaining = this.held = undefined;  // the server ends it
     // While the view moves, one small frame at a time: the next has the newest camera.
-    if (this.flying && this.level === 0) return;
-    const generation = this.generation, [scale, samples] = levels[this.level];
-    const small = this.level === 0;
-    if (small) this.flying = true;
-    const width = Math.round(small ? this.coarse() : this.full() * scale);
-    const begin = performance.now();
-    try {
-      const answer = await this.ask("/frame", {...this.wish(this.camera, width), samples});
-      if (answer.status === 204) {  // a newer one was asked for, or an explanation
-        if (generation === this.generation) {
-          this.ended = this.level;
-          this.level = levels.length;
-        }
-      } else if (answer.ok) {
-        const facts = JSON.parse(answer.headers.get("X-Alhazen"));
-        const blob = await answer.blob();
-        if (generation >= (this.shownGeneration ?? 0)) this.show(blob, generation, facts, width, begin, samples);
-        if (samples === 1) this.perPixel = facts.seconds / (width * width / this.camera.aspect);
-        if (generation === this.generation) this.level += 1;
-      } else {
-        this.say((await answer.json()).error);
-        this.level = levels.length;
-      }
-    } catch {
-      this.level = levels.length;  // the server is gone; poll brings it back
+    if (!this.small) this.refine();
+  }
+  flat() {
+    return this.moving.value === "flat" && !this.layer.value && this.scene.renderers.some(r => r.name === "ray_casting");
+  }
+  // [width as a part of the whole, samples]
+  levels() {
+    const samples = Number(this.samples.value);
+    return [[1 / 4, 1], [1 / 2, 1], [1, 1], ...(samples > 1 ? [[1, samples]] : [])];
+  }
+  done() {
+    return this.level >= this.levels().length;
+  }
+  async refine() {
+    const chain = ++this.chain;
+    while (chain === this.chain && !this.held && !this.done()) {
+      const generation = this.generation;
+      this.small = this.level === 0;
+      const outcome = await this.frame(...this.levels()[this.level], generation).catch(() => "lost");
+      if (chain === this.chain) this.small = false;
+      if (outcome === "lost") return;  // poll begins again
+      if (outcome === "ended") await new Promise(go => setTimeout(go, 50));  // by an explanation, say: once more
+      else if (generation === this.generation) this.level = outcome === "shown" ? this.level + 1 : this.levels().length;
     }
-    if (small) this.flying = false;
-    if (generation === this.generation || small) this.next();
+  }
+  // Nothing is refined until the work is done.
+  async hold(work) {
+    const own = this.held = {};
+    await work();
+    if (this.held !== own) return;
+    this.held = undefined;
+    this.refine();
+  }
+  async frame(scale, samples, generation) {
+    const first = this.level === 0, flat = first && this.flat(), begin = performance.now();
+    const width = Math.round(first ? this.coarse() : this.full() * scale), wish = this.wish(this.camera, width);
+    const answer = await this.ask("/frame", {...wish, samples, ...(flat ? {renderer: "ray_casting"} : {})});
+    if (answer.status === 204) return "ended";
+    if (!answer.ok) {
+      this.say("frame", (await answer.json()).error);
+      return "refused";
+    }
+    const facts = JSON.parse(answer.headers.get("X-Alhazen")), blob = await answer.blob();
+    this.say("frame", "");
+    if (generation >= (this.shownGeneration ?? 0)) this.show(blob, generation, facts, width, begin, samples);
+    if (samples === 1 && !flat) this.perPixel = facts.seconds / (width * width / this.camera.aspect);
+    return "shown";
   }
   show(blob, generation, facts, width, begin, samples) {
-    const url = URL.createObjectURL(blob);
+    const url = URL.createObjectURL(blob), old = this.image.src, now = performance.now();
     this.shownGeneration = generation;
-    const old = this.image.src;
     this.image.src = url;
     if (old.startsWith("blob:")) URL.revokeObjectURL(old);
     this.image.style.maxWidth = `calc(82vh * ${this.camera.aspect})`;
     this.image.width = this.full();
     this.image.height = Math.round(this.full() / this.camera.aspect);
-    this.frames = (this.frames ?? 0) + 1;
-    this.status.textContent = `${width} wide, ${samples} sample${samples > 1 ? "s" : ""} a pixel \u00b7 ` +
-      `${(1000 * facts.seconds).toFixed(1)} ms, ${(performance.now() - begin).toFixed(0)} ms with the way here \u00b7 ` +
+    ++this.frames;
+    const rate = this.small && now - (this.shownAt ?? 0) < 500 ? `${(1000 / (now - this.shownAt)).toFixed(0)} frames/s \u00b7 ` : "";
+    this.shownAt = now;
+    this.drawScale(facts.layer);
+    this.status.textContent = `${width} wide, ${samples} sample${samples > 1 ? "s" : ""} a pixel \u00b7 ${rate}` +
+      `${(1000 * facts.seconds).toFixed(1)} ms, ${(now - begin).toFixed(0)} ms with the way here \u00b7 ` +
       `${(facts.rays / facts.seconds / 1e6).toFixed(2)} M rays/s on ${facts.threads} threads \u00b7 ` +
       `${(this.memory / 1048576).toFixed(0)} MiB`;
   }
+  // What the colours of a layer mean.
+  drawScale(layer) {
+    this.scale.hidden = !layer;
+    if (!layer) return;
+    const marks = layer.colors ? [layer.low, (layer.low + layer.high) / 2, layer.high] : [];
+    const bar = element("div", {class: "bar-of-scale", "aria-hidden": "true"});
+    if (layer.colors) bar.style.background = `linear-gradient(90deg, ${this.scene.scales[layer.colors].join(", ")})`;
+    this.scale.replaceChildren(element("b", {}, layer.name), layer.colors ? "" : `: ${layer.meaning}`,
+      ...(layer.colors ? [bar, element("div", {class: "marks"}, ...marks.map(m => element("span", {}, number(m))))] : []));
+  }
   async save() {
-    const answer = await this.ask("/frame", {...this.wish(this.camera, this.full()), samples: Number(this.samples.value), png: true});
-    if (answer.status !== 200) return;
-    const link = element("a", {href: URL.createObjectURL(await answer.blob()), download: "view.png"});
-    link.click();
+    let answer;
+    await this.hold(async () => {
+      answer = await this.ask("/frame", {...this.wish(this.camera, this.full()), samples: Number(this.samples.value), png: true});
+      if (answer.status !== 200) return;
+      const link = element("a", {href: URL.createObjectURL(await answer.blob()), download: "view.png"});
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    });
+  }
+  // Ends the frame or the explanation in hand; what is shown stays.
+  stop() {
+    this.explaining = undefined;
+    this.held = undefined;
+    ++this.chain;
+    this.small = false;
+    this.ask("/stop").catch(() => {});
+    this.say("explain", "");
   }
   remember() {
     this.undo.push(this.camera.copy());
@@ -247,20 +307,23 @@ class Viewer {
   }
 
   async explain(u, v) {
-    const width = this.full(), wish = this.wish(this.camera, width);
+    const width = this.full(), wish = this.wish(this.camera, width), own = this.explaining = {};
     const at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
-    const answer = await this.ask("/explain", {...wish, samples: 1, x: at(u, width), y: at(v, wish.height), steps: this.steps.value});
-    const data = await answer.json();
-    if (this.ended !== undefined && this.level > this.ended) {
-      this.level = this.ended;
-      this.next();
-    }
-    this.ended = undefined;
-    if (!answer.ok) return this.say(data.error);
-    const root = document.getElementById("explanation");
-    showExplanation(root, data, this.image.src);
-    root.scrollIntoView({behavior: "smooth"});
-    root.focus({preventScroll: true});
+    this.status.textContent = "Explaining \u2026 (Escape ends it)";
+    await this.hold(async () => {
+      const answer = await this.ask("/explain", {...wish, samples: 1, x: at(u, width), y: at(v, wish.height), steps: this.steps.value})
+        .catch(() => null);
+      if (this.explaining !== own) return;
+      this.explaining = undefined;
+      if (!answer || answer.status === 204) return;
+      const data = await answer.json();
+      this.say("explain", answer.ok ? "" : data.error);
+      if (!answer.ok) return;
+      const root = document.getElementById("explanation");
+      showExplanation(root, data, this.image.src);
+      root.scrollIntoView({behavior: "smooth"});
+      root.focus({preventScroll: true});
+    });
   }
 
   listen() {
@@ -309,6 +372,7 @@ class Viewer {
     image.addEventListener("keydown", e => {
       if (!this.camera) return;
       if (e.key === "Enter") return void this.explain(0.5, 0.5);
+      if (e.key === "Escape") return void this.stop();
       if (e.key === "z" && (e.ctrlKey || e.metaKey)) return void this.back();
       if (!keys[e.key] || e.ctrlKey || e.metaKey) return;
       e.preventDefault();

@@ -67,13 +67,33 @@ RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel) 
 }
 
 PicturePlane picture_plane(const Camera& camera) {
-    return std::visit(Overloaded{[](const PerspectiveCamera& c) {
-                                     return PicturePlane{c.eye, c.look, c.right, c.up};
-                                 },
-                                 [](const OrthographicCamera& c) {
-                                     return PicturePlane{c.origin, c.direction, c.right, c.up};
-                                 }},
-                      camera);
+    return std::visit(
+        Overloaded{[](const PerspectiveCamera& c) {
+                       return PicturePlane{c.eye, c.look, c.right, c.up};
+                   },
+                   [](const OrthographicCamera& c) {
+                       return PicturePlane{c.origin, c.direction, c.right, c.up};
+                   },
+                   [](const WideCamera& c) {
+                       const auto side = [](double angle, const Vec3& along) {
+                           constexpr double kMost = 0.5 * std::numbers::pi;
+                           return (2.0 * std::tan(0.5 * std::min(angle, kMost))) * normalize(along);
+                       };
+                       return PicturePlane{c.eye, normalize(c.look), side(c.width, c.right),
+                                           side(c.height, c.up)};
+                   }},
+        camera);
+}
+
+double WideCamera::most_height(WideProjection projection) {
+    return projection == WideProjection::Panorama ? std::numbers::pi : 2.0 * std::numbers::pi;
+}
+
+WideCamera look_around(const Vec3& eye, const Vec3& look, const Vec3& up, WideProjection projection,
+                       double fov_y, double aspect) {
+    const Vec3 forward = normalize(look);
+    const Vec3 true_up = any_perpendicular_up(forward, up);
+    return {eye, forward, cross(forward, true_up), true_up, projection, fov_y * aspect, fov_y};
 }
 
 PerspectiveCamera look_along(const Vec3& eye, const Vec3& look, const Vec3& up, double fov_y,
@@ -102,6 +122,10 @@ Camera transformed(const Affine& to_from, const Camera& camera) {
                               for (Vec3* v : {&c.direction, &c.right, &c.up}) {
                                   *v = to_from.vector(*v);
                               }
+                          },
+                          [&](WideCamera& c) {
+                              c.eye = to_from.point(c.eye);
+                              for (Vec3* v : {&c.look, &c.right, &c.up}) *v = to_from.vector(*v);
                           }},
                result);
     return result;
@@ -111,7 +135,13 @@ Camera with_aspect(const Camera& camera, double described_aspect, double aspect)
     Camera result = camera;
     const auto widen = [&](Vec3& right) { right = (aspect / described_aspect) * right; };
     std::visit(Overloaded{[&](PerspectiveCamera& c) { widen(c.right); },
-                          [&](OrthographicCamera& c) { widen(c.right); }},
+                          [&](OrthographicCamera& c) { widen(c.right); },
+                          [&](WideCamera& c) {
+                              c.width *= aspect / described_aspect;
+                              if (c.projection == WideProjection::Panorama) {
+                                  c.width = std::min(c.width, 2.0 * std::numbers::pi);
+                              }
+                          }},
                result);
     return result;
 }

@@ -48,7 +48,31 @@ struct OrthographicCamera {
     Vec3 up{0, 1, 0};
 };
 
-using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
+/// How a WideCamera shows what lies `angle` away from its axis: at a distance from the middle that
+/// grows with the angle (Equidistant) or with the sine of half of it, so that pixels see equal
+/// solid angles (Equisolid); or all by longitude and latitude (Panorama).
+enum class WideProjection { Equidistant, Equisolid, Panorama };
+
+/// An eye that may see all around: fisheyes and panoramas (wide_view.h). Of the vectors only the
+/// directions count; `up` is taken perpendicular to `look`, and `right` says on which side of them
+/// right is.
+struct WideCamera {
+    Vec3 eye{0, 0, 0};
+    Vec3 look{0, 0, -1};
+    Vec3 right{1, 0, 0};
+    Vec3 up{0, 1, 0};
+    WideProjection projection = WideProjection::Equidistant;
+    /// Angles that the sides of the picture stand for, in radians: across the middle of a fisheye
+    /// (whose corners see more), in longitude and latitude of a panorama, whose width is at most a
+    /// full turn.
+    double width = 3.1415926535897932;
+    double height = 3.1415926535897932;
+
+    /// Half a turn of a panorama, a full one of a fisheye.
+    [[nodiscard]] static double most_height(WideProjection projection);
+};
+
+using Camera = std::variant<PerspectiveCamera, OrthographicCamera, WideCamera>;
 
 [[nodiscard]] Ray eye_ray(const Camera& camera, double x, double y);
 
@@ -58,7 +82,8 @@ using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
 /// The frame of a camera: `eye` is the centre of projection, or the centre of the rectangle from
 /// which parallel rays start; `forward` the direction of view, not normalised; `right` and `up` the
-/// sides of the picture.
+/// sides of the picture. Of a wide camera the frame of a flat one that looks the same way, whose
+/// sides see its angles, but at most 90 degrees.
 struct PicturePlane {
     Vec3 eye, forward, right, up;
 };
@@ -72,11 +97,16 @@ struct PicturePlane {
 [[nodiscard]] OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look,
                                                      const Vec3& up, double height, double aspect);
 
+/// The wide counterpart; `fov_y` is the angle of the picture's height, `aspect` that of its width
+/// over it.
+[[nodiscard]] WideCamera look_around(const Vec3& eye, const Vec3& look, const Vec3& up,
+                                     WideProjection projection, double fov_y, double aspect);
+
 /// The camera moved by a transform.
 [[nodiscard]] Camera transformed(const Affine& to_from, const Camera& camera);
 
 /// The camera widened or narrowed from the aspect ratio (width / height) it was described for to
-/// another; the vertical extent is kept.
+/// another; the vertical extent is kept. A panorama does not see more than once around.
 [[nodiscard]] Camera with_aspect(const Camera& camera, double described_aspect, double aspect);
 
 }  // namespace alhazen

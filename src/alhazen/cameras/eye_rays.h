@@ -4,10 +4,12 @@
 ///
 /// Conventions: those of the cameras; the bits are those of `eye_ray`.
 
+#include <optional>
 #include <span>
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/cameras/camera.h"
+#include "alhazen/cameras/wide_view.h"
 
 namespace alhazen {
 
@@ -21,6 +23,12 @@ class EyeRays {
                               [this](const OrthographicCamera& c) {
                                   from_eye_ = false;
                                   set(normalize(c.direction), c.origin, c.right, c.up);
+                              },
+                              [this](const WideCamera& c) {
+                                  from_eye_ = false;
+                                  wide_.emplace(c);
+                                  // Sums are film coordinates.
+                                  set(c.eye, {0.5, 0.5, 0}, {1, 0, 0}, {0, 1, 0});
                               }},
                    camera);
     }
@@ -31,7 +39,8 @@ class EyeRays {
     [[nodiscard]] Vec3 row(double y) const { return (y - 0.5) * up_; }
     /// `sum`: column plus row, in this order.
     [[nodiscard]] Ray ray(const Vec3& sum) const {
-        return from_eye_ ? Ray{fixed_, normalize(sum)} : Ray{sum, fixed_};
+        if (from_eye_) return {fixed_, normalize(sum)};
+        return wide_ ? Ray{fixed_, wide_->direction(sum.x, sum.y)} : Ray{sum, fixed_};
     }
     /// One ray for each sum.
     void rays(std::span<const Vec3> sums, Ray* out) const;
@@ -44,9 +53,10 @@ class EyeRays {
         up_ = up;
     }
 
-    bool from_eye_ = true;  ///< rays start at the eye; false: they are parallel
+    bool from_eye_ = true;  ///< rays run from the eye along sums; false: they are parallel, or wide
     Vec3 fixed_;            ///< the eye, or the direction of all rays
     Vec3 middle_, right_, up_;
+    std::optional<WideView> wide_;
 };
 
 /// Rays through points of the lens of a camera.

@@ -27,6 +27,8 @@ class PixelCones {
     bool from_eye_ = true;
     Vec3 pixel_;  ///< its area in the picture, along the picture's normal
     double parallel_radius_ = 0;
+    std::optional<WideView> wide_;
+    double film_ = 0;  ///< its area on the film, where that is wide
 };
 
 }  // namespace alhazen

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <utility>
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
@@ -65,16 +66,71 @@ void check(const LoadedScene& loaded, const ExplainOptions& options, const Frame
          fmt::format("sample {}: the pixel has {}, counted from 0", options.sample, samples));
 }
 
-/// The radiance of every sample, and the tree of one.
-void trace_samples(const RenderJob& job, const PixelSamples& samples, Explanation& e) {
+/// Whether a ray of the tree ends because of the depth.
+bool ends_by_depth(const RayNode& ray) {
+    const auto one_does = [](const std::vector<RayNode>& rays) {
+        return std::any_of(rays.begin(), rays.end(), ends_by_depth);
+    };
+    return std::any_of(ray.surfaces.begin(), ray.surfaces.end(), [&](const SurfaceNode& s) {
+        return s.no_reflected == NotSent::Deepest || s.no_refracted == NotSent::Deepest ||
+               one_does(s.reflected) || one_does(s.refracted);
+    });
+}
+
+/// The tree of a ray; false where it has too many rays, or after a stop.
+bool trace_tree(RenderJob job, std::span<const Ray> ray, std::size_t most, RayNode& tree) {
+    StopFlag enough;
+    const StopFlag* const stop = std::exchange(job.control.stop, &enough);
     RayCounters counters;
     RecursiveEstimator<RayTreeRecorder> estimator(job, 1, counters);
+    estimator.chance().limit(most, enough, stop);
+    Rgb radiance;
+    estimator.trace(ray, {&radiance, 1});
+    if (enough.requested()) return false;
+    std::vector<RayNode> trees = estimator.chance().take();
+    tree = std::move(trees.front());
+    return true;
+}
+
+/// The deepest tree within the limits; `depth` is that of the scene of the job, and becomes that of
+/// the tree.
+void trace_deepest(const RenderJob& job, std::span<const Ray> ray, const ExplainOptions& options,
+                   int& depth, Explanation& e) {
+    const int wished = depth;
+    depth = std::min(wished, options.most_depth);
+    if (trace_tree(job, ray, options.most_rays, e.tree)) {
+        if (!ends_by_depth(e.tree)) depth = wished;
+        return;
+    }
+    int fits = 0, too_deep = depth;  // the first surfaces are told in any case
+    depth = 0;
+    (void)trace_tree(job, ray, std::numeric_limits<std::size_t>::max(), e.tree);
+    while (fits + 1 < too_deep && !job.stop_requested()) {
+        depth = fits + (too_deep - fits) / 2;
+        RayNode tree;
+        if (trace_tree(job, ray, options.most_rays, tree)) {
+            e.tree = std::move(tree);
+            fits = depth;
+        } else {
+            too_deep = depth;
+        }
+    }
+    depth = fits;
+}
+
+/// The tree of one sample, and the radiance of all. `depth`: as before.
+void trace_samples(const RenderJob& job, const PixelSamples& samples, const ExplainOptions& options,
+                   int& depth, Explanation& e) {
+    const auto chosen = static_cast<std::size_t>(e.sample);
+    e.wished_depth = depth;
+    trace_deepest(job, samples.rays().subspan(chosen, 1), options, depth, e);
+    e.max_depth = depth;
+    RayCounters counters;
+    RecursiveEstimator<NoChance> estimator(job, 1, counters);
     BoxFilter filter;
-    for (std::size_t i = 0; i < samples.rays().size(); ++i) {
-        Rgb radiance;
-        estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
-        std::vector<RayNode> tree = estimator.chance().take();
-        if (static_cast<int>(i) == e.sample) e.tree = std::move(tree.front());
+    for (std::size_t i = 0; i < samples.rays().size() && !job.stop_requested(); ++i) {
+        Rgb radiance = e.tree.radiance;
+        if (i != chosen) estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
         filter.add(radiance);
         e.samples.push_back({samples.place(i), radiance});
     }
@@ -96,12 +152,20 @@ AcceleratorWork work_of(const std::string& accelerator, const Scene& scene, cons
 }
 
 /// Steps of the chosen accelerator, and the work of it, `list` and `wide_bvh`.
-void trace_accelerators(const LoadedScene& loaded, const std::string& accelerator, const Ray& ray,
+void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options, const Ray& ray,
                         Explanation& e) {
-    if (accelerator.empty()) return;
+    const std::string& accelerator = options.accelerator;
+    const StopFlag* const stop = options.render.stop;
+    const auto stopped = [&] { return stop != nullptr && stop->requested(); };
+    if (accelerator.empty() || stopped()) return;
     const PrimitiveTable& table = loaded.scene.aggregate->primitives();
     e.traversal = trace_traversal(loaded.scene, accelerator, ray);
-    for (const TraversalStep& step : e.traversal.steps) {
+    std::vector<TraversalStep>& steps = e.traversal.steps;
+    if (steps.size() > options.most_steps) {
+        e.steps_left_out = steps.size() - options.most_steps;
+        steps.resize(options.most_steps);
+    }
+    for (const TraversalStep& step : steps) {
         e.candidates.push_back(
             step.kind == TraversalStep::Kind::Primitive
                 ? part_name(loaded.description, part_of_primitive(table, PrimitiveId{step.number}))
@@ -109,7 +173,7 @@ void trace_accelerators(const LoadedScene& loaded, const std::string& accelerato
     }
     for (const std::string& name : {accelerator, std::string("list"), std::string("wide_bvh")}) {
         const auto has = [&](const AcceleratorWork& w) { return w.accelerator == name; };
-        if (std::any_of(e.work.begin(), e.work.end(), has)) continue;
+        if (stopped() || std::any_of(e.work.begin(), e.work.end(), has)) continue;
         e.work.push_back(work_of(name, loaded.scene, ray));
     }
 }
@@ -142,6 +206,7 @@ std::string light_name(const SceneDescription& description, const Scene& scene, 
 /// A small picture, and where its pixels are in space.
 void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Explanation& e) {
     constexpr int kLongestSide = 240;
+    constexpr int kDepthOfPicture = 5;  // it shows where things are
     const double scale =
         std::min(1.0, static_cast<double>(kLongestSide) / std::max(e.width, e.height));
     RenderOptions small = options.render;
@@ -149,10 +214,12 @@ void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Expla
     small.width = std::max(1, static_cast<int>(std::lround(e.width * scale)));
     small.height = std::max(1, static_cast<int>(std::lround(e.height * scale)));
     small.samples_per_pixel = 1;
+    small.max_depth = std::min(e.max_depth, kDepthOfPicture);
     small.aovs = AovSet();
     small.aovs.add(AovKind::Position);
     small.aovs.add(AovKind::Alpha);
     const RenderResult result = render(loaded, small);
+    e.complete &= result.complete;
     e.preview = encode(result.film.data(), *small.width, *small.height, Encoding::Srgb, 8);
     const LayerChannel* channels[] = {result.layers.find("P.X"), result.layers.find("P.Y"),
                                       result.layers.find("P.Z"), result.layers.find("A")};
@@ -176,7 +243,7 @@ void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Expla
 Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& options) {
     Scene scene = loaded.scene;
     if (options.render.max_depth) scene.conventions.shading.max_depth = *options.render.max_depth;
-    const CameraDescription& described = find_camera(scene, options.render.camera);
+    const CameraDescription& described = chosen_camera(scene, options.render);
     const FrameSize frame =
         frame_size(loaded.description.picture, options.render, described.aspect);
     check(loaded, options, frame);
@@ -186,7 +253,9 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
                               static_cast<double>(frame.width) / frame.height),
         .samples_per_pixel = options.render.samples_per_pixel,
         .seed = options.render.seed,
-        .cone = eye_cone(described.camera, frame.height, options.render.samples_per_pixel)};
+        .cone = eye_cone(described.camera, frame.height, options.render.samples_per_pixel),
+        .description = &loaded.description,
+        .control = {.threads = options.render.threads, .stop = options.render.stop}};
 
     Explanation e;
     e.width = frame.width;
@@ -196,15 +265,21 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
     e.sample = options.sample;
     e.scene = loaded.description.path.filename().string();
     e.camera = described.name;
-    e.max_depth = scene.conventions.shading.max_depth;
     e.min_contribution = scene.conventions.shading.min_contribution;
     e.background = scene.background;
     const PixelSamples samples(job, frame.width, frame.height, options.x, options.y);
-    trace_samples(job, samples, e);
+    trace_samples(job, samples, options, scene.conventions.shading.max_depth, e);
     const Ray& ray = samples.rays()[static_cast<std::size_t>(options.sample)];
     e.spans = solid_spans(loaded, ray);
     e.polynomials = polynomials_on_ray(loaded, ray);
-    trace_accelerators(loaded, options.accelerator, ray, e);
+    e.patches = patch_subdivisions(loaded, ray);
+    trace_accelerators(loaded, options, ray, e);
+    if (options.render.renderer == "cone_tracing")
+        e.cones = explain_cones(job, e.x, e.y, e.width, e.height);
+    if (options.render.renderer == "beam_tracing")
+        e.beams = explain_beams(job, e.x, e.y, e.width, e.height);
+    e.complete = !job.stop_requested();
+    if (!e.complete) return e;
     name_parts_of(e.tree, loaded.description, e);
     for (const Material& material : scene.materials) e.material_names.push_back(material.name);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "alhazen/renderers/photon_mapping/photon_mapping.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/sppm/sppm.h"
+#include "alhazen/renderers/vcm/vcm.h"
 #include "alhazen/renderers/whitted/whitted.h"
 
 namespace alhazen {
@@ -37,6 +38,18 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
     static constexpr const char* kCoverage[] = {"formulas", "tables"};
     return std::make_unique<ConeTracing>(
         ConeTracingOptions{.tables = settings.choice("coverage", 0, kCoverage) == 1});
+}
+
+OpticsSettings optics_settings(RendererSettings& settings) {
+    static constexpr const char* kChoices[] = {"off", "on", "scene"};
+    const auto read = [&](const char* name) -> std::optional<bool> {
+        const std::size_t chosen = settings.choice(name, 2, kChoices);
+        return chosen == 2 ? std::nullopt : std::optional(chosen == 1);
+    };
+    OpticsSettings optics;
+    optics.fresnel = read("fresnel");
+    optics.beer = read("beer");
+    return optics;
 }
 
 PathSettings path_settings(RendererSettings& settings) {
@@ -96,6 +109,20 @@ std::unique_ptr<Renderer> make_sppm(RendererSettings& settings) {
     return std::make_unique<Sppm>(sppm);
 }
 
+std::unique_ptr<Renderer> make_vcm(RendererSettings& settings) {
+    static constexpr const char* kMerge[] = {"off", "on"};
+    VcmSettings vcm;
+    vcm.merge = settings.choice("merge", 1, kMerge) == 1;
+    vcm.pilot = static_cast<Pilot>(
+        settings.choice("pilot", static_cast<std::size_t>(vcm.pilot), kPilotNames));
+    vcm.photons = photon_count(settings, "photons", vcm.photons, 1.0);
+    vcm.radius = settings.number("radius", vcm.radius, 0.0, 1e30);
+    vcm.alpha = settings.number("alpha", vcm.alpha, 0.01, 1.0);
+    vcm.memory = settings.number("memory", vcm.memory, 1.0, 1e6);
+    vcm.paths = path_settings(settings);
+    return std::make_unique<Vcm>(vcm);
+}
+
 std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
     static constexpr const char* kSort[] = {"tree", "list"};
     static constexpr const char* kHulls[] = {"off", "on"};
@@ -110,14 +137,19 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 13> table{{
-        {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
-         [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
+    static constexpr std::array<RendererEntry, 14> table{{
+        {"whitted",
+         "recursive ray tracing: shadows, reflection, refraction (Whitted 1980); "
+         "fresnel=on|off|scene, beer=on|off|scene (exact optics)",
+         [](RendererSettings& settings) {
+             return std::unique_ptr<Renderer>(std::make_unique<Whitted>(optics_settings(settings)));
+         }},
         {"distributed",
          "the same with rays spread over lenses, lights with extent and rough reflections (Cook, "
-         "Porter and Carpenter 1984)",
-         [](RendererSettings&) {
-             return std::unique_ptr<Renderer>(std::make_unique<Distributed>());
+         "Porter and Carpenter 1984); fresnel=on|off|scene, beer=on|off|scene",
+         [](RendererSettings& settings) {
+             return std::unique_ptr<Renderer>(
+                 std::make_unique<Distributed>(optics_settings(settings)));
          }},
         {"light_tracing",
          "all light by random paths from the lights, joined to the lens at each surface (Arvo "
@@ -142,6 +174,12 @@ std::span<const RendererEntry> renderers() {
          "(Hachisuka and Jensen 2009); photons=N (of a pass), radius=DISTANCE (of the first), "
          "alpha=X, memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_sppm(settings); }},
+        {"vcm",
+         "bidirectional and photons together, weighed by what each finds, in passes, one for each "
+         "sample of --spp (Georgiev et al. 2012); merge=on|off, pilot=say|choose|off (a run before "
+         "that says whether merging pays), photons=N (of a pass), radius=DISTANCE (of the first), "
+         "alpha=X, memory=MB, depth=N, roulette=N",
+         [](RendererSettings& settings) { return make_vcm(settings); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());

@@ -59,12 +59,30 @@ class Validator {
                             is_finite(plane.forward) && plane.forward != Vec3{} &&
                             length_squared(cross(plane.right, plane.up)) > 0.0;
             check_lens(camera);
+            check_angles(camera);
             check_keys(camera.keys, camera.location);
             if (!ok || !(camera.aspect > 0.0) || !std::isfinite(camera.aspect)) {
                 error(camera.location,
                       "the camera's vectors must be finite, its view direction not zero and its "
                       "right and up vectors not parallel");
             }
+        }
+    }
+
+    void check_angles(const CameraDescription& camera) {
+        const auto* wide = std::get_if<WideCamera>(&camera.camera);
+        if (wide == nullptr) return;
+        constexpr double kRounding = 1.0 + 1e-12;
+        const double most = kRounding * WideCamera::most_height(wide->projection);
+        const bool panorama = wide->projection == WideProjection::Panorama;
+        const bool ok = wide->height > 0.0 && wide->height <= most && wide->width > 0.0 &&
+                        std::isfinite(wide->width) &&
+                        (!panorama || wide->width <= kRounding * 6.2831853071795865);
+        if (!ok) {
+            error(camera.location,
+                  panorama ? "a panorama's height must be above 0 and at most 180 degrees, its "
+                             "width above 0 and at most 360"
+                           : "a fisheye's angle must be above 0 and at most 360 degrees");
         }
     }
 

@@ -46,6 +46,13 @@ class Checker {
             numbers(m.conductor->index, "index of the conductor");
             numbers(m.conductor->extinction, "extinction of the conductor");
         }
+        numbers(m.scattering.coefficient, "scattering");
+        if (!(std::abs(m.scattering.anisotropy) < 1.0)) {
+            error(
+                fmt::format("anisotropy of the scattering of material '{}' must be above -1 and "
+                            "below 1",
+                            name_));
+        }
         if (m.dielectric) numbers(m.dielectric->absorption, "absorption");
         if (int(m.metallic_roughness.has_value()) + int(m.conductor.has_value()) +
                 int(m.dielectric.has_value()) >

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "alhazen/imaging/figures/false_color.h"
-
 namespace alhazen {
 
 namespace {
@@ -18,18 +16,15 @@ constexpr double kTimeQuantile = 0.99;
 
 using Channels = std::vector<const LayerChannel*>;
 
-/// A picture and the meaning of its colours.
-struct LayerPicture {
-    EncodedImage image;
-    std::string meaning;
-    ImageMetadata scale;
-};
+/// The numbers of a channel of any type.
+std::vector<float> numbers_of(const LayerChannel& channel) {
+    if (channel.type != SampleType::Uint) return channel.values;
+    return {channel.whole.begin(), channel.whole.end()};
+}
 
 std::vector<float> finite_values(const LayerChannel& channel) {
-    std::vector<float> values;
-    for (const float v : channel.values) {
-        if (std::isfinite(v)) values.push_back(v);
-    }
+    std::vector<float> values = numbers_of(channel);
+    std::erase_if(values, [](float v) { return !std::isfinite(v); });
     return values;
 }
 
@@ -56,16 +51,18 @@ LayerPicture scaled_picture(const PixelBox& crop, const LayerChannel& channel, C
     std::transform(scale.title.begin(), scale.title.end(), scale.title.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     LayerPicture picture;
-    picture.image = false_color(channel.values, crop.width(), crop.height(), scale);
+    picture.image = false_color(numbers_of(channel), crop.width(), crop.height(), scale);
+    picture.colors = scale;
     picture.meaning = fmt::format("{:.6g} to {:.6g}", scale.low, scale.high);
     picture.scale = {{"alhazen.aov.low", fmt::format("{:.9g}", scale.low)},
                      {"alhazen.aov.high", fmt::format("{:.9g}", scale.high)}};
     return picture;
 }
 
-LayerPicture depth_picture(const PixelBox& crop, const LayerChannel& channel) {
+LayerPicture depth_picture(const PixelBox& crop, const LayerChannel& channel, bool drawn) {
     const std::vector<float> values = finite_values(channel);
-    ColorScale scale{.low = 0, .high = 0, .colors = ColorScale::Colors::NearGrey};
+    ColorScale scale{
+        .low = 0, .high = 0, .colors = ColorScale::Colors::NearGrey, .title = "", .drawn = drawn};
     if (!values.empty()) {
         const auto [near, far] = std::minmax_element(values.begin(), values.end());
         scale.low = *near;
@@ -74,9 +71,11 @@ LayerPicture depth_picture(const PixelBox& crop, const LayerChannel& channel) {
     return scaled_picture(crop, channel, scale);
 }
 
-LayerPicture heat_picture(const PixelBox& crop, const LayerChannel& channel, double quantile) {
+LayerPicture heat_picture(const PixelBox& crop, const LayerChannel& channel, double quantile,
+                          bool drawn) {
     std::vector<float> values = finite_values(channel);
-    ColorScale scale{.low = 0, .high = 0};
+    ColorScale scale{
+        .low = 0, .high = 0, .colors = ColorScale::Colors::Heat, .title = "", .drawn = drawn};
     if (!values.empty()) {
         const auto rank =
             static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1));
@@ -150,7 +149,7 @@ LayerPicture albedo_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
-LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c) {
+LayerPicture picture_of(AovKind kind, const PixelBox& crop, const Channels& c, bool drawn) {
     switch (kind) {
         case AovKind::Alpha:
             return direct_picture(crop, "0 to 1", [&](std::size_t i) {
@@ -158,7 +157,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
                 return std::array<double, 3>{a, a, a};
             });
         case AovKind::Depth:
-            return depth_picture(crop, *c[0]);
+            return depth_picture(crop, *c[0], drawn);
         case AovKind::Normal:
         case AovKind::GeometricNormal:
             return normal_picture(crop, c);
@@ -181,7 +180,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
             return albedo_picture(crop, c);
         case AovKind::Time:
         case AovKind::Photons:
-            return heat_picture(crop, *c[0], kTimeQuantile);
+            return heat_picture(crop, *c[0], kTimeQuantile, drawn);
         case AovKind::ErrorBound:
         case AovKind::Rays:
         case AovKind::NodeVisits:
@@ -192,7 +191,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::LightVariance:
             break;
     }
-    return heat_picture(crop, *c[0], 1.0);
+    return heat_picture(crop, *c[0], 1.0, drawn);
 }
 
 std::filesystem::path picture_path(const std::filesystem::path& output, const AovEntry& entry) {
@@ -233,6 +232,12 @@ std::string part_name(const SceneDescription& d, const Part& part) {
 
 }  // namespace
 
+LayerPicture layer_picture(const AovEntry& entry, const FilmLayers& layers, bool draws_scale) {
+    Channels channels;
+    for (const char* name : entry.channels) channels.push_back(layers.find(name));
+    return picture_of(entry.kind, layers.crop(), channels, draws_scale);
+}
+
 std::vector<std::filesystem::path> aov_picture_paths(const std::filesystem::path& output,
                                                      const AovSet& wanted) {
     std::vector<std::filesystem::path> paths;
@@ -248,9 +253,7 @@ std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
     std::vector<std::string> lines;
     for (const AovEntry& entry : aov_table()) {
         if (!wanted.has(entry.kind)) continue;
-        Channels channels;
-        for (const char* name : entry.channels) channels.push_back(layers.find(name));
-        const LayerPicture picture = layer_picture(entry.kind, layers.crop(), channels);
+        const LayerPicture picture = layer_picture(entry, layers, true);
         ImageMetadata text = metadata;
         text.emplace_back("alhazen.aov", entry.name);
         text.insert(text.end(), picture.scale.begin(), picture.scale.end());

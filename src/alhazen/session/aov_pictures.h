@@ -3,14 +3,28 @@
 /// (docs/reference/layers.md).
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/figures/false_color.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
+
+/// A picture of a layer and the meaning of its colours.
+struct LayerPicture {
+    EncodedImage image;
+    std::string meaning;
+    ImageMetadata scale;               ///< for the text of a PNG
+    std::optional<ColorScale> colors;  ///< of one number a pixel
+};
+
+/// `layers` must have the channels of `entry`. `draws_scale`: below the picture, where it has one.
+[[nodiscard]] LayerPicture layer_picture(const AovEntry& entry, const FilmLayers& layers,
+                                         bool draws_scale);
 
 /// OUT.NAME.png for each layer, next to OUT.anything, in the order of the table.
 [[nodiscard]] std::vector<std::filesystem::path> aov_picture_paths(

@@ -194,12 +194,12 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
 /// A light at the eye: visible points are never in shadow. It would be a white spot on whatever
 /// glass faces the eye.
 Light headlight(const Camera& camera) {
-    return std::visit(Overloaded{[](const PerspectiveCamera& c) -> Light {
-                                     return PointLight{.position = c.eye,
-                                                       .color = kHeadlight,
-                                                       .ambient = kHeadlightAmbient,
-                                                       .glints = false};
-                                 },
+    const auto at = [](const Vec3& eye) -> Light {
+        return PointLight{
+            .position = eye, .color = kHeadlight, .ambient = kHeadlightAmbient, .glints = false};
+    };
+    return std::visit(Overloaded{[&](const PerspectiveCamera& c) { return at(c.eye); },
+                                 [&](const WideCamera& c) { return at(c.eye); },
                                  [](const OrthographicCamera& c) -> Light {
                                      return DirectionalLight{.to_light = normalize(-c.direction),
                                                              .color = kHeadlight,

@@ -164,23 +164,30 @@ json textures_json(const SceneDescription& d) {
 json camera_json(const CameraDescription& description) {
     constexpr double kDegrees = 180.0 / std::numbers::pi;
     json camera = {{"name", description.name}};
-    std::visit(Overloaded{[&](const PerspectiveCamera& c) {
-                              const auto field = [&](const Vec3& side) {
-                                  return 2.0 * kDegrees *
-                                         std::atan(0.5 * length(side) / length(c.look));
-                              };
-                              camera["kind"] = "perspective";
-                              camera["fov_x_deg"] = field(c.right);
-                              camera["fov_y_deg"] = field(c.up);
-                              camera["eye"] = vector_json(c.eye);
-                          },
-                          [&](const OrthographicCamera& c) {
-                              camera["kind"] = "orthographic";
-                              camera["width"] = length(c.right);
-                              camera["height"] = length(c.up);
-                              camera["eye"] = vector_json(c.origin);
-                          }},
-               description.camera);
+    std::visit(
+        Overloaded{[&](const PerspectiveCamera& c) {
+                       const auto field = [&](const Vec3& side) {
+                           return 2.0 * kDegrees * std::atan(0.5 * length(side) / length(c.look));
+                       };
+                       camera["kind"] = "perspective";
+                       camera["fov_x_deg"] = field(c.right);
+                       camera["fov_y_deg"] = field(c.up);
+                       camera["eye"] = vector_json(c.eye);
+                   },
+                   [&](const OrthographicCamera& c) {
+                       camera["kind"] = "orthographic";
+                       camera["width"] = length(c.right);
+                       camera["height"] = length(c.up);
+                       camera["eye"] = vector_json(c.origin);
+                   },
+                   [&](const WideCamera& c) {
+                       static constexpr const char* kKinds[] = {"fisheye", "equisolid", "panorama"};
+                       camera["kind"] = kKinds[static_cast<int>(c.projection)];
+                       camera["fov_x_deg"] = kDegrees * c.width;
+                       camera["fov_y_deg"] = kDegrees * c.height;
+                       camera["eye"] = vector_json(c.eye);
+                   }},
+        description.camera);
     camera["aspect"] = description.aspect;
     return camera;
 }

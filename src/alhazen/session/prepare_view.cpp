@@ -2,10 +2,25 @@
 
 #include <utility>
 
+#include "alhazen/cameras/projection.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/environment_option.h"
 
 namespace alhazen {
+
+namespace {
+
+void project(LoadedScene& loaded, const RenderOptions& options, const Projection& projection) {
+    const auto chosen = static_cast<std::size_t>(&find_camera(loaded.scene, options.camera) -
+                                                 loaded.scene.cameras.data());
+    CameraDescription& camera = loaded.scene.cameras[chosen];
+    camera.camera = with_projection(camera.camera, projection, camera.aspect);
+    PictureSettings& picture = loaded.description.picture;
+    if (projection.name == "panorama" && picture.height) picture.width = 2 * *picture.height;
+    if (chosen < loaded.description.cameras.size()) loaded.description.cameras[chosen] = camera;
+}
+
+}  // namespace
 
 std::vector<std::string> prepare_view(LoadedScene& loaded, const RenderOptions& options,
                                       const ViewWishes& wishes) {
@@ -21,6 +36,7 @@ std::vector<std::string> prepare_view(LoadedScene& loaded, const RenderOptions& 
     framing.follows_light = follows_light(options.renderer);
     framing.nothing_around = wishes.environment == "none";
     append(complete_view(loaded.description, loaded.scene, framing));
+    if (!wishes.projection.empty()) project(loaded, options, parse_projection(wishes.projection));
     append(simplified(loaded.scene, options, *make_renderer(options.renderer)));
     return notes;
 }

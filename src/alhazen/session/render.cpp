@@ -7,6 +7,7 @@
 #include <ctime>
 #include <memory>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/load.h"
@@ -53,6 +54,33 @@ std::string renderers_where(bool (Renderer::*has)() const) {
     return names;
 }
 
+/// Of renderers that promise all light.
+void check_scattering(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
+    if (!renderer.follows_light() || renderer.scatters_in_volumes()) return;
+    for (const Material& material : scene.materials) {
+        if (material.scattering.coefficient.is_black()) continue;
+        throw Error(ErrorKind::Usage,
+                    fmt::format("material '{}' scatters light inside of volumes, which is for {}; "
+                                "renderer '{}' scatters at surfaces only",
+                                escape_controls(material.name),
+                                renderers_where(&Renderer::scatters_in_volumes), options.renderer));
+    }
+}
+
+void check_camera(const Camera& camera, const RenderOptions& options, const Renderer& renderer) {
+    if (!std::holds_alternative<WideCamera>(camera)) return;
+    if (!renderer.takes_wide_cameras()) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("fisheyes and panoramas are for the renderers {}; renderer '{}' "
+                                "draws flat pictures only",
+                                renderers_where(&Renderer::takes_wide_cameras), options.renderer));
+    }
+    if (options.antialias) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias knows flat pictures only: it excludes fisheyes and panoramas");
+    }
+}
+
 /// Rounds do not know in advance how many samples a pixel gets: textures are as sharp as for the
 /// least.
 int samples_of_cone(const RenderOptions& options) {
@@ -62,11 +90,12 @@ int samples_of_cone(const RenderOptions& options) {
 }
 
 /// The scene with the overrides of the command line; shares all geometry.
-Scene adjusted(const Scene& scene, const RenderOptions& options) {
+Scene adjusted(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
     Scene result = scene;
     ShadingConventions& shading = result.conventions.shading;
     if (options.protocol == Protocol::Spd) apply_spd(shading, result.conventions.sampling);
     if (options.max_depth) shading.max_depth = *options.max_depth;
+    renderer.adjust(shading);
     return result;
 }
 
@@ -83,8 +112,10 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
-    const Scene scene = adjusted(original, options);
-    const CameraDescription& camera = find_camera(scene, options.camera);
+    check_scattering(original, options, *renderer);
+    check_camera(chosen_camera(original, options).camera, options, *renderer);
+    const Scene scene = adjusted(original, options, *renderer);
+    const CameraDescription& camera = chosen_camera(scene, options);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
     const double aspect = static_cast<double>(frame.width) / frame.height;
     RenderResult result(Film(frame.width, frame.height,
@@ -123,11 +154,16 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.scan_lines = report.scan_lines;
     result.beams = report.beams;
     result.notes = report.notes;
+    result.remarks = report.remarks;
     result.layers = std::move(aovs.layers());
     return result;
 }
 
 }  // namespace
+
+const CameraDescription& chosen_camera(const Scene& scene, const RenderOptions& options) {
+    return options.view != nullptr ? *options.view : find_camera(scene, options.camera);
+}
 
 FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options, double aspect) {
     if (options.protocol == Protocol::Spd) return {kSpdRays, kSpdRays};
@@ -215,6 +251,19 @@ void check_photons(const RenderOptions& options, const Renderer& renderer) {
 std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,
                                     const Renderer& renderer) {
     std::vector<std::string> notes;
+    if (scene.conventions.shading.optics.any() && !renderer.heeds_optics()) {
+        notes.push_back(
+            fmt::format("renderer '{}' leaves out the scene's exact optics (fresnel, "
+                        "beer); 'whitted' and 'distributed' have them",
+                        options.renderer));
+    }
+    const auto scatters = [](const Material& m) { return !m.scattering.coefficient.is_black(); };
+    if (!renderer.follows_light() &&
+        std::any_of(scene.materials.begin(), scene.materials.end(), scatters)) {
+        notes.push_back(fmt::format("renderer '{}' scatters no light inside of volumes; {} does",
+                                    options.renderer,
+                                    renderers_where(&Renderer::scatters_in_volumes)));
+    }
     if (renderer.distributes()) return notes;
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
     if (!renderer.lights_have_extent() &&
@@ -224,7 +273,7 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
                         "centres; 'distributed' does not",
                         options.renderer));
     }
-    const CameraDescription& described = find_camera(scene, options.camera);
+    const CameraDescription& described = chosen_camera(scene, options);
     const Camera& camera = described.camera;
     if (scene.has_motion || !described.keys.empty()) {
         notes.push_back(

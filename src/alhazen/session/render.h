@@ -38,7 +38,9 @@ void apply_spd(ShadingConventions& shading, SamplingConventions& sampling);
 
 struct RenderOptions {
     std::string renderer = "whitted";
-    std::string camera;                ///< name or position; empty = the first
+    std::string camera;  ///< name or position; empty = the first
+    /// Instead of a camera of the scene; null: none.
+    const CameraDescription* view = nullptr;
     std::optional<int> width, height;  ///< one given: the other follows from the aspect ratio
     std::optional<PixelBox> crop;      ///< of the full frame; default all of it
     int samples_per_pixel = 1;
@@ -73,9 +75,13 @@ struct RenderResult {
     std::shared_ptr<const SamplingReport> sampling;    ///< of RenderOptions::sampling, else null
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
     std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
-    std::vector<std::string> notes;                    ///< RenderReport::notes
+    std::vector<std::string> notes, remarks;           ///< of RenderReport
     PhotonCloud photons;                               ///< of RenderOptions::keep_photons
 };
+
+/// The camera that the options choose. Throws Error (Usage) for a name that there is not.
+[[nodiscard]] const CameraDescription& chosen_camera(const Scene& scene,
+                                                     const RenderOptions& options);
 
 struct FrameSize {
     int width, height;

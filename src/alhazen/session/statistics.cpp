@@ -171,6 +171,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"notes", result.notes},
+        {"remarks", result.remarks},
         {"memory",
          {{"accelerator_bytes", census.accelerator_bytes},
           {"scene_bytes", census.scene_bytes},

@@ -9,6 +9,14 @@
 
 namespace alhazen {
 
+/// Laws of optics in place of the shares and tints of the equation, for renderers that trace its
+/// rays; docs/reference/materials.md, "Exact optics".
+struct Optics {
+    bool fresnel = false;  ///< light is shared out between the two rays by Fresnel's equations
+    bool beer = false;     ///< kt is what a unit of length leaves of light
+    [[nodiscard]] bool any() const { return fresnel || beer; }
+};
+
 struct ShadingConventions {
     /// Cosine c of the highlight: of the mirrored light direction and the eye (Phong), or of the
     /// normal and the half vector (Blinn-Phong), to the power n of the shininess. Schlick: that of
@@ -55,6 +63,8 @@ struct ShadingConventions {
     /// False: no rays of the kind are cast.
     bool trace_reflections = true;
     bool trace_refractions = true;
+
+    Optics optics{};
 
     double air_index = 1.0003;
 

@@ -268,6 +268,29 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRays) {
     tree->closest_batch(rays, hits, &coherent, Coherence::Coherent);
     EXPECT_GT(coherent.node_visits, 0u);
     EXPECT_LT(5 * coherent.node_visits, any.node_visits);
+    const Rays shadows = shadow_rays({-1.2, -1.1, -1.3}, 0.2, {1.5, 1.3, 1.4}, 32);
+    const auto occluded = std::make_unique<bool[]>(shadows.size());
+    TraversalStats any_hit, coherent_any_hit;
+    tree->occluded_batch(shadows, {occluded.get(), shadows.size()}, &any_hit);
+    tree->occluded_batch(shadows, {occluded.get(), shadows.size()}, &coherent_any_hit,
+                         Coherence::Coherent);
+    EXPECT_GT(coherent_any_hit.node_visits, 0u);
+    EXPECT_LT(3 * coherent_any_hit.node_visits, any_hit.node_visits);
+}
+
+TEST(CoherentBatch, PacketsThatFailAreNotTriedAgainAtOnceAndHitTheSame) {
+    // Triangles much finer than the distance of the rays.
+    const auto tree = make_aggregate("wide_bvh", random_triangles(20000, 1, 0.01, 19));
+    const Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.5, 40);
+    std::vector<Hit> first(rays.size()), later(rays.size());
+    tree->closest_batch(rays, first, nullptr, Coherence::Coherent);
+    tree->closest_batch(rays, later, nullptr, Coherence::Coherent);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        Hit single;
+        (void)tree->closest(rays[i], single, nullptr);
+        ASSERT_TRUE(same(first[i], single)) << i;
+        ASSERT_TRUE(same(later[i], single)) << i;
+    }
 }
 
 }  // namespace

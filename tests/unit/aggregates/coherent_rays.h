@@ -25,6 +25,14 @@ inline void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_TRUE(same(hits[i], expected[i])) << name << ", packets, ray " << i;
     }
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    // Rays that are occluded already stay so.
+    for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = i % 16 == 5;
+    wide_bvh_kernels(8).occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(occluded[i], i % 16 == 5 || expected[i].found())
+            << name << ", packets for any hit, ray " << i;
+    }
 }
 
 inline void compare_with(const Aggregate& list, const Aggregate& tested, const Rays& rays,

@@ -82,6 +82,43 @@ TEST(RayTree, SeveralSamplesHaveTheMeanOfThePixel) {
     expect_pixels_of_whitted(loaded_of(small_scene()), 5);
 }
 
+TEST(RayTree, OfTooManyRaysIsThatOfTheLargestDepthWithFewer) {
+    const LoadedScene loaded = loaded_file("showcase.alhazen");
+    ExplainOptions options;
+    options.render.width = 60;
+    options.render.height = 34;
+    options.x = 29;
+    options.y = 25;
+    options.accelerator = "";
+    options.with_picture = false;
+    const auto rays = [](const Explanation& e) {
+        const RayCensus census = census_of(e.tree);
+        return census.eye + census.shadow + census.reflection + census.refraction;
+    };
+    const Explanation whole = explain_pixel(loaded, options);
+    ASSERT_EQ(whole.max_depth, whole.wished_depth);
+    options.most_rays = rays(whole) - 1;
+    const Explanation cut = explain_pixel(loaded, options);
+    ASSERT_LT(cut.max_depth, whole.max_depth);
+    EXPECT_LE(rays(cut), options.most_rays);
+    options.most_rays = rays(whole);
+    EXPECT_EQ(explain_pixel(loaded, options).pixel, whole.pixel);
+    options.render.max_depth = cut.max_depth;
+    EXPECT_EQ(explain_pixel(loaded, options).pixel, cut.pixel);
+    options.render.max_depth = cut.max_depth + 1;
+    EXPECT_GE(rays(explain_pixel(loaded, options)), rays(whole));
+}
+
+TEST(RayTree, OfAnExplanationThatIsStoppedIsNotComplete) {
+    StopFlag stop;
+    stop.request();
+    ExplainOptions options;
+    options.render.width = 20;
+    options.render.height = 15;
+    options.render.stop = &stop;
+    EXPECT_FALSE(explain_pixel(loaded_of(small_scene()), options).complete);
+}
+
 /// Two facing mirrors and a light: the tree is a chain whose every number is known.
 TEST(RayTree, BetweenTwoMirrorsIsAChainOfKnownNumbers) {
     SceneMaker scene;

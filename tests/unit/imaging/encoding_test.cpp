@@ -91,6 +91,26 @@ TEST(Encoding, AlphaDoesNotGoThroughTheCurve) {
               (std::vector<std::uint16_t>{188, 188, 188, 128}));
 }
 
+TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
+    std::vector<double> values{-1.0, 0.0, 1e-300, 1.0, 2.0, std::nan(""), 0.0031308};
+    for (int code = 0; code < 256; ++code) {  // where codes change, and beside
+        const double edge = linear_from_srgb((code + 0.5) / 255.0);
+        double below = edge, above = edge;
+        for (int k = 0; k < 20; ++k) {
+            values.insert(values.end(), {below, above});
+            below = std::nextafter(below, 0.0);
+            above = std::nextafter(above, 1.0);
+        }
+    }
+    for (int i = 0; i < 3000; ++i) values.push_back(std::pow(i / 3000.0, 3.0));
+    while (values.size() % 3 != 0) values.push_back(0.5);
+    const int pixels = static_cast<int>(values.size() / 3);
+    const EncodedImage encoded = encode(values.data(), pixels, 1, Encoding::Srgb, 8);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        ASSERT_EQ(encoded.samples[i], encode_channel(values[i], Encoding::Srgb, 8)) << values[i];
+    }
+}
+
 TEST(Encoding, WrongSizesAreUsageErrors) {
     const double rgb[3] = {};
     Image image(2, 2, 3);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/facets/convex_parts.h"
+#include "alhazen/imaging/film/filter_integral.h"
 #include "alhazen/renderers/beam_tracing/beam_raster.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/beam_report.h"
@@ -25,10 +27,14 @@ struct Picture {
 };
 
 Picture beams_of(SceneMaker& maker, const BeamTreeOptions& options = {}, bool exact = false,
-                 const RenderControl& control = {}) {
+                 const RenderControl& control = {}, const char* filter = nullptr) {
     const Scene scene = maker.compile();
     AntialiasSettings settings;
     settings.exact = true;
+    if (filter != nullptr) {
+        settings.filter = find_filter(filter);
+        settings.radius = settings.filter->radius;
+    }
     const RenderJob job{.scene = scene,
                         .camera = scene.cameras[0].camera,
                         .description = &maker.description(),
@@ -166,15 +172,22 @@ TEST(BeamTracing, SmallSharesEndTheTree) {
     EXPECT_EQ(beams_of(maker, {.least_area = 1.0}).report.beams->reflected_beams, 0u);
 }
 
-TEST(BeamTracing, ExactAreasGiveAPixelItsCoveredShare) {
+/// A white triangle before a black ground, a pixel a unit.
+SceneMaker white_triangle(const std::array<Vec2, 3>& corners) {
     SceneMaker maker;
     Material glow;
     glow.emission.color = {1, 1, 1};
     maker.description().cameras[0].camera =
         OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {double(kWidth), 0, 0}, {0, double(kHeight), 0}};
     Polygon triangle;
-    triangle.vertices = {{-10.3, -7.7, 0}, {21.4, -3.2, 0}, {2.6, 19.9, 0}};
+    for (const Vec2& p : corners) triangle.vertices.push_back({p.x, p.y, 0});
     maker.add(triangle, maker.material(glow));
+    return maker;
+}
+constexpr std::array<Vec2, 3> kTriangle{{{-10.3, -7.7}, {21.4, -3.2}, {2.6, 19.9}}};
+
+TEST(BeamTracing, ExactAreasGiveAPixelItsCoveredShare) {
+    SceneMaker maker = white_triangle(kTriangle);
     const Picture picture = beams_of(maker, {}, true);
     double sum = 0.0;
     for (int j = 0; j < kHeight; ++j) {
@@ -187,6 +200,48 @@ TEST(BeamTracing, ExactAreasGiveAPixelItsCoveredShare) {
     }
     const double area = 0.5 * (31.7 * 27.6 - 4.5 * 12.9);
     EXPECT_NEAR(sum, area, 1e-3);
+}
+
+TEST(BeamTracing, AFilterGivesAPixelItsIntegralOverTheTriangle) {
+    SceneMaker maker = white_triangle(kTriangle);
+    for (const char* name : {"tent", "gaussian", "mitchell", "blackman_harris"}) {
+        const Picture picture = beams_of(maker, {}, true, {}, name);
+        const FilterIntegral filter(*find_filter(name), find_filter(name)->radius);
+        for (int j = 0; j < kHeight; ++j) {
+            for (int i = 0; i < kWidth; ++i) {
+                const Vec2 center{i + 0.5 - 0.5 * kWidth, 0.5 * kHeight - 0.5 - j};
+                double expected = 0.0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    expected +=
+                        filter.along(kTriangle[k] - center, kTriangle[(k + 1) % 3] - center);
+                }
+                EXPECT_NEAR(picture.film.at(i, j).r, expected, 2e-5) << name << i << " " << j;
+            }
+        }
+    }
+}
+
+TEST(BeamTracing, UnderAFilterThePictureDoesNotEndAtItsBorder) {
+    SceneMaker maker = white_triangle({{{-900, -900}, {900, -900}, {0, 900}}});
+    const Picture picture = beams_of(maker, {}, true, {}, "mitchell");
+    for (int i = 0; i < kWidth; ++i) {
+        EXPECT_NEAR(picture.film.at(i, 0).r, 1.0, 1e-9);
+        EXPECT_NEAR(picture.film.at(i, kHeight - 1).r, 1.0, 1e-9);
+    }
+}
+
+TEST(BeamTracing, TheBoxFilterIsTheMeanAndTilesChangeNoFilter) {
+    SceneMaker maker;
+    furnish(maker, 0.0);
+    EXPECT_EQ(
+        differing(beams_of(maker, {}, true).film, beams_of(maker, {}, true, {}, "box").film, 1e-9),
+        0);
+    const Picture one = beams_of(maker, {}, true, {.threads = 1, .tile_size = 7}, "gaussian");
+    for (const int tile : {16, 64}) {
+        const Picture many =
+            beams_of(maker, {}, true, {.threads = 4, .tile_size = tile}, "gaussian");
+        EXPECT_EQ(differing(one.film, many.film, 0.0), 0) << tile;
+    }
 }
 
 TEST(BeamTracing, OtherShapesAreRefusedByName) {

@@ -21,12 +21,12 @@ namespace {
 using testing::ball;
 using testing::expect_same_light;
 using testing::floor_from_above;
-using testing::shining;
 using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
 using testing::rectangle;
 using testing::SceneMaker;
+using testing::shining;
 constexpr double kPi = std::numbers::pi;
 
 TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
@@ -316,8 +316,11 @@ TEST(MediumStack, VolumesAreLeftInAnyOrder) {
 TEST(CameraLens, JoinsAPointWhereItsEyeRayStarted) {
     PerspectiveCamera camera = look_along({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, 0.8, 1.5);
     camera.lens = {.radius = 0.2, .focus_distance = 4};
-    const Camera cameras[] = {camera,
-                              OrthographicCamera{{0, 0, 5}, {0.1, 0, -1}, {3, 0, 0}, {0, 2, 0}}};
+    const Camera cameras[] = {
+        camera, OrthographicCamera{{0, 0, 5}, {0.1, 0, -1}, {3, 0, 0}, {0, 2, 0}},
+        look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Equidistant, 3.0, 1.2),
+        look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Equisolid, 2.5, 1.0),
+        look_around({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, WideProjection::Panorama, 3.0, 2.0)};
     SceneMaker empty;
     empty.add(Sphere{});
     const Scene scene = empty.compile();

@@ -13,7 +13,7 @@
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/photon_mapping/irradiance_cache.h"
 #include "alhazen/renderers/photons/photon_grid.h"
-#include "alhazen/renderers/sppm/sppm.h"
+#include "alhazen/renderers/photons/photon_passes.h"
 #include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
 
@@ -331,7 +331,7 @@ TEST(IrradianceCache, InterpolatesWithinItsReachOnItsSide) {
     for (const double x : {0.0, 0.1, -0.19}) {
         const auto found = cache.irradiance({x, 0, 0}, {0, 0, 1});
         ASSERT_TRUE(found) << x;
-        EXPECT_NEAR(found->b, 3.0, 1e-12);
+        EXPECT_NEAR(found->c, 3.0, 1e-12);
     }
     EXPECT_FALSE(cache.irradiance({0.21, 0, 0}, {0, 0, 1}));
     EXPECT_FALSE(cache.irradiance({0, 0, 0}, {0, 0, -1}));

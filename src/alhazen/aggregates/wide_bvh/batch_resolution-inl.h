@@ -85,7 +85,7 @@ class BatchResolution {
     template <class Stats>
     HWY_NOINLINE void resolve(Stats stats) {
         // Lanes beyond the count hold what was there before, or zeros.
-        pairs_.resolve((1u << count_) - 1, kAllLanes,
+        pairs_.resolve((1u << count_) - 1,
                        [&](std::size_t lane, ShapeHit& hit)
                            HWY_ATTR { return resolve_scalar(pair_[lane], hit); },
                        [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {

@@ -12,6 +12,7 @@
 #endif
 
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
@@ -72,15 +73,14 @@ class PacketCandidates {
         // A NaN goes to the list, where it is never replaced.
         const auto keep = candidates & (begin < none) &
                           ((lo > load_lanes<kGroupRays>(group.s_max)) | (lo >= none));
-        std::uint32_t rest = bits_of(candidates) & ~bits_of(keep) & group.used;
+        const std::uint32_t rest = bits_of(candidates) & ~bits_of(keep) & group.used;
         if (HWY_UNLIKELY(rest != 0)) {
-            if (beside_count_ + kGroupRays > kMaxBeside) return false;
-            HWY_ALIGN float begins[kGroupRays];
-            store_lanes(begin, begins);
-            for (; rest != 0; rest &= rest - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                beside_[beside_count_++] = {g * kGroupRays + i, place, begins[i]};
-            }
+            if (beside_count_ == kMaxBeside) return false;
+            Beside& beside = beside_[beside_count_++];
+            store_lanes(begin, beside.lo);
+            beside.group = static_cast<std::uint32_t>(g);
+            beside.lanes = rest;
+            beside.place = place;
         }
         store_lanes(select_lanes(keep, begin, lo), kept.lo);
         store_lanes(select_lanes(keep, GroupFloats(std::bit_cast<float>(place)),
@@ -89,19 +89,20 @@ class PacketCandidates {
         return true;
     }
 
-    /// Calls `resolve(ray, place)` for all candidates, or only those of the list, and drops them.
+    /// Calls `resolve(g, lanes, places)` for all candidates, or only those of the list, and drops
+    /// them.
     template <class Resolve>
     HWY_INLINE void take_all(Resolve&& resolve) {
         for (std::size_t g = 0; g < packet_.group_count; ++g) {
             const RayGroup& group = packet_.groups[g];
             const GroupFloats lo = load_lanes<kGroupRays>(kept_[g].lo);
-            std::uint32_t rest =
+            const std::uint32_t lanes =
                 bits_of((lo < GroupFloats(kNone)) & (lo <= load_lanes<kGroupRays>(group.s_max))) &
                 group.used;
-            for (; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                resolve(g * kGroupRays + lane, std::bit_cast<TrianglePlace>(kept_[g].place[lane]));
-            }
+            if (lanes == 0) continue;
+            TrianglePlace places[kGroupRays];
+            std::memcpy(places, kept_[g].place, sizeof(places));
+            resolve(g, lanes, places);
             store_lanes(GroupFloats(kNone), kept_[g].lo);
         }
         take_beside(resolve);
@@ -110,25 +111,29 @@ class PacketCandidates {
     HWY_INLINE void take_beside(Resolve&& resolve) {
         for (std::size_t n = 0; n < beside_count_; ++n) {
             const Beside& b = beside_[n];
-            const RayGroup& group = packet_.groups[b.ray / kGroupRays];
-            const std::size_t lane = b.ray % kGroupRays;
+            const RayGroup& group = packet_.groups[b.group];
             // Written so that a NaN is not passed over.
-            if ((group.used >> lane & 1) == 0 || b.lo > group.s_max[lane]) continue;
-            resolve(b.ray, b.place);
+            const std::uint32_t beyond = bits_of(load_lanes<kGroupRays>(b.lo) >
+                                                 load_lanes<kGroupRays>(group.s_max));
+            const std::uint32_t lanes = b.lanes & group.used & ~beyond;
+            if (lanes == 0) continue;
+            TrianglePlace places[kGroupRays];
+            for (TrianglePlace& place : places) place = b.place;
+            resolve(b.group, lanes, places);
         }
         beside_count_ = 0;
     }
 
   private:
-    static constexpr std::size_t kMaxBeside = 64;
+    static constexpr std::size_t kMaxBeside = 16;
     struct alignas(64) Kept {
         GroupRow lo;     ///< kNone: none
         GroupRow place;  ///< bits of a TrianglePlace
     };
-    struct Beside {
-        std::size_t ray;
+    struct alignas(64) Beside {
+        GroupRow lo;
+        std::uint32_t group, lanes;
         TrianglePlace place;
-        float lo;
     };
     const RayPacket& packet_;
     Kept kept_[kPacketGroups];

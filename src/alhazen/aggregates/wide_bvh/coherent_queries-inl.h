@@ -1,4 +1,4 @@
-/// Closest hits of coherent rays, packet by packet.
+/// Closest hits of coherent rays, or whether they hit anything, packet by packet.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -11,6 +11,8 @@
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
+#include <atomic>
 #include <bit>
 #include <span>
 
@@ -23,11 +25,99 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// The packets of a batch that are tried. After a failure some are not: the more, the more failures
+/// in a row, those of earlier batches among them.
+class PacketTrials {
+  public:
+    explicit PacketTrials(PacketFailures* memory) : memory_(memory) {
+        if (memory == nullptr) return;
+        const std::uint32_t kept = memory->load(std::memory_order_relaxed);
+        failures_ = kept % kPlaces;
+        skip_ = kept / kPlaces;
+    }
+    ~PacketTrials() {
+        if (memory_ != nullptr)
+            memory_->store(skip_ * kPlaces + failures_, std::memory_order_relaxed);
+    }
+    PacketTrials(const PacketTrials&) = delete;
+    PacketTrials& operator=(const PacketTrials&) = delete;
+
+    [[nodiscard]] bool skips() {
+        if (skip_ == 0) return false;
+        --skip_;
+        return true;
+    }
+    void tried(bool failed) {
+        failures_ = failed ? std::min(failures_ + 1, kMaxPacketBackoff) : 0;
+        skip_ = (1u << failures_) - 1;
+    }
+
+  private:
+    static constexpr std::uint32_t kPlaces = 16;
+    static_assert(kMaxPacketBackoff < kPlaces);
+    PacketFailures* memory_;
+    std::uint32_t failures_ = 0, skip_ = 0;
+};
+
+/// Whether the stream traces coherent rays in no packet, and not one by one.
+inline bool streams_coherent(const WideBvhScene& scene, std::size_t count) {
+    return count >= kMinStreamRays && scene.layout->memory_bytes() > kMaxSingleTreeBytes;
+}
+
+/// Bits of the rays that are to be traced.
+HWY_INLINE std::uint64_t wanted_rays(std::span<const Hit> results) {
+    return ~std::uint64_t{0} >> (kPacketRays - results.size());
+}
+HWY_INLINE std::uint64_t wanted_rays(std::span<const bool> occluded) {
+    std::uint64_t wanted = 0;
+    for (std::size_t i = 0; i < occluded.size(); ++i) {
+        wanted |= std::uint64_t{!occluded[i]} << i;
+    }
+    return wanted;
+}
+
+struct PacketOutcome {
+    std::uint64_t alone;  ///< rays that are left
+    bool slow;            ///< no faster than rays one by one
+};
+
+/// Traces up to 64 rays, those of `wanted`: one packet per main axis and sign, six at most.
+template <class Leaves, class Result, class Stats>
+HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
+                                         const PrefetchTable& prefetch_table,
+                                         std::span<const Ray> rays, std::span<Result> results,
+                                         std::uint64_t wanted, Stats stats) {
+    const WideBvhLayout& layout = *scene.layout;
+    std::uint64_t rest = wanted, alone = 0;
+    std::uint32_t work = 0;
+    while (rest != 0) {
+        RayPacket packet;
+        std::uint64_t used = rest;
+        const bool made = packet.make(layout.frame, rays, used);
+        if (used == 0) break;  // none can be used
+        rest &= ~used;
+        alone |= used;
+        const auto count = static_cast<std::uint32_t>(std::popcount(used));
+        if (!made || count < kMinPacketRays) continue;
+        Leaves leaves(scene, rays, results, packet);
+        const bool done = traverse_packet<Leaves::kOrdered>(
+            layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet, leaves,
+            kMaxPacketWork * count, stats);
+        work += leaves.work;
+        if (!done) continue;
+        leaves.finish(stats);
+        alone &= ~used;
+    }
+    alone |= rest;
+    const auto traced = static_cast<std::uint32_t>(std::popcount(wanted & ~alone));
+    return {alone, work > kFairPacketWork * traced || (traced == 0 && wanted != 0)};
+}
+
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
-/// in WideBvhKernels::closest_batch.
-template <class Stats, class Otherwise>
+/// in WideBvhKernels::closest_batch and occluded_batch.
+template <class Leaves, class Result, class Stats, class Otherwise>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
-                             std::span<Hit> results, Stats stats, Otherwise&& otherwise) {
+                             std::span<Result> results, Stats stats, Otherwise&& otherwise) {
     const WideBvhLayout& layout = *scene.layout;
     // Packets need vertices in the leaves.
     if (layout.is_indexed()) return otherwise(0, rays.size());
@@ -36,46 +126,28 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
          layout.others.data()},
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
-    // After a failure some packets are skipped: the more, the more failures in a row.
-    std::size_t failures = 0, skip = 0;
+    PacketTrials trials(scene.failures);
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);
         for (const Ray& next :
              rays.subspan(i + count).first(std::min(kPacketRays, rays.size() - i - count))) {
             hwy::Prefetch(&next);
         }
-        if (skip > 0) {
-            --skip;
+        if (trials.skips()) {
             otherwise(i, count);
             continue;
         }
-        // One packet per main axis and sign: six at most.
-        std::uint64_t rest = ~std::uint64_t{0} >> (kPacketRays - count), alone = 0;
-        while (rest != 0) {
-            RayPacket packet;
-            std::uint64_t used = rest;
-            const bool made = packet.make(layout.frame, rays.subspan(i, count), used);
-            if (used == 0) break;  // none can be used
-            rest &= ~used;
-            alone |= used;
-            if (!made || std::popcount(used) < kMinPacketRays) continue;
-            ClosestPacket leaves(scene, rays.subspan(i, count), results.subspan(i, count), packet);
-            if (!traverse_packet(layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet,
-                                 leaves, kMaxPacketWork, stats)) {
-                continue;
-            }
-            leaves.finish(stats);
-            alone &= ~used;
-        }
-        alone |= rest;
-        if (alone == ~std::uint64_t{0} >> (kPacketRays - count)) {
-            failures = std::min<std::size_t>(failures + 1, kMaxPacketBackoff);
-            skip = (std::size_t{1} << failures) - 1;
+        const std::span<Result> here = results.subspan(i, count);
+        const std::uint64_t wanted = wanted_rays(here);
+        const PacketOutcome outcome =
+            trace_packets<Leaves>(scene, prefetch_table, rays.subspan(i, count), here, wanted,
+                                  stats);
+        trials.tried(outcome.slow);
+        if (outcome.alone == ~std::uint64_t{0} >> (kPacketRays - count)) {
             otherwise(i, count);
             continue;
         }
-        failures = 0;
-        for (; alone != 0; alone &= alone - 1) {
+        for (std::uint64_t alone = outcome.alone; alone != 0; alone &= alone - 1) {
             otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
         }
     }

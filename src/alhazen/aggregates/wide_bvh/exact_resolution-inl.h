@@ -82,12 +82,63 @@ HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, ShapeHit
     return Verdict::Hit;
 }
 
-/// Eight rays, each with a triangle of its own; [..][lane].
+/// Eight rays, each with a triangle of its own: rows of eight numbers. Axes as in RayShear.
+struct PairRows {
+    const double* vertex[3][3];  ///< [corner][axis]
+    const double *origin[3], *direction[3], *t_min, *t_max;
+};
+
+/// What the test in double finds for them.
+struct PairVerdicts {
+    std::uint32_t hit, unsure;
+    alignas(64) double t[kLaneCount], u[kLaneCount], v[kLaneCount];
+
+    HWY_NOINLINE HWY_FLATTEN void test(const PairRows& rows) {
+        using D = Doubles;
+        const D dz = load_lanes(rows.direction[2]);
+        const D sx = load_lanes(rows.direction[0]) / dz, sy = load_lanes(rows.direction[1]) / dz;
+        const D sz = D(1.0) / dz;
+        exact::ShearedVertex<D> p[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i] = exact::sheared(load_lanes(rows.vertex[i][0]), load_lanes(rows.vertex[i][1]),
+                                  load_lanes(rows.vertex[i][2]), load_lanes(rows.origin[0]),
+                                  load_lanes(rows.origin[1]), load_lanes(rows.origin[2]), sx, sy);
+        }
+        const exact::TriangleEdges<D> edges(p[0], p[1], p[2]);
+        const std::uint32_t missed = bits_of(edges.missed());
+        const std::uint32_t plain = bits_of(edges.nonzero() & edges.well_conditioned());
+        const auto s = exact::solve_triangle(edges.u, edges.v, edges.w, p[0].z, p[1].z, p[2].z, sz);
+        const std::uint32_t covered =
+            bits_of((load_lanes(rows.t_min) <= s.t) & (s.t <= load_lanes(rows.t_max)));
+        store_lanes(s.t, t);
+        store_lanes(s.u, u);
+        store_lanes(s.v, v);
+        hit = plain & covered & ~missed;
+        unsure = ~plain & ~missed & kAllLanes;
+    }
+
+    /// Calls `accept(lane, hit)` for the lanes of `used` that hit until it returns true, and
+    /// returns whether it did; `scalar(lane, hit)` is the scalar test, for lanes in doubt and those
+    /// not in `set_up`, which do not hold their ray along its dominant axis.
+    template <class Scalar, class Accept>
+    HWY_INLINE bool take(std::uint32_t used, std::uint32_t set_up, Scalar&& scalar,
+                         Accept&& accept) const {
+        const std::uint32_t alone = (unsure | ~set_up) & used;
+        for (std::uint32_t rest = (hit & used) | alone; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            ShapeHit found{t[lane], u[lane], v[lane], 0};
+            if ((alone >> lane & 1) != 0 && !scalar(lane, found)) continue;
+            if (accept(lane, found)) return true;
+        }
+        return false;
+    }
+};
+
+/// Eight rays of any kind, each with a triangle of its own; [..][lane].
 struct TrianglePairs {
     alignas(64) double vertex[3][3][kLaneCount];  ///< [corner][axis], axes as in RayShear
     alignas(64) double origin[3][kLaneCount], direction[3][kLaneCount];
     alignas(64) double t_min[kLaneCount], t_max[kLaneCount];
-    alignas(64) double t[kLaneCount], u[kLaneCount], v[kLaneCount];  ///< results
 
     HWY_INLINE void set(std::size_t lane, const Ray& ray, const Vec3 (&corners)[3]) {
         const int kz = dominant_axis(ray.direction);
@@ -102,48 +153,18 @@ struct TrianglePairs {
         t_max[lane] = ray.t_max;
     }
 
-    /// Tests the lanes of `used`; those not in `set_up` do not hold their ray along its dominant
-    /// axis. Calls `accept(lane, hit)` for those that hit until it returns true, and returns
-    /// whether it did; `scalar(lane, hit)` is the scalar test, for lanes in doubt.
+    /// Tests the lanes of `used`: see PairVerdicts::take.
     template <class Scalar, class Accept>
-    HWY_INLINE bool resolve(std::uint32_t used, std::uint32_t set_up, Scalar&& scalar,
-                            Accept&& accept) {
-        const Verdicts verdicts = test();
-        const std::uint32_t alone = (verdicts.unsure | ~set_up) & used;
-        for (std::uint32_t rest = (verdicts.hit & used) | alone; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            ShapeHit hit{t[lane], u[lane], v[lane], 0};
-            if ((alone >> lane & 1) != 0 && !scalar(lane, hit)) continue;
-            if (accept(lane, hit)) return true;
-        }
-        return false;
-    }
-
-  private:
-    struct Verdicts {
-        std::uint32_t hit, unsure;
-    };
-    HWY_INLINE Verdicts test() {
-        using D = Doubles;
-        const D dz = load_lanes(direction[2]);
-        const D sx = load_lanes(direction[0]) / dz, sy = load_lanes(direction[1]) / dz;
-        const D sz = D(1.0) / dz;
-        exact::ShearedVertex<D> p[3];
-        for (std::size_t i = 0; i < 3; ++i) {
-            p[i] = exact::sheared(load_lanes(vertex[i][0]), load_lanes(vertex[i][1]),
-                                  load_lanes(vertex[i][2]), load_lanes(origin[0]),
-                                  load_lanes(origin[1]), load_lanes(origin[2]), sx, sy);
-        }
-        const exact::TriangleEdges<D> edges(p[0], p[1], p[2]);
-        const std::uint32_t missed = bits_of(edges.missed());
-        const std::uint32_t plain = bits_of(edges.nonzero() & edges.well_conditioned());
-        const auto s = exact::solve_triangle(edges.u, edges.v, edges.w, p[0].z, p[1].z, p[2].z, sz);
-        const std::uint32_t covered =
-            bits_of((load_lanes(t_min) <= s.t) & (s.t <= load_lanes(t_max)));
-        store_lanes(s.t, t);
-        store_lanes(s.u, u);
-        store_lanes(s.v, v);
-        return {plain & covered & ~missed, ~plain & ~missed & kAllLanes};
+    HWY_INLINE bool resolve(std::uint32_t used, Scalar&& scalar, Accept&& accept) {
+        PairVerdicts verdicts;
+        verdicts.test({{{vertex[0][0], vertex[0][1], vertex[0][2]},
+                        {vertex[1][0], vertex[1][1], vertex[1][2]},
+                        {vertex[2][0], vertex[2][1], vertex[2][2]}},
+                       {origin[0], origin[1], origin[2]},
+                       {direction[0], direction[1], direction[2]},
+                       t_min,
+                       t_max});
+        return verdicts.take(used, kAllLanes, scalar, accept);
     }
 };
 

@@ -197,7 +197,7 @@ struct LeafQuery {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});
         }
-        return pairs.resolve((1u << used) - 1, kAllLanes,
+        return pairs.resolve((1u << used) - 1,
                              [&](std::size_t lane, ShapeHit& hit) HWY_ATTR {
                                  return hits_triangle_scalar(block.ids[lane].id(), hit);
                              },

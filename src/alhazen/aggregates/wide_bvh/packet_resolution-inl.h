@@ -1,5 +1,5 @@
-/// Exact resolution of the candidates of a packet, eight pairs of a ray and a triangle at a time,
-/// by TrianglePairs.
+/// Exact resolution of the candidates of a packet: the rays of a group, which are in lanes already,
+/// each with a triangle of its own. Most of them have the same.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -10,6 +10,7 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_RESOLUTION_INL_H_
 #endif
 
+#include <array>
 #include <bit>
 #include <span>
 
@@ -29,119 +30,102 @@ class PacketResolution {
                                 std::span<const Ray> rays)
         : scene_(scene), packet_(packet), rays_(rays) {}
 
-    /// Adds a pair; calls `hits(ray, id, shape_hit)` for those that hit, at once or later.
+    /// Tests rays of group `g`, each with the triangle at `places[lane]`; calls `hits(ray, id,
+    /// shape_hit)` for those that hit. `places` is aligned.
     template <class Hits, class Stats>
-    HWY_INLINE void add(std::size_t ray, TrianglePlace place, Hits&& hits, Stats stats) {
-        ray_[count_] = static_cast<std::uint32_t>(ray);
-        place_[count_] = place;
-        if (++count_ == kLaneCount) resolve(hits, stats);
-    }
-    template <class Hits, class Stats>
-    HWY_NOINLINE void resolve(Hits&& hits, Stats stats) {
-        if (count_ == 0) return;
-        // Free lanes repeat the first.
-        for (std::size_t i = count_; i < kLaneCount; ++i) {
-            ray_[i] = ray_[0];
-            place_[i] = place_[0];
+    HWY_NOINLINE void resolve(std::size_t g, std::uint32_t lanes, const TrianglePlace* places,
+                              Hits&& hits, Stats stats) {
+        bool first = true;
+        for (std::uint32_t rest = lanes; rest != 0; first = false) {
+            const TrianglePlace place = places[std::countr_zero(rest)];
+            const std::uint32_t same = rest & lanes_with(places, place);
+            set_corners(place, first ? kAllLanes : same);
+            rest &= ~same;
         }
-        const std::uint32_t set_up = fill();
-        pairs_.resolve((1u << count_) - 1, set_up,
-                       [&](std::size_t lane, ShapeHit& hit)
-                           HWY_ATTR { return resolve_scalar(lane, hit); },
-                       [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
-                           stats.primitive_hits(1);
-                           hits(ray_[lane], id(lane).id(), hit);
-                           return false;
-                       });
-        count_ = 0;
+        const RayLanes& rays = packet_.rays[g];
+        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        PairRows rows;
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t i = 0; i < 3; ++i) rows.vertex[i][k] = vertex_[i][axes[k]];
+            rows.origin[k] = rays.origin[axes[k]];
+            rows.direction[k] = rays.direction[axes[k]];
+        }
+        rows.t_min = rays.t_min;
+        rows.t_max = rays.t_max;
+        const Doubles z = abs(load_lanes(rows.direction[2]));
+        const std::uint32_t set_up = bits_of((z > abs(load_lanes(rows.direction[0]))) &
+                                             (z > abs(load_lanes(rows.direction[1]))));
+        PairVerdicts verdicts;
+        verdicts.test(rows);
+        verdicts.take(lanes, set_up,
+                      [&](std::size_t lane, ShapeHit& hit) HWY_ATTR {
+                          return resolve_scalar(g * kGroupRays + lane, places[lane], hit);
+                      },
+                      [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
+                          stats.primitive_hits(1);
+                          hits(g * kGroupRays + lane, id(places[lane]).id(), hit);
+                          return false;
+                      });
     }
 
   private:
-    [[nodiscard]] HWY_INLINE BlockId id(std::size_t lane) const {
-        return scene_.layout->triangles[place_[lane] / kBlockWidth].ids[place_[lane] % kBlockWidth];
+    [[nodiscard]] HWY_INLINE BlockId id(TrianglePlace place) const {
+        return scene_.layout->triangles[place / kBlockWidth].ids[place % kBlockWidth];
+    }
+    [[nodiscard]] std::uint32_t triangle(TrianglePlace place) const {
+        return static_cast<std::uint32_t>(id(place).id()) - scene_.table->first(kTriangleKind);
     }
 
-    /// Bits of the lanes with the main axis of the packet.
-    HWY_INLINE std::uint32_t fill() {
-        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        for (std::size_t i = 0; i < kLaneCount; ++i) {
-            const RayLanes& rays = packet_.rays[ray_[i] / kGroupRays];
-            const std::size_t lane = ray_[i] % kGroupRays;
-            HWY_UNROLL(3)
-            for (std::size_t k = 0; k < 3; ++k) {
-                pairs_.origin[k][i] = rays.origin[axes[k]][lane];
-                pairs_.direction[k][i] = rays.direction[axes[k]][lane];
-            }
-            pairs_.t_min[i] = rays.t_min[lane];
-            pairs_.t_max[i] = rays.t_max[lane];
+    static HWY_INLINE std::uint32_t lanes_with(const TrianglePlace* places, TrianglePlace place) {
+        std::uint32_t lanes = 0;
+        for (std::size_t i = 0; i < kGroupRays; ++i) {
+            lanes |= static_cast<std::uint32_t>(places[i] == place) << i;
         }
-        gather_corners();
-        for (std::size_t i = 0; i < kLaneCount; ++i) {
-            if (HWY_UNLIKELY(!id(i).exact())) fetch_corners(i);
-        }
-        const Doubles z = abs(load_lanes(pairs_.direction[2]));
-        return bits_of((z > abs(load_lanes(pairs_.direction[0]))) &
-                       (z > abs(load_lanes(pairs_.direction[1]))));
+        return lanes;
     }
-    HWY_INLINE void gather_corners() {
+
+    /// In all lanes or in some.
+    HWY_INLINE void set_corners(TrianglePlace place, std::uint32_t lanes) {
+        if (HWY_LIKELY(!id(place).exact())) {
+            // From the mesh: in the block they are rounded.
+            return set_corners(scene_.table->corner_positions(triangle(place)), lanes);
+        }
         const LocalFrame& frame = scene_.layout->frame;
-        const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
-        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        // One by one: gathers are slower on processors with the microcode mitigation.
-        HWY_ALIGN float x[3][3][kLaneCount];
-        for (std::size_t i = 0; i < kLaneCount; ++i) {
-            const TriangleBlock& block = scene_.layout->triangles[place_[i] / kBlockWidth];
-            const std::size_t lane = place_[i] % kBlockWidth;
-            HWY_UNROLL(3)
-            for (std::size_t k = 0; k < 3; ++k) {
-                for (std::size_t c = 0; c < 3; ++c) x[c][k][i] = block.vertex[c][axes[k]][lane];
+        const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
+        Vec3 corner[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            corner[i] = frame.world(block.corner(i, place % kBlockWidth));
+        }
+        set_corners({&corner[0], &corner[1], &corner[2]}, lanes);
+    }
+    HWY_INLINE void set_corners(const std::array<const Vec3*, 3>& corners, std::uint32_t lanes) {
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3& p = *corners[i];
+            if (lanes == kAllLanes) {
+                store_lanes(Doubles(p.x), vertex_[i][0]);
+                store_lanes(Doubles(p.y), vertex_[i][1]);
+                store_lanes(Doubles(p.z), vertex_[i][2]);
+                continue;
+            }
+            for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                vertex_[i][0][lane] = p.x;
+                vertex_[i][1][lane] = p.y;
+                vertex_[i][2][lane] = p.z;
             }
         }
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                store_lanes(
-                    Doubles(frame.inverse_scale) * as_doubles(x[c][k]) + Doubles(center[axes[k]]),
-                    pairs_.vertex[c][k]);
-            }
-        }
     }
-    static HWY_INLINE Doubles as_doubles(const float (&x)[kLaneCount]) {
-        const LaneTag<double> d;
-        const hn::Rebind<float, LaneTag<double>> df;
-        Doubles r;
-        ALHAZEN_UNROLL
-        for (std::size_t i = 0; i < kParts<double>; ++i) {
-            r.part[i] = hn::PromoteTo(d, hn::Load(df, x + i * hn::Lanes(d)));
-        }
-        return r;
-    }
-    [[nodiscard]] std::uint32_t triangle(std::size_t lane) const {
-        return static_cast<std::uint32_t>(id(lane).id()) - scene_.table->first(kTriangleKind);
-    }
-    /// From the mesh: in the block they are rounded.
-    HWY_NOINLINE void fetch_corners(std::size_t lane) {
-        const auto [a, b, c] = scene_.table->triangle_vertices(triangle(lane));
-        const std::uint32_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto axis = static_cast<int>(axes[k]);
-            pairs_.vertex[0][k][lane] = a[axis];
-            pairs_.vertex[1][k][lane] = b[axis];
-            pairs_.vertex[2][k][lane] = c[axis];
-        }
-    }
-    HWY_NOINLINE bool resolve_scalar(std::size_t lane, ShapeHit& hit) const {
-        const auto [a, b, c] = scene_.table->triangle_vertices(triangle(lane));
-        const Ray& ray = rays_[ray_[lane]];
-        return intersect_triangle(ray, RayShear(ray.direction), a, b, c, hit);
+    HWY_NOINLINE bool resolve_scalar(std::size_t ray, TrianglePlace place, ShapeHit& hit) const {
+        const auto [a, b, c] = scene_.table->triangle_vertices(triangle(place));
+        return intersect_triangle(rays_[ray], RayShear(rays_[ray].direction), a, b, c, hit);
     }
 
     const WideBvhScene& scene_;
     const RayPacket& packet_;
     std::span<const Ray> rays_;
-    std::size_t count_ = 0;
-    std::uint32_t ray_[kLaneCount];
-    TrianglePlace place_[kLaneCount];
-    TrianglePairs pairs_;
+    alignas(64) double vertex_[3][3][kLaneCount];  ///< [corner][axis][lane], axes of the scene
 };
 
 }  // namespace HWY_NAMESPACE

@@ -8,21 +8,9 @@ namespace alhazen {
 
 namespace {
 
-/// Largest tree of packets, bytes. On the bunny packets are 1.6 to 2 times as fast as the stream
-/// for eye rays at 512x512; in trees beyond the caches they are slower. Where primitives are finer
-/// than the distance of the rays a packet gives up.
-constexpr std::size_t kMaxPacketTreeBytes = std::size_t{8} << 20;
 /// Fewest primitives with a test in lanes for each one without, in trees of packets: the others are
 /// tested ray by ray, and packets were slower among them.
 constexpr std::size_t kLanePrimitivesPerScalar = 64;
-/// Largest tree whose coherent rays are traced one by one, bytes. The stream hides the latency of
-/// memory; a tree in the caches has little, and neighbouring rays predict each other's branches.
-/// Single eye rays are 5 to 10 % faster than the stream's, shadow rays 25 %. Incoherent rays in
-/// trees below 1 MB would gain 10 to 15 %; in larger ones the stream is faster.
-constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
-
-enum class BatchQuery { Closest, Occluded };
-
 struct ScheduledTree {
     std::size_t bytes;
     bool treeless;       ///< TreelessPackets takes all primitives
@@ -30,20 +18,14 @@ struct ScheduledTree {
     bool has_packets;    ///< the kernels trace packets
 };
 
-Schedule choose_schedule(const ScheduledTree& tree, BatchQuery query, Coherence coherence) {
+Schedule choose_schedule(const ScheduledTree& tree, Coherence coherence) {
     if (tree.treeless) return Schedule::TreelessPackets;
     if (coherence == Coherence::Any) return Schedule::Stream;
-    // Packets of shadow rays are slower than single rays: 2.3 M rays/s against 5.9 (bunny), 2.4
-    // against 7.9 (Sponza).
-    if (query == BatchQuery::Closest && tree.suits_packets) {
-        return tree.has_packets ? Schedule::Packets : Schedule::Stream;
-    }
+    if (tree.suits_packets && tree.has_packets) return Schedule::Packets;
     return tree.bytes <= kMaxSingleTreeBytes ? Schedule::Single : Schedule::Stream;
 }
 
-bool suits_packets(const PrimitiveTable& table, const WideBvhLayout& layout,
-                   std::span<const PrimitiveId> unbounded) {
-    if (layout.memory_bytes() > kMaxPacketTreeBytes) return false;
+bool suits_packets(const PrimitiveTable& table, std::span<const PrimitiveId> unbounded) {
     std::size_t in_lanes = 0, scalar = 0;
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         if (i == table.first(kTriangleKind)) {
@@ -63,12 +45,10 @@ bool suits_packets(const PrimitiveTable& table, const WideBvhLayout& layout,
 
 Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {
-    const ScheduledTree tree{layout.memory_bytes(), treeless,
-                             suits_packets(table, layout, unbounded), has_packets};
+    const ScheduledTree tree{layout.memory_bytes(), treeless, suits_packets(table, unbounded),
+                             has_packets};
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
-        const auto i = static_cast<std::size_t>(coherence);
-        closest_[i] = choose_schedule(tree, BatchQuery::Closest, coherence);
-        occluded_[i] = choose_schedule(tree, BatchQuery::Occluded, coherence);
+        batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);
     }
 }
 

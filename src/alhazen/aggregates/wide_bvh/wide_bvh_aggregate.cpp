@@ -10,6 +10,13 @@
 
 namespace alhazen {
 
+namespace {
+
+/// Hits that are made empty before their rays are traced, so that they are in the cache then.
+constexpr std::size_t kInCache = 512;
+
+}  // namespace
+
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
     : table_(std::move(table)), kernels_(wide_bvh_kernels(options.width, options.precision)) {
     const BoundedPrimitives bounded(table_);
@@ -151,7 +158,16 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
-    for (Hit& hit : hits) hit = Hit{};
+    for (std::size_t i = 0; i < rays.size(); i += kInCache) {
+        const std::size_t count = std::min(kInCache, rays.size() - i);
+        const std::span<Hit> here = hits.subspan(i, count);
+        for (Hit& hit : here) hit = Hit{};
+        trace_closest(rays.subspan(i, count), here, query, coherence);
+    }
+}
+
+void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                                     Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size() && !unbounded_.empty(); ++i) {
         if (!is_valid(rays[i])) continue;
         Ray shrinking = rays[i];
@@ -162,8 +178,8 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
         });
     }
     if (layout_.tree.empty) return;
-    const WideBvhScene seen = scene(query.mask);
-    switch (schedules_.closest(coherence)) {
+    WideBvhScene seen = scene(query.mask);
+    switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 kernels_.closest(seen, rays[i], hits[i], query.stats);
@@ -172,6 +188,8 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
         case Schedule::Stream:
             return kernels_.closest_batch(seen, rays, hits, query.stats);
         case Schedule::Packets:
+            // Counted work must not depend on earlier batches.
+            if (query.stats == nullptr) seen.failures = &closest_failures_;
             return kernels_.closest_coherent(seen, rays, hits, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.closest(table_, rays, hits, query);
@@ -189,16 +207,18 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         });
     }
     if (layout_.tree.empty) return;
-    const WideBvhScene seen = scene(query.mask);
-    switch (schedules_.occluded(coherence)) {
+    WideBvhScene seen = scene(query.mask);
+    switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 if (!occluded[i]) occluded[i] = kernels_.occluded(seen, rays[i], query.stats);
             }
             return;
-        case Schedule::Packets:  // closest hits only
         case Schedule::Stream:
             return kernels_.occluded_batch(seen, rays, occluded, query.stats);
+        case Schedule::Packets:
+            if (query.stats == nullptr) seen.failures = &occluded_failures_;
+            return kernels_.occluded_coherent(seen, rays, occluded, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.occluded(table_, rays, occluded, query);
     }

@@ -61,6 +61,9 @@ class WideBvhAggregate final : public Aggregate {
     /// What follows from the table and the layout.
     void finish_build();
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
+    /// A part of a batch; `hits` are empty.
+    void trace_closest(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                       Coherence coherence) const;
     /// Sorts what a query appended, and drops what it found twice.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
     /// Calls test(id, policy) for the primitives outside the tree until it returns true.
@@ -75,6 +78,7 @@ class WideBvhAggregate final : public Aggregate {
     Schedules schedules_;
     double built_cost_ = 0;  ///< of the tree before any refit
     WideBvhKernels kernels_;
+    mutable PacketFailures closest_failures_{0}, occluded_failures_{0};
 };
 
 }  // namespace alhazen

@@ -1,6 +1,8 @@
 #pragma once
 /// Kernels of the wide BVH aggregate, compiled once per instruction set.
 
+#include <atomic>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,9 @@
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {
+
+/// What packets of earlier batches told: coherent_queries-inl.h.
+using PacketFailures = std::atomic<std::uint32_t>;
 
 /// The scene of a kernel, for rays with the mask `mask`.
 class WideBvhScene {
@@ -18,6 +23,7 @@ class WideBvhScene {
     const PrimitiveTable* table;
     const WideBvhLayout* layout;
     RayMask mask;
+    PacketFailures* failures = nullptr;  ///< null: every batch begins anew
 
     [[nodiscard]] bool sees(PrimitiveId id) const {
         return all_seen_ || (table->visible_to(id) & mask) != 0;
@@ -42,9 +48,11 @@ struct WideBvhKernels {
     /// [ray] each; rays that are occluded already are skipped.
     void (*occluded_batch)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
                            TraversalStats*);
-    /// Closest hits by packets of coherent rays; null where the kernels have no packets.
+    /// As the batches, by packets of coherent rays; null where the kernels have no packets.
     void (*closest_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
                              TraversalStats*);
+    void (*occluded_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
+                              TraversalStats*);
 };
 
 /// Out of line: std::vector's code is not compiled for wide instruction sets.

@@ -12,6 +12,7 @@ function showExplanation(root, data, picture) {
   const section = (id, title, ...children) => element("section", {id, "aria-labelledby": `${id}-title`},
     element("h2", {id: `${id}-title`}, title), ...children);
   const tree = element("div", {class: "outline"});
+  const cones = element("div"), beams = element("div"), patches = element("div", {class: "plots"});
   const spans = element("div"), plots = element("div", {class: "plots"}), steps = element("div");
   root.replaceChildren(
     header(data, picture),
@@ -19,15 +20,23 @@ function showExplanation(root, data, picture) {
       section("space", "The rays in space", canvas, legend(data, () => view)),
       section("tree", "The tree of rays", element("p", {class: "soft"},
         "I = ke + \u03a3 ka Ia + \u03a3 S I [kd (N\u00b7L) + ks highlight] + kr I(reflected) + kt I(refracted). " +
-        "The numbers are those of the renderer; each table adds up to the colour of its ray."), tree)),
+        "The numbers are those of the renderer; each table adds up to the colour of its ray."),
+        data.cut === false ? null : element("p", {class: "cut"}, `The tree is cut at depth ${data.cut}: deeper ones have too ` +
+          "many rays to be shown. All colours here are those of a picture of that depth."), tree)),
+    data.cones ? section("cones", "Cones and what covers them", cones) : "",
+    data.beams ? section("beams", "Pieces of the beams", beams) : "",
     section("spans", "Inside which solids the eye ray is", spans),
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
+    data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
     data.traversal ? section("steps", "How the first surface is found", steps) : "",
     data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : "");
   view = new SceneView(canvas, data, rays, select);
   outline = new RayOutline(tree, data, select);
   spanBars(spans, data);
   polynomialPlots(plots, data);
+  patchParts(patches, data);
+  if (data.cones) new ConeTree(cones, data, view);
+  if (data.beams) new BeamPieces(beams, data);
   if (data.traversal) new TraversalSteps(steps, data, view);
   select(rays[0], false);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());

@@ -5,22 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/explain/page/method_json.h"
+
 namespace alhazen {
 
 namespace {
 
 using json = nlohmann::ordered_json;
-
-json to_json(const Vec3& v) {
-    return {v.x, v.y, v.z};
-}
-json to_json(const Rgb& c) {
-    return {c.r, c.g, c.b};
-}
-/// Six digits: of what is only drawn.
-double rounded(double x) {
-    return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : 0.0;
-}
 
 const std::string& name_in(const std::vector<std::string>& names, std::size_t i) {
     static const std::string kNone;
@@ -196,6 +187,7 @@ json traversal_json(const Explanation& e) {
     }
     return {{"accelerator", e.traversal.accelerator},
             {"steps", std::move(steps)},
+            {"left_out", e.steps_left_out},
             {"work", std::move(work)}};
 }
 
@@ -222,6 +214,7 @@ std::string explanation_json(const Explanation& e, int indent) {
              {"y", e.y},
              {"sample", e.sample},
              {"max_depth", e.max_depth},
+             {"cut", e.max_depth < e.wished_depth ? json(e.max_depth) : json(false)},
              {"min_contribution", e.min_contribution},
              {"background", to_json(e.background)},
              {"pixel", to_json(e.pixel)},
@@ -241,6 +234,9 @@ std::string explanation_json(const Explanation& e, int indent) {
     out["tree"] = TreeWriter(e).ray(e.tree, {1, 1, 1});
     out["solids"] = solids_json(e.spans);
     out["polynomials"] = polynomials_json(e.polynomials);
+    out["patches"] = patches_json(e.patches);
+    if (e.cones) out["cones"] = cones_json(*e.cones);
+    if (e.beams) out["beams"] = beams_json(*e.beams, e.light_names);
     if (!e.traversal.accelerator.empty()) out["traversal"] = traversal_json(e);
     out["points"] = points_json(e.points);
     return out.dump(indent, ' ', true, json::error_handler_t::replace);

@@ -70,6 +70,7 @@ class SceneView {
     this.drawPoints();
     this.drawPicture();
     if (this.showSteps) this.drawSteps();
+    for (const cone of this.cones ?? []) this.drawCone(cone);
     for (const ray of this.rays) if (ray !== this.selected) this.drawRay(ray);
     if (this.selected) this.drawRay(this.selected);
     this.drawLabels();
@@ -218,6 +219,20 @@ class SceneView {
         this.line(a, b, {color, width: 1, alpha: 0.8}));
       g.globalAlpha = 1;
     }
+  }
+
+  // A cone up to its end: its sides as seen from here, and circles; then those that leave it.
+  drawCone(c) {
+    const color = this.color(c.kind), e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);
+    const length = c.length ?? 1.1 * this.radius + (c.parts?.length ? c.parts.at(-1).t : 0);
+    const ring = t => Array.from({length: 24}, (_, i) => {
+      const a = 2 * Math.PI * i / 24, r = c.radius + c.spread * t;
+      return add(add(c.origin, scaled(t, c.axis)), add(scaled(r * Math.cos(a), e1), scaled(r * Math.sin(a), e2)));
+    });
+    const stops = [0, ...(c.parts ?? []).map(p => p.t), length].map(ring);
+    stops.forEach(points => points.forEach((p, i) => this.line(p, points[(i + 1) % 24], {color, width: 1, alpha: 0.7})));
+    for (let i = 0; i < 24; i += 4) this.line(stops[0][i], stops.at(-1)[i], {color, width: 1, alpha: 0.45});
+    for (const part of c.parts ?? []) for (const k of part.cones) this.drawCone(k);
   }
 
   listen() {

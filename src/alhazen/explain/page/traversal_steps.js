@@ -19,7 +19,8 @@ class TraversalSteps {
     this.items = steps.map((s, i) => element("li", {class: s.kind}, element("button", {type: "button", class: "link",
       click: () => { this.range.value = String(i + 1); this.show(); }}, this.describe(s))));
     tested.append(...this.items);
-    root.append(element("details", {}, element("summary", {}, `all ${steps.length} steps`), tested), this.table(work));
+    root.append(element("details", {}, element("summary", {}, `all ${steps.length} steps`), tested),
+      data.traversal.left_out ? element("p", {class: "cut"}, `The steps are cut: ${data.traversal.left_out} more are not shown.`) : "", this.table(work));
     this.show();
   }
   describe(s) {

@@ -18,7 +18,14 @@ RayTreeRecorder::Level& RayTreeRecorder::level(int depth) {
     return levels_[index];
 }
 
+void RayTreeRecorder::count_rays(std::size_t more) {
+    count_ += more;
+    if (enough_ == nullptr) return;
+    if (count_ > most_ || (stop_ != nullptr && stop_->requested())) enough_->request();
+}
+
 void RayTreeRecorder::begin_rays(const GenerationPart& part, int depth) {
+    count_rays(part.size());
     Level& here = level(depth);
     here.base = here.rays.size();
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -62,6 +69,7 @@ void RayTreeRecorder::meet(const ShadingPoint& point, double t, const Path& path
         for (const SeenLight& seen : seen_) node.lights.push_back(term_of(seen, point, path));
         set_reasons(point, path, depth, met, node);
     }
+    count_rays(seen_.size());
     seen_.clear();
     level(depth).met.push_back(std::move(node));
 }

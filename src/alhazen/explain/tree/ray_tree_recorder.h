@@ -5,8 +5,10 @@
 /// draws nothing and watches: rays and surfaces are those of the renderer `whitted`. The
 /// transmittance of each shadow ray, which the renderer only adds up, is asked for again by the
 /// same ShadowBatch, one ray at a time.
-/// Threads: used by one.
+/// A tree of too many rays, or a stop from outside, ends the estimator through the flag of its job;
+/// what was recorded is then a part of a tree. Threads: used by one.
 
+#include <cstddef>
 #include <vector>
 
 #include "alhazen/explain/tree/ray_tree.h"
@@ -20,6 +22,7 @@ class RayTreeRecorder : public NoChance {
     explicit RayTreeRecorder(const RenderJob& job);
 
     // ---- called by the estimator (TreeWatcher)
+    void use(ExactOptics& optics) { shadows_.use(optics); }
     void begin_rays(const GenerationPart& part, int depth);
     void see_light(std::size_t number, const LightSample& light, double cosine);
     void meet(const ShadingPoint& point, double t, const Path& path, int depth,
@@ -27,6 +30,15 @@ class RayTreeRecorder : public NoChance {
     void miss(std::uint32_t ray, const Rgb& left, int depth);
     void gather(const Wavefront& front, int depth);
     void end_rays(const GenerationPart& part, int depth);
+
+    /// `enough`: the stop flag of the job. `stop`: that of the user, may be null.
+    void limit(std::size_t most_rays, StopFlag& enough, const StopFlag* stop) {
+        most_ = most_rays;
+        enough_ = &enough;
+        stop_ = stop;
+    }
+    /// Whether there were more rays than the limit, shadow rays included.
+    [[nodiscard]] bool has_too_many() const { return count_ > most_; }
 
     /// The rays of the last call of `trace`; leaves none behind.
     [[nodiscard]] std::vector<RayNode> take();
@@ -46,6 +58,7 @@ class RayTreeRecorder : public NoChance {
     };
 
     Level& level(int depth);
+    void count_rays(std::size_t more);
     [[nodiscard]] LightTerm term_of(const SeenLight& seen, const ShadingPoint& point,
                                     const Path& path);
     void list_crossings(LightTerm& term) const;
@@ -61,6 +74,9 @@ class RayTreeRecorder : public NoChance {
     ShadingPoint bare_;  ///< a point with one term left
     std::vector<SeenLight> seen_;
     std::vector<Level> levels_;
+    std::size_t count_ = 0, most_ = static_cast<std::size_t>(-1);
+    StopFlag* enough_ = nullptr;
+    const StopFlag* stop_ = nullptr;
 };
 
 }  // namespace alhazen

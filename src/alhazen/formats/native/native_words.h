@@ -28,6 +28,13 @@ inline const Vocabulary<SolidTexture::Kind>& native_words() {
     return kWords;
 }
 template <>
+inline const Vocabulary<WideProjection>& native_words() {
+    using E = WideProjection;
+    static const Vocabulary<E> kWords{
+        {"equidistant", E::Equidistant}, {"equisolid", E::Equisolid}, {"panorama", E::Panorama}};
+    return kWords;
+}
+template <>
 inline const Vocabulary<ShadingConventions::Highlight>& native_words() {
     using E = ShadingConventions::Highlight;
     static const Vocabulary<E> kWords{

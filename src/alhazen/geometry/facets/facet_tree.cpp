@@ -26,8 +26,13 @@ std::span<const FacetPiece> FacetWalk::next(const BeamSides& sides, FacetWalkCou
                 stack_.push_back({node.in, true});
                 continue;
             }
-            counts.polygons += node.count;
-            return tree_->pieces(node);
+            if (!reject_) {
+                counts.polygons += node.count;
+                return tree_->pieces(node);
+            }
+            const std::span<const FacetPiece> piece = next_in(waiting, sides, counts);
+            if (piece.empty()) continue;
+            return piece;
         }
         if (reject_) {
             ++counts.hulls;
@@ -42,6 +47,28 @@ std::span<const FacetPiece> FacetWalk::next(const BeamSides& sides, FacetWalkCou
         if (far != FacetTree::kNone) stack_.push_back({far, true});
         if (node.count > 0 || node.in != FacetTree::kNone) stack_.push_back({waiting.node, false});
         if (near != FacetTree::kNone) stack_.push_back({near, true});
+    }
+    return {};
+}
+
+std::span<const FacetPiece> FacetWalk::next_in(const Waiting& waiting, const BeamSides& sides,
+                                               FacetWalkCounts& counts) {
+    const FacetTree::Node& node = tree_->node(waiting.node);
+    const std::span<const FacetPiece> pieces = tree_->pieces(node);
+    // The hull of a leaf with one polygon was that polygon.
+    const bool tested =
+        pieces.size() == 1 && node.before == FacetTree::kNone && node.behind == FacetTree::kNone;
+    for (std::uint32_t k = waiting.from; k < pieces.size(); ++k) {
+        if (!tested) {
+            ++counts.hulls;
+            if (misses(tree_->pool().corners(pieces[k]), sides, tree_->margin())) {
+                ++counts.missed;
+                continue;
+            }
+        }
+        if (k + 1 < pieces.size()) stack_.push_back({waiting.node, false, k + 1});
+        ++counts.polygons;
+        return pieces.subspan(k, 1);
     }
     return {};
 }

@@ -81,7 +81,7 @@ class FacetTree {
 using BeamSides = std::vector<FacetPlane>;
 
 struct FacetWalkCounts {
-    std::uint64_t hulls = 0;     ///< tested
+    std::uint64_t hulls = 0;     ///< tested; a polygon in the plane of a node is a hull of its own
     std::uint64_t missed = 0;    ///< of these, those that the beam misses
     std::uint64_t polygons = 0;  ///< handed out
 
@@ -96,20 +96,27 @@ struct FacetWalkCounts {
 /// A visit of the tree, nearest polygons first. May be copied on the way, for parts of a beam.
 class FacetWalk {
   public:
-    /// `reject`: leave subtrees whose hull lies outside one of the sides.
+    /// `reject`: leave subtrees whose hull lies outside one of the sides, and polygons that do.
     FacetWalk(const FacetTree& tree, const BeamApex& apex, bool reject = true)
         : tree_(&tree), apex_(apex), reject_(reject) {
         if (!tree.empty()) stack_.push_back({0, true});
     }
 
-    /// The pieces of the next node that has any; empty at the end.
+    /// The next piece, or all the pieces of the next node that has any where nothing is rejected;
+    /// empty at the end.
     [[nodiscard]] std::span<const FacetPiece> next(const BeamSides& sides, FacetWalkCounts& counts);
 
   private:
     struct Waiting {
         std::uint32_t node;
-        bool whole;  ///< the subtree; otherwise the pieces of the node
+        bool whole;              ///< the subtree; otherwise the pieces of the node
+        std::uint32_t from = 0;  ///< of these, those from here on
     };
+    /// The next piece of a node that the sides do not reject.
+    [[nodiscard]] std::span<const FacetPiece> next_in(const Waiting& waiting,
+                                                      const BeamSides& sides,
+                                                      FacetWalkCounts& counts);
+
     const FacetTree* tree_;
     BeamApex apex_;
     bool reject_;

@@ -24,9 +24,7 @@ Rgb color_of(const ColorScale& scale, double value) {
     if (!std::isfinite(value)) return {};
     const double range = scale.high - scale.low;
     const double t = range > 0.0 ? (value - scale.low) / range : 0.0;
-    if (scale.colors == ColorScale::Colors::Heat) return heat_color(t);
-    const double grey = 1.0 - 0.85 * std::clamp(t, 0.0, 1.0);
-    return {grey, grey, grey};
+    return scale_color(scale.colors, t);
 }
 
 class Canvas {
@@ -93,11 +91,17 @@ void draw_scale(Canvas& canvas, int top, int width, int size, const ColorScale& 
 
 }  // namespace
 
+Rgb scale_color(ColorScale::Colors colors, double t) {
+    if (colors == ColorScale::Colors::Heat) return heat_color(t);
+    const double grey = 1.0 - 0.85 * std::clamp(t, 0.0, 1.0);
+    return {grey, grey, grey};
+}
+
 EncodedImage false_color(std::span<const float> values, int width, int height,
                          const ColorScale& scale) {
     const int size = 1 + width / kWidthPerScale;
-    const int full_width = std::max(width, kMinWidth);
-    Canvas canvas(full_width, height + size * kStripHeight);
+    const int full_width = scale.drawn ? std::max(width, kMinWidth) : width;
+    Canvas canvas(full_width, scale.drawn ? height + size * kStripHeight : height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -105,7 +109,7 @@ EncodedImage false_color(std::span<const float> values, int width, int height,
             canvas.set(x, y, color_of(scale, static_cast<double>(values[at])));
         }
     }
-    draw_scale(canvas, height, full_width, size, scale);
+    if (scale.drawn) draw_scale(canvas, height, full_width, size, scale);
     return canvas.take();
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "alhazen/imaging/image/encoding.h"
+#include "alhazen/imaging/image/rgb.h"
 
 namespace alhazen {
 
@@ -21,11 +22,15 @@ struct ColorScale {
     double low = 0, high = 1;
     Colors colors = Colors::Heat;
     std::string title;  ///< letters of tiny_font
+    bool drawn = true;  ///< false: the picture alone
 };
 
 /// 8-bit sRGB. `values` are [height][width].
 [[nodiscard]] EncodedImage false_color(std::span<const float> values, int width, int height,
                                        const ColorScale& scale);
+
+/// The colour at `t` of [0, 1] of the scale, as sRGB display values.
+[[nodiscard]] Rgb scale_color(ColorScale::Colors colors, double t);
 
 /// A colour that distinguishes a number from its neighbours; black for 0. sRGB codes 0..255.
 [[nodiscard]] std::array<std::uint16_t, 3> id_color(std::uint32_t id);

@@ -14,13 +14,22 @@ constexpr double kPi = std::numbers::pi;
 double box_kernel(double /*x*/, double /*radius*/) {
     return 1.0;
 }
+double box_integral(double x, double /*radius*/) {
+    return x;
+}
 double tent_kernel(double x, double radius) {
     return std::max(0.0, 1.0 - std::abs(x) / radius);
+}
+double tent_integral(double x, double radius) {
+    return x * (1.0 - 0.5 * std::abs(x) / radius);
 }
 /// Its standard deviation is a third of the radius.
 double gaussian_kernel(double x, double radius) {
     const double t = 3.0 * x / radius;
     return std::exp(-0.5 * t * t);
+}
+double gaussian_integral(double x, double radius) {
+    return std::sqrt(0.5 * kPi) * radius / 3.0 * std::erf(3.0 * x / (radius * std::sqrt(2.0)));
 }
 /// B = C = 1/3.
 double mitchell_kernel(double x, double radius) {
@@ -28,11 +37,29 @@ double mitchell_kernel(double x, double radius) {
     if (t < 1.0) return (7.0 * t * t * t - 12.0 * t * t + 16.0 / 3.0) / 6.0;
     return (-7.0 / 3.0 * t * t * t + 12.0 * t * t - 20.0 * t + 32.0 / 3.0) / 6.0;
 }
+double mitchell_integral(double x, double radius) {
+    const double t = 2.0 * std::abs(x) / radius;
+    const auto inner = [](double u) {
+        return (7.0 / 4.0 * u * u * u * u - 4.0 * u * u * u + 16.0 / 3.0 * u) / 6.0;
+    };
+    const auto outer = [](double u) {
+        return (-7.0 / 12.0 * u * u * u * u + 4.0 * u * u * u - 10.0 * u * u + 32.0 / 3.0 * u) /
+               6.0;
+    };
+    const double sum = t < 1.0 ? inner(t) : inner(1.0) + outer(t) - outer(1.0);
+    return std::copysign(0.5 * radius * sum, x);
+}
 /// The minimum window of four terms.
 double blackman_harris_kernel(double x, double radius) {
     const double t = kPi * x / radius;
     return 0.35875 + 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) +
            0.01168 * std::cos(3.0 * t);
+}
+double blackman_harris_integral(double x, double radius) {
+    const double t = kPi * x / radius;
+    return radius / kPi *
+           (0.35875 * t + 0.48829 * std::sin(t) + 0.14128 / 2.0 * std::sin(2.0 * t) +
+            0.01168 / 3.0 * std::sin(3.0 * t));
 }
 double sinc(double x) {
     return x == 0.0 ? 1.0 : std::sin(kPi * x) / (kPi * x);
@@ -46,14 +73,15 @@ double lanczos_kernel(double x, double radius) {
 
 std::span<const FilterEntry> filters() {
     static constexpr std::array<FilterEntry, 6> kTable{{
-        {"box", "the mean over a square", 0.5, box_kernel},
-        {"tent", "falls in a straight line", 1.0, tent_kernel},
+        {"box", "the mean over a square", 0.5, box_kernel, box_integral},
+        {"tent", "falls in a straight line", 1.0, tent_kernel, tent_integral},
         {"gaussian", "a bell; its standard deviation is a third of the radius", 1.5,
-         gaussian_kernel},
+         gaussian_kernel, gaussian_integral},
         {"mitchell", "Mitchell and Netravali's cubic, B = C = 1/3, with negative lobes", 2.0,
-         mitchell_kernel},
-        {"blackman_harris", "the window of four cosines", 1.5, blackman_harris_kernel},
-        {"lanczos", "a windowed sinc, with negative lobes", 3.0, lanczos_kernel},
+         mitchell_kernel, mitchell_integral},
+        {"blackman_harris", "the window of four cosines", 1.5, blackman_harris_kernel,
+         blackman_harris_integral},
+        {"lanczos", "a windowed sinc, with negative lobes", 3.0, lanczos_kernel, nullptr},
     }};
     return kTable;
 }

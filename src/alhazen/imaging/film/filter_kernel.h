@@ -26,6 +26,8 @@ struct FilterEntry {
     double radius;  ///< the default
     /// For |x| <= radius.
     double (*value)(double x, double radius);
+    /// Of the value, from 0 to x, for |x| <= radius; null where it has no closed form.
+    double (*integral)(double x, double radius);
 };
 
 /// The table of kernels. ADD A FILTER HERE (filter_kernel.cpp: one line).

@@ -1,6 +1,9 @@
 #include "alhazen/imaging/image/encoding.h"
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/image/image.h"
@@ -39,6 +42,46 @@ EncodedImage empty_encoded(int width, int height, int channels, int bits) {
     return encoded;
 }
 
+/// The 8-bit codes of the sRGB curve by the least values that have them: a picture takes a tenth of
+/// the time, with the codes of `encode_channel`.
+class SrgbCodes {
+  public:
+    SrgbCodes() {
+        thresholds_[0] = 0.0;
+        thresholds_[256] = std::numeric_limits<double>::infinity();
+        for (std::uint32_t code = 1; code < 256; ++code) thresholds_[code] = least_with(code);
+        for (std::size_t i = 0; i < kSteps; ++i) {
+            first_[i] = std::uint8_t(encode_channel(double(i) / kSteps, Encoding::Srgb, 8));
+        }
+    }
+
+    [[nodiscard]] std::uint16_t code(double c) const {
+        if (!(c > 0.0)) return 0;  // NaN too
+        if (c >= 1.0) return 255;
+        std::size_t k = first_[std::size_t(c * kSteps)];
+        while (c >= thresholds_[k + 1]) ++k;
+        return std::uint16_t(k);
+    }
+
+  private:
+    static constexpr std::size_t kSteps = 4096;
+
+    /// Positive doubles are in the order of their bits.
+    static double least_with(std::uint32_t code) {
+        auto below = std::bit_cast<std::uint64_t>(0.0), from = std::bit_cast<std::uint64_t>(1.0);
+        while (from - below > 1) {
+            const std::uint64_t middle = below + (from - below) / 2;
+            const bool has =
+                encode_channel(std::bit_cast<double>(middle), Encoding::Srgb, 8) >= code;
+            (has ? from : below) = middle;
+        }
+        return std::bit_cast<double>(from);
+    }
+
+    std::array<double, 257> thresholds_{};
+    std::array<std::uint8_t, kSteps> first_{};  ///< [c * kSteps] the code at the lower end
+};
+
 }  // namespace
 
 double srgb_from_linear(double c) {
@@ -59,6 +102,13 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
 
 EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {
     EncodedImage encoded = empty_encoded(width, height, 3, bits);
+    if (encoding == Encoding::Srgb && bits == 8) {
+        static const SrgbCodes kCodes;
+        for (std::size_t i = 0; i < encoded.samples.size(); ++i) {
+            encoded.samples[i] = kCodes.code(rgb[i]);
+        }
+        return encoded;
+    }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.
     double last[3] = {0.0, 0.0, 0.0};
     std::uint16_t code[3] = {0, 0, 0};

@@ -89,6 +89,13 @@ constexpr std::array kClaims{
                "half the samples of 64 independent ones at most, at equal error", &claim_f3},
     ClaimEntry{"F4", "rounds of samples where the noise is, on a sparse scene",
                "at least 1.5 times fewer samples than everywhere, at equal error", &claim_f4},
+    ClaimEntry{"G2", "Hachisuka and Jensen, Knaus and Zwicker: how the error of passes falls",
+               "exponent of the RMSE within 0.05 of -alpha / 2, of vcm on what can be joined of "
+               "-1/2; bias that of the radii",
+               &claim_g2},
+    ClaimEntry{"G3", "no light is lost on its way",
+               "power of photons that arrive within 0.5 % of that sent, a closed sphere within 1 %",
+               &claim_g3},
     ClaimEntry{"H1", "instances cost almost no memory per effective primitive",
                "at most 0.01 bytes for each of 2 x 10^9", &claim_h1},
 };

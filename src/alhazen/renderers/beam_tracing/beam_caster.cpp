@@ -11,12 +11,34 @@ namespace {
 
 /// A rest of more corners is divided.
 constexpr std::size_t kManyCorners = 120;
+/// A beam has a side for each edge of its convex hull, up to this many; beyond, those of its box.
+constexpr std::size_t kHullSides = 8;
 /// Nearer than this times the rounding of the tree, things touch.
 constexpr double kTouch = 8;
 
 std::int32_t on_lattice_line(double x) {
     const double limit = kLatticeLimit;
     return static_cast<std::int32_t>(std::lround(std::clamp(x, -limit, limit)));
+}
+
+/// Replaces points by the corners of their convex hull, counter-clockwise (Andrew's monotone chain,
+/// Information Processing Letters 9, 1979).
+void reduce_to_flat_hull(std::vector<LatticePoint>& points) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return;
+    std::vector<LatticePoint> chain;
+    const auto add = [&](const LatticePoint& p, std::size_t least) {
+        while (chain.size() >= least + 2 && turn(chain[chain.size() - 2], chain.back(), p) <= 0) {
+            chain.pop_back();
+        }
+        chain.push_back(p);
+    };
+    for (const LatticePoint& p : points) add(p, 0);
+    const std::size_t lower = chain.size() - 1;
+    for (auto p = points.rbegin() + 1; p != points.rend(); ++p) add(*p, lower);
+    chain.pop_back();
+    points.swap(chain);
 }
 
 /// Removes repeated points and those on straight lines.
@@ -71,12 +93,30 @@ BeamCounts& BeamCounts::operator+=(const BeamCounts& other) {
     return *this;
 }
 
-void BeamCaster::set_sides(const BeamProjection& projection, const LatticeBox& box) {
+void BeamCaster::set_sides(const BeamProjection& projection, const PolygonSet& region) {
     sides_ = limits_;
+    if (set_hull_sides(projection, region)) return;
+    const LatticeBox& box = region.bounds();
     sides_.push_back(projection.plane(1, 0, -box.lo.x));
     sides_.push_back(projection.plane(-1, 0, box.hi.x));
     sides_.push_back(projection.plane(0, 1, -box.lo.y));
     sides_.push_back(projection.plane(0, -1, box.hi.y));
+}
+
+bool BeamCaster::set_hull_sides(const BeamProjection& projection, const PolygonSet& region) {
+    hull_.clear();
+    for (std::size_t k = 0; k < region.loop_count(); ++k) {
+        const std::span<const LatticePoint> loop = region.loop(k);
+        hull_.insert(hull_.end(), loop.begin(), loop.end());
+    }
+    reduce_to_flat_hull(hull_);
+    if (hull_.size() < 3 || hull_.size() > kHullSides) return false;
+    for (std::size_t k = 0; k < hull_.size(); ++k) {
+        const LatticePoint a = hull_[k], b = hull_[k + 1 == hull_.size() ? 0 : k + 1];
+        const double dx = double(b.x) - a.x, dy = double(b.y) - a.y;
+        sides_.push_back(projection.plane(-dy, dx, dy * a.x - dx * a.y));
+    }
+    return true;
 }
 
 bool BeamCaster::project(const BeamProjection& projection, std::span<const Vec3> corners,
@@ -130,7 +170,7 @@ void BeamCaster::see(const BeamView& view, PolygonSet region, std::vector<SeenFa
     limits_ = {view.projection.plane(0, 0, 1)};
     if (view.has_start) limits_.push_back(view.start);
     if (!options_.tree) {
-        set_sides(view.projection, region.bounds());
+        set_sides(view.projection, region);
         list_pool_ = scene_.tree.pool();
         DepthOrderReport report;
         list_ = depth_order(list_pool_, scene_.tree.pieces(), view.apex, view.projection, sides_,
@@ -150,7 +190,7 @@ void BeamCaster::see(const BeamView& view, PolygonSet region, std::vector<SeenFa
 
 void BeamCaster::see_rest(const BeamView& view, Rest& rest, std::vector<Rest>& waiting,
                           std::vector<SeenFacet>& result) {
-    set_sides(view.projection, rest.region.bounds());
+    set_sides(view.projection, rest.region);
     const FacetPool& pool = options_.tree ? scene_.tree.pool() : list_pool_;
     const double margin = scene_.tree.margin();
     while (true) {
@@ -169,11 +209,11 @@ void BeamCaster::see_rest(const BeamView& view, Rest& rest, std::vector<Rest>& w
             result.push_back({piece.facet, std::move(cut_.inside)});
             std::swap(rest.region, cut_.outside);
             if (rest.region.empty()) return;
-            set_sides(view.projection, rest.region.bounds());
+            set_sides(view.projection, rest.region);
         }
         if (rest.region.vertex_count() > kManyCorners) {
             divide(rest, waiting);
-            set_sides(view.projection, rest.region.bounds());
+            set_sides(view.projection, rest.region);
         }
     }
 }
@@ -224,7 +264,7 @@ std::vector<LitPart> BeamCaster::lit(const BeamView& view, const SeenFacet& piec
     }
     std::vector<LitPart> parts;
     parts.push_back({piece.region, {}});
-    set_sides(projection, piece.region.bounds());
+    set_sides(projection, piece.region);
     FacetWalk walk(scene_.tree, light, options_.hulls);
     while (!parts.empty()) {
         const std::span<const FacetPiece> pieces = walk.next(sides_, counts_.shadow);

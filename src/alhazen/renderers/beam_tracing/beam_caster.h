@@ -92,7 +92,10 @@ class BeamCaster {
     /// The piece in the window; false where nothing of it is there.
     [[nodiscard]] bool project(const BeamProjection& projection, std::span<const Vec3> corners,
                                PolygonSet& result);
-    void set_sides(const BeamProjection& projection, const LatticeBox& box);
+    /// Planes through the apex around a region, after `limits_`.
+    void set_sides(const BeamProjection& projection, const PolygonSet& region);
+    /// Those of its convex hull; false where that has too many edges.
+    [[nodiscard]] bool set_hull_sides(const BeamProjection& projection, const PolygonSet& region);
     void take_slivers(PolygonCut& parts);
     /// Moves a half of a region with many corners to the end of `waiting`.
     void divide(Rest& rest, std::vector<Rest>& waiting);
@@ -107,7 +110,7 @@ class BeamCaster {
     std::vector<FacetPiece> list_;
     FacetPool list_pool_;
     std::vector<Vec3> loop_, clipped_;
-    std::vector<LatticePoint> flat_;
+    std::vector<LatticePoint> flat_, hull_;
     PolygonSet shape_;
     PolygonCut cut_;
 };

@@ -23,6 +23,7 @@ class BeamTracing final : public Renderer {
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     /// Geometry is read from RenderJob::description.
     [[nodiscard]] bool needs_aggregate() const override { return false; }
+    [[nodiscard]] bool takes_wide_cameras() const override { return false; }
     [[nodiscard]] bool gives_exact_areas() const override { return true; }
     [[nodiscard]] double takes_triangles_within() const override { return tolerance_; }
 

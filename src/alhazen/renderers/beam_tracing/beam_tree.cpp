@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "alhazen/base/overloaded.h"
+#include "alhazen/cameras/projection.h"
 #include "alhazen/renderers/core/refraction.h"
 
 namespace alhazen {
@@ -255,6 +256,7 @@ class BeamTreeMaker {
 }  // namespace
 
 BeamView eye_view(const Camera& camera) {
+    if (std::holds_alternative<WideCamera>(camera)) throw flat_pictures_only("beams");
     const PicturePlane frame = picture_plane(camera);
     const bool from_eye = std::holds_alternative<PerspectiveCamera>(camera);
     // p - eye = w * forward + x * right / 2 + y * up / 2, solved by Cramer's rule.

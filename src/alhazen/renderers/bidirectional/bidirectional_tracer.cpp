@@ -91,6 +91,7 @@ Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
         if (static_cast<int>(b) <= settings_.depth) join_light(id, b, time, sum);
     }
     hit_environment(sum);
+    merge(sum);
     for (std::size_t a = 1; a <= light_.size(); ++a) {
         join_lens(id, a, time);
         for (std::size_t b = 1; b <= eye_.size(); ++b) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The pairs of subpaths of samples.
+/// The pairs of subpaths of samples, each vertex of one joined to each of the other.
 
 #include <atomic>
 #include <cstdint>
@@ -28,10 +28,21 @@ class BidirectionalTracer {
     BidirectionalTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                         const Illumination& lights, const PathSettings& settings,
                         LensLight* lens_light);
+    virtual ~BidirectionalTracer() = default;
+    BidirectionalTracer(const BidirectionalTracer&) = delete;
+    BidirectionalTracer& operator=(const BidirectionalTracer&) = delete;
 
     /// `rays`: those through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                        std::span<Rgb> radiance);
+
+  protected:
+    /// Adds what further strategies find by the eye's path; for all of them `merging` is that of
+    /// WholePath.
+    virtual void merge(Spectrum& /*sum*/) {}
+    void set_merging(double merging) { path_.merging = merging; }
+    [[nodiscard]] const std::vector<PathVertex>& eye_path() const { return eye_; }
+    [[nodiscard]] const PathSettings& settings() const { return settings_; }
 
   private:
     /// The light where the light path began, or that was drawn.

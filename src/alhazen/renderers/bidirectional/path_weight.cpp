@@ -31,23 +31,50 @@ double step(const WholePath& path, int s) {
     return ratio;
 }
 
-}  // namespace
+bool is_merged(const WholePath& path, int k) {
+    return path.merging > 0.0 && path.emitted && k >= 2 &&
+           !path.vertices[static_cast<std::size_t>(k)].singular;
+}
 
-double path_weight(const WholePath& path, int s) {
+/// `own` and the squared densities of all other strategies over that of strategy s.
+double sum_of_squares(const WholePath& path, int s, double own) {
     const int m = static_cast<int>(path.vertices.size()) - 1;
-    if (m == 0) return 1.0;
-    double sum = 1.0;
+    const auto at = [&](int i) -> const WholePath::Vertex& {
+        return path.vertices[static_cast<std::size_t>(i)];
+    };
+    double sum = own;
     double ratio = 1.0;
     for (int i = s; i <= m; ++i) {
         ratio *= step(path, i);
         if (is_possible(path, i + 1)) sum += ratio * ratio;
+        if (is_merged(path, i)) {
+            const double merged = ratio * known(at(i).from_eye) * path.merging;
+            sum += merged * merged;
+        }
     }
     ratio = 1.0;
     for (int i = s; i-- > 0;) {
         ratio /= step(path, i);
         if (is_possible(path, i)) sum += ratio * ratio;
+        if (is_merged(path, i)) {
+            const double merged = ratio * known(at(i).from_light) * path.merging;
+            sum += merged * merged;
+        }
     }
-    return 1.0 / sum;
+    return sum;
+}
+
+}  // namespace
+
+double path_weight(const WholePath& path, int s) {
+    return path.vertices.size() == 1 ? 1.0 : 1.0 / sum_of_squares(path, s, 1.0);
+}
+
+double merged_path_weight(const WholePath& path, int k) {
+    const double merged =
+        known(path.vertices[static_cast<std::size_t>(k)].from_light) * path.merging;
+    const double squared = merged * merged;
+    return squared / sum_of_squares(path, k, is_possible(path, k) ? 1.0 : 0.0);
 }
 
 }  // namespace alhazen

@@ -139,6 +139,7 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
     for (int k = 0; !gather(cone, path, depth, pieces, left) && k < kMostNarrowings; ++k) {
         cone = narrowed(cone);
     }
+    if (watcher_ != nullptr) watcher_->begin_cone(whole, cone, path, depth);
     Rgb sum = left * scene_.background;
     counters_[path.start.kind].hit += !pieces.empty();
     const SeenPiece* largest = nullptr;
@@ -156,10 +157,15 @@ Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
         ConePath within = path;
         within.contribution = s.weight * path.contribution;
         const Seen weighted{s.piece, cone, within, seen.ray, seen.t, seen.radius, depth};
+        if (watcher_ != nullptr) {
+            watcher_->begin_piece(s.piece, s.weight, seen.radius, seen.t, point);
+        }
         Rgb color = color_of(weighted, point);
         if (!path.absorption.is_black()) color = color * transmittance(path.absorption, seen.t);
+        if (watcher_ != nullptr) watcher_->end_piece(color);
         sum += s.weight * color;
     }
+    if (watcher_ != nullptr) watcher_->end_cone(left, sum);
     return sum;
 }
 
@@ -290,6 +296,7 @@ Rgb ConeTracer::let_through(const ConeRay& cone, const ConeStart& start) {
     for (int k = 0; !find_blocked(part, start, left) && k < kMostNarrowings; ++k) {
         part = narrowed(part);
     }
+    if (watcher_ != nullptr) watcher_->shadow_cone(part, start.range.z_max, left);
     return left;
 }
 

@@ -26,6 +26,24 @@ struct ConePath {
     Rgb absorption;             ///< of the medium it starts in
 };
 
+/// Watches cones while they are traced, in the order of the calls: a piece is shaded between
+/// `begin_piece` and `end_piece`, with the cones that leave it in between.
+class ConeWatcher {
+  public:
+    virtual ~ConeWatcher() = default;
+    /// `cone`: as wide as was searched, of `whole`.
+    virtual void begin_cone(const ConeRay& whole, const ConeRay& cone, const ConePath& path,
+                            int depth) = 0;
+    /// `weight`: of the cone; `radius`: of the piece.
+    virtual void begin_piece(const ConePiece& piece, double weight, double radius, double t,
+                             const ShadingPoint& point) = 0;
+    virtual void end_piece(const Rgb& color) = 0;
+    /// `left`: of the cone, what nothing covers.
+    virtual void end_cone(double left, const Rgb& radiance) = 0;
+    /// `distance`: of the light.
+    virtual void shadow_cone(const ConeRay& cone, double distance, const Rgb& through) = 0;
+};
+
 /// The cone from a point that just holds a sphere of light.
 [[nodiscard]] ConeRay cone_to_light(const Vec3& point, const Vec3& center, double radius);
 
@@ -39,6 +57,8 @@ class ConeTracer {
                             PixelGeometry* geometry = nullptr);
     /// What is left of the light that comes down a cone. The light beyond `start.range.z_max`.
     [[nodiscard]] Rgb let_through(const ConeRay& cone, const ConeStart& start);
+    /// May be null; must outlive the calls of `trace`.
+    void set_watcher(ConeWatcher* watcher) { watcher_ = watcher; }
 
   private:
     /// A piece where it is shaded.
@@ -84,6 +104,7 @@ class ConeTracer {
     const std::vector<Rgb> ambient_;
     const DepthScale depth_;
     ConeSearch search_;
+    ConeWatcher* watcher_ = nullptr;
     std::deque<std::vector<SeenPiece>> frames_;  ///< by depth
 };
 

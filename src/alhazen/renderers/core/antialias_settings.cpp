@@ -1,9 +1,28 @@
 #include "alhazen/renderers/core/antialias_settings.h"
 
+#include <vector>
+
 #include "alhazen/base/error.h"
+#include "alhazen/imaging/film/filter_integral.h"
 #include "alhazen/renderers/core/renderer_settings.h"
+#include "alhazen/renderers/core/sampling_plan.h"
 
 namespace alhazen {
+
+namespace {
+
+void read_exact_filter(RendererSettings& given, AntialiasSettings& settings) {
+    std::vector<const char*> names;
+    for (const FilterEntry& entry : filters()) names.push_back(entry.name);
+    const FilterEntry& filter = filters()[given.choice("filter", 0, names)];
+    settings.radius = given.number("radius", filter.radius, SamplingPlan::kLeastRadius,
+                                   SamplingPlan::kLargestRadius);
+    if (filter.name == std::string("box") && settings.radius == filter.radius) return;
+    static_cast<void>(FilterIntegral(filter, settings.radius));  // refuses those without integral
+    settings.filter = &filter;
+}
+
+}  // namespace
 
 AntialiasSettings parse_antialias(const std::string& text) {
     static constexpr const char* kSwitch[] = {"off", "on"};
@@ -11,6 +30,7 @@ AntialiasSettings parse_antialias(const std::string& text) {
     AntialiasSettings settings;
     if (given.name() == "exact") {
         settings.exact = true;
+        read_exact_filter(given, settings);
         given.finish();
         return settings;
     }

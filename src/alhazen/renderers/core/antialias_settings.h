@@ -1,10 +1,12 @@
 #pragma once
 /// Settings of adaptive supersampling, as `--antialias` takes them:
-/// "whitted:threshold=T,depth=D,guarantee=on|off".
+/// "whitted:threshold=T,depth=D,guarantee=on|off", "exact:filter=NAME,radius=R".
 
 #include <string>
 
 namespace alhazen {
+
+struct FilterEntry;
 
 struct AntialiasSettings {
     static constexpr int kDeepest = 8;
@@ -16,6 +18,8 @@ struct AntialiasSettings {
     /// Instead of all above: the exact mean of each pixel, from renderers that know the areas of
     /// what they show.
     bool exact = false;
+    const FilterEntry* filter = nullptr;  ///< of `exact`; null: the mean
+    double radius = 0.5;                  ///< of the filter, in pixels
 };
 
 /// Throws Error (Usage) for an unknown name or setting and for values out of range.

@@ -10,7 +10,8 @@
 
 namespace alhazen {
 
-/// Distance in front of the eye along the normal of the image plane.
+/// Distance in front of the eye along the normal of the image plane; of a wide camera, which has
+/// none, that from the eye.
 class DepthScale {
   public:
     explicit DepthScale(const Camera& camera) {
@@ -18,11 +19,15 @@ class DepthScale {
         eye_ = plane.eye;
         axis_ = normalize(cross(plane.up, plane.right));
         if (dot(axis_, plane.forward) < 0.0) axis_ = -axis_;
+        wide_ = std::holds_alternative<WideCamera>(camera);
     }
-    [[nodiscard]] double depth(const Vec3& point) const { return dot(point - eye_, axis_); }
+    [[nodiscard]] double depth(const Vec3& point) const {
+        return wide_ ? length(point - eye_) : dot(point - eye_, axis_);
+    }
 
   private:
     Vec3 eye_, axis_;
+    bool wide_ = false;
 };
 
 /// Sums over the samples of a pixel.

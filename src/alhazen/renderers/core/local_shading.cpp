@@ -3,6 +3,7 @@
 #include <cmath>
 #include <new>
 
+#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 #include "alhazen/shading/textures/normal_map.h"
@@ -109,15 +110,6 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
 
 namespace {
 
-/// The point's own sample, to be modified.
-MaterialSample& own_material(ShadingPoint& point) {
-    if (point.material != &point.own) {
-        point.own = *point.material;
-        point.material = &point.own;
-    }
-    return point.own;
-}
-
 /// Evaluates the material; false where it is shared by many points.
 bool set_material(const Scene& scene, const Vec3& direction, double width, MaterialCache* constant,
                   std::array<UvFootprint, 2>& footprint, ShadingPoint& point) {
@@ -144,11 +136,11 @@ void set_media(const Scene& scene, ShadingPoint& point) {
     point.medium_is_physical = point.material->physical;
     if (!media.known) {
         const bool from_inside = point.inside && !point.entering && !point.medium.is_black();
-        if (point.material->physical) turn_to_view(own_material(point), cosine, from_inside);
+        if (point.material->physical) turn_to_view(point.own_material(), cosine, from_inside);
         point.passing = point.material->transmissive;
         return;
     }
-    MaterialSample& material = own_material(point);
+    MaterialSample& material = point.own_material();
     point.behind.known = true;
     double here = scene.conventions.shading.air_index, beyond = here;
     Rgb before_passes{1, 1, 1};
@@ -199,9 +191,13 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
         point.normal = turned ? -shading : shading;
     }
     if (!point.entering && !arrival.meets_backs && is_unseen_from_behind(*point.material)) {
-        own_material(point).coverage = 0.0;
+        point.own_material().coverage = 0.0;
     }
-    set_media(scene, point);
+    if (needs.optics != nullptr) {
+        needs.optics->set_media(arrival.medium, point);
+    } else {
+        set_media(scene, point);
+    }
 }
 
 bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,

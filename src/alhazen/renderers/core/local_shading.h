@@ -7,6 +7,7 @@
 /// Differs: differences between formats are read from ShadingConventions.
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -23,6 +24,7 @@ struct BehindSurface {
     bool inside = false;  ///< there is a medium, not air
     double eta = 1;       ///< index on this side / index behind
     Rgb absorption;
+    std::uint32_t medium = 0;  ///< of ExactOptics, where they are in force
 };
 
 /// The ray that leaves `surface`, of unit `direction`, by the conventions of the scene.
@@ -39,6 +41,14 @@ struct ShadingPoint {
     ShadingPoint() = default;
     ShadingPoint(const ShadingPoint&) = delete;  // `material` may point into it
     ShadingPoint& operator=(const ShadingPoint&) = delete;
+    /// The point's own sample, to be modified.
+    [[nodiscard]] MaterialSample& own_material() {
+        if (material != &own) {
+            own = *material;
+            material = &own;
+        }
+        return own;
+    }
 
     Surface surface;
     const MaterialSample* material = &own;  ///< `own`, or a shared sample
@@ -81,12 +91,16 @@ struct Arrival {
     float time = 0;    ///< RayQuery::time
     /// Whether it meets the backs of single-sided surfaces, too: light that is followed does.
     bool meets_backs = false;
+    std::uint32_t medium = 0;  ///< of PointNeeds::optics
 };
+
+class ExactOptics;
 
 /// Parts of a shading point that the caller needs.
 struct PointNeeds {
     bool uv = true;                     ///< else texture coordinates may be missing
     MaterialCache* constant = nullptr;  ///< shared samples; may be null
+    ExactOptics* optics = nullptr;      ///< in force; null: shares and tints of the equation
 };
 
 /// Sets all of `point`, in place because it is large. `ray.direction` must be unit. The material is

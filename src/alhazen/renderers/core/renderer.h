@@ -78,6 +78,8 @@ struct RenderReport {
     std::shared_ptr<const SamplingReport> sampling;  ///< of RenderJob::sampling, else null
     /// For the user: what the picture lacks, what was mended.
     std::vector<std::string> notes;
+    /// For the user: what was found out on the way, nothing to worry about.
+    std::vector<std::string> remarks;
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }
@@ -102,6 +104,14 @@ class Renderer {
     [[nodiscard]] virtual bool distributes() const { return false; }
     /// True: lights with extent throw penumbras.
     [[nodiscard]] virtual bool lights_have_extent() const { return distributes(); }
+    /// What the settings of the renderer change in the conventions of the scene.
+    virtual void adjust(ShadingConventions& /*conventions*/) const {}
+    /// True: ShadingConventions::optics are heeded, or go without saying.
+    [[nodiscard]] virtual bool heeds_optics() const { return follows_light(); }
+    /// True: cameras that see all around are taken, too.
+    [[nodiscard]] virtual bool takes_wide_cameras() const { return true; }
+    /// True: light is scattered inside volumes, too (Material::scattering).
+    [[nodiscard]] virtual bool scatters_in_volumes() const { return false; }
     /// True: light is followed from surface to surface, and the environment lights the scene.
     [[nodiscard]] virtual bool follows_light() const { return false; }
     /// Samples per pixel where nothing is said.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 
 namespace alhazen {
@@ -25,13 +26,14 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
       count_(counters[RayKind::Shadow]),
       stats_(stats),
       opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
-      met_(std::make_unique<bool[]>(kMostRays)) {
+      met_(std::make_unique<bool[]>(kMostRays)),
+      sorted_met_(std::make_unique<bool[]>(kMostRays)) {
     rays_.reserve(kMostRays);
     waiting_.reserve(kMostRays);
 }
 
 void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rgb& fraction,
-                      const Path& path, Rgb& sum) {
+                      const Path& path, Rgb& sum, std::size_t number) {
     if (scene_.conventions.shading.shadow_tint == ShadowTint::None) {
         sum += light.intensity * fraction;
         return;
@@ -39,14 +41,14 @@ void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rg
     if (rays_.size() == kMostRays) finish();
     rays_.push_back(
         onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance));
-    waiting_.push_back({&sum, &path, light.intensity, fraction});
+    waiting_.push_back({&sum, &path, light.intensity, fraction, number});
 }
 
-void ShadowBatch::finish(Coherence coherence) {
+void ShadowBatch::finish() {
     if (rays_.empty()) return;
     const std::span<bool> met(met_.get(), rays_.size());
     if (asks_first()) {
-        find_met(met, coherence);
+        find_met(met);
     } else {
         std::fill(met.begin(), met.end(), true);
     }
@@ -60,13 +62,45 @@ void ShadowBatch::finish(Coherence coherence) {
     waiting_.clear();
 }
 
-void ShadowBatch::find_met(std::span<bool> met, Coherence coherence) {
+void ShadowBatch::find_met(std::span<bool> met) {
     if (!scene_.has_motion) {
-        return scene_.aggregate->occluded_batch(rays_, met, query(), coherence);
+        if (coherence_ == Coherence::Coherent) return find_met_by_light(met);
+        return scene_.aggregate->occluded_batch(rays_, met, query(), coherence_);
     }
     times_.clear();
     for (const Waiting& w : waiting_) times_.push_back(w.path->time);
-    scene_.aggregate->occluded_batch_at(rays_, times_, met, query(), coherence);
+    scene_.aggregate->occluded_batch_at(rays_, times_, met, query(), coherence_);
+}
+
+Coherence ShadowBatch::coherence_to(std::size_t light) const {
+    return place_of(scene_.lights[light]) == LightPlace::Point ? Coherence::Coherent
+                                                               : Coherence::Any;
+}
+
+void ShadowBatch::find_met_by_light(std::span<bool> met) {
+    const Aggregate& aggregate = *scene_.aggregate;
+    const std::size_t light = waiting_.front().light;
+    if (std::all_of(waiting_.begin(), waiting_.end(),
+                    [&](const Waiting& w) { return w.light == light; })) {
+        return aggregate.occluded_batch(rays_, met, query(), coherence_to(light));
+    }
+    order_.clear();
+    for (std::size_t i = 0; const Waiting& w : waiting_) {
+        order_.push_back(std::uint64_t{w.light} << 32 | i++);
+    }
+    std::sort(order_.begin(), order_.end());
+    sorted_.clear();
+    for (const std::uint64_t place : order_) sorted_.push_back(rays_[place & 0xFFFFFFFFu]);
+    const std::span<bool> found(sorted_met_.get(), met.size());
+    for (std::size_t first = 0, end = 0; first < order_.size(); first = end) {
+        const std::uint64_t number = order_[first] >> 32;
+        while (end < order_.size() && order_[end] >> 32 == number) ++end;
+        aggregate.occluded_batch(std::span<const Ray>(sorted_).subspan(first, end - first),
+                                 found.subspan(first, end - first), query(), coherence_to(number));
+    }
+    for (std::size_t i = 0; const std::uint64_t place : order_) {
+        met[place & 0xFFFFFFFFu] = found[i++];
+    }
 }
 
 /// Whether to find first which rays hit anything, and crossings only for these. False while
@@ -85,7 +119,8 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     // A ray that hits may have no crossing: the back of a single-sided surface.
     const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query(path.time));
     count_.hit += blocked || !crossings_.empty();
-    return blocked ? Rgb{0, 0, 0} : tint_of_crossings(ray, path);
+    if (blocked) return {};
+    return optics_ != nullptr ? tint_by_optics(ray, path) : tint_of_crossings(ray, path);
 }
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
@@ -127,6 +162,39 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         if (!medium.physical || !medium.thin) last = crossing.t;
     }
     if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
+    return tint;
+}
+
+Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
+    const std::size_t mark = optics_->mark();
+    const double min_distance = scene_.conventions.shading.min_distance;
+    Rgb tint{1, 1, 1};
+    std::uint32_t medium = path.medium;
+    double last = 0.0, met = -min_distance;
+    bool in_wall = false;  // between the two crossings of a wall, which are one boundary
+    for (const Hit& crossing : crossings_) {
+        if (crossing.t - met < min_distance) continue;
+        met = crossing.t;
+        const Surface surface = surface_at(*scene_.aggregate, ray, crossing, path.time);
+        in_wall = surface.media.before && surface.media.after && !in_wall;
+        if (!in_wall && surface.media.before && surface.media.after) continue;
+        MaterialSample material = material_at(scene_, surface);
+        if (in_wall) material = medium_at(scene_, surface, *surface.media.after);
+        const bool entering = dot(ray.direction, surface.normal) < 0.0;
+        // Light passes through the back of a single-sided surface.
+        if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;
+        const auto [through, behind] =
+            optics_->cross(surface, material, ray.direction, medium, crossing.t - last);
+        const double open = 1.0 - material.coverage;
+        tint = tint * (Rgb{open, open, open} + material.coverage * through) *
+               transmittance(optics_->absorption(medium), crossing.t - last);
+        medium = behind;
+        last = crossing.t;
+    }
+    if (std::isfinite(ray.t_max)) {
+        tint = tint * transmittance(optics_->absorption(medium), ray.t_max - last);
+    }
+    optics_->release(mark);
     return tint;
 }
 

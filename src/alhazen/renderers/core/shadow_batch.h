@@ -6,6 +6,7 @@
 /// Differs: where few rays hit anything, crossings are found for these only;
 /// ShadingConventions::ShadowTint defines the effect of a crossing.
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,33 +18,45 @@
 
 namespace alhazen {
 
+class ExactOptics;
+
 class ShadowBatch {
   public:
     ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
+    /// From now on light passes boundaries as exact optics have it, in the media of `Path::medium`.
+    void use(ExactOptics& optics) { optics_ = &optics; }
     /// Adds to `sum`, now or in `finish`, the arriving part of `light.intensity` times the
     /// reflected `fraction`. Sums are added to in the order of the calls. `path`: that of the ray
-    /// that hit `surface`. `path` and `sum` must stay valid until `finish`.
+    /// that hit `surface`. `path` and `sum` must stay valid until `finish`. `number`: of the light
+    /// in the scene, for coherent rays.
     void add(const Surface& surface, const LightSample& light, const Rgb& fraction,
-             const Path& path, Rgb& sum);
+             const Path& path, Rgb& sum, std::size_t number = 0);
     /// Casts the gathered rays.
-    void finish(Coherence coherence = Coherence::Any);
+    void finish();
+    /// From now on, while no ray is gathered. Coherent: the surfaces are neighbours; the rays to
+    /// one light are cast together then, and are coherent where it is a point.
+    void expect(Coherence coherence) { coherence_ = coherence; }
 
   private:
     struct Waiting {
         Rgb* sum;
         const Path* path;
         Rgb intensity, fraction;
+        std::size_t light;
     };
 
     [[nodiscard]] RayQuery query(float time = 0.0f) const {
         return {stats_, mask_of(RayKind::Shadow), time};
     }
-    void find_met(std::span<bool> met, Coherence coherence);
+    void find_met(std::span<bool> met);
+    void find_met_by_light(std::span<bool> met);
+    [[nodiscard]] Coherence coherence_to(std::size_t light) const;
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
+    [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
                                     bool leaving, double inside) const;
     [[nodiscard]] Rgb through_medium(double distance) const;
@@ -52,11 +65,16 @@ class ShadowBatch {
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
+    ExactOptics* optics_ = nullptr;
     bool opaque_;  ///< any surface in between blocks the light
+    Coherence coherence_ = Coherence::Any;
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::vector<float> times_;  ///< [ray]; where something moves
     std::unique_ptr<bool[]> met_;
+    std::vector<std::uint64_t> order_;  ///< number of the light, then of the ray in 32 bits
+    std::vector<Ray> sorted_;
+    std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
     std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last
 };

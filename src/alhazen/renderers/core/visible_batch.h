@@ -7,9 +7,11 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/wavefront.h"
 
 namespace alhazen {
 
@@ -18,6 +20,8 @@ class VisibleBatch {
     /// `follows_light`: rays that are no eye rays meet the backs of single-sided surfaces.
     VisibleBatch(const Scene& scene, TraversalStats* stats, bool follows_light = false)
         : scene_(scene), stats_(stats), follows_light_(follows_light), constant_(scene) {}
+    /// From now on surfaces are as exact optics have them, in the media of `path(k).medium`.
+    void use(ExactOptics& optics) { optics_ = &optics; }
 
     /// `path(k)` returns `kind`, `cone`, `inside` and `time` of ray k. Calls `tell(k, point, t)`
     /// once for each ray: with a null pointer where nothing is seen, else with the point and its
@@ -101,15 +105,16 @@ class VisibleBatch {
 
     /// Reports the hit, or queues the ray to continue behind it. `rest`: ray k from the last
     /// surface on, `distance` behind the origin of `whole`.
-    template <class Path, class Tell>
+    template <class AnyPath, class Tell>
     void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
-              const Path& path, Tell&& tell) {
+              const AnyPath& path, Tell&& tell) {
         const double t = distance + hit.t;
-        const PointNeeds needs{.uv = !scene_.textures.empty(), .constant = &constant_};
+        const PointNeeds needs{
+            .uv = !scene_.textures.empty(), .constant = &constant_, .optics = optics_};
         const bool meets_backs = follows_light_ && path.kind != RayKind::Eye;
-        set_shading_point(scene_, rest, hit,
-                          {path.inside, path.cone.width_at(t), path.time, meets_backs}, needs,
-                          point_);
+        Arrival arrival{path.inside, path.cone.width_at(t), path.time, meets_backs};
+        if constexpr (std::is_same_v<AnyPath, Path>) arrival.medium = path.medium;
+        set_shading_point(scene_, rest, hit, arrival, needs, point_);
         if (point_.material->coverage > 0.0) {
             reported_ = &hit;
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
@@ -121,6 +126,7 @@ class VisibleBatch {
     const Scene& scene_;
     TraversalStats* stats_;
     bool follows_light_;
+    ExactOptics* optics_ = nullptr;
     MaterialCache constant_;
     ShadingPoint point_;
     const Hit* reported_ = nullptr;

@@ -30,6 +30,7 @@ struct Path {
     float time = 0;             ///< RayQuery::time
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
+    std::uint32_t medium = 0;   ///< of ExactOptics, where they are in force
     RayCone cone;
 };
 

@@ -26,7 +26,7 @@ class SamplerChance {
     explicit SamplerChance(const RenderJob& job)
         : moves_(job.scene.has_motion || job.camera_motion != nullptr),
           bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight),
-          draws_(job.round->sampler, kFirstBounce + bounce_) {}
+          draws_(job.round->sampler, std::min(kFirstBounce + bounce_, kMostTogether)) {}
 
     /// `ids`: of the eye rays from now on.
     void begin(std::span<const SampleId> ids) { draws_.begin(ids); }
@@ -68,6 +68,9 @@ class SamplerChance {
     }
 
   private:
+    /// Bounds the memory where lights are many: 4 KiB for each pair.
+    static constexpr std::uint32_t kMostTogether = 4096;
+
     bool moves_;
     std::uint32_t bounce_;  ///< pairs of one
     SampleDraws draws_;     ///< most samples use the pairs up to the first bounce

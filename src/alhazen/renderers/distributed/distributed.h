@@ -11,18 +11,26 @@
 /// lights: 0 pixel; 1 lens; 2 time; from 3 + d (L + 2) on: reflected lobe, refracted lobe, the
 /// point on each light. A scene with nothing to spread has the bits of `whitted` with that sampler.
 
+#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
 
 class Distributed final : public TiledRenderer {
   public:
+    explicit Distributed(const OpticsSettings& optics = {}) : optics_(optics) {}
+
     /// Without RenderJob::round nothing is spread: the tile is that of `whitted`.
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
     /// Without RenderJob::sampling: `sobol` and `box`.
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool distributes() const override { return true; }
     [[nodiscard]] int usual_samples() const override { return 16; }
+    void adjust(ShadingConventions& c) const override { optics_.adjust(c.optics); }
+    [[nodiscard]] bool heeds_optics() const override { return true; }
+
+  private:
+    OpticsSettings optics_;
 };
 
 }  // namespace alhazen

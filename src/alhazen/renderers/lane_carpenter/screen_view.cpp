@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "alhazen/base/overloaded.h"
+#include "alhazen/cameras/projection.h"
 
 namespace alhazen {
 
@@ -28,7 +29,8 @@ ScreenView::ScreenView(const Camera& camera, int frame_width, int frame_height, 
                               look_ = normalize(c.direction);
                               right_ = c.right;
                               up_ = c.up;
-                          }},
+                          },
+                          [](const WideCamera&) { throw flat_pictures_only("scan lines"); }},
                camera);
     const Mat3 frame = inverse(Mat3{right_, up_, look_});
     to_right_ = {frame.x_axis.x, frame.y_axis.x, frame.z_axis.x};

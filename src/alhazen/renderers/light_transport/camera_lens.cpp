@@ -13,6 +13,8 @@ CameraLens::CameraLens(const RenderJob& job)
     depth_ = dot(plane_.forward, normal_);
     if (const auto* camera = std::get_if<PerspectiveCamera>(&job.camera)) {
         if (lens_.open()) focus_ = camera->lens.focus_distance;
+    } else if (const auto* wide = std::get_if<WideCamera>(&job.camera)) {
+        wide_.emplace(*wide);
     } else {
         parallel_ = true;
         plane_.forward = normalize(plane_.forward);
@@ -51,6 +53,15 @@ std::optional<LensConnection> CameraLens::connect(const Vec3& world, const Vec2&
         c.film = film_of(plane_.forward + (point - plane_.eye) - along * plane_.forward);
         to_lens = -along * plane_.forward;
         c.density = parallel_density_;
+    } else if (wide_) {
+        const Vec3 away = point - plane_.eye;
+        const double squared = length_squared(away);
+        if (!(squared > 0.0)) return std::nullopt;
+        c.film = wide_->film(away / std::sqrt(squared));
+        const double solid_angle = wide_->solid_angle(c.film.x, c.film.y);
+        if (!(solid_angle > 0.0)) return std::nullopt;
+        to_lens = -away;
+        c.density = 1.0 / (solid_angle * squared);
     } else {
         const Ray axis{plane_.eye, normal_};
         const Vec3 on_lens = lens_.open() ? lens_.through(axis, u).origin : plane_.eye;
@@ -77,6 +88,11 @@ double CameraLens::direction_density(const Vec3& direction, double time) const {
     if (parallel_) return 0.0;
     const Vec3 in_camera =
         motion_ != nullptr ? normalize(inverse(moved(time)).vector(direction)) : direction;
+    if (wide_) {
+        const Vec2 film = wide_->film(in_camera);
+        const double solid_angle = wide_->solid_angle(film.x, film.y);
+        return solid_angle > 0.0 ? 1.0 / solid_angle : 0.0;
+    }
     const double cosine = dot(in_camera, normal_);
     return cosine > 0.0 ? depth_ * depth_ / (cosine * cosine * cosine * area_) : 0.0;
 }

@@ -49,6 +49,7 @@ class CameraLens {
     Vec3 normal_;   ///< unit, of the picture, along the view
     double depth_;  ///< of the picture in front of the eye
     double area_;   ///< of the picture there
+    std::optional<WideView> wide_;
     bool parallel_ = false;
     double parallel_density_ = 0;
     const TransformMotion* motion_;

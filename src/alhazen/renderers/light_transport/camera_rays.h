@@ -14,8 +14,8 @@ class CameraRays {
           motion_(job.camera_motion),
           moves_(job.scene.has_motion || job.camera_motion != nullptr) {
         if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
-        if (const auto* camera = std::get_if<PerspectiveCamera>(&job.camera)) {
-            media_ = MediaFinder(job.scene).around(camera->eye, 0.0f);
+        if (!std::holds_alternative<OrthographicCamera>(job.camera)) {
+            media_ = MediaFinder(job.scene).around(picture_plane(job.camera).eye, 0.0f);
         }
     }
 

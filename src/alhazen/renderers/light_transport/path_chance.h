@@ -48,6 +48,12 @@ class PathChance {
         if (coverage >= 1.0) return true;
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
+    /// Where a path scatters inside a volume, by the number of its stretch.
+    [[nodiscard]] Vec2 in_volume(const SampleId& id, std::uint32_t stretch) const {
+        const std::uint64_t place = kVolume + 2 * std::uint64_t{stretch};
+        return {random_at(seed_, id.pixel.id(), id.number, place),
+                random_at(seed_, id.pixel.id(), id.number, place + 1)};
+    }
     /// Numbers of what draws many: the `number`-th of a place (a bounce, say) of the sample.
     [[nodiscard]] double extra(const SampleId& id, std::uint32_t place,
                                std::uint32_t number) const {
@@ -63,6 +69,7 @@ class PathChance {
     static constexpr std::uint32_t kStratified = 3;  ///< bounces
     static constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
+    static constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
     static constexpr std::uint64_t kExtra = std::uint64_t{1} << 62;
 
     [[nodiscard]] static std::uint32_t pair_of(int bounce, BouncePair pair) {

@@ -63,6 +63,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         v.throughput = throughput;
         v.media = media;
         v.distance = travelled_;
+        v.coverage = point_.material->coverage;
         v.density = parallel ? density * cosine : density * cosine / (travelled_ * travelled_);
         parallel = false;
         if (from_eye) {
@@ -108,8 +109,8 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         }
         eta_scale *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
         v.singular = drawn->singular;
-        density = drawn->singular ? 0.0 : drawn->density;
-        if (!drawn->singular) v.back = v.scatter.reverse_density(drawn->direction);
+        density = drawn->singular ? 1.0 : drawn->density;
+        v.back = drawn->singular ? 1.0 : v.scatter.reverse_density(drawn->direction);
         if (vertices.size() >= 2) {
             PathVertex& before = vertices[vertices.size() - 2];
             const double facing = std::abs(dot(v.scatter.view(), before.scatter.geometric()));

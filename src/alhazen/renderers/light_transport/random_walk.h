@@ -3,9 +3,9 @@
 ///
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapters 8 and
 /// 10.
-/// Conventions: densities of vertices are by area; 0 stands for a singular one, and for a ratio it
-/// counts as 1, for it occurs on both sides. Surfaces that a path passes straight (coverage, thin
-/// sheets) are no vertices.
+/// Conventions: densities of vertices are by area. Singular directions count as of density 1 by
+/// solid angle on both sides: every way to find a path has them. Surfaces that a path passes
+/// straight (coverage, thin sheets) are no vertices.
 
 #include <cstdint>
 #include <vector>
@@ -31,6 +31,7 @@ struct PathVertex {
     Illumination::EmitDensity emit;  ///< of that light
     double joined = 0;               ///< density with which it is drawn for the vertex before
     double distance = 0;             ///< from the vertex before
+    double coverage = 1;             ///< with which the path stopped there
 
     [[nodiscard]] bool connects() const { return scatter.has_density(); }
 };
@@ -72,7 +73,7 @@ class RandomWalk {
         bool is = false;
         Vec3 direction;
         Spectrum throughput;
-        double density = 0;  ///< 0: singular
+        double density = 0;  ///< 1: singular
     };
     [[nodiscard]] const Escape& escape() const { return escape_; }
 

@@ -45,6 +45,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     if (media_known_) {
         behind_inside_ = point.behind.inside;
         inside_.absorption = point.behind.absorption;
+        if (const auto& after = surface.media.after) {
+            inside_.material = static_cast<std::uint32_t>(*after);
+        }
         place.eta = point.behind.eta;
     } else if (!thin_ && material.index > 0.0) {
         const double air = scene.conventions.shading.air_index;

@@ -5,8 +5,16 @@
 #include <limits>
 
 #include "alhazen/renderers/light_transport/power_heuristic.h"
+#include "alhazen/renderers/light_transport/volume_scattering.h"
 
 namespace alhazen {
+
+namespace {
+
+/// The light itself does not block its ray.
+constexpr double kBeforeLight = 1.0 - 1e-7;
+
+}  // namespace
 
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                        const Illumination& lights, const PathSettings& settings,
@@ -20,6 +28,9 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+      has_scattering_(
+          std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                      [](const Material& m) { return !m.scattering.coefficient.is_black(); })),
       layers_(layers),
       manifold_(manifold) {
     if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
@@ -65,7 +76,13 @@ void PathTracer::bounce(bool first) {
         [&](std::size_t k, const ShadingPoint* point, double t) {
             EyePath& path = paths_[k];
             Spectrum& sum = light_[path.sample];
-            if (point == nullptr) return escape(path, rays_[k], sum);
+            if (point == nullptr) {
+                constexpr double kEndless = std::numeric_limits<double>::infinity();
+                const Medium* const medium = path.media.here();
+                const bool scatters = medium != nullptr && scattering_in(*medium) != nullptr;
+                if (scatters && cross_medium(path, *medium, rays_[k], kEndless, sum)) return;
+                return escape(path, rays_[k], sum);
+            }
             ++counters_[path.kind].hit;
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
         });
@@ -102,7 +119,8 @@ Spectrum PathTracer::limited(const Spectrum& light, int scatterings) const {
 void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
     Spectrum light = path.throughput * lights_.environment(ray.direction, waves(path));
     if (light.is_black()) return;
-    if (const Medium* medium = path.media.here(); medium != nullptr) {
+    if (const Medium* medium = path.media.here();
+        medium != nullptr && scattering_in(*medium) == nullptr) {
         light = light * transmittance(waves(path).absorption(medium->absorption),
                                       std::numeric_limits<double>::infinity());
     }
@@ -116,8 +134,7 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
 void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
                       double t, Spectrum& sum) {
     if (const Medium* medium = path.media.here(); medium != nullptr) {
-        path.throughput =
-            path.throughput * transmittance(waves(path).absorption(medium->absorption), t);
+        if (cross_medium(path, *medium, ray, t, sum)) return;
     }
     path.travelled += t;
     path.cone = path.cone.from(t);
@@ -178,11 +195,76 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
                                             first_along(path, drawn.to_light), Spectrum{}})
                   .light;
     }
-    // The light itself does not block its ray.
-    constexpr double kBefore = 1.0 - 1e-7;
-    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{}, waves(path),
-                 limited(light, scatterings), *to);
+    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeLight * drawn.distance),
+                 path.time, extinction_in(medium), waves(path), limited(light, scatterings), *to);
+}
+
+const VolumeScattering* PathTracer::scattering_in(const Medium& medium) const {
+    if (!has_scattering_) return nullptr;
+    const VolumeScattering& scattering = scene_.materials[medium.material].scattering;
+    return scattering.coefficient.is_black() ? nullptr : &scattering;
+}
+
+Rgb PathTracer::extinction_in(const Medium* medium) const {
+    if (medium == nullptr) return {};
+    const VolumeScattering* const scattering = scattering_in(*medium);
+    return scattering == nullptr ? medium->absorption
+                                 : medium->absorption + scattering->coefficient;
+}
+
+bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
+                              Spectrum& sum) {
+    const Spectrum absorption = waves(path).absorption(medium.absorption);
+    const VolumeScattering* const scattering = scattering_in(medium);
+    if (scattering == nullptr) {
+        path.throughput = path.throughput * transmittance(absorption, t);
+        return false;
+    }
+    const VolumeStep step =
+        step_in_volume(absorption, waves(path).absorption(scattering->coefficient), path.throughput,
+                       t, chance_.in_volume(ids_[path.sample], path.stretch++));
+    path.throughput = path.throughput * step.weight;
+    if (!step.scatters) return false;
+    path.cone = path.cone.from(step.distance);
+    if (path.scatterings < settings_.depth && path.throughput.max() > 0.0) {
+        scatter_in_volume(path, medium, {ray.at(step.distance), ray.direction}, sum);
+    }
+    return true;
+}
+
+/// `ray`: from where the path is scattered, straight on.
+void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray,
+                                   Spectrum& sum) {
+    const double g = scattering_in(medium)->anisotropy;
+    const LitPoint at{ray.origin, ray.direction, true};
+    if (path.scatterings == 0) path.first = {.transmitted = true};
+    const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
+    const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
+    const LightDraw drawn = lights_.draw(at, choices.y, place, waves(path));
+    if (drawn.density > 0.0 && !drawn.radiance.is_black()) {
+        const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
+        double weight = phase / drawn.density;
+        if (!drawn.singular) weight *= power_heuristic(drawn.density, phase);
+        const int scatterings = path.scatterings + 1;
+        Spectrum* to = &sum;
+        if (layers_ != nullptr) {
+            to = &joined_.emplace_back(JoinedLight{path.sample, scatterings, path.first, {}}).light;
+        }
+        const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeLight * drawn.distance};
+        shadows_.add(to_light, path.time, extinction_in(&medium), waves(path),
+                     limited(path.throughput * (weight * drawn.radiance), scatterings), *to);
+    }
+    const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
+    const Vec3 direction = sample_henyey_greenstein(ray.direction, g, u);
+    ++path.drawn;
+    ++path.scatterings;
+    path.singular = false;
+    path.trail = {};
+    path.density = henyey_greenstein(dot(ray.direction, direction), g);
+    path.from = at;
+    path.travelled = 0.0;
+    path.kind = RayKind::Refraction;
+    if (survives(path)) go_on(path, {ray.origin, direction});
 }
 
 void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {

@@ -25,8 +25,9 @@ struct EyePath {
     float time = 0;
     RayCone cone;
 
-    std::uint32_t sample = 0;  ///< of the batch
-    std::uint32_t met = 0;     ///< surfaces on its way
+    std::uint32_t sample = 0;   ///< of the batch
+    std::uint32_t met = 0;      ///< surfaces on its way
+    std::uint32_t stretch = 0;  ///< stretches through what scatters
     int scatterings = 0;
     int drawn = 0;  ///< scatterings and straight passes: places of its random numbers
     Spectrum throughput{1, 1, 1, 1};
@@ -63,6 +64,15 @@ class PathTracer {
     /// Adds light at the end of a path to its sample.
     void add(const EyePath& path, const Spectrum& light, Spectrum& sum);
     void add_joined();
+    /// Along a ray of length `t` in the medium around it; true: the path was scattered on the way,
+    /// and has gone on or ended.
+    [[nodiscard]] bool cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
+                                    Spectrum& sum);
+    void scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray, Spectrum& sum);
+    /// None: null.
+    [[nodiscard]] const VolumeScattering* scattering_in(const Medium& medium) const;
+    /// Of a shadow ray: absorbed, or scattered away.
+    [[nodiscard]] Rgb extinction_in(const Medium* medium) const;
     void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
               Spectrum& sum);
@@ -93,6 +103,7 @@ class PathTracer {
     VisibleBatch visible_;
     LightBatch shadows_;
     ScatterPoint scatter_;
+    bool has_scattering_;            ///< some volume scatters light
     LightLayers* layers_;            ///< null: none is wanted
     const ManifoldScene* manifold_;  ///< null: no chains are sought
     std::optional<ManifoldLight> chains_;

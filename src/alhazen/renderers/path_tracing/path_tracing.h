@@ -25,6 +25,8 @@ class PathTracing final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
 
+    [[nodiscard]] bool scatters_in_volumes() const override { return !settings_.manifold; }
+
   private:
     PathSettings settings_;
 };

@@ -55,7 +55,9 @@ Spectrum PhotonWalk::falloff(const LightRay& light, const Vec3& point, double di
 void PhotonWalk::store(PhotonKind kind, const Spectrum& power, std::vector<Photon>& stored) const {
     if (!shot_.kinds.has(kind) || power.is_black() || !power.is_finite()) return;
     const Vec3& p = next_.point().surface.point;
-    const double share = 1.0 / static_cast<double>(shot_.count);
+    // Where the surface is there in part the eye's path stops by the same chance as the photon.
+    const double coverage = next_.point().material->coverage;
+    const double share = 1.0 / (coverage * static_cast<double>(shot_.count));
     stored.push_back({floats(p.x, p.y, p.z),
                       floats(share * power.a, share * power.b, share * power.c),
                       OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});

@@ -27,11 +27,6 @@ struct SppmSettings {
     PathSettings paths;
 };
 
-/// The squared radius of pass i + 1 over that of pass i = 1, 2, ...
-[[nodiscard]] inline double squared_radius_step(double alpha, int pass) {
-    return (pass + alpha) / (pass + 1.0);
-}
-
 class Sppm final : public LightTransportRenderer {
   public:
     explicit Sppm(const SppmSettings& settings) : settings_(settings) {}

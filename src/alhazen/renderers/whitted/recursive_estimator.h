@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
 #include "alhazen/renderers/core/shadow_batch.h"
@@ -32,14 +34,16 @@ struct NoChance {
 };
 
 /// A chance that watches the tree grow, at no cost for others. In the order of the calls, for some
-/// rays of a generation: `begin_rays`; for each surface `see_light` for the lights it faces, then
-/// `meet`; `miss` for rays that meet nothing; `gather`, after the next generation, with the
-/// surfaces in the order of `meet`; `end_rays`, when the radiance is known.
+/// rays of a generation: `use` once, where there are exact optics; `begin_rays`; for each surface
+/// `see_light` for the lights it faces, then `meet`; `miss` for rays that meet nothing; `gather`,
+/// after the next generation, with the surfaces in the order of `meet`; `end_rays`, when the
+/// radiance is known.
 template <class Chance>
 concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
                                const ShadingPoint& point, const Path& path, const MetSurface& met,
                                const Wavefront& front, const LightSample& light, const Rgb& left,
-                               std::uint32_t ray, double t, int depth) {
+                               ExactOptics& optics, std::uint32_t ray, double t, int depth) {
+    chance.use(optics);
     chance.begin_rays(part, depth);
     chance.see_light(std::size_t{}, light, t);
     chance.meet(point, t, path, depth, met);
@@ -53,16 +57,6 @@ concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
 inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
-/// Coherence of shadow rays from neighbouring points: they converge where there is one light.
-inline Coherence coherence_of_shadows(std::span<const Light> lights) {
-    std::size_t places = 0, directions = 0;
-    for (const Light& light : lights) {
-        places += place_of(light) == LightPlace::Point;
-        directions += place_of(light) == LightPlace::Direction;
-    }
-    return places == 1 && directions == 0 ? Coherence::Coherent : Coherence::Any;
-}
-
 /// Traces batches of eye rays; keeps all memory from batch to batch.
 template <class Chance>
 class RecursiveEstimator {
@@ -73,11 +67,16 @@ class RecursiveEstimator {
           conventions_(job.scene.conventions.shading),
           counters_(counters),
           rays_at_once_(rays_at_once),
-          eye_shadows_(coherence_of_shadows(scene_.lights)),
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-          chance_(job) {}
+          chance_(job) {
+        if (!conventions_.optics.any()) return;
+        optics_.emplace(scene_, conventions_.optics);
+        visible_.use(*optics_);
+        shadows_.use(*optics_);
+        if constexpr (TreeWatcher<Chance>) chance_.use(*optics_);
+    }
 
     /// Radiance along eye rays of unit direction.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
@@ -117,11 +116,14 @@ class RecursiveEstimator {
             // One eye ray can cause millions of rays; its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
             front.begin_surfaces();
+            const std::size_t media = optics_ ? optics_->mark() : 0;
+            shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
             meet_surfaces(part, depth, met == 0, front);
-            shadows_.finish(depth == 0 ? eye_shadows_ : Coherence::Any);
+            shadows_.finish();
             trace_all(front.next, depth + 1);
             if constexpr (TreeWatcher<Chance>) chance_.gather(front, depth);
             gather(front, part.radiance);
+            if (optics_) optics_->release(media);
             front.go_on();
         }
         if constexpr (TreeWatcher<Chance>) chance_.end_rays(part, depth);
@@ -232,7 +234,7 @@ class RecursiveEstimator {
             if (!(cosine > 0.0)) continue;
             if constexpr (TreeWatcher<Chance>) chance_.see_light(here, l, cosine);
             shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
-                         seen.path, sum);
+                         seen.path, sum, here);
         }
     }
 
@@ -274,10 +276,12 @@ class RecursiveEstimator {
             onward.absorption = behind.known     ? behind.absorption
                                 : point.entering ? material.absorption
                                                  : Rgb{};
+            onward.medium = behind.medium;
         }
         chance_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
-        const bool tinted = material.physical || conventions_.refraction_tint ==
-                                                     ShadingConventions::RefractionTint::PerEvent;
+        const bool tinted =
+            optics_ || material.physical ||
+            conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
         met.kt = tinted ? kt : Rgb{1, 1, 1};
         met.refracted = next.add(onward_ray(conventions_, point.surface, direction), onward);
     }
@@ -298,12 +302,12 @@ class RecursiveEstimator {
     const ShadingConventions& conventions_;
     RayCounters& counters_;
     std::size_t rays_at_once_;
-    Coherence eye_shadows_;  ///< of the shadow rays from surfaces that eye rays hit
     const std::vector<Rgb> ambient_;
     std::span<Hit> eye_hits_;  ///< of a batch that begins with its first ray; see keep_hits
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Chance chance_;
+    std::optional<ExactOptics> optics_;  ///< where the scene asks for them
     Generation eye_;
     std::deque<Wavefront> fronts_;  ///< by depth; references stay valid while it grows
 };

@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "alhazen/renderers/antialias/single_rays.h"
+#include "alhazen/renderers/core/exact_optics.h"
 
 namespace alhazen {
 
@@ -20,13 +21,17 @@ class Whitted final : public SingleRayRenderer {
   public:
     /// `rays_at_once`: of a generation, at least 1; pixels do not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
+    explicit Whitted(const OpticsSettings& optics) : optics_(optics) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
     [[nodiscard]] std::unique_ptr<RayAnswers> answers(const RenderJob& job) const override;
+    void adjust(ShadingConventions& c) const override { optics_.adjust(c.optics); }
+    [[nodiscard]] bool heeds_optics() const override { return true; }
 
   private:
     static constexpr std::size_t kRaysAtOnce = 256;
-    std::size_t rays_at_once_;
+    std::size_t rays_at_once_ = kRaysAtOnce;
+    OpticsSettings optics_;
 };
 
 }  // namespace alhazen

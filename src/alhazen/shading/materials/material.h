@@ -106,6 +106,15 @@ struct Dielectric {
     Rgb absorption;  ///< inside: light falls by exp(-absorption * length)
 };
 
+/// What scatters light inside a volume, the same everywhere.
+///
+/// Source: Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93,
+/// 1941.
+struct VolumeScattering {
+    Rgb coefficient;        ///< light is scattered by this share in a unit of length; black: none
+    double anisotropy = 0;  ///< mean cosine of the angle by which it turns, in (-1, 1)
+};
+
 /// Coefficients are 0..1 by custom, not by force. Importers fill in what their format leaves out
 /// (kr = ks, say) so that renderers need no rules of formats.
 struct Material {
@@ -136,6 +145,8 @@ struct Material {
     /// Material.
     std::optional<Conductor> conductor;
     std::optional<Dielectric> dielectric;
+    /// Of the volume inside, where the surface bounds one. For renderers that follow light.
+    VolumeScattering scattering;
 
     /// True when no light passes anywhere.
     [[nodiscard]] bool is_opaque() const {

@@ -135,7 +135,12 @@ void turn_to_view(MaterialSample& sample, double cosine, bool from_inside) {
     turn_to_view_between(sample, cosine, dense ? sample.index : 1.0, false);
 }
 
-void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall) {
+void keep_below_reflection(MaterialSample& sample) {
+    keep_below(sample, 1.0 - max_of_one(sample.reflective));
+}
+
+void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall,
+                          double exact) {
     if (!sample.physical) return;
     if (const double outside = normal_reflectance(sample.index); wall && outside > 0.0) {
         const double share = normal_reflectance(eta) / outside;
@@ -154,9 +159,14 @@ void turn_to_view_between(MaterialSample& sample, double cosine, double eta, boo
         }
         c = std::sqrt(squared);
     }
-    const double weight = fifth_power(1.0 - c);
+    double weight = fifth_power(1.0 - c);
+    if (exact > 0.0) {
+        const double f0 = normal_reflectance(eta);
+        const double f = dielectric_reflectance(clamped(cosine), eta);
+        weight += exact * ((f0 < 1.0 ? (f - f0) / (1.0 - f0) : 0.0) - weight);
+    }
     sample.reflective += weight * (sample.grazing - sample.reflective);
-    keep_below(sample, 1.0 - max_of_one(sample.reflective));
+    keep_below_reflection(sample);
 }
 
 }  // namespace alhazen

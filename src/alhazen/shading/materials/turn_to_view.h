@@ -10,6 +10,12 @@ namespace alhazen {
 
 /// As `turn_to_view`, with the cosine to the normal (0..1) on this side. `eta` is the index on this
 /// side over that behind; a `wall` between two media reflects by it, not by the index of either.
-void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall);
+/// `exact`: share of the reflection that rises to grazing incidence by Fresnel's equations for a
+/// dielectric, the rest by Schlick's formula.
+void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall,
+                          double exact = 0.0);
+
+/// What a surface does not reflect is shared by what lies below it.
+void keep_below_reflection(MaterialSample& sample);
 
 }  // namespace alhazen

@@ -79,11 +79,38 @@ TEST(NativeImporter, ReadsRangesGreyColorsAndAnglesInRadians) {
             .says("say the same"));
 }
 
+TEST(NativeImporter, ReadsFisheyesAndPanoramas) {
+    const Imported i = import_native(
+        "picture { width = 300; height = 200 }"
+        "fisheye_camera { eye = (1,2,3); look_at = (1,2,0); fov_deg = 220; projection = equisolid }"
+        "panorama_camera { eye = (1,2,3); direction = (0,1,0); up = (0,0,1) }"
+        "panorama_camera { eye = (1,2,3); direction = (0,1,0); up = (0,0,1); width_deg = 90;"
+        " height_deg = 30 }");
+    ASSERT_EQ(i.messages(), "");
+    constexpr double kDegree = 3.14159265358979323846 / 180;
+    const auto& fisheye = std::get<WideCamera>(i.scene.cameras.at(0).camera);
+    EXPECT_EQ(fisheye.projection, WideProjection::Equisolid);
+    EXPECT_NEAR(fisheye.height, 220 * kDegree, 1e-12);
+    EXPECT_NEAR(fisheye.width, 330 * kDegree, 1e-12);
+    EXPECT_EQ(fisheye.eye, (Vec3{1, 2, 3}));
+    const auto& around = std::get<WideCamera>(i.scene.cameras.at(1).camera);
+    EXPECT_EQ(around.projection, WideProjection::Panorama);
+    EXPECT_NEAR(around.width, 360 * kDegree, 1e-12);
+    EXPECT_EQ(i.scene.cameras.at(1).aspect, 2.0);
+    EXPECT_EQ(i.scene.cameras.at(2).aspect, 3.0);
+    EXPECT_TRUE(import_native("fisheye_camera { eye = (0,0,0); direction = (0,1,0); up = (0,0,1);"
+                              " fov_deg = 361 }")
+                    .says("at most 360"));
+    EXPECT_TRUE(import_native("panorama_camera { eye = (0,0,0); direction = (0,1,0); up = (0,0,1);"
+                              " height_deg = 181 }")
+                    .says("at most 180"));
+}
+
 TEST(NativeImporter, ReadsEveryConvention) {
     const Imported i = import_native(
         "conventions { highlight = phong; shadow_tint = opaque; refraction_tint = per_distance;"
         " ambient_factor = diffuse; ambient_inside_times_kt = true; ambient_from_eye = true;"
-        " clamp_attenuation = true;"
+        " clamp_attenuation = true; fresnel = true; beer = true;"
         " truncate_material_colors = true; transmitting_surfaces_reflect = true; air_index = 1.1;"
         " pixel_sample = lower_left_corner; linear_output = true; round_output = true; max_depth = "
         "9;"
@@ -95,8 +122,9 @@ TEST(NativeImporter, ReadsEveryConvention) {
     EXPECT_EQ(c.shading.refraction_tint, ShadingConventions::RefractionTint::PerDistance);
     EXPECT_EQ(c.shading.ambient_factor, ShadingConventions::AmbientFactor::Diffuse);
     EXPECT_TRUE(c.shading.ambient_inside_times_kt && c.shading.ambient_from_eye &&
-                c.shading.clamp_attenuation && c.importing.truncate_material_colors &&
-                c.shading.transmitting_surfaces_reflect && c.film.linear_output);
+                c.shading.optics.fresnel && c.shading.optics.beer && c.shading.clamp_attenuation &&
+                c.importing.truncate_material_colors && c.shading.transmitting_surfaces_reflect &&
+                c.film.linear_output);
     EXPECT_EQ(c.film.encoding(), Encoding::LinearRounded);
     EXPECT_EQ(c.shading.air_index, 1.1);
     EXPECT_EQ(c.sampling.pixel_sample, SamplingConventions::PixelSample::LowerLeftCorner);

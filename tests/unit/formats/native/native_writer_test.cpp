@@ -107,6 +107,7 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         c.sampling.pixel_sample = SamplingConventions::PixelSample(i % 3);
         c.shading.ambient_inside_times_kt = even;
         c.shading.ambient_from_eye = even;
+        c.shading.optics = {even, i > 1};
         c.shading.clamp_attenuation = even;
         c.importing.truncate_material_colors = even;
         c.shading.transmitting_surfaces_reflect = even;
@@ -129,14 +130,17 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
 
 TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
     // ADD A CAMERA OR A LIGHT HERE: one of it in the loop.
-    static_assert(std::variant_size_v<Camera> == 2 && std::variant_size_v<Light> == 5);
+    static_assert(std::variant_size_v<Camera> == 3 && std::variant_size_v<Light> == 5);
     Numbers n(11);
     SceneDescription scene = empty_scene();
     for (int i = 0; i < 20; ++i) {
         const Lens lens{n.positive(), n.positive(), i % 2 == 0 ? 0 : 5, n.positive()};
         const PerspectiveCamera p{n.point(), n.point(), n.point(), n.point(), lens};
         const OrthographicCamera o{n.point(), n.point(), n.point(), n.point()};
+        const WideCamera w{n.point(),    n.point(),   n.point(), n.point(), WideProjection(i % 3),
+                           n.positive(), n.positive()};
         scene.cameras.push_back({i == 0 ? "" : "eye", p, n.positive(), {}});
+        scene.cameras.push_back({"around", w, n.positive(), {}});
         scene.cameras.push_back(
             {"a \"quoted\" \\ name\n\twith\x01 rubbish\xff", o, n.positive(), {}});
         const Attenuation a{n.positive(), n.positive(), n.positive()};
@@ -277,6 +281,7 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
     gold.conductor = Conductor{measured.index, measured.extinction, "gold"};
     metal.conductor = Conductor{n.color(), n.color(), ""};
     water.dielectric = Dielectric{n.color()};
+    water.scattering = {n.color(), -0.3};
     water.index.value = 1.33;
     for (const Material& m : {gold, metal, water}) scene.materials.push_back({m, {}});
     expect_round_trip(scene);

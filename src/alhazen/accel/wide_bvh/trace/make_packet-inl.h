@@ -30,6 +30,7 @@ inline bool RayPacket::make(const LocalFrame& frame, std::span<const Ray> given,
         store_lanes(Floats(-std::numeric_limits<float>::infinity()), slope_hi[i]);
     }
     store_lanes(Floats(-std::numeric_limits<float>::infinity()), group_k_max);
+    store_lanes(Floats(std::numeric_limits<float>::infinity()), group_k_min);
     for (std::size_t g = 0; g < group_count; ++g) make_slopes(g);
     if (!find_point() || !find_planes()) return false;
     for (std::size_t g = 0; g < group_count; ++g) {
@@ -68,7 +69,7 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
     if ((used & all) != all) distance = 8.0f;
     reach_ = frame.slack.reach.at(distance);
     delta_ = frame.slack.delta.at(distance);
-    error = 13.2f * kUnit * reach_ + 4.0f * delta_;
+    near_error = 2.2f * kUnit * reach_ + 4.0f * delta_;
     return used & all;
 }
 
@@ -226,11 +227,16 @@ inline bool RayPacket::find_planes() {
         const Floats lo = load_lanes(slope_lo[i]), hi = load_lanes(slope_hi[i]);
         const Floats between = Floats(0.5f) * (lo + hi);
         store_lanes(Floats(turn) * between, group_middle[i]);
+        const Floats a = turn > 0 ? lo : -hi, b = turn > 0 ? hi : -lo, zero(0.0f);
+        store_lanes(max_lanes(a, zero), group_lo_up_[i]);
+        store_lanes(min_lanes(a, zero), group_lo_down_[i]);
+        store_lanes(max_lanes(b, zero), group_hi_up_[i]);
+        store_lanes(min_lanes(b, zero), group_hi_down_[i]);
         const Floats most = max_lanes(hi - between, between - lo);
         squared = mul_add(most, most, squared);
     }
     store_lanes(sqrt(squared), group_spread);
-    GroupFloats least(0.0f);
+    k_min_ = std::numeric_limits<float>::infinity();
     for (std::size_t g = 0; g < group_count; ++g) {
         RayGroup& group = groups[g];
         const GroupFloats depth = mul_add(load_lanes<kGroupRays>(group.origin[kz]),
@@ -243,9 +249,9 @@ inline bool RayPacket::find_planes() {
         }
         const GroupFloats k =
             mul_add(load_lanes<kGroupRays>(group.s_min), load_lanes<kGroupRays>(group.rate), depth);
-        least = g == 0 ? k : min_lanes(least, k);
+        group_k_min[g] = RayGroup::least_of(k) - k_slack_;
+        k_min_ = std::min(k_min_, group_k_min[g]);
     }
-    k_min_ = RayGroup::least_of(least) - k_slack_;
     return true;
 }
 

@@ -5,7 +5,8 @@
 /// Architectures", JCGT 4(5), 2015 (large packets, a test of the whole packet per node); Wald,
 /// Boulos and Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies",
 /// ACM TOG 26(1), 2007 (coherent traversal, nodes skipped by a bound of all rays).
-/// Differs: no box is tested for single rays. All slack of `SlabRay`, and the distance of the rays
+/// Differs: no box is tested for single rays: the pyramid of all goes first, then those of its
+/// groups of eight rays, in lanes. All slack of `SlabRay`, and the distance of the rays
 /// from a common point, is in the planes of the pyramid, so that it never loses a box in which the
 /// test in double of a ray finds a hit.
 /// Let z be the axis along which all rays go the same way and fastest, D = +-z their depth along
@@ -30,6 +31,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
@@ -48,14 +50,17 @@ class RayPacket {
     std::size_t group_count = 0;
     std::uint32_t kx = 0, ky = 0, kz = 0;
     float error = 0;    ///< of a sheared coordinate, as in triangle_filter.h, of any ray
-    float s_error = 0;  ///< of a local parameter, for a slope of 1
+    float near_error = 0;  ///< as in TriangleFilterRay, of any ray
+    float s_error = 0;     ///< of a local parameter, for a slope of 1
     float point[3];     ///< P, along kx, ky, kz
     float away[2];      ///< how far the rays pass it by, in x and in y, at most
     float k_max = 0;    ///< the largest of the groups
     /// [x, y][group] the slopes of their rays; those of no group are never met
     HWY_ALIGN float slope_lo[2][kPacketGroups];
     HWY_ALIGN float slope_hi[2][kPacketGroups];
-    HWY_ALIGN float group_k_max[kPacketGroups];  ///< no ray of the group needs to go deeper
+    /// No ray of the group needs to go deeper, and none begins before.
+    HWY_ALIGN float group_k_max[kPacketGroups];
+    HWY_ALIGN float group_k_min[kPacketGroups];
     /// [x, y][group] the middle of these, with the sign that it has for h; and how far slopes of
     /// the group lie from it, at most.
     HWY_ALIGN float group_middle[2][kPacketGroups];
@@ -103,30 +108,33 @@ class RayPacket {
         return kAllLanes & ~bits_of(missed);
     }
 
-    /// The groups whose part of the pyramid meets a box [axis], with slack for its rounding.
-    HWY_INLINE std::uint32_t meet_groups(const float (&lo)[3], const float (&hi)[3]) const {
-        const float near = (sign_ > 0 ? lo[kz] : -hi[kz]) - depth_of_point_;
-        const float far = (sign_ > 0 ? hi[kz] : -lo[kz]) - depth_of_point_;
-        if (!(far >= k_min_)) return 0;
+    /// The groups whose part of the pyramid meets a box: the rows of meet_boxes, `stride` floats
+    /// apart.
+    HWY_INLINE std::uint32_t meet_groups(const float* box, std::size_t stride) const {
+        const Floats near(sign_ * box[near_row_ * stride] - depth_of_point_);
+        const Floats far(sign_ * box[far_row_ * stride] - depth_of_point_);
         const Floats zero(0.0f);
-        const Floats h0(std::max(from_start_ ? near : -far, 0.0f));
-        const Floats h1(std::max(from_start_ ? far : -near, 0.0f));
-        LaneMask<float> missed = Floats(near) > load_lanes(group_k_max);
-        const std::uint32_t axes[2] = {kx, ky};
-        const bool up = (sign_ > 0) == from_start_;
+        const Floats h0 = max_lanes(from_start_ ? near : -far, zero);
+        const Floats h1 = max_lanes(from_start_ ? far : -near, zero);
+        LaneMask<float> missed = (near > load_lanes(group_k_max)) | (far < load_lanes(group_k_min));
         HWY_UNROLL(2)
         for (std::size_t i = 0; i < 2; ++i) {
-            const Floats least = up ? load_lanes(slope_lo[i]) : -load_lanes(slope_hi[i]);
-            const Floats most = up ? load_lanes(slope_hi[i]) : -load_lanes(slope_lo[i]);
-            const Floats above = neg_mul_add(
-                max_lanes(most, zero), h1,
-                neg_mul_add(min_lanes(most, zero), h0, Floats(lo[axes[i]] - point_hi_[i])));
-            const Floats below = neg_mul_add(
-                max_lanes(least, zero), h0,
-                neg_mul_add(min_lanes(least, zero), h1, Floats(hi[axes[i]] - point_lo_[i])));
+            const Floats lo(box[lateral_row_[i] * stride] - point_hi_[i]);
+            const Floats hi(box[(lateral_row_[i] + 3) * stride] - point_lo_[i]);
+            const Floats above =
+                neg_mul_add(load_lanes(group_hi_up_[i]), h1,
+                            neg_mul_add(load_lanes(group_hi_down_[i]), h0, lo));
+            const Floats below =
+                neg_mul_add(load_lanes(group_lo_up_[i]), h0,
+                            neg_mul_add(load_lanes(group_lo_down_[i]), h1, hi));
             missed = missed | (above > zero) | (below < zero);
         }
-        return ((1u << group_count) - 1) & ~bits_of(missed);
+        return all_groups() & ~bits_of(missed);
+    }
+    [[nodiscard]] std::uint32_t all_groups() const { return (1u << group_count) - 1; }
+    /// The groups of which a ray goes deeper than that.
+    [[nodiscard]] HWY_INLINE std::uint32_t reaching(float k) const {
+        return bits_of(load_lanes(group_k_max) >= Floats(k));
     }
 
     /// The groups of which a ray may meet a ball. With C its center from P, m the middle slope of
@@ -147,7 +155,7 @@ class RayPacket {
                     Floats(radius + ball_slack_));
         const Floats squared = mul_add(a, a, mul_add(b, b, c * c));
         const Floats scale = mul_add(mx, mx, mul_add(my, my, Floats(1.0f)));
-        return ((1u << group_count) - 1) & ~bits_of(squared > scale * (reach * reach));
+        return all_groups() & ~bits_of(squared > scale * (reach * reach));
     }
 
     /// Ray i need not go farther than that.
@@ -167,7 +175,7 @@ class RayPacket {
         // A NaN, of a ray that is not used, changes nothing.
         store_lanes(select_lanes(above < s_max, above, s_max), groups[g].s_max);
     }
-    void shrink_all() { shrink((1u << group_count) - 1); }
+    void shrink_all() { shrink(all_groups()); }
     /// After groups have changed: bits of those that have.
     HWY_INLINE void shrink(std::uint32_t changed) {
         for (; changed != 0; changed &= changed - 1) {
@@ -175,6 +183,12 @@ class RayPacket {
             group_k_max[g] = groups[g].deepest(k_slack_);
         }
         k_max = RayGroup::most_of(load_lanes(group_k_max));
+    }
+    /// No ray of these groups needs to go on.
+    HWY_INLINE void finish(std::uint32_t done) {
+        for (; done != 0; done &= done - 1) {
+            group_k_max[std::countr_zero(done)] = -std::numeric_limits<float>::infinity();
+        }
     }
     /// Along z, upwards where rays go.
     [[nodiscard]] HWY_INLINE float sign() const { return sign_; }
@@ -198,6 +212,9 @@ class RayPacket {
     float ball_slack_ = 0;
     /// Parts of the largest and the smallest slope that are positive and negative.
     float hi_up_[2], hi_down_[2], lo_up_[2], lo_down_[2];
+    /// The same of each group.
+    HWY_ALIGN float group_hi_up_[2][kPacketGroups], group_hi_down_[2][kPacketGroups];
+    HWY_ALIGN float group_lo_up_[2][kPacketGroups], group_lo_down_[2][kPacketGroups];
 };
 
 }  // namespace HWY_NAMESPACE

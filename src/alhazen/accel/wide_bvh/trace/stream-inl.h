@@ -134,6 +134,36 @@ struct StreamStack {
         return hn::And(hn::Shr(word, hn::Load(du, kShifts.data())), hn::Set(du, W - 1));
     }
 
+    /// Moves the lanes of `mask` to the front, as hn::Compress. That of AVX2 reads a table which
+    /// GCC copies to the stack first, a kilobyte a time.
+    static HWY_INLINE auto first_lanes(const hn::Mask<Tag>& mask) {
+#if HWY_TARGET == HWY_AVX2
+        if constexpr (W == 8) {
+            static constexpr auto kPlaces = [] {
+                std::array<std::array<std::uint8_t, 8>, 256> places{};
+                for (std::uint32_t bits = 0; bits < 256; ++bits) {
+                    std::size_t count = 0;
+                    for (std::uint8_t i = 0; i < 8; ++i) {
+                        if ((bits >> i & 1) != 0) places[bits][count++] = i;
+                    }
+                }
+                return places;
+            }();
+            std::uint8_t bits[8];
+            hn::StoreMaskBits(Tag(), mask, bits);
+            const auto places = hn::PromoteTo(
+                hn::RebindToSigned<Tag>(),
+                hn::LoadU(hn::Rebind<std::uint8_t, Tag>(), kPlaces[bits[0]].data()));
+            const auto indices = hn::IndicesFromVec(Tag(), places);
+            return [indices](const hn::Vec<Tag>& v)
+                       HWY_ATTR { return hn::TableLookupLanes(v, indices); };
+        } else
+#endif
+        {
+            return [mask](const hn::Vec<Tag>& v) HWY_ATTR { return hn::Compress(v, mask); };
+        }
+    }
+
     template <bool kOrdered>
     HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNodeOf<W>& node,
                                       const Lanes<float, W>& entries, const LaneMask<float, W>& hit,
@@ -153,9 +183,9 @@ struct StreamStack {
         };
         const auto near = in_order(entries_hit);
         const auto mask = hn::Lt(near, missed);
-        hn::StoreU(hn::Compress(near, mask), d, entry + height);
-        hn::StoreU(hn::Compress(in_order(children), mask), d,
-                   reinterpret_cast<float*>(child + height));
+        const auto first = first_lanes(mask);
+        hn::StoreU(first(near), d, entry + height);
+        hn::StoreU(first(in_order(children)), d, reinterpret_cast<float*>(child + height));
         return height + hn::CountTrue(d, mask);
     }
 };

@@ -10,6 +10,8 @@
 #endif
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
@@ -18,34 +20,65 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Visits the leaves that the packet intersects, nearest first: `leaf.visit(ref, nearest, stats)`
-/// may shrink the packet, and returns true to stop. False when it gave up: after `max_work` nodes,
-/// a visited leaf counting as two per block.
-template <class Leaf, class Stats>
+/// A subtree, and the groups of rays that may meet it.
+struct PacketEntry {
+    float entry;
+    NodeRef ref;
+    std::uint32_t groups;
+};
+
+/// Puts the children that groups of a packet meet on the stack; returns the new height. The nearest
+/// is on top, or slot 0.
+template <bool kOrdered>
+HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet,
+                                std::uint32_t groups, PacketEntry* stack, std::size_t height) {
+    Floats entries;
+    std::uint32_t hit = packet.meet_children(node, entries);
+    HWY_ALIGN float entry[WideNode::kWidth];
+    store_lanes(entries, entry);
+    const std::size_t base = height;
+    while (hit != 0) {
+        const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
+        hit &= ~(1u << slot);
+        const std::uint32_t met =
+            groups & packet.meet_groups(&node.planes[0][slot], WideNode::kWidth);
+        if (met == 0) continue;
+        std::size_t place = height++;
+        if constexpr (kOrdered) {
+            while (place > base && stack[place - 1].entry < entry[slot]) {
+                stack[place] = stack[place - 1];
+                --place;
+            }
+        }
+        stack[place] = {entry[slot], node.child[slot], met};
+    }
+    return height;
+}
+
+/// Visits the leaves that groups of the packet meet, nearest first if `kOrdered`, else from slot 0
+/// on: `leaf.visit(ref, groups, stats)` may shrink the packet, and returns true to stop. False when
+/// it gave up: `leaf.work`, two a node beside what the leaves add, exceeds `max_work`.
+template <bool kOrdered, class Leaf, class Stats>
 HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
                                 const PrefetchTable& prefetch_table, const RayPacket& packet,
                                 Leaf& leaf, std::uint32_t max_work, Stats stats) {
-    std::uint32_t work = 0;
-    StackEntry stack[kTraversalStackSize<8>];
+    PacketEntry stack[kTraversalStackSize<8>];
     std::size_t height = 1;
-    stack[0] = {-std::numeric_limits<float>::infinity(), root};
+    stack[0] = {-std::numeric_limits<float>::infinity(), root, packet.all_groups()};
     while (height > 0) {
-        const StackEntry top = stack[--height];
-        if (top.entry > packet.k_max) continue;
+        const PacketEntry top = stack[--height];
+        const std::uint32_t groups = top.groups & packet.reaching(top.entry);
+        if (groups == 0) continue;
         if (top.ref.is_leaf()) {
-            if (leaf.visit(top.ref, top.entry, stats)) return true;
-            work += 2 * top.ref.count();
+            if (leaf.visit(top.ref, groups, stats)) return true;
             continue;
         }
-        if (++work > max_work) return false;
+        leaf.work += 2;
+        if (leaf.work > max_work) return false;
         const WideNode& node = nodes[top.ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
-        Floats entries;
-        const std::uint32_t hit = packet.meet_children(node, entries);
-        HWY_ALIGN float entry[WideNode::kWidth];
-        store_lanes(entries, entry);
-        height = push_sorted(node, hit, entry, stack, height);
+        height = push_met<kOrdered>(node, packet, groups, stack, height);
         // The next two.
         const std::size_t soon = std::min<std::size_t>(height, 2);
         for (std::size_t i = height - soon; i < height; ++i)

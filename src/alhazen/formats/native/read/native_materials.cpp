@@ -246,6 +246,10 @@ MaterialId add_material(TextNode block, std::string name, NativeContext& context
     read_scalar(reader, "roughness", context, m.roughness);
     read_scalar(reader, "index", context, m.index);
     if (double density = 0; reader.read("density", density)) m.density = density;
+    if (const auto v = reader.find("scattering")) {
+        read_native_color(*v, "scattering", reader.values(), m.scattering.coefficient);
+    }
+    reader.read("scattering_anisotropy", m.scattering.anisotropy);
     if (!has_ambient) m.ambient = m.diffuse;
     read_alpha(reader, context, m);
     read_normal_map(reader, context, m.normal_map);

@@ -112,6 +112,8 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     reader.read_word("ambient_factor", native_words<S::AmbientFactor>(), c.shading.ambient_factor);
     reader.read("ambient_inside_times_kt", c.shading.ambient_inside_times_kt);
     reader.read("ambient_from_eye", c.shading.ambient_from_eye);
+    reader.read("fresnel", c.shading.optics.fresnel);
+    reader.read("beer", c.shading.optics.beer);
     reader.read("clamp_attenuation", c.shading.clamp_attenuation);
     reader.read("truncate_material_colors", c.importing.truncate_material_colors);
     reader.read("transmitting_surfaces_reflect", c.shading.transmitting_surfaces_reflect);

@@ -8,6 +8,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/mesh/mesh_lists.h"
+#include "alhazen/formats/native/native_words.h"
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/formats/native/read/native_transform.h"
 #include "alhazen/math/constants.h"
@@ -256,6 +257,83 @@ void read_orthographic_camera(const NativeBlock& block, NativeContext& context) 
                std::move(keys));
 }
 
+void read_fisheye_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    const View view = read_view(reader, context);
+    double fov_deg = 180;
+    if (reader.read("fov_deg", fov_deg) && !(fov_deg > 0 && fov_deg <= 360)) {
+        reader.error(reader.block(), "'fov_deg' must be above 0 and at most 360");
+        fov_deg = 180;
+    }
+    WideProjection projection = WideProjection::Equidistant;
+    reader.read_word("projection", native_words<WideProjection>(), projection);
+    if (projection == WideProjection::Panorama) {
+        reader.error(*reader.find("projection"),
+                     "'projection' of a fisheye must be equidistant or equisolid; for the other "
+                     "there is 'panorama_camera'");
+        projection = WideProjection::Equidistant;
+    }
+    std::vector<TransformKey> keys = read_native_motion(reader);
+    reader.finish();
+    add_camera(block, context,
+               look_around(view.eye, view.look, view.up, projection, fov_deg * kRadiansPerDegree,
+                           view.aspect),
+               view.aspect, std::move(keys));
+}
+
+/// Its aspect ratio is that of its angles.
+void read_panorama_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    const std::size_t without = context.cameras_without_aspect.size();
+    View view = read_view(reader, context);
+    double width_deg = 360, height_deg = 180;
+    const auto read_degrees = [&](const char* key, double most, double& degrees) {
+        if (reader.read(key, degrees) && !(degrees > 0 && degrees <= most)) {
+            reader.error(*reader.find(key), "'" + std::string(key) +
+                                                "' must be above 0 and at most " +
+                                                std::to_string(static_cast<int>(most)));
+            degrees = most;
+        }
+    };
+    read_degrees("width_deg", 360, width_deg);
+    read_degrees("height_deg", 180, height_deg);
+    const double ratio = width_deg / height_deg;
+    if (context.cameras_without_aspect.size() > without) {
+        context.cameras_without_aspect.pop_back();
+        view.aspect = ratio;
+    }
+    std::vector<TransformKey> keys = read_native_motion(reader);
+    reader.finish();
+    add_camera(block, context,
+               look_around(view.eye, view.look, view.up, WideProjection::Panorama,
+                           height_deg * kRadiansPerDegree, ratio),
+               view.aspect, std::move(keys));
+}
+
+void read_wide_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    WideCamera camera;
+    double aspect = 1;
+    for (const char* key :
+         {"eye", "look", "right", "up", "projection", "width_rad", "height_rad", "aspect"}) {
+        reader.require(key);
+    }
+    reader.read("eye", camera.eye);
+    reader.read("look", camera.look);
+    reader.read("right", camera.right);
+    reader.read("up", camera.up);
+    reader.read_word("projection", native_words<WideProjection>(), camera.projection);
+    read_positive(reader, "width_rad", camera.width);
+    read_positive(reader, "height_rad", camera.height);
+    read_positive(reader, "aspect", aspect);
+    std::vector<TransformKey> keys = read_native_motion(reader);
+    reader.finish();
+    add_camera(block, context, camera, aspect, std::move(keys));
+}
+
 void read_ambient_light(const NativeBlock& block, NativeContext& context) {
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
@@ -409,6 +487,11 @@ Blocks blocks_of(std::type_identity<PerspectiveCamera>) {
 Blocks blocks_of(std::type_identity<OrthographicCamera>) {
     return {{"orthographic_camera", read_orthographic_camera},
             {"sheared_orthographic_camera", read_sheared_orthographic_camera}};
+}
+Blocks blocks_of(std::type_identity<WideCamera>) {
+    return {{"fisheye_camera", read_fisheye_camera},
+            {"panorama_camera", read_panorama_camera},
+            {"wide_camera", read_wide_camera}};
 }
 Blocks blocks_of(std::type_identity<AmbientLight>) {
     return {{"ambient_light", read_ambient_light}};

@@ -206,6 +206,8 @@ void write_native_materials(NativeWriteContext& context) {
         inputs.add("index", m.index, usual.index);
         inputs.add("roughness", m.roughness, usual.roughness);
         if (m.density) block.add("density", native_value(*m.density));
+        block.add_unless("scattering", m.scattering.coefficient, Rgb{});
+        block.add_unless("scattering_anisotropy", m.scattering.anisotropy, 0.0);
         if (m.alpha_mode != usual.alpha_mode) {
             block.add("alpha_mode", std::string(native_word(m.alpha_mode)));
         }

@@ -164,6 +164,18 @@ NativeBlockText block_of(const std::string& name, const OrthographicCamera& came
     return block;
 }
 
+NativeBlockText block_of(const std::string& name, const WideCamera& camera) {
+    NativeBlockText block("wide_camera", name);
+    block.add("eye", native_value(camera.eye));
+    block.add("look", native_value(camera.look));
+    block.add("right", native_value(camera.right));
+    block.add("up", native_value(camera.up));
+    block.add("projection", std::string(native_word(camera.projection)));
+    block.add("width_rad", native_value(camera.width));
+    block.add("height_rad", native_value(camera.height));
+    return block;
+}
+
 }  // namespace
 
 void write_native_picture(NativeWriteContext& context) {
@@ -216,6 +228,8 @@ void write_native_conventions(NativeWriteContext& context) {
                      usual.shading.ambient_inside_times_kt);
     block.add_unless("ambient_from_eye", c.shading.ambient_from_eye,
                      usual.shading.ambient_from_eye);
+    block.add_unless("fresnel", c.shading.optics.fresnel, usual.shading.optics.fresnel);
+    block.add_unless("beer", c.shading.optics.beer, usual.shading.optics.beer);
     block.add_unless("clamp_attenuation", c.shading.clamp_attenuation,
                      usual.shading.clamp_attenuation);
     block.add_unless("truncate_material_colors", c.importing.truncate_material_colors,

@@ -1,0 +1,102 @@
+#include "view_menus.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/imaging/figures/false_color.h"
+#include "alhazen/imaging/image/tone_mapping.h"
+#include "alhazen/laboratory/traversal_trace.h"
+#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/session/render.h"
+
+namespace alhazen::viewer {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// The distance of what is in the middle: what the view turns around; 0 where nothing is.
+double distance_in_middle(const Scene& scene, const Camera& camera) {
+    const Ray ray = eye_ray(camera, 0.5, 0.5);
+    Hit hit;
+    const bool found = scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Eye)});
+    return found && std::isfinite(hit.t) ? hit.t : 0.0;
+}
+
+json camera_json(const Scene& scene, const CameraDescription& described) {
+    const PicturePlane plane = picture_plane(described.camera);
+    const auto list = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
+    return {{"name", described.name},
+            {"eye", list(plane.eye)},
+            {"look", list(plane.forward)},
+            {"right", list(plane.right)},
+            {"up", list(plane.up)},
+            {"aspect", described.aspect},
+            {"parallel", std::holds_alternative<OrthographicCamera>(described.camera)},
+            {"distance", distance_in_middle(scene, described.camera)}};
+}
+
+/// Those that need no other geometry than is loaded.
+json renderer_menu() {
+    json menu = json::array();
+    for (const RendererEntry& entry : renderers()) {
+        if (make_renderer(entry.name)->takes_triangles_within() > 0.0) continue;
+        menu.push_back({{"name", entry.name}, {"what", entry.description}});
+    }
+    return menu;
+}
+
+/// The colours of a scale, from its low end on.
+json scale_json(ColorScale::Colors colors) {
+    constexpr int kSteps = 24;
+    json list = json::array();
+    for (int i = 0; i <= kSteps; ++i) {
+        const Rgb c = scale_color(colors, static_cast<double>(i) / kSteps);
+        const auto code = [](double x) { return std::lround(255.0 * std::clamp(x, 0.0, 1.0)); };
+        list.push_back(fmt::format("rgb({} {} {})", code(c.r), code(c.g), code(c.b)));
+    }
+    return list;
+}
+
+template <class Table>
+json menu_of(const Table& table) {
+    json menu = json::array();
+    for (const auto& entry : table) {
+        menu.push_back({{"name", entry.name}, {"what", entry.description}});
+    }
+    return menu;
+}
+
+}  // namespace
+
+json view_menus(const LoadedScene& loaded, const std::string& accelerator) {
+    static const json kRenderers = renderer_menu();
+    const Scene& scene = loaded.scene;
+    const FrameSize frame =
+        frame_size(loaded.description.picture, {}, scene.cameras.front().aspect);
+    json cameras = json::array();
+    for (const CameraDescription& camera : scene.cameras) {
+        cameras.push_back(camera_json(scene, camera));
+    }
+    return {{"scene", loaded.description.path.filename().string()},
+            {"width", frame.width},
+            {"height", frame.height},
+            {"up", loaded.description.up_axis == UpAxis::Z ? "z" : "y"},
+            {"depth", scene.conventions.shading.max_depth},
+            {"accelerator", accelerator},
+            {"cameras", std::move(cameras)},
+            {"renderers", kRenderers},
+            {"accelerators", menu_of(accelerator_table())},
+            {"layers", menu_of(aov_table())},
+            {"scales",
+             {{"heat", scale_json(ColorScale::Colors::Heat)},
+              {"grey", scale_json(ColorScale::Colors::NearGrey)}}},
+            {"curves", kToneCurveNames},
+            {"steps", traceable_accelerators()}};
+}
+
+}  // namespace alhazen::viewer

@@ -1,0 +1,101 @@
+#include "view_wishes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/renderers/core/renderer.h"
+
+namespace alhazen::viewer {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+Vec3 vector_in(const json& wish, const char* key) {
+    const json& v = wish.at(key);
+    const Vec3 vector{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+    if (!is_finite(vector)) throw Error(ErrorKind::Usage, "the camera is not finite");
+    return vector;
+}
+
+Camera camera_in(const json& wish) {
+    const Vec3 eye = vector_in(wish, "eye"), look = vector_in(wish, "look");
+    const Vec3 right = vector_in(wish, "right"), up = vector_in(wish, "up");
+    if (look == Vec3{} || right == Vec3{} || up == Vec3{}) {
+        throw Error(ErrorKind::Usage, "the camera has no extent");
+    }
+    if (wish.value("parallel", false)) return OrthographicCamera{eye, look, right, up};
+    return PerspectiveCamera{eye, look, right, up};
+}
+
+int whole_in(const json& wish, const char* key, int fallback, int least, int most) {
+    const int value = wish.value(key, fallback);
+    if (value < least || value > most) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{} must be {} to {}, found {}", key, least, most, value));
+    }
+    return value;
+}
+
+ToneMapping tone_in(const json& wish) {
+    ToneMapping tone;
+    tone.stops = wish.value("exposure", 0.0);
+    if (!(std::abs(tone.stops) <= 64.0)) {
+        throw Error(ErrorKind::Usage, "exposure must be -64 to 64 stops");
+    }
+    const std::string curve = wish.value("curve", "none");
+    const auto* const names = std::begin(kToneCurveNames);
+    const auto* const found = std::find(names, std::end(kToneCurveNames), curve);
+    if (found == std::end(kToneCurveNames)) {
+        throw Error(ErrorKind::Usage, "there is no tone curve '" + curve + "'");
+    }
+    tone.curve = static_cast<ToneCurve>(found - names);
+    return tone;
+}
+
+/// Of a renderer that knows the areas of what it shows many samples are all of each pixel.
+void use_exact_areas(RenderOptions& options) {
+    if (options.samples_per_pixel == 1) return;
+    if (!make_renderer(options.renderer)->gives_exact_areas()) return;
+    options.samples_per_pixel = 1;
+    if (options.aovs.has_tests() || options.aovs.has(AovKind::Time)) return;
+    options.antialias.emplace();
+    options.antialias->exact = true;
+}
+
+const AovEntry* layer_in(const json& wish) {
+    const std::string name = wish.value("layer", "");
+    if (name.empty()) return nullptr;
+    std::string known;
+    for (const AovEntry& entry : aov_table()) {
+        if (name == entry.name) return &entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw Error(ErrorKind::Usage,
+                fmt::format("there is no layer '{}'; expected one of {}", name, known));
+}
+
+}  // namespace
+
+FrameWish frame_wish(const json& wish) {
+    FrameWish result;
+    RenderOptions& options = result.options;
+    options.width = whole_in(wish, "width", 640, 1, 4096);
+    options.height = whole_in(wish, "height", 360, 1, 4096);
+    result.camera.camera = camera_in(wish.at("camera"));
+    result.camera.aspect = static_cast<double>(*options.width) / *options.height;
+    options.renderer = wish.value("renderer", "whitted");
+    options.samples_per_pixel = whole_in(wish, "samples", 1, 1, 1024);
+    if (wish.contains("depth")) options.max_depth = whole_in(wish, "depth", 5, 0, 100);
+    result.layer = layer_in(wish);
+    if (result.layer != nullptr) options.aovs.add(result.layer->kind);
+    use_exact_areas(options);
+    result.tone = tone_in(wish);
+    result.png = wish.value("png", false);
+    return result;
+}
+
+}  // namespace alhazen::viewer

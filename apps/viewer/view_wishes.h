@@ -1,0 +1,25 @@
+#pragma once
+/// What the page of the viewer asks for, read from JSON.
+///
+/// Conventions: throws Error (Usage) or an exception of nlohmann::json for what is out of range.
+
+#include <nlohmann/json.hpp>
+
+#include "alhazen/imaging/image/tone_mapping.h"
+#include "alhazen/scene/scene.h"
+#include "alhazen/session/render.h"
+
+namespace alhazen::viewer {
+
+/// The camera and the options of a frame.
+struct FrameWish {
+    CameraDescription camera;
+    RenderOptions options;  ///< without `view`, `threads` and `stop`
+    ToneMapping tone;
+    const AovEntry* layer = nullptr;  ///< instead of the colours; null: none
+    bool png = false;
+};
+
+[[nodiscard]] FrameWish frame_wish(const nlohmann::ordered_json& wish);
+
+}  // namespace alhazen::viewer

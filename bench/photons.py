@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""The cognac glass of scenes/light beside POV-Ray and its photons: time and noise, one thread, in turn.
+
+Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--renderer TEXT] [--spp N] [--photons N] [--keep FOLDER]
+Each program is measured against its own long reference, for the light of both differs: POV-Ray does not bounce light
+from wall to table here. Noise is the root of the mean squared difference of the pictures, 0 to 255 as they are shown,
+of all pixels and of those around the caustic. Processor seconds, the least of the rounds.
+"""
+
+import argparse
+import math
+import os
+import resource
+import shutil
+import struct
+import subprocess
+import tempfile
+import zlib
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+GLASS = [("line", (0, 0.004), (0.8, 0.004)), ("curve", (0.8, 0.004), (0.85, 0.004), (0.85, 0.05), (0.8, 0.06)),
+         ("curve", (0.8, 0.06), (0.4, 0.1), (0.1, 0.12), (0.1, 0.3)),
+         ("curve", (0.1, 0.3), (0.1, 0.42), (0.25, 0.46), (0.45, 0.55)),
+         ("curve", (0.45, 0.55), (0.95, 0.77), (1.2, 1.1), (1.2, 1.5)),
+         ("curve", (1.2, 1.5), (1.2, 2.0), (0.85, 2.3), (0.72, 2.7)),
+         ("curve", (0.72, 2.7), (0.71, 2.73), (0.685, 2.73), (0.68, 2.7)),
+         ("curve", (0.68, 2.7), (0.8, 2.28), (1.15, 1.98), (1.15, 1.5)),
+         ("curve", (1.15, 1.5), (1.15, 1.13), (0.92, 0.82), (0.43, 0.61)),
+         ("curve", (0.43, 0.61), (0.3, 0.55), (0.15, 0.52), (0, 0.52))]
+# A little inside of the glass: POV-Ray forgets the colour of a body that overlaps another.
+COGNAC = [("curve", (0, 0.523), (0.15, 0.523), (0.3, 0.553), (0.428, 0.612)),
+          ("curve", (0.428, 0.612), (0.918, 0.822), (1.147, 1.132), (1.147, 1.5)),
+          ("line", (1.147, 1.5), (1.147, 1.8)), ("line", (1.147, 1.8), (0, 1.8))]
+
+
+def lathe(profile):
+    """A POV-Ray lathe around z of lines and curves."""
+    points = []
+    for kind, *given in profile:
+        if kind == "line":
+            (ax, ay), (bx, by) = given
+            given = [(ax + (bx - ax) * k / 3, ay + (by - ay) * k / 3) for k in range(4)]
+        points += given
+    listed = ", ".join(f"<{x:.6g}, {y:.6g}>" for x, y in points)
+    return f"lathe {{ bezier_spline {len(points)}, {listed} sturm rotate 90*x }}"
+
+
+def body(index, color, distance):
+    """Clear, by Fresnel, absorbing by Beer's law: POV-Ray's light falls by exp(-(1 - fade_color) way / distance)."""
+    short = 0.1
+    fade = ", ".join(f"{1 + short * math.log(c) / distance:.6g}" for c in color)
+    return (f"pigment {{ rgbf <1, 1, 1, 1> }} finish {{ ambient 0 diffuse 0 specular 0 reflection {{ 0, 1 fresnel on }} "
+            f"conserve_energy }} interior {{ ior {index} fade_distance {short} fade_power 1001 fade_color <{fade}> }}")
+
+
+def write_povray(path, photons):
+    fall = 0.05  # light falls by 2 / (1 + (d / fall)^2), twice the square of fall over that of the distance
+    lamp = [radiance * 0.25 ** 2 / (2 * fall ** 2) for radiance in (330, 310, 280)]
+    room = [radiance * 36 / 3.14159265 / (2 * fall ** 2) for radiance in (0.6, 0.65, 0.75)]
+    rgb = lambda c: "rgb <" + ", ".join(f"{x:.6g}" for x in c) + ">"
+    table = "pigment { rgb <0.55, 0.47, 0.4> } finish { ambient 0 diffuse 1 }"
+    with open(path, "w", encoding="ascii") as out:
+        out.write(f"""#version 3.7;
+global_settings {{ assumed_gamma 1.0 max_trace_level 24 ambient_light 0
+                  photons {{ count {photons} autostop 0 max_trace_level 24 }} }}
+camera {{ location <0.9, -8.4, 5.2> sky z right -x up z angle 30 look_at <0.35, 0.1, 0.95> }}
+light_source {{ <-5, 2.5, 6.5> {rgb(lamp)} fade_distance {fall} fade_power 2
+               area_light 0.5*x, 0.5*y, 4, 4 circular orient adaptive 1 jitter
+               photons {{ reflection on refraction on }} }}
+light_source {{ <0, -6, 9> {rgb(room)} fade_distance {fall} fade_power 2
+               area_light 6*x, 6*y, 4, 4 adaptive 1 jitter photons {{ reflection off refraction off }} }}
+polygon {{ 5, <-9, -9>, <9, -9>, <9, 9>, <-9, 9>, <-9, -9> {table} }}
+polygon {{ 5, <-9, 0>, <9, 0>, <9, 9>, <-9, 9>, <-9, 0> rotate 90*x translate 7*y {table} }}
+#declare Glass = object {{ {lathe(GLASS)} {body(1.5, (0.9, 0.96, 0.94), 6)} }}
+#declare Cognac = intersection {{ {lathe(COGNAC)} plane {{ z, 1.15 }} {body(1.36, (0.92, 0.5, 0.1), 1)} }}
+object {{ Glass photons {{ target reflection on refraction on collect off }} }}
+object {{ Cognac photons {{ target reflection on refraction on collect off }} }}
+""")
+
+
+def processor_seconds(command):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def pixels(path, side):
+    """The bytes of a PNG picture of 8 bits, red, green and blue."""
+    with open(path, "rb") as source:
+        data = source.read()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            assert struct.unpack(">IIBB", data[at + 8:at + 18]) == (side, side, 8, 2), path
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    rows, width = zlib.decompress(packed), 3 * side
+    above, shown = bytearray(width), bytearray()
+    for y in range(side):
+        kind, row = rows[y * (width + 1)], bytearray(rows[y * (width + 1) + 1:(y + 1) * (width + 1)])
+        for x in range(width):
+            left, up, corner = (row[x - 3], above[x], above[x - 3]) if x >= 3 else (0, above[x], 0)
+            guess = left + up - corner
+            nearest = min((left, up, corner), key=lambda value: abs(guess - value))
+            row[x] = (row[x] + (0, left, up, (left + up) // 2, nearest)[kind]) & 255
+        shown += row
+        above = row
+    return bytes(shown)
+
+
+def noise(a, b, side):
+    """Of all pixels, and of the lower right, where the caustic lies."""
+    whole, part, count = 0, 0, 0
+    for y in range(side):
+        for x in range(side):
+            at = 3 * (y * side + x)
+            squared = sum((a[at + c] - b[at + c]) ** 2 for c in range(3))
+            whole += squared
+            if x >= side // 2 and y >= side // 2:
+                part += squared
+                count += 1
+    return (whole / (3 * side * side)) ** 0.5, (part / (3 * count)) ** 0.5
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("alhazen")
+    parser.add_argument("--side", type=int, default=160)
+    parser.add_argument("--rounds", type=int, default=2)
+    parser.add_argument("--renderer", default="sppm:photons=20000")
+    parser.add_argument("--spp", type=int, default=8)
+    parser.add_argument("--photons", type=int, default=200000, help="of POV-Ray")
+    parser.add_argument("--long", type=int, default=12, help="the reference has as many times the samples")
+    parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
+    args = parser.parse_args()
+    if not shutil.which("povray"):
+        raise SystemExit("povray is not installed: scripts/setup --peers")
+    folder = args.keep or tempfile.mkdtemp()
+    os.makedirs(folder, exist_ok=True)
+    at = lambda name: os.path.join(folder, name)
+    write_povray(at("cognac.pov"), args.photons)
+    write_povray(at("cognac_long.pov"), args.long * args.photons)
+
+    def povray(scene, out, more):
+        return ["povray", f"+I{at(scene)}", f"+O{at(out)}", f"+W{args.side}", f"+H{args.side}", "+WT1", "-D", "-GA",
+                "+FN", "File_Gamma=sRGB"] + more
+
+    def alhazen(out, spp, seed):
+        return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
+                f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", args.renderer, "--spp", str(spp), "--seed",
+                str(seed)]
+
+    runs = {"povray": (povray("cognac.pov", "povray.png", ["+A0.1", "+AM1", "+R3"]),
+                       povray("cognac_long.pov", "povray_long.png", ["+A0.0", "+AM1", "+R6"])),
+            "alhazen": (alhazen("alhazen.png", args.spp, 1), alhazen("alhazen_long.png", args.long * args.spp, 2))}
+    seconds = {name: min(processor_seconds(run) for _ in range(args.rounds)) for name, (run, _) in runs.items()}
+    for name, (_, long_run) in runs.items():
+        processor_seconds(long_run)
+        whole, part = noise(pixels(at(name + ".png"), args.side), pixels(at(name + "_long.png"), args.side), args.side)
+        print(f"{name}: {seconds[name]:.2f} s, noise {whole:.2f}, around the caustic {part:.2f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

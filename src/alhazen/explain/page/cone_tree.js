@@ -1,0 +1,58 @@
+// The cones behind a pixel: what each covers, as a disc, a table and in space.
+
+const CONE_NAMES = {eye: "cone of the pixel", shadow: "cone to a light", reflection: "reflected cone", refraction: "refracted cone"};
+
+class ConeTree {
+  constructor(root, data, view) {
+    Object.assign(this, {view, count: 0});
+    const {cones} = data;
+    if (cones.unavailable) {
+      root.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
+      return;
+    }
+    root.append(element("p", {class: "soft"}, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. " +
+      "A cone\u2019s radiance is the sum of weight \u00d7 colour, and what is left of it times the background."));
+    if (cones.cut) root.append(element("p", {class: "cut"}, "The tree is cut: it has more than 2000 cones."));
+    root.append(element("div", {class: "outline"}, this.cone(cones.tree)));
+    view.cones = [cones.tree];
+    view.draw();
+  }
+  cone(c) {
+    ++this.count;
+    const shadow = c.kind === "shadow";
+    const value = shadow ? `(${triple(c.through)}) of the light comes through` : `radiance (${triple(c.radiance)})`;
+    const summary = element("summary", {class: c.kind}, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(shadow ? c.through : c.radiance));
+    const show = () => { this.view.cones = [c]; this.view.draw(); };
+    summary.addEventListener("click", show);
+    summary.addEventListener("focus", show);
+    const angle = number(2 * Math.atan(Math.abs(c.spread)) * 180 / Math.PI);
+    const body = element("details", {class: "ray cone", open: c.depth < 2 && !shadow}, summary,
+      element("p", {class: "soft"}, `radius ${number(c.radius)} where it starts, ` +
+        (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\u00b0)`) +
+        (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : "")));
+    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap(p => p.cones.map(k => this.cone(k))));
+    return body;
+  }
+  pieces(c) {
+    const rows = c.parts.map(p => element("tr", {}, element("th", {scope: "row"}, `\u2018${p.object}\u2019`),
+      ...[p.t, p.share, p.weight].map(x => element("td", {}, number(x))), element("td", {}, `(${triple(p.color)})`),
+      element("td", {}, swatch(p.color))));
+    const heads = ["piece", "t", "share", "weight", "colour", ""];
+    return element("div", {class: "disc"}, coneDisc(c), element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Pieces of a cone"},
+      element("table", {}, element("thead", {}, element("tr", {}, ...heads.map(h => element("th", {scope: "col"}, h)))),
+        element("tbody", {}, ...rows), element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 3}, "left of the cone"),
+          element("td", {}, number(c.left)), element("td"), element("td"))))));
+  }
+}
+// The disc of a cone; each piece as a disc of its size around its middle.
+function coneDisc(c) {
+  const svg = element("svg:svg", {class: "pixel", viewBox: "-1.15 -1.15 2.3 2.3", role: "img",
+    "aria-label": `A cone with ${c.parts.length} pieces`}, element("svg:circle", {class: "frame", cx: 0, cy: 0, r: 1}));
+  for (const p of c.parts) {
+    const mark = element("svg:circle", {cx: p.at[0], cy: -p.at[1], r: Math.max(0.04, Math.sqrt(Math.min(1, p.share)) * 0.98),
+                                        class: "piece"});
+    mark.style.fill = css(p.color);
+    svg.append(mark);
+  }
+  return svg;
+}

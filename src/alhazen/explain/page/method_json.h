@@ -1,0 +1,32 @@
+#pragma once
+/// Cones, beams and patches of an explanation as JSON (docs/guide/explain.md lists the fields).
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "alhazen/explain/beams/beam_explanation.h"
+#include "alhazen/explain/cones/cone_explanation.h"
+#include "alhazen/explain/patches/patch_subdivision.h"
+
+namespace alhazen {
+
+inline nlohmann::ordered_json to_json(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+inline nlohmann::ordered_json to_json(const Rgb& c) {
+    return {c.r, c.g, c.b};
+}
+/// Six digits: of what is only drawn.
+inline double rounded(double x) {
+    return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : 0.0;
+}
+
+[[nodiscard]] nlohmann::ordered_json cones_json(const ConeExplanation& cones);
+[[nodiscard]] nlohmann::ordered_json patches_json(const std::vector<PatchSubdivision>& patches);
+/// `lights`: [light] name.
+[[nodiscard]] nlohmann::ordered_json beams_json(const BeamExplanation& beams,
+                                                const std::vector<std::string>& lights);
+
+}  // namespace alhazen

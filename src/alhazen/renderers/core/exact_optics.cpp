@@ -1,0 +1,209 @@
+#include "alhazen/renderers/core/exact_optics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shading/materials/turn_to_view.h"
+#include "alhazen/shading/optics/fresnel.h"
+
+namespace alhazen {
+
+namespace {
+
+using RefractionTint = ShadingConventions::RefractionTint;
+
+/// a of exp(-a) = kt. A black channel would absorb infinitely; this leaves nothing visible of it.
+Rgb absorption_of_unit_length(const Rgb& kt) {
+    const auto of = [](double k) { return -std::log(std::clamp(k, 1e-12, 1.0)); };
+    return {of(kt.r), of(kt.g), of(kt.b)};
+}
+
+bool bounds_a_volume(const MaterialSample& m) {
+    return !m.transmissive.is_black() && !m.thin && m.index > 0.0;
+}
+
+const Material& first_material(const Scene& scene, const Surface& surface) {
+    return scene.materials[static_cast<std::size_t>(surface.materials[0])];
+}
+
+/// Share of a physical material's reflection that is a dielectric's.
+double dielectric_share(const Scene& scene, const Surface& surface) {
+    const Material& material = first_material(scene, surface);
+    if (!material.metallic_roughness) return material.conductor ? 0.0 : 1.0;
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color, {}};
+    const double metallic = value_at(material.metallic_roughness->metallic, scene.textures, lookup);
+    return 1.0 - std::clamp(metallic, 0.0, 1.0);
+}
+
+/// Reflection of a metal by its constants, from that at normal incidence in air.
+void turn_conductor(const Conductor& metal, double cosine, double here, MaterialSample& sample) {
+    for (int i = 0; i < 3; ++i) {
+        const double n = metal.index[i], k = metal.extinction[i];
+        const double normal = conductor_reflectance(1.0, n, k);
+        if (!(normal > 0.0)) continue;
+        sample.reflective[i] *= conductor_reflectance(cosine, n / here, k / here) / normal;
+    }
+    keep_below_reflection(sample);
+}
+
+}  // namespace
+
+ExactOptics::ExactOptics(const Scene& scene, const Optics& optics)
+    : scene_(scene),
+      optics_(optics),
+      tints_events_(!optics.beer &&
+                    scene.conventions.shading.refraction_tint == RefractionTint::PerEvent),
+      media_(1) {
+    media_[kOutside].index = scene.conventions.shading.air_index;
+}
+
+void ExactOptics::set_media(std::uint32_t around, ShadingPoint& point) {
+    const MaterialSample& met = *point.material;
+    const Sides sides = sides_of(point.surface, met, point.entering, around);
+    const double cosine = dot(point.view, point.normal);
+    point.medium = met.transmissive;
+    point.medium_is_physical = met.physical || optics_.beer;
+    if (const SurfaceMedia& media = point.surface.media; media.known && media.before) {
+        point.medium = medium_at(scene_, point.surface, *media.before).transmissive;
+    }
+    point.behind = {true, sides.behind != kOutside, sides.here / sides.beyond,
+                    media_[sides.behind].absorption, sides.behind};
+    if (met.physical) {
+        turn(point.surface, cosine, sides.here, sides.beyond, point.own_material());
+    } else if (optics_.fresnel && !met.transmissive.is_black()) {
+        const double reflected = dielectric_reflectance(cosine, point.behind.eta);
+        MaterialSample& own = point.own_material();
+        own.reflective = {reflected, reflected, reflected};
+        point.passing = (1.0 - reflected) * (tint_of(own) * sides.before);
+        return;
+    }
+    point.passing = tint_of(*point.material) * sides.before;
+}
+
+ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialSample& material,
+                                         const Vec3& direction, std::uint32_t around,
+                                         double length) {
+    const double cosine = dot(direction, surface.normal);
+    const bool entering = cosine < 0.0;
+    const Sides sides = sides_of(surface, material, entering, around);
+    Rgb through = tint_of(material) * sides.before;
+    if (!tints_events_ && !optics_.beer && !entering && !material.physical) {
+        through = through * power(material.transmissive, length);
+    }
+    if (optics_.fresnel) {
+        const double thin = std::min(sides.here, sides.beyond);
+        const double dense = std::max(sides.here, sides.beyond);
+        MaterialSample turned = material;
+        turned.transmissive = {1, 1, 1};
+        if (material.physical) {
+            turn(surface, std::abs(cosine), thin, dense, turned);
+            through = through * turned.transmissive;
+        } else {
+            through = (1.0 - dielectric_reflectance(std::abs(cosine), thin / dense)) * through;
+        }
+    }
+    return {through, sides.behind};
+}
+
+ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialSample& material,
+                                         bool entering, std::uint32_t around) {
+    if (surface.media.known) return known_sides_of(surface, around);
+    Sides sides{media_[around].index, material.index, around};
+    if (bounds_a_volume(material)) {
+        const Medium inside = medium_of(surface, material);
+        if (entering) {
+            sides.behind = enter(inside, around);
+        } else {
+            sides.behind = without(inside, around);
+            sides.here = material.index;
+            sides.beyond = media_[sides.behind].index;
+        }
+    }
+    if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;
+    return sides;
+}
+
+ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint32_t around) {
+    const SurfaceMedia& media = surface.media;
+    Sides sides;
+    // The solid is one volume, whatever it is made of here.
+    std::uint32_t solid = around;
+    while (solid != kOutside && !media_[solid].known) solid = media_[solid].around;
+    const std::uint32_t outside = solid == kOutside ? around : remove(solid, around);
+    sides.here = media_[outside].index;
+    sides.behind = outside;
+    if (media.before) {
+        const MaterialSample before = medium_at(scene_, surface, *media.before);
+        sides.here = before.index;
+        // A wall's own material is that of the medium entered.
+        if (media.after) sides.before = tint_of(before);
+    }
+    if (media.after) {
+        Medium after = medium_of(surface, medium_at(scene_, surface, *media.after));
+        after.known = true;
+        sides.behind = enter(after, outside);
+    }
+    sides.beyond = media_[sides.behind].index;
+    if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;
+    return sides;
+}
+
+ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
+                                           const MaterialSample& sample) const {
+    Medium medium;
+    medium.part = std::uint64_t{surface.instance} << 32 | surface.part;
+    medium.material = static_cast<std::uint32_t>(surface.materials[0]);
+    medium.index = sample.index;
+    if (sample.physical) {
+        medium.absorption = sample.absorption;
+    } else if (optics_.beer) {
+        medium.absorption = absorption_of_unit_length(sample.transmissive);
+    }
+    return medium;
+}
+
+std::uint32_t ExactOptics::enter(Medium medium, std::uint32_t around) {
+    medium.around = around;
+    media_.push_back(medium);
+    return static_cast<std::uint32_t>(media_.size() - 1);
+}
+
+std::uint32_t ExactOptics::without(const Medium& volume, std::uint32_t around) {
+    for (std::uint32_t m = around; m != kOutside; m = media_[m].around) {
+        if (media_[m].part == volume.part) return remove(m, around);
+    }
+    for (std::uint32_t m = around; m != kOutside; m = media_[m].around) {
+        if (media_[m].material == volume.material) return remove(m, around);
+    }
+    return around;
+}
+
+/// `around` with all that lies in `left`, but without it.
+std::uint32_t ExactOptics::remove(std::uint32_t left, std::uint32_t around) {
+    if (left == around) return media_[left].around;
+    const Medium kept = media_[around];
+    return enter(kept, remove(left, kept.around));
+}
+
+Rgb ExactOptics::tint_of(const MaterialSample& sample) const {
+    if (sample.physical || tints_events_ || sample.transmissive.is_black()) {
+        return sample.transmissive;
+    }
+    return {1, 1, 1};
+}
+
+void ExactOptics::turn(const Surface& surface, double cosine, double here, double beyond,
+                       MaterialSample& sample) const {
+    const Material& material = first_material(scene_, surface);
+    if (optics_.fresnel && material.conductor) {
+        return turn_conductor(*material.conductor, cosine, here, sample);
+    }
+    const bool in_air = std::min(here, beyond) == media_[kOutside].index;
+    const double dielectric = dielectric_share(scene_, surface);
+    turn_to_view_between(sample, cosine, here / beyond, !in_air && dielectric > 0.0,
+                         optics_.fresnel ? dielectric : 0.0);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,103 @@
+#include "alhazen/renderers/vcm/light_paths.h"
+
+#include <array>
+#include <cmath>
+
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/light_transport/light_start.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Pairs of dimensions of the beginning of a light path: place, direction; time and choice.
+enum StartPair : std::uint32_t { kPlace = 0, kAlong = 1, kChoice = PathChance::kTime };
+
+std::array<float, 3> as_floats(double x, double y, double z) {
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+/// Makes a density by solid angle from `v` one by area at the vertex before.
+double facing_from(const PathVertex& v, const PathVertex& before) {
+    return std::abs(dot(v.scatter.view(), before.scatter.geometric())) / (v.distance * v.distance);
+}
+
+}  // namespace
+
+LightPathNumbers::LightPathNumbers(const RenderJob& job, std::uint64_t seed)
+    : sampler_(find_sampler("sobol")->make(seed, kMaxSamples)),
+      filter_(*job.sampling->filter, job.sampling->radius),
+      job_(job) {
+    round_ = std::make_unique<SampleRound>(SampleRound{*sampler_, filter_, 0, 1, {}, {}, seed});
+    job_.round = round_.get();
+}
+
+SampleId LightPathNumbers::id(std::uint64_t number) {
+    const std::uint64_t set = number / kMaxSamples;
+    constexpr auto kSide = static_cast<std::uint64_t>(SamplePixel::kMaxSide);
+    return {{static_cast<int>(set % kSide), static_cast<int>(set / kSide)},
+            static_cast<std::uint32_t>(number % kMaxSamples)};
+}
+
+LightPathWalk::LightPathWalk(const LightPathNumbers& numbers, const Illumination& lights,
+                             const LightPathShot& shot, RayCounters& counters,
+                             TraversalStats* stats)
+    : job_(numbers.job()),
+      lights_(lights),
+      shot_(shot),
+      chance_(job_),
+      media_(job_.scene),
+      walk_(job_.scene, lights, counters, stats) {}
+
+SideSums LightPathWalk::begin(const LightRay& light, double& facing) const {
+    const PathVertex& first = path_[0];
+    const Vec3 to_light = first.scatter.view();
+    const Illumination::LightPoint place = lights_.point_of_light(light.place, light.ray.origin);
+    const LitPoint at{first.surface.point, first.scatter.normal(), first.scatter.transmits()};
+    facing = place.normal != Vec3{}
+                 ? std::abs(dot(to_light, place.normal)) / (first.distance * first.distance)
+                 : 1.0;
+    const double joined = facing * lights_.density(at, place, to_light, first.distance);
+    return SideSums::at_light(place.infinite ? light.direction_density : light.place_density,
+                              joined, place.is_hit, first.density);
+}
+
+void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facing,
+                         std::size_t number, std::vector<LightVertex>& kept) const {
+    if (!v.connects() || v.throughput.is_black() || !v.throughput.is_finite()) return;
+    const Vec3& p = v.surface.point;
+    const Spectrum power = (1.0 / (v.coverage * static_cast<double>(shot_.count))) * v.throughput;
+    kept.push_back({{as_floats(p.x, p.y, p.z), as_floats(power.a, power.b, power.c),
+                     OctahedralVector(v.scatter.view()), OctahedralVector(v.scatter.geometric())},
+                    sums,
+                    facing,
+                    static_cast<std::uint32_t>(number)});
+}
+
+bool LightPathWalk::shoot(std::uint64_t number, std::vector<LightVertex>& kept) {
+    const SampleId id = LightPathNumbers::id(shot_.first + number);
+    const LightRay light = lights_.emit(chance_.draw(id, kChoice).y, chance_.draw(id, kPlace),
+                                        chance_.draw(id, kAlong), *shot_.waves);
+    const float time = job_.scene.has_motion ? chance_.time(id) : 0.0f;
+    const WalkStart start = start_of(light, time, media_, *shot_.waves);
+    if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
+    walk_.walk(
+        Transport::Importance, start,
+        {chance_, id, PathChance::kFirstBounce, shot_.settings.depth, shot_.settings.roulette},
+        path_);
+    set_falloff(lights_, light, *shot_.waves, path_);
+    if (path_.size() < 2) return true;
+    double facing = 1.0;
+    SideSums sums = begin(light, facing);
+    double before = facing * path_[0].back;
+    for (std::size_t a = 2; a <= path_.size(); ++a) {
+        const PathVertex &last = path_[a - 2], &v = path_[a - 1];
+        sums = sums.after(before, last.singular, a > 2, shot_.merging, v.density);
+        facing = facing_from(v, last);
+        keep(v, sums, facing, a, kept);
+        before = facing * v.back;
+    }
+    return true;
+}
+
+}  // namespace alhazen

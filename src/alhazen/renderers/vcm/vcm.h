@@ -1,0 +1,32 @@
+#pragma once
+/// Vertex connection and merging: the paths of `bidirectional`, and those whose eye vertex lies
+/// near one of a light path, all weighed together. It finds caustics in mirrors, as photons do.
+///
+/// Source: Georgiev, Krivanek, Davidovic and Slusallek, "Light Transport Simulation with Vertex
+/// Connection and Merging", SIGGRAPH Asia 2012; Hachisuka, Pantaleoni and Jensen, "A Path Space
+/// Extension for Robust Light Transport Simulation", SIGGRAPH Asia 2012; Knaus and Zwicker,
+/// "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), 2011 (radii).
+/// Differs: the light paths that are merged with are not those that are joined (light_paths.h), so
+/// that their number is free; light straight from lamps is never merged; a pilot run says whether
+/// merging pays (pilot.h).
+/// Conventions: a pass for each sample of a pixel. Same bits for any threads and tiles. A crop has
+/// fewer light paths to the lens, as in `bidirectional`. Memory: the vertices of one pass.
+/// Errors: vertices that do not fit into the memory.
+
+#include "alhazen/renderers/light_transport/light_transport_renderer.h"
+#include "alhazen/renderers/vcm/vcm_passes.h"
+
+namespace alhazen {
+
+class Vcm final : public LightTransportRenderer {
+  public:
+    explicit Vcm(const VcmSettings& settings) : settings_(settings) {}
+
+    [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool has_photons() const override { return settings_.merge; }
+
+  private:
+    VcmSettings settings_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,34 @@
+#pragma once
+/// Pairs of subpaths whose eye vertices are merged with vertices of further light paths, too.
+
+#include <atomic>
+#include <cstdint>
+
+#include "alhazen/renderers/bidirectional/bidirectional_tracer.h"
+#include "alhazen/renderers/vcm/light_paths.h"
+
+namespace alhazen {
+
+/// The light paths of a pass.
+struct MergePass {
+    const LightVertexGrid& grid;
+    double merging;                        ///< WholePath::merging
+    std::atomic<std::uint64_t> merged{0};  ///< pairs of vertices, counted
+};
+
+class VcmTracer final : public BidirectionalTracer {
+  public:
+    VcmTracer(const RenderJob& job, std::size_t at_once, RayCounters& counters,
+              const Illumination& lights, const PathSettings& settings, LensLight* lens_light,
+              MergePass* pass);
+
+  private:
+    void merge(Spectrum& sum) override;
+    /// Radiance that eye vertex b - 1 scatters by what is merged with it.
+    [[nodiscard]] Spectrum merged_at(std::size_t b, const SideSums& eye,
+                                     std::uint64_t& merged) const;
+
+    MergePass& pass_;
+};
+
+}  // namespace alhazen
