@@ -160,7 +160,7 @@ void claim_g2(ClaimRun& run) {
 
     constexpr double kSmall = 0.02, kRadius = 1.0, kAlpha = 0.5;
     const Scene below = compile(light_in_glass(kSmall).d);
-    for (const int n : {1, 16, 256}) {
+    for (const int n : {16, 256}) {
         double expected = 0.0, squared = kRadius * kRadius;
         for (int pass = 1; pass <= n; ++pass) {
             expected += (lit_disc(std::sqrt(squared)) - 1.0) / n;
@@ -200,7 +200,8 @@ void claim_g3(ClaimRun& run) {
     expect_power(run, "point beside a ball of glass", lens,
                  {PhotonKind::Direct, PhotonKind::Caustic}, per_color, 0.002);
     PhotonScene inside = black_room();
-    inside.add(Sphere{{0, 0, 0}, 0.9}, inside.glass());
+    // Nearer than 1 the falloff of the light is capped, and no power of it is kept.
+    inside.add(Sphere{{0, 0, 0}, 1.6}, inside.glass());
     inside.point({0.3, 0, 0}, {1, 1, 1});
     expect_power(run, "point in a ball of glass", inside, {PhotonKind::Direct, PhotonKind::Caustic},
                  per_color, 0.005);
