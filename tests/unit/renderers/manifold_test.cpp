@@ -100,13 +100,20 @@ void add_shape(SceneMaker& maker, int which, MaterialId material) {
             return maker.add(maker.mesh(smooth_mesh(2)), material,
                              up * Affine::scale({0.8, 0.7, 0.6}));
         }
+        case 6: {
+            Ellipsoid e;
+            e.axis_a = {0.7, 0.2, 0};
+            e.axis_b = {-0.1, 0.5, 0.1};
+            e.axis_c = {0, 0.1, 0.6};
+            return maker.add(e, material, up);
+        }
         default: {
             BoxShape box;
             return maker.add(box, material, up * Affine::rotate({1, 1, 0}, 0.1));
         }
     }
 }
-constexpr int kShapes = 7;
+constexpr int kShapes = 8;
 
 TEST(Manifold, NormalsChangeAsNeighbouringOnesDo) {
     Random random(5);

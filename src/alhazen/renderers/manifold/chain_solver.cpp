@@ -1,13 +1,16 @@
 #include "alhazen/renderers/manifold/chain_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace alhazen {
 
 namespace {
 
-constexpr int kMostSteps = 24;
-constexpr int kMostHalvings = 6;
+constexpr int kMostSteps = 16;
+constexpr int kMostHalvings = 4;
+constexpr int kFreeSteps = 6;
+constexpr double kFreeRise = 2.0;
 /// Radians between the last direction and that to the light.
 constexpr double kConverged = 1e-10;
 /// Where no step makes it smaller, rounding has the last word: enough for an estimate.
@@ -73,18 +76,21 @@ bool walk_to(const ChainTracer& tracer, const ShapeSurface& from, std::uint64_t 
         if (!slope) return false;
         const std::optional<Vec3> step = newton_step(Miss(chain, end), *slope);
         if (!step) return false;
-        double share = 1.0, least = now;
-        for (int halved = 0; halved <= kMostHalvings; ++halved, share *= 0.5) {
+        // The first steps may lead over a fold, behind which the chain is.
+        const double bound = i < kFreeSteps ? kFreeRise * now : now;
+        const double reach = length(chain.at[0].surface.point - from.point);
+        double share = std::min(1.0, reach / length(*step)), least = 0.0;
+        bool better = false;
+        for (int halved = 0; halved <= kMostHalvings && !better; ++halved, share *= 0.5) {
             const Vec3 to = chain.at[0].surface.point + share * *step - from.point;
             const double away = length(to);
             if (!(away > 0.0)) continue;
             if (!tracer.follow(from, to / away, chain.kind, part, indices, time, tried)) continue;
             least = Miss(tried, end).size();
-            if (least < now) break;
+            better = least < bound;
         }
-        if (!(least < now)) return now < kGoodEnough;
         // A walk that crawls gets nowhere in time.
-        if (least > 0.999 * now) return now < kGoodEnough;
+        if (!better || (least > 0.999 * now && i >= kFreeSteps)) return now < kGoodEnough;
         chain = tried;
         now = least;
     }

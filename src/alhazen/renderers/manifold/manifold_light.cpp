@@ -17,6 +17,11 @@ constexpr std::size_t kMostAlways = 4;
 constexpr std::size_t kMostWeighed = 64;
 /// A visible ray ends before what it goes to.
 constexpr double kBefore = 1.0 - 1e-7;
+/// Share of random seeds, of refractions, that lie around the straight way, and 1 less the cosine
+/// of their largest angle to it.
+constexpr double kNearStraight = 0.75, kStraightVersine = 0.06;
+/// Steps from the index 1 to that of a part, where the straight way is totally reflected.
+constexpr int kIndexSteps = 4;
 /// Chains whose first directions differ by less are one.
 constexpr double kSameDirection = 1e-5;
 
@@ -122,6 +127,7 @@ MediumStack ManifoldLight::media_along(const Vec3& direction) const {
 bool ManifoldLight::set_out(ChainKind kind, const Vec3& direction) {
     chain_.kind = kind;
     chain_.direction = direction;
+    known_indices_ = 0;
     MediumStack media = media_along(direction);
     Ray ray = leaving_ray(at_->surface, direction);
     RayKind ray_kind = RayKind::Reflection;
@@ -139,6 +145,7 @@ bool ManifoldLight::set_out(ChainKind kind, const Vec3& direction) {
         }
         indices_.eta[k] = v.eta;
         indices_.entering[k] = v.entering;
+        known_indices_ = i + 1;
         if (!ChainTracer::bend(refracts(kind), v)) return false;
         ray = leaving_ray(v.surface, v.leaving);
         ray_kind = RayKind::Refraction;
@@ -149,6 +156,23 @@ bool ManifoldLight::set_out(ChainKind kind, const Vec3& direction) {
 bool ManifoldLight::reach(ChainKind kind, const Vec3& seed) {
     return set_out(kind, seed) &&
            walk_to(tracer_, at_->surface, part_.part->key, indices_, end_, at_->time, chain_);
+}
+
+bool ManifoldLight::reach_by_indices(ChainKind kind, const Vec3& seed) {
+    if (known_indices_ < length_of(kind)) return false;
+    Vec3 direction = seed;
+    for (int step = 0; step <= kIndexSteps; ++step) {
+        ChainIndices indices = indices_;
+        const double share = static_cast<double>(step) / kIndexSteps;
+        for (double& eta : indices.eta) eta = step < kIndexSteps ? 1.0 + share * (eta - 1.0) : eta;
+        if (!tracer_.follow(at_->surface, direction, kind, part_.part->key, indices, at_->time,
+                            chain_) ||
+            !walk_to(tracer_, at_->surface, part_.part->key, indices, end_, at_->time, chain_)) {
+            return false;
+        }
+        direction = chain_.direction;
+    }
+    return true;
 }
 
 std::optional<ChainSeeds> ManifoldLight::all_seeds(ChainKind kind) {
@@ -179,17 +203,19 @@ std::optional<Vec3> ManifoldLight::likely_seed(ChainKind kind) const {
     const SpecularPart& part = *part_.part;
     const Vec3& from = at_->surface.point;
     // What is bent little goes nearly straight.
-    if (refracts(kind)) return normalize(end_.infinite ? end_.at : end_.at - from);
+    if (refracts(kind)) return straight();
     if (!part.bounded) return std::nullopt;
     const ChainSeeds seeds = reflections_by_sphere(part.around, from, end_);
     if (seeds.empty()) return std::nullopt;
     return seeds[0];
 }
 
-Vec3 ManifoldLight::random_seed() {
+Vec3 ManifoldLight::random_seed(ChainKind kind) {
     const SpecularPart& part = *part_.part;
     const Vec3& from = at_->surface.point;
+    const double which = next_number();
     const Vec2 u{next_number(), next_number()};
+    if (refracts(kind) && which < kNearStraight) return in_cone(straight(), kStraightVersine, u);
     const double share = share_of_directions(part, from);
     if (share >= 0.5) return in_cone({0, 0, 1}, 2.0, u);
     return in_cone(normalize(part.around.center - from), 2.0 * share, u);
@@ -205,17 +231,19 @@ void ManifoldLight::find_kind(ChainKind kind) {
 
 void ManifoldLight::find_by_trials(ChainKind kind) {
     const std::optional<Vec3> likely = likely_seed(kind);
-    const bool known = likely && reach(kind, *likely);
+    const bool known =
+        likely && (reach(kind, *likely) || (refracts(kind) && reach_by_indices(kind, *likely)));
     const Vec3 first = chain_.direction;
     if (known) note(light_along(), 1.0);
 
-    if (!reach(kind, random_seed())) return;
+    if (!reach(kind, random_seed(kind))) return;
     const Vec3 direction = chain_.direction;
     if (known && length(direction - first) < kSameDirection) return;
     const Spectrum light = light_along();
     if (light.is_black()) return;
     std::uint32_t trials = 1;
-    while (!(reach(kind, random_seed()) && length(chain_.direction - direction) < kSameDirection)) {
+    while (!(reach(kind, random_seed(kind)) &&
+             length(chain_.direction - direction) < kSameDirection)) {
         if (++trials < kMostTrials) continue;
         ++manifold_.cut;
         break;

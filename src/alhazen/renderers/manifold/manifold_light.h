@@ -113,12 +113,18 @@ class ManifoldLight {
     [[nodiscard]] std::optional<ChainSeeds> all_seeds(ChainKind kind);
     /// Where the chain often is.
     [[nodiscard]] std::optional<Vec3> likely_seed(ChainKind kind) const;
-    [[nodiscard]] Vec3 random_seed();
+    [[nodiscard]] Vec3 random_seed(ChainKind kind);
+    [[nodiscard]] Vec3 straight() const {
+        return normalize(end_.infinite ? end_.at : end_.at - at_->surface.point);
+    }
     void find_by_trials(ChainKind kind);
     /// The chain along a direction, its indices found.
     [[nodiscard]] bool set_out(ChainKind kind, const Vec3& direction);
     /// A chain to the light from that direction on.
     [[nodiscard]] bool reach(ChainKind kind, const Vec3& seed);
+    /// The same where the bend at the seed is beyond the critical angle, after `set_out` failed
+    /// there: the indices rise from 1 on, the chain follows.
+    [[nodiscard]] bool reach_by_indices(ChainKind kind, const Vec3& seed);
     /// What comes along chain_.
     [[nodiscard]] Spectrum light_along();
     [[nodiscard]] Spectrum through_vertices(MediumStack& media);
@@ -138,6 +144,7 @@ class ManifoldLight {
     Choice part_;
     Chain chain_;
     ChainIndices indices_;
+    int known_indices_ = 0;
     ShadingPoint point_;
     ScatterPoint vertex_;
     std::vector<Arrived> found_;

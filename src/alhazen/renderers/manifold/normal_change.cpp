@@ -28,6 +28,29 @@ inline constexpr bool is_flat_v =
     std::is_same_v<S, BoxShape> || std::is_same_v<S, Polygon> || std::is_same_v<S, HalfSpace> ||
     std::is_same_v<S, Polyhedron> || std::is_same_v<S, HeightField>;
 
+template <class S>
+inline constexpr bool is_quadric_v =
+    std::is_same_v<S, Quadric> || std::is_same_v<S, Ellipsoid> || std::is_same_v<S, Paraboloid> ||
+    std::is_same_v<S, Hyperboloid> || std::is_same_v<S, TwoSheetHyperboloid> ||
+    std::is_same_v<S, EllipticCylinder> || std::is_same_v<S, EllipticCone>;
+
+/// The gradient of f changes by its second derivatives, between frames by the transposed matrix.
+MaybeChange change_on_quadric(const ClippedQuadric& solid, const Vec3& point) {
+    const Mat3& local = solid.frame.local_from_object;
+    const QuadricForm& form = solid.quadric.form();
+    const Vec3 gradient =
+        transpose_times(local, form.gradient(local * (point - solid.frame.origin)));
+    const double steep = length(gradient);
+    if (!(steep > 0.0)) return std::nullopt;
+    const Vec3 out = gradient / steep;
+    const auto of = [&](const Vec3& axis) {
+        const Vec3 v = local * axis;
+        const auto half = form.times(Point3<double>{v.x, v.y, v.z});
+        return across(transpose_times(local, 2.0 * Vec3{half.x, half.y, half.z}), out, steep);
+    };
+    return NormalAndChange{out, {of({1, 0, 0}), of({0, 1, 0}), of({0, 0, 1})}};
+}
+
 /// `point` and the unit `normal` (of either sign) in the frame of the shape.
 template <class S>
 MaybeChange change_on(const S& shape, const ShapeHit& hit, const Vec3& point, const Vec3& normal) {
@@ -47,19 +70,9 @@ MaybeChange change_on(const S& shape, const ShapeHit& hit, const Vec3& point, co
             return across(v - dot(v, axis) * axis, out, shape.radius);
         };
         return NormalAndChange{out, {of({1, 0, 0}), of({0, 1, 0}), of({0, 0, 1})}};
-    } else if constexpr (std::is_same_v<S, Quadric>) {
+    } else if constexpr (is_quadric_v<S>) {
         if (hit.part != 0) return NormalAndChange{normal, kNoChange};
-        const Vec3& s = shape.squares;
-        const Vec3& p = shape.products;
-        const Mat3 second{{2 * s.x, p.x, p.z}, {p.x, 2 * s.y, p.y}, {p.z, p.y, 2 * s.z}};
-        const Vec3 gradient = second * point + shape.linear;
-        const double steep = length(gradient);
-        if (!(steep > 0.0)) return std::nullopt;
-        const Vec3 out = gradient / steep;
-        return NormalAndChange{
-            out,
-            {across(second.x_axis, out, steep), across(second.y_axis, out, steep),
-             across(second.z_axis, out, steep)}};
+        return change_on_quadric(shape.solid, point);
     } else {
         return std::nullopt;
     }

@@ -3,9 +3,9 @@
 ///
 /// Source: do Carmo, "Differential Geometry of Curves and Surfaces", 1976, section 3.2 (the
 /// differential of the Gauss map). Transforms: Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
-/// Differs: exact for spheres, what is flat, round cylinders, quadrics without a clip, and
-/// triangles with and without normals at their vertices, under any affine placement; of all other
-/// shapes by central differences of the exact normals of neighbouring points.
+/// Differs: exact for spheres, what is flat, round cylinders, quadrics, and triangles with and
+/// without normals at their vertices, under any affine placement; of all other shapes by central
+/// differences of the exact normals of neighbouring points.
 /// Conventions: a matrix K with dn = K dp for steps dp in the tangent plane, n = the
 /// `shading_normal` of the surface as it is given. At edges it is that of one of the sides.
 /// Threads: free functions.
