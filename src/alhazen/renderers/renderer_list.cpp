@@ -70,8 +70,14 @@ std::unique_ptr<Renderer> make_ambient_occlusion(RendererSettings& settings) {
 std::unique_ptr<Renderer> make_path_tracing(RendererSettings& settings) {
     PathSettings paths = path_settings(settings);
     paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
-    static constexpr const char* kManifold[] = {"off", "on"};
-    paths.manifold = settings.choice("manifold", 0, kManifold) == 1;
+    static constexpr const char* kOffOn[] = {"off", "on"};
+    paths.manifold = settings.choice("manifold", 0, kOffOn) == 1;
+    paths.polarization = settings.choice("polarization", 0, kOffOn) == 1;
+    if (paths.manifold && paths.polarization) {
+        throw Error(ErrorKind::Usage,
+                    "renderer 'path_tracing': polarization=on and manifold=on exclude each other: "
+                    "chains of mirrors and glass carry no polarisation");
+    }
     return std::make_unique<PathTracing>(paths);
 }
 
@@ -161,7 +167,8 @@ std::span<const RendererEntry> renderers() {
         {"path_tracing",
          "all light by random paths from the eye, lights sampled at each surface (Kajiya 1986, "
          "Veach 1997); depth=N, roulette=N, clamp=X, manifold=on|off (light by way of mirrors and "
-         "glass by walks, Hanika 2015, Zeltner 2020)",
+         "glass by walks, Hanika 2015, Zeltner 2020), polarization=on|off (Wilkie and Weidlich "
+         "2012)",
          [](RendererSettings& settings) { return make_path_tracing(settings); }},
         {"photon_mapping",
          "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "

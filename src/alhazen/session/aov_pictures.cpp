@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/math/constants.h"
+
 namespace alhazen {
 
 namespace {
@@ -149,8 +151,35 @@ LayerPicture albedo_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
+/// Angles modulo pi as colours of equal difference: red along the horizontal.
+LayerPicture angle_picture(const PixelBox& crop, const Channels& c) {
+    return direct_picture(crop, "hue, red at 0, green and blue a third of pi apart",
+                          [&](std::size_t i) {
+                              std::array<double, 3> rgb{};
+                              for (std::size_t k = 0; k < 3; ++k) {
+                                  const double third = kPi * static_cast<double>(k) / 3.0;
+                                  rgb[k] = 0.5 + 0.5 * std::cos(2.0 * (c[0]->values[i] - third));
+                              }
+                              return rgb;
+                          });
+}
+
+/// 0 is grey.
+LayerPicture stokes_picture(const PixelBox& crop, const Channels& c) {
+    return direct_picture(crop, "(1 + s) / 2", [&](std::size_t i) {
+        std::array<double, 3> rgb{};
+        for (std::size_t k = 0; k < 3; ++k) rgb[k] = 0.5 + 0.5 * double{c[k]->values[i]};
+        return rgb;
+    });
+}
+
 LayerPicture picture_of(AovKind kind, const PixelBox& crop, const Channels& c, bool drawn) {
     switch (kind) {
+        case AovKind::PolarizationAngle:
+            return angle_picture(crop, c);
+        case AovKind::Stokes:
+            return stokes_picture(crop, c);
+        case AovKind::PolarizationDegree:
         case AovKind::Alpha:
             return direct_picture(crop, "0 to 1", [&](std::size_t i) {
                 const double a = c[0]->values[i];

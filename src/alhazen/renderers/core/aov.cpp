@@ -143,6 +143,21 @@ std::span<const AovEntry> aov_table() {
          "photons by area at what is seen, of renderers that shoot some",
          {"photons"},
          Float},
+        {AovKind::PolarizationDegree,
+         "polarization.degree",
+         "of path_tracing:polarization=on: share of the light that is polarised",
+         {"polarization.degree"},
+         Float},
+        {AovKind::PolarizationAngle,
+         "polarization.angle",
+         "the same: how far from the horizontal it swings, radians, counter-clockwise",
+         {"polarization.angle"},
+         Float},
+        {AovKind::Stokes,
+         "stokes",
+         "the same: Q, U and V of the luminance",
+         {"stokes.Q", "stokes.U", "stokes.V"},
+         Float},
     };
     return table;
 }

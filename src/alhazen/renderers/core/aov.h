@@ -52,6 +52,9 @@ enum class AovKind {
     Transmission,
     LightVariance,
     Photons,
+    PolarizationDegree,
+    PolarizationAngle,
+    Stokes,
 };
 
 struct AovEntry {

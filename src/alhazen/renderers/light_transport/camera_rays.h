@@ -14,6 +14,9 @@ class CameraRays {
           motion_(job.camera_motion),
           moves_(job.scene.has_motion || job.camera_motion != nullptr) {
         if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
+        const PicturePlane plane = picture_plane(job.camera);
+        up_ = plane.up;
+        mirrored_ = dot(cross(plane.right, plane.up), plane.forward) > 0.0;
         if (!std::holds_alternative<OrthographicCamera>(job.camera)) {
             media_ = MediaFinder(job.scene).around(picture_plane(job.camera).eye, 0.0f);
         }
@@ -26,6 +29,13 @@ class CameraRays {
     [[nodiscard]] float time(const PathChance& chance, const SampleId& id) const {
         return moves_ ? chance.time(id) : 0.0f;
     }
+    /// Of the picture, at a time.
+    [[nodiscard]] Vec3 up(float time) const {
+        if (motion_ == nullptr) return up_;
+        return (motion_->at(time).outer_from_inner * camera_from_world_).vector(up_);
+    }
+    /// Whether the picture shows left what is right.
+    [[nodiscard]] bool is_mirrored() const { return mirrored_; }
     /// The ray of a sample for the one through the centre of the lens.
     [[nodiscard]] Ray through_lens(const PathChance& chance, const SampleId& id, const Ray& ray,
                                    float time) const {
@@ -40,6 +50,8 @@ class CameraRays {
     LensRays lens_;
     const TransformMotion* motion_;
     bool moves_;
+    bool mirrored_ = false;
+    Vec3 up_;
     MediumStack media_;
     Affine camera_from_world_;  ///< as the shutter opens
 };

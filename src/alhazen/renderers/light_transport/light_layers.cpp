@@ -1,6 +1,7 @@
 #include "alhazen/renderers/light_transport/light_layers.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace alhazen {
 
@@ -9,6 +10,8 @@ namespace {
 constexpr std::array kKinds{AovKind::Emission,     AovKind::Direct,   AovKind::Indirect,
                             AovKind::Diffuse,      AovKind::Specular, AovKind::Transmission,
                             AovKind::LightVariance};
+constexpr std::array kPolarization{AovKind::PolarizationDegree, AovKind::PolarizationAngle,
+                                   AovKind::Stokes};
 
 /// Of the layers but the variance.
 Spectrum part_of(AovKind kind, const LightParts& parts) {
@@ -28,6 +31,10 @@ Spectrum part_of(AovKind kind, const LightParts& parts) {
     }
 }
 
+double luminance(const Rgb& c) {
+    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+}
+
 /// Of the mean.
 Rgb variance(const SampleSum& sum) {
     if (sum.count < 2) return {};
@@ -40,24 +47,36 @@ Rgb variance(const SampleSum& sum) {
 }  // namespace
 
 bool LightLayers::has_any(const AovSet& wanted) {
-    return std::any_of(kKinds.begin(), kKinds.end(), [&](AovKind k) { return wanted.has(k); });
+    const auto is_wanted = [&](AovKind k) { return wanted.has(k); };
+    return std::ranges::any_of(kKinds, is_wanted) || std::ranges::any_of(kPolarization, is_wanted);
 }
 
 LightLayers::LightLayers(const PixelBox& crop, const AovSet& wanted, double mean_sign)
     : crop_(crop), mean_sign_(mean_sign), counts_(crop.area()) {
-    const std::size_t signed_pixels = mean_sign == 1.0 ? 0 : crop.area();
-    signs_.resize(signed_pixels);
+    signs_.resize(mean_sign == 1.0 ? 0 : crop.area());
     for (const AovKind kind : kKinds) {
-        if (!wanted.has(kind)) continue;
-        Layer& layer = layers_.emplace_back();
-        layer.kind = kind;
-        layer.plain.resize(crop.area());
-        if (kind == AovKind::LightVariance) {
-            layer.squares.resize(crop.area());
-        } else {
-            layer.with_signs.resize(signed_pixels);
-        }
+        if (wanted.has(kind)) layers_.push_back(layer_of(kind));
     }
+    if (std::ranges::any_of(kPolarization, [&](AovKind k) { return wanted.has(k); })) {
+        intensity_ = layer_of(AovKind::Stokes);
+        stokes_ = layer_of(AovKind::Stokes);
+    }
+}
+
+LightLayers::Layer LightLayers::layer_of(AovKind kind) const {
+    Layer layer{kind, std::vector<Rgb>(crop_.area()), {}, {}};
+    if (kind == AovKind::LightVariance) {
+        layer.squares.resize(crop_.area());
+    } else {
+        layer.with_signs.resize(signs_.size());
+    }
+    return layer;
+}
+
+void LightLayers::add(Layer& layer, std::size_t pixel, const Rgb& light, double sign) {
+    layer.plain[pixel] += light;
+    if (!layer.with_signs.empty()) layer.with_signs[pixel] += sign * light;
+    if (!layer.squares.empty()) layer.squares[pixel] += light * light;
 }
 
 void LightLayers::add(const SampleId& id, const LightParts& parts, const Wavelengths& waves,
@@ -71,10 +90,14 @@ void LightLayers::add(const SampleId& id, const LightParts& parts, const Wavelen
         const Rgb light = layer.kind == AovKind::LightVariance
                               ? radiance
                               : waves.color(part_of(layer.kind, parts));
-        layer.plain[pixel] += light;
-        if (!layer.with_signs.empty()) layer.with_signs[pixel] += id.sign * light;
-        if (!layer.squares.empty()) layer.squares[pixel] += light * light;
+        add(layer, pixel, light, id.sign);
     }
+    if (!stokes_) return;
+    const StokesLight& s = parts.polarized;
+    add(*intensity_, pixel, {luminance(radiance), 0, 0}, id.sign);
+    add(*stokes_, pixel,
+        {luminance(waves.color(s.q)), luminance(waves.color(s.u)), luminance(waves.color(s.v))},
+        id.sign);
 }
 
 SampleSum LightLayers::sum_of(const Layer& layer, std::size_t pixel) const {
@@ -89,7 +112,24 @@ SampleSum LightLayers::sum_of(const Layer& layer, std::size_t pixel) const {
     return sum;
 }
 
+void LightLayers::write_polarization(AovFilm& film, int x, int y, std::size_t pixel) const {
+    const double light = sum_of(*intensity_, pixel).value(mean_sign_).r;
+    const Rgb s = sum_of(*stokes_, pixel).value(mean_sign_);
+    const double q = s.r, u = s.g, v = s.b;
+    // Rounding, and lobes of a filter below 0, may give more than there is.
+    const double degree =
+        light > 0.0 ? std::min(1.0, std::sqrt(q * q + u * u + v * v) / light) : 0.0;
+    film.set(AovKind::PolarizationDegree, x, y, std::array{degree});
+    film.set(AovKind::PolarizationAngle, x, y, std::array{0.5 * std::atan2(u, q)});
+    film.set(AovKind::Stokes, x, y, std::array{q, u, v});
+}
+
 void LightLayers::write(AovFilm& film) const {
+    for (std::size_t pixel = 0; stokes_ && pixel < crop_.area(); ++pixel) {
+        const auto width = std::size_t(crop_.width());
+        write_polarization(film, crop_.x0 + int(pixel % width), crop_.y0 + int(pixel / width),
+                           pixel);
+    }
     for (const Layer& layer : layers_) {
         std::size_t pixel = 0;
         for (int y = crop_.y0; y < crop_.y1; ++y) {

@@ -7,16 +7,19 @@
 /// Conventions: emission, direct and indirect light (no, one, more scatterings) sum to the picture,
 /// and so do emission, diffuse, specular and transmitted light, by the first scattering from the
 /// eye. What goes straight through thin sheets and cut-outs is not scattered there. The variance is
-/// that of the mean of a pixel whose samples are independent.
-/// Threads: `add` may be called at the same time for different pixels.
+/// that of the mean of a pixel whose samples are independent. Polarisation is that of the
+/// luminance: degree, angle and Stokes vector of the mean of the samples. Threads: `add` may be
+/// called at the same time for different pixels.
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "alhazen/imaging/film/sample_sum.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/light_transport/polarized_path.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
@@ -43,6 +46,7 @@ struct LightParts {
         [[nodiscard]] Spectrum sum() const { return diffuse + specular + transmitted; }
     };
     Scattered direct, indirect;
+    StokesLight polarized;  ///< all of it, where light is polarised
 
     /// `scatterings`: of the light on its way.
     void add(const Spectrum& light, int scatterings, const FirstScattering& first) {
@@ -75,12 +79,16 @@ class LightLayers {
         std::vector<Rgb> with_signs;  ///< empty: all signs are 1
         std::vector<Rgb> squares;     ///< of LightVariance
     };
+    [[nodiscard]] Layer layer_of(AovKind kind) const;
+    static void add(Layer& layer, std::size_t pixel, const Rgb& light, double sign);
     [[nodiscard]] SampleSum sum_of(const Layer& layer, std::size_t pixel) const;
+    void write_polarization(AovFilm& film, int x, int y, std::size_t pixel) const;
 
     PixelBox crop_;
     double mean_sign_;
     std::vector<Layer> layers_;
-    std::vector<double> signs_;  ///< [pixel] sums; empty: all are 1
+    std::optional<Layer> intensity_, stokes_;  ///< luminances of I, and of Q, U, V
+    std::vector<double> signs_;                ///< [pixel] sums; empty: all are 1
     std::vector<std::uint32_t> counts_;
 };
 

@@ -7,10 +7,11 @@ struct PathSettings {
     /// Each bounce has its own dimensions of the sampler, and a vertex in memory.
     static constexpr int kMostDepth = 1024;
 
-    int depth = 64;         ///< largest number of scatterings of a path
-    int roulette = 4;       ///< scatterings after which a path may end by chance
-    bool manifold = false;  ///< chains of mirrors and glass are sought from each surface
-    double clamp = 0.0;     ///< largest contribution of indirect light to a sample; 0: none
+    int depth = 64;             ///< largest number of scatterings of a path
+    int roulette = 4;           ///< scatterings after which a path may end by chance
+    bool manifold = false;      ///< chains of mirrors and glass are sought from each surface
+    bool polarization = false;  ///< light is polarised, and seen to be
+    double clamp = 0.0;         ///< largest contribution of indirect light to a sample; 0: none
 };
 
 }  // namespace alhazen

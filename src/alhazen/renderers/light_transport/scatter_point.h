@@ -43,6 +43,10 @@ class ScatterPoint {
     [[nodiscard]] Spectrum diffuse_share(const Vec3& direction) const {
         return bsdf_.diffuse_share(local_view_, frame_.to_local(direction));
     }
+    /// What happens to polarised light from `direction`: by singular lobes, or by the others.
+    [[nodiscard]] PlaneMueller polarization(const Vec3& direction, bool singular) const {
+        return bsdf_.polarization(local_view_, frame_.to_local(direction), singular);
+    }
     /// With which `sample` gives `direction`.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// With which a path that came from `direction` would go to the view. Only after `set` with

@@ -44,6 +44,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     paths_.clear();
     rays_.clear();
     waves_.clear();
+    polarized_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         EyePath& path = paths_.emplace_back();
         path.sample = i;
@@ -53,6 +54,10 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         path.media = camera_.media();
         path.inside = !path.media.empty();
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
+        if (settings_.polarization) {
+            const Vec3 axis = picture_axis(rays_.back().direction, camera_.up(path.time));
+            polarized_.emplace_back().begin(axis);
+        }
     }
     light_.assign(rays.size(), {});
     if (layers_ != nullptr) parts_.assign(rays.size(), {});
@@ -71,7 +76,8 @@ void PathTracer::bounce(bool first) {
     next_paths_.clear();
     next_rays_.clear();
     joined_.clear();
-    joined_.reserve(layers_ != nullptr ? paths_.size() : 0);
+    joined_.reserve(joins_apart() ? paths_.size() : 0);
+    joined_to_eye_.clear();
     for (const EyePath& path : paths_) ++counters_[path.kind].cast;
     visible_.find(
         rays_, first ? Coherence::Coherent : Coherence::Any,
@@ -90,18 +96,54 @@ void PathTracer::bounce(bool first) {
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
         });
     shadows_.finish();
-    if (layers_ != nullptr) add_joined();
+    if (joins_apart()) add_joined();
     paths_.swap(next_paths_);
     rays_.swap(next_rays_);
 }
 
 void PathTracer::add(const EyePath& path, const Spectrum& light, Spectrum& sum) {
+    if (settings_.polarization) {
+        return add_polarized(path.sample, path.scatterings, path.first, light,
+                             polarized_[path.sample].arrived());
+    }
     const Spectrum shown = limited(light, path.scatterings);
     if (layers_ != nullptr) parts_[path.sample].add(shown, path.scatterings, path.first);
     sum += shown;
 }
 
+void PathTracer::add_polarized(std::uint32_t sample, int scatterings, const FirstScattering& first,
+                               const Spectrum& light, const StokesLight& to_eye) {
+    StokesLight shown = to_eye * light;
+    if (const double limit = limit_of(shown.i, scatterings); limit < 1.0) shown = limit * shown;
+    if (layers_ != nullptr) {
+        parts_[sample].add(shown.i, scatterings, first);
+        if (camera_.is_mirrored()) shown.u = -1.0 * shown.u;
+        parts_[sample].polarized += shown;
+    }
+    light_[sample] += shown.i;
+}
+
+Spectrum& PathTracer::place_of_joined(const EyePath& path, const FirstScattering& first,
+                                      const Vec3* direction, Spectrum& sum) {
+    if (!joins_apart()) return sum;
+    if (settings_.polarization) {
+        const PolarizedPath& polarized = polarized_[path.sample];
+        joined_to_eye_.push_back(direction == nullptr
+                                     ? polarized.arrived()
+                                     : polarized.arrived(scatter_.view(), *direction,
+                                                         scatter_.polarization(*direction, false)));
+    }
+    return joined_.emplace_back(JoinedLight{path.sample, path.scatterings + 1, first, Spectrum{}})
+        .light;
+}
+
 void PathTracer::add_joined() {
+    for (std::size_t i = 0; i < joined_to_eye_.size(); ++i) {
+        const JoinedLight& joined = joined_[i];
+        add_polarized(joined.sample, joined.scatterings, joined.first, joined.light,
+                      joined_to_eye_[i]);
+    }
+    if (settings_.polarization) return;
     for (const JoinedLight& joined : joined_) {
         parts_[joined.sample].add(joined.light, joined.scatterings, joined.first);
         light_[joined.sample] += joined.light;
@@ -113,10 +155,10 @@ FirstScattering PathTracer::first_along(const EyePath& path, const Vec3& directi
     return {dot(direction, scatter_.geometric()) < 0.0, scatter_.diffuse_share(direction)};
 }
 
-Spectrum PathTracer::limited(const Spectrum& light, int scatterings) const {
-    if (!(settings_.clamp > 0.0) || scatterings < 2) return light;
+double PathTracer::limit_of(const Spectrum& light, int scatterings) const {
+    if (!(settings_.clamp > 0.0) || scatterings < 2) return 1.0;
     const double largest = light.max();
-    return largest > settings_.clamp ? (settings_.clamp / largest) * light : light;
+    return largest > settings_.clamp ? settings_.clamp / largest : 1.0;
 }
 
 void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
@@ -190,16 +232,10 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
-    const int scatterings = path.scatterings + 1;
-    Spectrum* to = &sum;
-    if (layers_ != nullptr) {
-        to = &joined_
-                  .emplace_back(JoinedLight{path.sample, scatterings,
-                                            first_along(path, drawn.to_light), Spectrum{}})
-                  .light;
-    }
+    Spectrum& to = place_of_joined(path, first_along(path, drawn.to_light), &drawn.to_light, sum);
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeLight * drawn.distance),
-                 path.time, extinction_in(medium), waves(path), limited(light, scatterings), *to);
+                 path.time, extinction_in(medium), waves(path),
+                 limited_joined(light, path.scatterings + 1), to);
 }
 
 const VolumeScattering* PathTracer::scattering_in(const Medium& medium) const {
@@ -248,17 +284,15 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= power_heuristic(drawn.density, phase);
-        const int scatterings = path.scatterings + 1;
-        Spectrum* to = &sum;
-        if (layers_ != nullptr) {
-            to = &joined_.emplace_back(JoinedLight{path.sample, scatterings, path.first, {}}).light;
-        }
+        Spectrum& to = place_of_joined(path, path.first, nullptr, sum);
         const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeLight * drawn.distance};
-        shadows_.add(to_light, path.time, extinction_in(&medium), waves(path),
-                     limited(path.throughput * (weight * drawn.radiance), scatterings), *to);
+        shadows_.add(
+            to_light, path.time, extinction_in(&medium), waves(path),
+            limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1), to);
     }
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
     const Vec3 direction = sample_henyey_greenstein(ray.direction, g, u);
+    if (settings_.polarization) polarized_[path.sample].depolarize();
     ++path.drawn;
     ++path.scatterings;
     path.singular = false;
@@ -302,6 +336,11 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         if (++path.met > kMaxPassedSurfaces) return;
     } else {
         ++path.scatterings;
+        if (settings_.polarization) {
+            polarized_[path.sample].scatter(
+                scatter_.view(), drawn->direction,
+                scatter_.polarization(drawn->direction, drawn->singular));
+        }
         if (drawn->singular) {
             path.trail.go_on(point.surface, drawn->transmitted);
         } else {

@@ -12,6 +12,7 @@
 #include "alhazen/renderers/light_transport/light_layers.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/renderers/light_transport/polarized_path.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/manifold/manifold_light.h"
 
@@ -52,7 +53,7 @@ class PathTracer {
                        std::span<Rgb> radiance);
 
   private:
-    /// Light that a shadow ray may bring, for the layers.
+    /// Light that a shadow ray may bring, for the layers and where it is polarised.
     struct JoinedLight {
         std::uint32_t sample;
         int scatterings;
@@ -63,7 +64,20 @@ class PathTracer {
     void bounce(bool first);
     /// Adds light at the end of a path to its sample.
     void add(const EyePath& path, const Spectrum& light, Spectrum& sum);
+    /// Whether joined light waits apart from the sums of the samples.
+    [[nodiscard]] bool joins_apart() const { return layers_ != nullptr || settings_.polarization; }
     void add_joined();
+    /// `light`: what would arrive if none were polarised; `to_eye`: of which this arrives.
+    void add_polarized(std::uint32_t sample, int scatterings, const FirstScattering& first,
+                       const Spectrum& light, const StokesLight& to_eye);
+    /// Where light from `direction` at the point at hand goes that a shadow ray may bring;
+    /// `direction` null: scattered inside a volume.
+    [[nodiscard]] Spectrum& place_of_joined(const EyePath& path, const FirstScattering& first,
+                                            const Vec3* direction, Spectrum& sum);
+    /// Light that may still be blocked.
+    [[nodiscard]] Spectrum limited_joined(const Spectrum& light, int scatterings) const {
+        return settings_.polarization ? light : limited(light, scatterings);
+    }
     /// Along a ray of length `t` in the medium around it; true: the path was scattered on the way,
     /// and has gone on or ended.
     [[nodiscard]] bool cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
@@ -97,7 +111,11 @@ class PathTracer {
         if (chance_.is_spectral()) waves_[path.sample].keep_hero(path.throughput);
     }
     /// Light at the end of a path of that many scatterings.
-    [[nodiscard]] Spectrum limited(const Spectrum& light, int scatterings) const;
+    [[nodiscard]] Spectrum limited(const Spectrum& light, int scatterings) const {
+        const double limit = limit_of(light, scatterings);
+        return limit < 1.0 ? limit * light : light;
+    }
+    [[nodiscard]] double limit_of(const Spectrum& light, int scatterings) const;
 
     const RenderJob& job_;
     const Scene& scene_;
@@ -115,6 +133,8 @@ class PathTracer {
     std::optional<ManifoldLight> chains_;
     std::vector<LightParts> parts_;  ///< [sample of the batch]
     std::vector<JoinedLight> joined_;
+    std::vector<StokesLight> joined_to_eye_;  ///< [joined]; empty unless light is polarised
+    std::vector<PolarizedPath> polarized_;    ///< [sample of the batch]; the same
     std::span<const SampleId> ids_;
     std::vector<Wavelengths> waves_;  ///< [sample of the batch]; empty: channels
     std::vector<Spectrum> light_;     ///< [sample of the batch]

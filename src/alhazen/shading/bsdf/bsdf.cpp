@@ -260,6 +260,28 @@ SingularLight Bsdf::singular(const Vec3& view, Transport transport) const {
     return light;
 }
 
+PlaneMueller Bsdf::polarization(const Vec3& view, const Vec3& direction, bool singular) const {
+    Spectrum all;
+    PlaneMueller sum;
+    for (const Part& part : parts_) {
+        if (is_singular(part.lobe) != singular) continue;
+        const PolarizedValue own = polarized_value(part.lobe, view, direction);
+        const Spectrum weight = through(part.covers, view.z) * part.weight;
+        if (!is_usable(weight * own.all)) continue;
+        all += weight * own.all;
+        const Spectrum share = weight * own.part;
+        sum.q += share * own.matrix.q;
+        sum.d += share * own.matrix.d;
+        sum.c += share * own.matrix.c;
+        sum.e += share * own.matrix.e;
+    }
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        const double scale = all[i] > 0.0 ? 1.0 / all[i] : 0.0;
+        sum.set(i, {scale * sum.q[i], scale * sum.d[i], scale * sum.c[i], scale * sum.e[i]});
+    }
+    return sum;
+}
+
 bool Bsdf::transmits() const {
     return std::ranges::any_of(parts_, [](const Part& p) {
         return std::visit([]<class L>(const L&) { return !L::kSingular && L::kTransmits; }, p.lobe);

@@ -22,6 +22,7 @@
 #include "alhazen/math/vec.h"
 #include "alhazen/shading/bsdf/cover.h"
 #include "alhazen/shading/bsdf/lobe.h"
+#include "alhazen/shading/bsdf/polarization.h"
 #include "alhazen/shading/bsdf/transport.h"
 #include "alhazen/shading/materials/material.h"
 #include "alhazen/shading/spectrum/spectrum.h"
@@ -78,6 +79,10 @@ class Bsdf {
     [[nodiscard]] bool has_rough_boundary() const;
     /// Whether some lobe transmits, singular ones too.
     [[nodiscard]] bool lets_through() const;
+    /// What it does to polarised light from `direction`: by all singular lobes or by all others, as
+    /// `value` weighs them for radiance, over the unpolarised light that they give.
+    [[nodiscard]] PlaneMueller polarization(const Vec3& view, const Vec3& direction,
+                                            bool singular) const;
     /// Share that thin sheets let go straight on: what a shadow ray keeps.
     [[nodiscard]] Spectrum straight(const Vec3& view) const;
     /// With which `sample` goes straight on through a thin sheet.

@@ -56,25 +56,43 @@ double RoughDielectric::missing_behind(double mu) const {
     return 1.0 - dielectric_albedo(mu, ggx_.x, 1.0 / eta_).sum;
 }
 
-Spectrum RoughDielectric::value(const Vec3& view, const Vec3& direction,
-                                Transport transport) const {
+RoughDielectric::Facet RoughDielectric::facet_value(const Vec3& view, const Vec3& direction) const {
     if (direction.z > 0.0) {
         const Vec3 m = normalize(view + direction);
+        const double cosine = dot(view, m);
         const double one =
-            0.5 * ggx_.normals(m) * dielectric_reflectance(dot(view, m), eta_) /
+            0.5 * ggx_.normals(m) * dielectric_reflectance(cosine, eta_) /
             (view.z * ggx_.stretched_length(direction) + direction.z * ggx_.stretched_length(view));
+        return {one, cosine};
+    }
+    const auto facet = refracting_facet(view, direction, eta_);
+    if (!facet) return {};
+    // D G (1 - F) (v.h) |l.h| / (v.z |l.z| (...)^2), the masking's cosines cancelled.
+    const double masking = 2.0 / (-direction.z + ggx_.stretched_length(direction));
+    return {(1.0 - dielectric_reflectance(facet->view_cosine, eta_)) * facet->stretch * masking *
+                ggx_.visible_normals(view, facet->normal, facet->view_cosine),
+            facet->view_cosine};
+}
+
+RoughDielectric::OneFacet RoughDielectric::one_facet(const Vec3& view, const Vec3& direction,
+                                                     Transport transport) const {
+    const Facet facet = facet_value(view, direction);
+    if (direction.z > 0.0) return {facet.value * reflection_, facet.cosine};
+    const double radiance = transport == Transport::Radiance ? eta_ * eta_ : 1.0;
+    return {(radiance * facet.value) * transmission_, facet.cosine};
+}
+
+Spectrum RoughDielectric::value(const Vec3& view, const Vec3& direction,
+                                Transport transport) const {
+    const double one = facet_value(view, direction).value;
+    if (direction.z > 0.0) {
         const double more =
             matt_rest(missing(view.z), missing(direction.z), mean_missing_) * (1.0 - through_);
         return (one + more) * reflection_;
     }
     double sum =
         through_ * matt_rest(missing(view.z), missing_behind(-direction.z), mean_missing_behind_);
-    if (const auto facet = refracting_facet(view, direction, eta_)) {
-        // D G (1 - F) (v.h) |l.h| / (v.z |l.z| (...)^2), the masking's cosines cancelled.
-        const double masking = 2.0 / (-direction.z + ggx_.stretched_length(direction));
-        sum += (1.0 - dielectric_reflectance(facet->view_cosine, eta_)) * facet->stretch * masking *
-               ggx_.visible_normals(view, facet->normal, facet->view_cosine);
-    }
+    sum += one;
     if (transport == Transport::Radiance) sum *= eta_ * eta_;
     return sum * transmission_;
 }

@@ -32,7 +32,21 @@ class RoughDielectric {
                                                    Transport transport) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
+    /// The part of `value` that met one facet, and the cosine of the view to that facet's normal.
+    struct OneFacet {
+        Spectrum value;
+        double cosine = 0;
+    };
+    [[nodiscard]] OneFacet one_facet(const Vec3& view, const Vec3& direction,
+                                     Transport transport) const;
+    [[nodiscard]] double eta() const { return eta_; }
+
   private:
+    struct Facet {
+        double value = 0, cosine = 0;
+    };
+    /// Without tint and without the change of radiance.
+    [[nodiscard]] Facet facet_value(const Vec3& view, const Vec3& direction) const;
     /// Probability of reflection, of two ways with these shares.
     [[nodiscard]] double reflection_choice(double reflected, double transmitted) const;
     [[nodiscard]] double missing(double mu) const;

@@ -22,16 +22,24 @@ double RoughReflection::single(double mu) const {
     return ggx_albedo_sum(mu, mean_alpha_);
 }
 
-Spectrum RoughReflection::value(const Vec3& view, const Vec3& direction, Transport) const {
+RoughReflection::OneFacet RoughReflection::one_facet(const Vec3& view,
+                                                     const Vec3& direction) const {
     if (!(direction.z > 0.0)) return {};
     const Vec3 v = turned(view), l = turned(direction);
     const Vec3 m = normalize(v + l);
     // D G / (4 cos cos), with the cosines of G taken out of the fraction.
     const double one =
         0.5 * ggx_.normals(m) / (v.z * ggx_.stretched_length(l) + l.z * ggx_.stretched_length(v));
+    const double cosine = dot(v, m);
+    return {one * reflectance(fresnel_, cosine), cosine};
+}
+
+Spectrum RoughReflection::value(const Vec3& view, const Vec3& direction, Transport) const {
+    if (!(direction.z > 0.0)) return {};
     const double lost = 1.0 - mean_single_;
-    const double more = lost > 0.0 ? (1.0 - single(v.z)) * (1.0 - single(l.z)) / (kPi * lost) : 0.0;
-    return one * reflectance(fresnel_, dot(v, m)) + more * several_;
+    const double more =
+        lost > 0.0 ? (1.0 - single(view.z)) * (1.0 - single(direction.z)) / (kPi * lost) : 0.0;
+    return one_facet(view, direction).value + more * several_;
 }
 
 double RoughReflection::density(const Vec3& view, const Vec3& direction) const {

@@ -31,6 +31,14 @@ class RoughReflection {
                                                    Transport transport) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
+    /// The part of `value` that met one facet, and the cosine to that facet's normal.
+    struct OneFacet {
+        Spectrum value;
+        double cosine = 0;
+    };
+    [[nodiscard]] OneFacet one_facet(const Vec3& view, const Vec3& direction) const;
+    [[nodiscard]] const FresnelTerm& fresnel() const { return fresnel_; }
+
   private:
     [[nodiscard]] Vec3 turned(const Vec3& v) const {
         return {axis_.x * v.x + axis_.y * v.y, axis_.x * v.y - axis_.y * v.x, v.z};

@@ -5,8 +5,7 @@
 /// and 14.2 (metals); Schlick, "An Inexpensive BRDF Model for Physically-Based Rendering",
 /// Eurographics 1994.
 /// Conventions: cosines are to the normal on the side of the ray, 0..1 (outside of it: clamped).
-/// Light is unpolarised before and taken as unpolarised after: in truth reflection polarises it,
-/// completely so at Brewster's angle, and a second mirror would show that.
+/// Light is unpolarised before and taken as unpolarised after; polarization.h knows better.
 
 #include "alhazen/imaging/image/rgb.h"
 

@@ -1,0 +1,44 @@
+#pragma once
+/// What a boundary does to polarised light: Fresnel's amplitudes with their phases, and the matrix
+/// that they are for Stokes vectors in the frame of the plane of incidence.
+///
+/// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, sections 1.5.2 and 1.5.4
+/// (equations 20, 21, 54: amplitudes, total reflection) and 14.2 (metals); Collett, "Polarized
+/// Light", 1993, chapters 5 and 8 (the matrices of reflection and refraction); Wilkie and Weidlich,
+/// "Polarised Light in Computer Graphics", SIGGRAPH Asia 2012 courses.
+/// Conventions: fields vary as exp(-i w t), so that a metal has the index n + i k. The frame of a
+/// ray along k has x across the plane of incidence, the same before and after, and y = k x x in it.
+/// Stokes vectors (I, Q, U, V): Q is light along x less light along y, U the same along the lines
+/// at 45 and 135 degrees from x towards y, V = -2 Im(Ex conj(Ey)).
+
+#include <complex>
+
+namespace alhazen {
+
+/// Of the field that leaves over the field that comes.
+struct FresnelAmplitudes {
+    std::complex<double> across, along;  ///< the plane of incidence
+};
+
+/// A matrix on Stokes vectors over its first element:
+///     1 q 0 0
+///     q d 0 0
+///     0 0 c e
+///     0 0 -e c
+/// d = 1 where nothing is depolarised; all 0: nothing polarised is left.
+struct BoundaryMueller {
+    double q = 0, d = 0, c = 0, e = 0;
+};
+
+/// At a cosine of 0..1 to the normal (clamped), `eta` being the index on the side of the ray over
+/// that behind.
+[[nodiscard]] FresnelAmplitudes dielectric_reflection(double cosine, double eta);
+/// 0 beyond the critical angle.
+[[nodiscard]] FresnelAmplitudes dielectric_refraction(double cosine, double eta);
+/// Of a conductor with index `n + i k` relative to the medium of the ray.
+[[nodiscard]] FresnelAmplitudes conductor_reflection(double cosine, double n, double k);
+
+/// Where both amplitudes are 0: as if nothing were changed.
+[[nodiscard]] BoundaryMueller mueller_of(const FresnelAmplitudes& amplitudes);
+
+}  // namespace alhazen
