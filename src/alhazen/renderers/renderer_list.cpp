@@ -59,6 +59,16 @@ PathSettings path_settings(RendererSettings& settings) {
     return paths;
 }
 
+std::unique_ptr<Renderer> make_whitted(RendererSettings& settings) {
+    const OpticsSettings optics = optics_settings(settings);
+    const int waves = settings.whole("dispersion", 0, 0, WaveSplit::kMost);
+    if (waves > 0 && waves < WaveSplit::kFewest) {
+        throw Error(ErrorKind::Usage, "renderer 'whitted': dispersion=" + std::to_string(waves) +
+                                          ", expected 0 (none) or 3 to 64 wavelengths");
+    }
+    return std::make_unique<Whitted>(optics, waves);
+}
+
 std::unique_ptr<Renderer> make_ambient_occlusion(RendererSettings& settings) {
     static constexpr const char* kColors[] = {"white", "albedo"};
     OcclusionSettings occlusion;
@@ -146,10 +156,9 @@ std::span<const RendererEntry> renderers() {
     static constexpr std::array<RendererEntry, 14> table{{
         {"whitted",
          "recursive ray tracing: shadows, reflection, refraction (Whitted 1980); "
-         "fresnel=on|off|scene, beer=on|off|scene (exact optics)",
-         [](RendererSettings& settings) {
-             return std::unique_ptr<Renderer>(std::make_unique<Whitted>(optics_settings(settings)));
-         }},
+         "fresnel=on|off|scene, beer=on|off|scene (exact optics), dispersion=N (wavelengths of a "
+         "refracted ray, Thomas 1986)",
+         [](RendererSettings& settings) { return make_whitted(settings); }},
         {"distributed",
          "the same with rays spread over lenses, lights with extent and rough reflections (Cook, "
          "Porter and Carpenter 1984); fresnel=on|off|scene, beer=on|off|scene",

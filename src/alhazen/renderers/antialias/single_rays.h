@@ -31,7 +31,10 @@ class RayAnswers {
 template <RadianceEstimator Estimator>
 class EstimatorAnswers final : public RayAnswers {
   public:
-    explicit EstimatorAnswers(const RenderJob& job) : estimator_(job, kRaysAtOnce, counters_) {}
+    /// `more`: further arguments of the estimator.
+    template <class... More>
+    explicit EstimatorAnswers(const RenderJob& job, const More&... more)
+        : estimator_(job, kRaysAtOnce, counters_, more...) {}
 
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance, std::span<Hit> hits,
                RayCounters& counters) override {

@@ -60,7 +60,7 @@ void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span
 
 Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     Spectrum sum;
-    waves_ = chance_.waves(id);
+    waves_ = all_waves_ != nullptr ? *all_waves_ : chance_.waves(id);
     const float time = camera_.time(chance_, id);
     const Ray ray = camera_.through_lens(chance_, id, central, time);
     WalkStart start{.ray = ray, .time = time, .media = camera_.media()};

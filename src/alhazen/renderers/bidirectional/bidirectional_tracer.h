@@ -41,6 +41,8 @@ class BidirectionalTracer {
     /// WholePath.
     virtual void merge(Spectrum& /*sum*/) {}
     void set_merging(double merging) { path_.merging = merging; }
+    /// Of all samples; null: each has its own.
+    void set_waves(const Wavelengths* waves) { all_waves_ = waves; }
     [[nodiscard]] const std::vector<PathVertex>& eye_path() const { return eye_; }
     [[nodiscard]] const PathSettings& settings() const { return settings_; }
 
@@ -89,7 +91,8 @@ class BidirectionalTracer {
     LensLight& lens_light_;
     std::vector<PathVertex> eye_, light_;
     RandomWalk::Escape escape_;
-    LightEnd begin_;     ///< of `light_`
+    LightEnd begin_;  ///< of `light_`
+    const Wavelengths* all_waves_ = nullptr;
     Wavelengths waves_;  ///< of the sample, as both its paths begin
     WholePath path_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/shading/bsdf/dispersing.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 #include "alhazen/shading/optics/fresnel.h"
@@ -80,6 +81,31 @@ void ExactOptics::set_media(std::uint32_t around, ShadingPoint& point) {
         return;
     }
     point.passing = tint_of(*point.material) * sides.before;
+}
+
+double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point, double nm) const {
+    const Surface& surface = point.surface;
+    const auto of_material = [&](std::size_t id, double index_d) {
+        return index_at(scene_.materials[id], index_d, nm);
+    };
+    const auto of_medium = [&](std::uint32_t medium) {
+        const Medium& m = media_[medium];
+        return medium == kOutside ? m.index : of_material(m.material, m.index);
+    };
+    const auto own = [&] {
+        return of_material(static_cast<std::size_t>(surface.materials[0]), point.material->index);
+    };
+    double here = 1, beyond = 1;
+    if (const SurfaceMedia& media = surface.media; media.known) {
+        here = media.before ? of_material(static_cast<std::size_t>(*media.before),
+                                          medium_at(scene_, surface, *media.before).index)
+                            : of_medium(around);
+        beyond = of_medium(point.behind.medium);
+    } else {
+        here = point.entering ? of_medium(around) : own();
+        beyond = point.entering ? own() : of_medium(point.behind.medium);
+    }
+    return here > 0.0 && beyond > 0.0 ? here / beyond : 1.0;
 }
 
 ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialSample& material,

@@ -49,6 +49,11 @@ class ExactOptics {
     /// the medium behind it.
     void set_media(std::uint32_t around, ShadingPoint& point);
 
+    /// Index on the side of a ray in medium `around` over that behind, at a wavelength, of a point
+    /// that `set_media` has completed.
+    [[nodiscard]] double eta_by_wave(std::uint32_t around, const ShadingPoint& point,
+                                     double nm) const;
+
     /// What a straight ray meets at a surface.
     struct Straight {
         Rgb through;                      ///< of light, of all that is there

@@ -182,8 +182,10 @@ class PixelLoop {
 template <PixelSampler Sampler, RadianceEstimator Estimator, PixelFilter Filter>
 class PixelRenderer final : public TileRenderer {
   public:
-    PixelRenderer(const RenderJob& job, std::size_t rays_at_once)
-        : estimator_(job, rays_at_once, counters_), loop_(job, rays_at_once, counters_) {}
+    /// `more`: further arguments of the estimator.
+    template <class... More>
+    PixelRenderer(const RenderJob& job, std::size_t rays_at_once, const More&... more)
+        : estimator_(job, rays_at_once, counters_, more...), loop_(job, rays_at_once, counters_) {}
 
     void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
         loop_.run(tile, film, estimator_);
@@ -199,18 +201,19 @@ class PixelRenderer final : public TileRenderer {
 
 /// A RoundRenderer where the job has a round; else a PixelRenderer with the sampler for the job's
 /// samples per pixel, and the box filter.
-template <RadianceEstimator Estimator>
+template <RadianceEstimator Estimator, class... More>
 [[nodiscard]] std::unique_ptr<TileRenderer> make_pixel_renderer(const RenderJob& job,
-                                                                std::size_t rays_at_once) {
+                                                                std::size_t rays_at_once,
+                                                                const More&... more) {
     if (job.round != nullptr) {
-        return std::make_unique<RoundRenderer<Estimator>>(job, rays_at_once);
+        return std::make_unique<RoundRenderer<Estimator>>(job, rays_at_once, more...);
     }
     if (job.samples_per_pixel == 1) {
-        return std::make_unique<PixelRenderer<PointSampler, Estimator, BoxFilter>>(job,
-                                                                                   rays_at_once);
+        return std::make_unique<PixelRenderer<PointSampler, Estimator, BoxFilter>>(
+            job, rays_at_once, more...);
     }
-    return std::make_unique<PixelRenderer<JitteredSampler, Estimator, BoxFilter>>(job,
-                                                                                  rays_at_once);
+    return std::make_unique<PixelRenderer<JitteredSampler, Estimator, BoxFilter>>(job, rays_at_once,
+                                                                                  more...);
 }
 
 }  // namespace alhazen

@@ -28,6 +28,7 @@ struct Path {
     bool inside = false;        ///< it starts inside something transparent
     std::uint32_t sample = 0;   ///< of its batch of eye rays
     float time = 0;             ///< RayQuery::time
+    float nm = 0;               ///< its wavelength, from the first dispersing surface on; else 0
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
     std::uint32_t medium = 0;   ///< of ExactOptics, where they are in force
@@ -78,6 +79,7 @@ struct MetSurface {
     std::uint32_t reflected = kNotSent, refracted = kNotSent;  ///< rays of the next generation
     bool lit = false;       ///< otherwise its colour is `own` only
     bool filtered = false;  ///< all its light is multiplied by `filter`
+    bool split = false;     ///< `refracted` is the first of its rays in Wavefront::split
     Rgb share;              ///< of the ray's light
     Rgb own;                ///< emission and ambient light
     Rgb direct;             ///< of unoccluded lights
@@ -88,7 +90,8 @@ struct MetSurface {
 /// The work on one generation: some of its rays at a time.
 struct Wavefront {
     std::vector<MetSurface> met;
-    Generation next;        ///< the secondary rays of `met`
+    Generation next;                   ///< the secondary rays of `met`
+    std::vector<std::uint32_t> split;  ///< rays of `next` for each wavelength of what disperses
     std::vector<Rgb> left;  ///< by ray: transmittance of the partly covering surfaces so far
     /// Rays that have not ended: numbers and, from the second surface on, the rest of each ray.
     std::vector<std::uint32_t> active;
@@ -106,6 +109,7 @@ struct Wavefront {
         met.clear();
         met.reserve(active.size());  // keeps references into it valid
         next.clear();
+        split.clear();
         next_active.clear();
         next_rays.clear();
     }

@@ -25,14 +25,17 @@ double mirrored_bits(std::uint32_t n) {
 
 Spectrum GatheringEye::photon_light(const SeenPoint& at) {
     const Vec3& point = at.surface.point;
+    const PhotonMapPair& maps = maps_.pairs[at.waves];
+    const bool hero_only = at.path.waves->hero_only();
     const Spectrum caustic =
-        density_.radiance(maps_.caustic, at.scatter, point, LightPart::NotGlossy);
+        density_.radiance(maps.caustic, at.scatter, point, LightPart::NotGlossy, hero_only);
     if (gather_ > 0) {
         const std::optional<Spectrum> matt =
             cache_ != nullptr ? at.scatter.lambert() : std::nullopt;
         return caustic + (matt ? matt_light(at, *matt) : gathered(at));
     }
-    return caustic + density_.radiance(maps_.global, at.scatter, point, LightPart::NotGlossy);
+    return caustic +
+           density_.radiance(maps.global, at.scatter, point, LightPart::NotGlossy, hero_only);
 }
 
 Spectrum GatheringEye::matt_light(const SeenPoint& at, const Spectrum& reflectance) {
@@ -66,7 +69,7 @@ IrradianceRecord GatheringEye::record_at(const SeenPoint& at) {
         const PathNumbers numbers{mix64(at.numbers.seed) + static_cast<std::uint64_t>(k),
                                   at.numbers.path, at.numbers.part};
         double distance = kInfinity;
-        record.irradiance += (kPi / gather_) * arriving(path, numbers, distance);
+        record.irradiance += (kPi / gather_) * arriving(path, at, numbers, distance);
         inverse += 1.0 / (gather_ * distance);
     }
     // Not closer together than pixels, not farther apart than 64 of them.
@@ -96,28 +99,34 @@ Spectrum GatheringEye::gathered(const SeenPoint& at) {
         const PathNumbers numbers{mix64(at.numbers.seed) + static_cast<std::uint64_t>(k),
                                   at.numbers.path, at.numbers.part};
         double distance = 0.0;
-        sum += arriving(path, numbers, distance);
+        sum += arriving(path, at, numbers, distance);
     }
     return (1.0 / gather_) * sum;
 }
 
-Spectrum GatheringEye::arriving(PathEnd& path, const PathNumbers& numbers, double& distance) {
+Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNumbers& numbers,
+                                double& distance) {
+    Wavelengths waves = *at.path.waves;
+    path.waves = &waves;
     Spectrum sum;
     for (int surface = 0; surface < settings_.depth; ++surface) {
         if (!next_.find(path, numbers)) return sum;
         const ShadingPoint& point = next_.point();
         if (surface == 0) distance = path.travelled;
         if (point.material->unlit) return sum;
-        met_.set(scene_, point, path.media, waves_);
+        met_.set(scene_, point, path.media, waves);
+        if (met_.needs_hero()) waves.keep_hero(path.throughput);
         if (met_.has_density()) {
-            sum += path.throughput *
-                   density_.radiance(maps_.global, met_, point.surface.point, LightPart::All);
+            sum += path.throughput * density_.radiance(maps_.pairs[at.waves].global, met_,
+                                                       point.surface.point, LightPart::All,
+                                                       waves.hero_only());
         }
         const std::uint64_t first = 3 * static_cast<std::uint64_t>(surface);
         const auto drawn = met_.sample(
             numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, Transport::Radiance);
         if (!drawn || !drawn->singular || drawn->weight.is_black()) return sum;
         NextSurface::go_on(path, point.surface, met_, *drawn);
+        if (drawn->dispersed) waves.keep_hero(path.throughput);
     }
     return sum;
 }

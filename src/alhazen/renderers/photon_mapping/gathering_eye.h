@@ -18,7 +18,7 @@ class GatheringEye final : public PhotonEye {
     GatheringEye(const RenderJob& job, std::size_t, RayCounters& counters,
                  const Illumination& lights, const PhotonMaps& maps,
                  const PhotonMappingSettings& settings, const IrradianceCache* cache)
-        : PhotonEye(job, counters, lights, settings.paths, kColorChannels),
+        : PhotonEye(job, counters, lights, settings.paths, maps.waves),
           maps_(maps),
           cache_(cache),
           gather_(settings.gather),
@@ -33,8 +33,9 @@ class GatheringEye final : public PhotonEye {
     /// The same for a matt surface, by way of the cache.
     [[nodiscard]] Spectrum matt_light(const SeenPoint& at, const Spectrum& reflectance);
     [[nodiscard]] IrradianceRecord record_at(const SeenPoint& at);
-    /// The light that a gathering ray brings. Sets the distance to what it meets first.
-    [[nodiscard]] Spectrum arriving(PathEnd& path, const PathNumbers& numbers, double& distance);
+    /// The light that a gathering ray from `at` brings. Sets the distance to what it meets first.
+    [[nodiscard]] Spectrum arriving(PathEnd& path, const SeenPoint& at, const PathNumbers& numbers,
+                                    double& distance);
 
     const PhotonMaps& maps_;
     const IrradianceCache* cache_;  ///< may be null

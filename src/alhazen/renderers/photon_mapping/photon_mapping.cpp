@@ -1,5 +1,6 @@
 #include "alhazen/renderers/photon_mapping/photon_mapping.h"
 
+#include "alhazen/base/error.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/photon_mapping/fill_cache.h"
@@ -34,15 +35,27 @@ class PhotonTiles final : public TiledRenderer {
 }  // namespace
 
 RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
+    if (job.spectral && settings_.cache > 0.0) {
+        throw Error(ErrorKind::Usage,
+                    "photon_mapping: the irradiance cache keeps colours, not wavelengths: "
+                    "--spectral takes cache=0 alone");
+    }
     const Illumination lights(job.scene);
     const PhotonMaps maps = make_photon_maps(job, lights, settings_);
     RenderReport report;
     if (maps.complete) {
-        add_to_cloud(maps.global.tree.photons(), false, job.photons);
-        add_to_cloud(maps.caustic.tree.photons(), true, job.photons);
+        for (std::size_t k = 0; k < maps.pairs.size(); ++k) {
+            const PhotonMapPair& pair = maps.pairs[k];
+            add_to_cloud(pair.global.tree.photons(), false, job.photons, maps.waves[k]);
+            add_to_cloud(pair.caustic.tree.photons(), true, job.photons, maps.waves[k]);
+        }
         record_photon_layer(job, film, [&](const Vec3& point, const Vec3& normal) {
-            return photons_by_area(maps.global, point, normal) +
-                   photons_by_area(maps.caustic, point, normal);
+            double sum = 0.0;
+            for (const PhotonMapPair& pair : maps.pairs) {
+                sum += photons_by_area(pair.global, point, normal) +
+                       photons_by_area(pair.caustic, point, normal);
+            }
+            return sum;
         });
         const RenderJob planned = with_plan(job);
         std::optional<IrradianceCache> cache;

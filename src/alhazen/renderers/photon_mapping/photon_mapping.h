@@ -5,9 +5,12 @@
 /// Synthesis Using Photon Mapping", 2001.
 /// Differs: photons/photon_walk.h, photons/photon_density.h, photons/photon_eye.h. With `gather` 0
 /// the light that the global map shows is only what neither shadow rays nor the caustic map find.
+/// Light by wavelengths: kWaveSets pairs of maps, each for four wavelengths, share the photons, and
+/// the samples of a pixel look at them in turn, for that share of `nearest` photons.
 /// Conventions: maps depend on the scene and the seed alone, pixels on those and their own
 /// coordinates.
-/// Errors: photons that do not fit into the memory, lights that send none (photon_shooting.h).
+/// Errors: an irradiance cache with wavelengths (Usage), photons that do not fit into the memory,
+/// lights that send none (photon_shooting.h).
 
 #include <cstdint>
 
@@ -36,6 +39,7 @@ class PhotonMapping final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool has_photons() const override { return true; }
+    [[nodiscard]] bool takes_wavelengths() const override { return true; }
     [[nodiscard]] int usual_samples() const override { return 16; }
 
   private:

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/photons/photon_passes.h"
 #include "alhazen/renderers/photons/photon_shooting.h"
 #include "alhazen/renderers/photons/projection_map.h"
 #include "alhazen/sampling/random.h"
@@ -15,12 +16,22 @@ namespace {
 
 /// Bytes of a photon while its map is built: itself, its place and its number.
 constexpr double kBytesOfPhoton = sizeof(Photon) + 9;
+/// Each of four wavelengths.
+constexpr std::uint32_t kWaveSets = 16;
+
+/// The share of one of the sets, rounded up.
+std::uint64_t share_of(std::uint64_t photons, const PhotonMaps& maps) {
+    return (photons + maps.pairs.size() - 1) / maps.pairs.size();
+}
 
 /// Adds the photons of a shot to the maps. False after a stop.
 bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& shot,
           const PhotonMappingSettings& settings, PhotonMaps& maps, PhotonMap& map) {
-    const double taken =
-        static_cast<double>(maps.caustic.tree.photons().size() + maps.global.tree.photons().size());
+    double taken = 0.0;
+    for (const PhotonMapPair& pair : maps.pairs) {
+        taken += static_cast<double>(pair.caustic.tree.photons().size() +
+                                     pair.global.tree.photons().size());
+    }
     const double most = std::min(settings.memory * 1e6 / kBytesOfPhoton - taken,
                                  double{std::numeric_limits<std::uint32_t>::max()});
     ShotPhotons shot_photons = shoot_photons(
@@ -29,10 +40,40 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
     if (!shot_photons.complete) return maps.complete = false;
     ThreadLimit threads(job.control.threads);
     threads.run([&] { map.tree = PhotonTree(std::move(shot_photons.photons)); });
-    map.nearest = static_cast<std::size_t>(settings.nearest);
+    const std::uint64_t nearest = share_of(static_cast<std::uint64_t>(settings.nearest), maps);
+    map.nearest = std::max<std::size_t>(2, nearest);
     map.filter = settings.filter;
     map.radius = settings.radius > 0.0 ? settings.radius : usual_radius(map.tree, map.nearest);
     return true;
+}
+
+/// Both maps of a set. `seed`: of the photons before, and then of these. False after a stop.
+bool fill_pair(const RenderJob& job, const Illumination& lights,
+               const PhotonMappingSettings& settings, std::size_t set, std::uint64_t& seed,
+               PhotonMaps& maps) {
+    PhotonMapPair& pair = maps.pairs[set];
+    PhotonKinds kinds{PhotonKind::Indirect};
+    if (settings.gather > 0) {
+        kinds = {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect};
+    } else if (settings.caustics == 0) {
+        kinds = {PhotonKind::Caustic, PhotonKind::Indirect};
+    }
+    seed = mix64(seed);
+    PhotonShot shot{share_of(settings.photons, maps), kinds, settings.paths.depth, seed,
+                    &maps.waves[set]};
+    if (!fill(job, lights, shot, settings, maps, pair.global)) return false;
+    if (settings.caustics == 0) return true;
+    seed = mix64(seed);
+    shot.count = share_of(settings.caustics, maps);
+    shot.kinds = {PhotonKind::Caustic};
+    shot.seed = seed;
+    std::optional<ProjectionMap> projection;
+    if (settings.projection) {
+        ThreadLimit threads(job.control.threads);
+        threads.run([&] { projection.emplace(job, lights, mix64(seed), maps.counters); });
+        shot.projection = &*projection;
+    }
+    return fill(job, lights, shot, settings, maps, pair.caustic);
 }
 
 }  // namespace
@@ -40,27 +81,14 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
 PhotonMaps make_photon_maps(const RenderJob& job, const Illumination& lights,
                             const PhotonMappingSettings& settings) {
     PhotonMaps maps;
+    const std::uint32_t sets = job.spectral ? kWaveSets : 1;
+    for (std::uint32_t k = 0; k < sets; ++k) maps.waves.push_back(waves_of_pass(job, k));
+    maps.pairs.resize(sets);
     if (!lights.shines()) return maps;
-    PhotonKinds kinds{PhotonKind::Indirect};
-    if (settings.gather > 0) {
-        kinds = {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect};
-    } else if (settings.caustics == 0) {
-        kinds = {PhotonKind::Caustic, PhotonKind::Indirect};
+    std::uint64_t seed = job.seed;
+    for (std::size_t k = 0; k < sets; ++k) {
+        if (!fill_pair(job, lights, settings, k, seed, maps)) break;
     }
-    PhotonShot shot{settings.photons, kinds, settings.paths.depth, mix64(job.seed)};
-    if (!fill(job, lights, shot, settings, maps, maps.global) || settings.caustics == 0) {
-        return maps;
-    }
-    shot.count = settings.caustics;
-    shot.kinds = {PhotonKind::Caustic};
-    shot.seed = mix64(shot.seed);
-    std::optional<ProjectionMap> projection;
-    if (settings.projection) {
-        ThreadLimit threads(job.control.threads);
-        threads.run([&] { projection.emplace(job, lights, mix64(shot.seed), maps.counters); });
-        shot.projection = &*projection;
-    }
-    fill(job, lights, shot, settings, maps, maps.caustic);
     return maps;
 }
 

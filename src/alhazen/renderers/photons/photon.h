@@ -11,11 +11,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "alhazen/math/vec.h"
-#include "alhazen/shading/spectrum/spectrum.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
@@ -55,14 +56,30 @@ class OctahedralVector {
     std::int16_t x_ = 0, y_ = 0;
 };
 
+/// Light in 96 bits: the channels of a colour, or of four wavelengths.
+///
+/// Conventions: not below 0. Wavelengths have 23 bits each, rounded (within 2^-16), and are marked
+/// by the sign of the first float.
+[[nodiscard]] std::array<float, 3> stored_light(const Spectrum& light, const Wavelengths& waves);
+
 struct Photon {
     std::array<float, 3> position{};
-    std::array<float, 3> power{};  ///< that arrives
+    std::array<float, 3> power{};  ///< that arrives, as `stored_light`
     OctahedralVector from;         ///< towards where it came from
     OctahedralVector normal;       ///< geometric, on that side
 
     [[nodiscard]] Vec3 point() const { return {position[0], position[1], position[2]}; }
-    [[nodiscard]] Spectrum light() const { return {power[0], power[1], power[2], power[2]}; }
+    [[nodiscard]] Spectrum light() const {
+        return std::signbit(power[0]) ? light_of_waves()
+                                      : Spectrum{power[0], power[1], power[2], power[2]};
+    }
+    /// Whether it carries the light of all wavelengths at that of the hero.
+    [[nodiscard]] bool hero_only() const {
+        return (std::bit_cast<std::uint32_t>(power[0]) >> 30) == 3;
+    }
+
+  private:
+    [[nodiscard]] Spectrum light_of_waves() const;
 };
 static_assert(sizeof(Photon) == 32);
 

@@ -23,14 +23,17 @@ double filter_weight(DensityFilter filter, double share) {
     return 1.0;
 }
 
-Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part) {
+Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part,
+                         bool hero_only) {
     const Vec3 from = photon.from.vector();
     const Spectrum value = at.value(from, Transport::Radiance);
     if (value.is_black()) return {};
     if (part == LightPart::NotGlossy && at.density(from) > kGlossyDensity) return {};
     // Flux by area counts the geometric cosine, the value that of the shading normal.
     const double cosine = std::abs(dot(from, at.geometric()));
-    return cosine > 0.0 ? (1.0 / cosine) * (value * photon.light()) : Spectrum{};
+    if (!(cosine > 0.0)) return {};
+    const Spectrum light = (1.0 / cosine) * (value * photon.light());
+    return hero_only && photon.hero_only() ? (1.0 / Spectrum::kCount) * light : light;
 }
 
 double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal) {
@@ -62,7 +65,7 @@ double usual_radius(const PhotonTree& tree, std::size_t nearest) {
 }
 
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
-                                 LightPart part) {
+                                 LightPart part, bool hero_only) {
     double squared = map.radius * map.radius;
     map.tree.nearest(point, map.nearest, squared, PhotonFits(at), found_);
     if (found_.empty()) return {};
@@ -76,7 +79,7 @@ Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, c
     for (std::size_t i = first; i < found_.size(); ++i) {
         const Photon& photon = map.tree.photons()[found_[i].node];
         sum += filter_weight(map.filter, found_[i].squared / squared) *
-               scattered_light(at, photon, part);
+               scattered_light(at, photon, part, hero_only);
     }
     return (1.0 / (kPi * squared)) * sum;
 }

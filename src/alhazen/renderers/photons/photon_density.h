@@ -49,9 +49,10 @@ inline constexpr double kGlossyDensity = 1.0;
 /// Which of the light that a point scatters is asked for.
 enum class LightPart : std::uint8_t { All, NotGlossy };
 
-/// Radiance towards the view for the light of a photon, of unit density by area.
-[[nodiscard]] Spectrum scattered_light(const ScatterPoint& at, const Photon& photon,
-                                       LightPart part);
+/// Radiance towards the view for the light of a photon, of unit density by area. `hero_only`: of
+/// the path that looks at it; where both are, the hero counts for all wavelengths once.
+[[nodiscard]] Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part,
+                                       bool hero_only);
 
 /// A tree of photons and how it is looked at.
 struct PhotonMap {
@@ -72,7 +73,7 @@ struct PhotonMap {
 class PhotonDensity {
   public:
     [[nodiscard]] Spectrum radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
-                                    LightPart part);
+                                    LightPart part, bool hero_only);
 
   private:
     std::vector<PhotonTree::Near> found_;

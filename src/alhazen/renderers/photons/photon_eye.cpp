@@ -2,42 +2,46 @@
 
 #include <algorithm>
 
+#include "alhazen/renderers/light_transport/emission_of.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/photons/photon_density.h"
 
 namespace alhazen {
 
 PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
-                     const PathSettings& settings, const Wavelengths& waves)
+                     const PathSettings& settings, std::span<const Wavelengths> waves)
     : job_(job),
       scene_(job.scene),
       counters_(counters),
       settings_(settings),
-      waves_(waves),
       lights_(lights),
       chance_(job),
       camera_(job),
       next_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
+      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+      given_(waves.begin(), waves.end()) {}
 
 void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                               std::span<Rgb> radiance) {
     // Shadow rays are cast together, and their light is added last, whatever the batch.
     light_.assign(rays.size(), {});
     direct_.assign(rays.size(), {});
+    waves_.clear();
+    for (const SampleId& id : ids) waves_.push_back(given_[id.number % given_.size()]);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (job_.stop_requested()) return;
-        trace(ids[i], rays[i], light_[i], direct_[i]);
+        trace(ids[i], rays[i], waves_[i], light_[i], direct_[i]);
     }
     shadows_.finish();
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        radiance[i] = waves_.color(light_[i] + direct_[i]);
+        radiance[i] = waves_[i].color(light_[i] + direct_[i]);
     }
 }
 
-void PhotonEye::trace(const SampleId& id, const Ray& ray, Spectrum& sum, Spectrum& direct) {
+void PhotonEye::trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Spectrum& sum,
+                      Spectrum& direct) {
     PathEnd path;
-    path.waves = &waves_;
+    path.waves = &waves;
     path.time = camera_.time(chance_, id);
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
@@ -52,12 +56,14 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Spectrum& sum, Spectru
         const ShadingPoint& point = next_.point();
         sum += emitted(path, last);
         if (point.material->unlit || last.scatterings >= settings_.depth) return;
-        scatter_.set(scene_, point, path.media, waves_);
+        scatter_.set(scene_, point, path.media, waves);
+        if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         if (scatter_.has_density()) {
             add_direct_light(id, event, path, direct);
             const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(event) + 1,
                                   numbers.path, numbers.part};
-            sum += path.throughput * photon_light({point.surface, scatter_, path, own});
+            sum += path.throughput *
+                   photon_light({point.surface, scatter_, path, id.number % given_.size(), own});
         }
         const auto drawn =
             scatter_.sample(chance_.draw(id, event, PathChance::kChoices).x,
@@ -74,12 +80,13 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Spectrum& sum, Spectru
             last.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
         }
         NextSurface::go_on(path, point.surface, scatter_, *drawn);
+        if (drawn->dispersed) waves.keep_hero(path.throughput);
         if (!survives(path, last, id, event)) return;
     }
 }
 
 Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
-    const Spectrum light = path.throughput * lights_.environment(path.ray.direction, waves_);
+    const Spectrum light = path.throughput * lights_.environment(path.ray.direction, *path.waves);
     if (light.is_black() || last.singular) return light;
     const double other = lights_.environment_density(last.from, path.ray.direction);
     return power_heuristic(last.density, other) * light;
@@ -88,7 +95,7 @@ Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
 Spectrum PhotonEye::emitted(const PathEnd& path, const Last& last) const {
     const ShadingPoint& point = next_.point();
     if (point.material->emission.is_black()) return {};
-    const Spectrum light = path.throughput * waves_.emission(point.material->emission);
+    const Spectrum light = path.throughput * emission_of(scene_, point, *path.waves);
     if (light.is_black() || last.singular) return light;
     // What shows its colour whatever the light is no lamp.
     if (point.material->unlit) return {};
@@ -102,7 +109,7 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     const ShadingPoint& point = next_.point();
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
     const LightDraw drawn = lights_.draw(at, chance_.draw(id, event, PathChance::kChoices).y,
-                                         chance_.draw(id, event, PathChance::kLight), waves_);
+                                         chance_.draw(id, event, PathChance::kLight), *path.waves);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     const Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
@@ -115,7 +122,7 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     // The light itself does not block its ray.
     constexpr double kBefore = 1.0 - 1e-7;
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{}, waves_,
+                 medium != nullptr ? medium->absorption : Rgb{}, *path.waves,
                  path.throughput * (weight * light), direct);
 }
 

@@ -27,14 +27,15 @@ struct SeenPoint {
     const ShapeSurface& surface;
     const ScatterPoint& scatter;
     const PathEnd& path;  ///< that arrived
+    std::size_t waves;    ///< which of those that the eye was given
     PathNumbers numbers;  ///< for what is drawn there
 };
 
 class PhotonEye {
   public:
-    /// `waves`: of all its paths.
+    /// `waves`: of which sample `number` has those at number % size.
     PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
-              const PathSettings& settings, const Wavelengths& waves);
+              const PathSettings& settings, std::span<const Wavelengths> waves);
     virtual ~PhotonEye() = default;
     PhotonEye(const PhotonEye&) = delete;
     PhotonEye& operator=(const PhotonEye&) = delete;
@@ -51,7 +52,6 @@ class PhotonEye {
     const Scene& scene_;
     RayCounters& counters_;
     const PathSettings settings_;
-    const Wavelengths& waves_;
 
   private:
     /// The state of a path besides its end.
@@ -63,7 +63,8 @@ class PhotonEye {
         int scatterings = 0;
     };
     // `event`: scatterings and straight passes so far, for random numbers.
-    void trace(const SampleId& id, const Ray& ray, Spectrum& sum, Spectrum& direct);
+    void trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Spectrum& sum,
+               Spectrum& direct);
     [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
     [[nodiscard]] Spectrum emitted(const PathEnd& path, const Last& last) const;
     void add_direct_light(const SampleId& id, int event, const PathEnd& path, Spectrum& direct);
@@ -76,7 +77,9 @@ class PhotonEye {
     NextSurface next_;
     LightBatch shadows_;
     ScatterPoint scatter_;
+    const std::vector<Wavelengths> given_;
     std::vector<Spectrum> light_, direct_;  ///< [sample]
+    std::vector<Wavelengths> waves_;        ///< [sample]
 };
 
 }  // namespace alhazen

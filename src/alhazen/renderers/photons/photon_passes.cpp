@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 
@@ -30,6 +32,14 @@ double radius_of_pixels(const RenderJob& job, const Film& film) {
     const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
     std::nth_element(widths.begin(), middle, widths.end());
     return 3.0 * *middle;
+}
+
+Wavelengths waves_of_pass(const RenderJob& job, std::uint32_t number) {
+    if (!job.spectral) return {};
+    constexpr double kGolden = 0.6180339887498949;
+    constexpr std::uint64_t kWaves = 0x57617665;  // of nothing else that is drawn
+    const double u = random_at(mix64(job.seed), kWaves, 0, 0) + kGolden * number;
+    return Wavelengths::drawn(std::min(u - std::floor(u), 0x1.fffffffffffffp-1));
 }
 
 void refuse_stop_rules(const RenderJob& job, const char* renderer) {

@@ -14,6 +14,7 @@
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/core/sampling_report.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
@@ -24,6 +25,10 @@ namespace alhazen {
 
 /// Three times the median width of a pixel at what the eye sees.
 [[nodiscard]] double radius_of_pixels(const RenderJob& job, const Film& film);
+
+/// Channels, or where the job is spectral wavelengths for all paths of pass (or set) `number`:
+/// evenly spread over any few of them, each evenly over seeds.
+[[nodiscard]] Wavelengths waves_of_pass(const RenderJob& job, std::uint32_t number);
 
 /// Throws Error (Usage) where the job stops by a rule, not after a number of samples. `renderer`:
 /// its name.

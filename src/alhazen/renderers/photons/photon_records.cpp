@@ -6,14 +6,17 @@
 
 namespace alhazen {
 
-void add_to_cloud(std::span<const Photon> photons, bool caustic, PhotonCloud* cloud) {
+void add_to_cloud(std::span<const Photon> photons, bool caustic, PhotonCloud* cloud,
+                  const Wavelengths& waves) {
     if (cloud == nullptr) return;
     for (const Photon& photon : photons) {
         const Vec3 along = -photon.from.vector();
+        const Rgb power = waves.color(photon.light());
         cloud->photons.push_back({photon.position,
                                   {static_cast<float>(along.x), static_cast<float>(along.y),
                                    static_cast<float>(along.z)},
-                                  photon.power,
+                                  {static_cast<float>(power.r), static_cast<float>(power.g),
+                                   static_cast<float>(power.b)},
                                   static_cast<std::uint8_t>(caustic)});
     }
 }

@@ -12,7 +12,8 @@
 namespace alhazen {
 
 /// Appends photons; nothing where `cloud` is null.
-void add_to_cloud(std::span<const Photon> photons, bool caustic, PhotonCloud* cloud);
+void add_to_cloud(std::span<const Photon> photons, bool caustic, PhotonCloud* cloud,
+                  const Wavelengths& waves = kColorChannels);
 
 /// Photons by area at a point with this unit geometric normal, towards the eye. Called from many
 /// threads.

@@ -52,14 +52,14 @@ Spectrum PhotonWalk::falloff(const LightRay& light, const Vec3& point, double di
     return factor;
 }
 
-void PhotonWalk::store(PhotonKind kind, const Spectrum& power, std::vector<Photon>& stored) const {
+void PhotonWalk::store(PhotonKind kind, const Spectrum& power, const Wavelengths& waves,
+                       std::vector<Photon>& stored) const {
     if (!shot_.kinds.has(kind) || power.is_black() || !power.is_finite()) return;
     const Vec3& p = next_.point().surface.point;
     // Where the surface is there in part the eye's path stops by the same chance as the photon.
     const double coverage = next_.point().material->coverage;
     const double share = 1.0 / (coverage * static_cast<double>(shot_.count));
-    stored.push_back({floats(p.x, p.y, p.z),
-                      floats(share * power.a, share * power.b, share * power.c),
+    stored.push_back({floats(p.x, p.y, p.z), stored_light(share * power, waves),
                       OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});
 }
 
@@ -84,7 +84,8 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
-    path.waves = shot_.waves;
+    Wavelengths waves = *shot_.waves;
+    path.waves = &waves;
     path.throughput = start.throughput;
     path.time = time;
     path.media = start.media;
@@ -97,8 +98,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         const ShadingPoint& point = next_.point();
         if (point.material->unlit) return true;
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
-        scatter_.set(scene_, point, path.media, *shot_.waves);
-        if (scatter_.has_density()) store(kind, fall * path.throughput, stored);
+        scatter_.set(scene_, point, path.media, waves);
+        if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
+        if (scatter_.has_density()) store(kind, fall * path.throughput, waves, stored);
         const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
         const auto drawn =
             scatter_.sample(numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)},
@@ -117,6 +119,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         }
         const double turned = scatter_.importance_correction(drawn->direction);
         NextSurface::go_on(path, point.surface, scatter_, *drawn);
+        if (drawn->dispersed) waves.keep_hero(path.throughput);
         path.throughput = turned * path.throughput;
         if (!survives(path, begun, numbers, first + 3)) return true;
     }

@@ -28,7 +28,7 @@ struct PhotonShot {
     PhotonKinds kinds;        ///< to be stored
     int depth = 64;           ///< largest number of surfaces
     std::uint64_t seed = 0;
-    const Wavelengths* waves = &kColorChannels;  ///< of all photons
+    const Wavelengths* waves = &kColorChannels;  ///< of all photons, as they leave their lights
     const ProjectionMap* projection = nullptr;   ///< where lights send them; null: everywhere
 };
 
@@ -44,7 +44,8 @@ class PhotonWalk {
     [[nodiscard]] LightRay leave_light(std::uint64_t number) const;
     /// Of a light with a place: its own falloff over that of its rays.
     [[nodiscard]] Spectrum falloff(const LightRay& light, const Vec3& point, double distance) const;
-    void store(PhotonKind kind, const Spectrum& power, std::vector<Photon>& stored) const;
+    void store(PhotonKind kind, const Spectrum& power, const Wavelengths& waves,
+               std::vector<Photon>& stored) const;
     [[nodiscard]] bool survives(PathEnd& path, double begun, const PathNumbers& numbers,
                                 std::uint64_t dimension) const;
 

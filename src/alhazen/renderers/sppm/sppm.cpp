@@ -25,15 +25,18 @@ constexpr std::size_t kEyePathsAtOnce = 256;
 class PassEye final : public PhotonEye {
   public:
     PassEye(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
-            const PathSettings& paths, const PhotonGrid& grid)
-        : PhotonEye(job, counters, lights, paths, kColorChannels), grid_(grid) {}
+            const PathSettings& paths, const PhotonGrid& grid, const Wavelengths* waves)
+        : PhotonEye(job, counters, lights, paths, {waves, 1}), grid_(grid) {}
 
   private:
     [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override {
         const PhotonFits fits(at.scatter);
+        const bool hero_only = at.path.waves->hero_only();
         Spectrum sum;
         grid_.for_near(at.surface.point, [&](const Photon& photon) {
-            if (fits(photon)) sum += scattered_light(at.scatter, photon, LightPart::NotGlossy);
+            if (fits(photon)) {
+                sum += scattered_light(at.scatter, photon, LightPart::NotGlossy, hero_only);
+            }
         });
         return (1.0 / (kPi * grid_.radius() * grid_.radius())) * sum;
     }
@@ -64,16 +67,18 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         std::min(settings_.memory * 1e6 / PhotonGrid::kBytesOfPhoton, 0x1p31));
     note_silent_lights(lights, "sppm", passes.report());
     for (std::uint32_t pass = 0; pass < passes.count(); ++pass) {
+        const Wavelengths waves = waves_of_pass(job, pass);
+        shot.waves = &waves;
         ShotPhotons photons;
         if (lights.shines()) photons = shoot_photons(passes.job(), lights, shot, most, "sppm");
         passes.report().counters += photons.counters;
         if (!photons.complete) return passes.stopped();
-        if (pass == 0) add_to_cloud(photons.photons, false, job.photons);
+        if (pass == 0) add_to_cloud(photons.photons, false, job.photons, waves);
         const PhotonGrid grid(std::move(photons.photons), radius);
         if (pass == 0) record_photons_of(grid, job, film);
         const bool complete = passes.look([&](const RenderJob& part) {
             return std::make_unique<RoundRenderer<PassEye>>(part, kEyePathsAtOnce, lights,
-                                                            settings_.paths, grid);
+                                                            settings_.paths, grid, &waves);
         });
         if (!complete) break;
         shot.seed = mix64(shot.seed);

@@ -8,7 +8,8 @@
 /// Differs: the photons of a pass are kept in the grid, not the visible points: the same sum for
 /// each pixel, without writes to shared places. Direct light by shadow rays
 /// (photons/photon_eye.h).
-/// Conventions: a pass for each sample of a pixel. Pixels depend neither on the threads nor on
+/// Conventions: a pass for each sample of a pixel, with wavelengths of its own (waves_of_pass).
+/// Pixels depend neither on the threads nor on
 /// tiles nor on the crop. Memory: the photons of one pass.
 /// Errors: photons that do not fit into the memory, lights that send none (photon_shooting.h).
 
@@ -33,6 +34,7 @@ class Sppm final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool has_photons() const override { return true; }
+    [[nodiscard]] bool takes_wavelengths() const override { return true; }
 
   private:
     SppmSettings settings_;

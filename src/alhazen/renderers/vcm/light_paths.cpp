@@ -66,8 +66,11 @@ void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facin
                          std::size_t number, std::vector<LightVertex>& kept) const {
     if (!v.connects() || v.throughput.is_black() || !v.throughput.is_finite()) return;
     const Vec3& p = v.surface.point;
+    Wavelengths waves = *shot_.waves;
+    Spectrum ignored;
+    if (v.hero_only) waves.keep_hero(ignored);
     const Spectrum power = (1.0 / (v.coverage * static_cast<double>(shot_.count))) * v.throughput;
-    kept.push_back({{as_floats(p.x, p.y, p.z), as_floats(power.a, power.b, power.c),
+    kept.push_back({{as_floats(p.x, p.y, p.z), stored_light(power, waves),
                      OctahedralVector(v.scatter.view()), OctahedralVector(v.scatter.geometric())},
                     sums,
                     facing,

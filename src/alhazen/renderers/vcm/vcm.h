@@ -23,6 +23,7 @@ class Vcm final : public LightTransportRenderer {
     explicit Vcm(const VcmSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool takes_wavelengths() const override { return true; }
     [[nodiscard]] bool has_photons() const override { return settings_.merge; }
 
   private:

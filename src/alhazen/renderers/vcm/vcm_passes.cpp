@@ -21,12 +21,13 @@ namespace {
 
 constexpr std::size_t kPairsAtOnce = 256;
 
-void record_vertices(const std::vector<LightVertex>& vertices, const RenderJob& job) {
+void record_vertices(const std::vector<LightVertex>& vertices, const RenderJob& job,
+                     const Wavelengths& waves) {
     if (job.photons == nullptr) return;
     std::vector<Photon> photons;
     photons.reserve(vertices.size());
     for (const LightVertex& v : vertices) photons.push_back(v.photon);
-    add_to_cloud(photons, false, job.photons);
+    add_to_cloud(photons, false, job.photons, waves);
 }
 
 void record_density(const LightVertexGrid& grid, const RenderJob& job, const Film& film) {
@@ -62,6 +63,8 @@ RenderReport render_merging(const RenderJob& job, Film& film, const VcmSettings&
     double radius = settings.radius;
     bool merges = lights.shines(), complete = true;
     for (std::uint32_t pass = 0; pass < passes.count() && complete; ++pass) {
+        const Wavelengths waves = waves_of_pass(job, pass);
+        shot.waves = &waves;
         NumberedRecords<LightVertex> kept;
         shot.merging = kPi * radius * radius * static_cast<double>(shot.count);
         if (merges) {
@@ -84,10 +87,10 @@ RenderReport render_merging(const RenderJob& job, Film& film, const VcmSettings&
                     "nothing is merged, and chance alone finds their light");
             }
         }
-        if (pass == 0) record_vertices(kept.records, job);
+        if (pass == 0) record_vertices(kept.records, job, waves);
         const LightVertexGrid grid(std::move(kept.records), radius);
         if (pass == 0) record_density(grid, job, film);
-        MergePass merging{grid, merges ? shot.merging : 0.0};
+        MergePass merging{grid, merges ? shot.merging : 0.0, job.spectral ? &waves : nullptr};
         complete = passes.look([&](const RenderJob& part) {
             return std::make_unique<RoundRenderer<VcmTracer>>(
                 part, kPairsAtOnce, lights, settings.paths, &lens_light, &merging);

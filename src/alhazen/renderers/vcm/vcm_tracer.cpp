@@ -12,6 +12,7 @@ VcmTracer::VcmTracer(const RenderJob& job, std::size_t at_once, RayCounters& cou
                      LensLight* lens_light, MergePass* pass)
     : BidirectionalTracer(job, at_once, counters, lights, settings, lens_light), pass_(*pass) {
     set_merging(pass->merging);
+    set_waves(pass->waves);
 }
 
 void VcmTracer::merge(Spectrum& sum) {
@@ -49,7 +50,8 @@ Spectrum VcmTracer::merged_at(std::size_t b, const SideSums& eye, std::uint64_t&
     pass_.grid.for_near(z.surface.point, [&](const LightVertex& y) {
         if (y.number + b > most || !fits(y.photon)) return;
         ++merged;
-        const Spectrum scattered = scattered_light(z.scatter, y.photon, LightPart::All);
+        const Spectrum scattered =
+            scattered_light(z.scatter, y.photon, LightPart::All, z.hero_only);
         if (scattered.is_black()) return;
         const Vec3 from = y.photon.from.vector();
         light += weight_of_merged(y.sums, y.facing * z.scatter.density(from), eye,

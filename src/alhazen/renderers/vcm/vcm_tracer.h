@@ -13,6 +13,7 @@ namespace alhazen {
 struct MergePass {
     const LightVertexGrid& grid;
     double merging;                        ///< WholePath::merging
+    const Wavelengths* waves;              ///< of all paths; null: each has its own
     std::atomic<std::uint64_t> merged{0};  ///< pairs of vertices, counted
 };
 

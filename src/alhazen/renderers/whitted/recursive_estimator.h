@@ -17,6 +17,8 @@
 #include "alhazen/renderers/core/shadow_batch.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/core/wavefront.h"
+#include "alhazen/renderers/whitted/wave_split.h"
+#include "alhazen/shading/optics/dispersion.h"
 
 namespace alhazen {
 
@@ -61,7 +63,9 @@ inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 template <class Chance>
 class RecursiveEstimator {
   public:
-    RecursiveEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
+    /// `split`: where glass disperses; null: nowhere.
+    RecursiveEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters,
+                       const WaveSplit* split = nullptr)
         : job_(job),
           scene_(job.scene),
           conventions_(job.scene.conventions.shading),
@@ -70,7 +74,8 @@ class RecursiveEstimator {
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-          chance_(job) {
+          chance_(job),
+          split_(split) {
         if (!conventions_.optics.any()) return;
         optics_.emplace(scene_, conventions_.optics);
         visible_.use(*optics_);
@@ -159,7 +164,7 @@ class RecursiveEstimator {
                 MetSurface& met = front.met.emplace_back();
                 met.ray = i;
                 met.share = coverage * left;
-                shade({*point, rays[k], t, path, depth}, met, front.next);
+                shade({*point, rays[k], t, path, depth}, met, front);
                 if constexpr (TreeWatcher<Chance>) chance_.meet(*point, t, path, depth, met);
                 left = (1.0 - coverage) * left;
                 if (!(left.max() >= kLeastTransmittance)) return;
@@ -174,18 +179,26 @@ class RecursiveEstimator {
     }
 
     /// Adds the colours of the surfaces to the radiance of the rays.
-    static void gather(const Wavefront& front, std::span<Rgb> radiance) {
+    void gather(const Wavefront& front, std::span<Rgb> radiance) const {
         for (const MetSurface& met : front.met) {
-            radiance[met.ray] += met.share * color_of(met, front.next);
+            radiance[met.ray] += met.share * color_of(met, front);
         }
     }
-    static Rgb color_of(const MetSurface& met, const Generation& next) {
+    [[nodiscard]] Rgb color_of(const MetSurface& met, const Wavefront& front) const {
         if (!met.lit) return met.own;
         const auto beyond = [&](std::uint32_t ray) {
-            return ray == MetSurface::kNotSent ? Rgb{} : next.radiance(ray);
+            return ray == MetSurface::kNotSent ? Rgb{} : front.next.radiance(ray);
         };
+        Rgb refracted;
+        if (met.split) {
+            for (std::size_t i = met.refracted; const WaveSplit::Wave& wave : split_->waves()) {
+                refracted += wave.weight * beyond(front.split[i++]);
+            }
+        } else {
+            refracted = beyond(met.refracted);
+        }
         const Rgb color =
-            met.own + met.direct + met.kr * beyond(met.reflected) + met.kt * beyond(met.refracted);
+            met.own + met.direct + met.kr * beyond(met.reflected) + met.kt * refracted;
         return met.filtered ? color * met.filter : color;
     }
 
@@ -200,7 +213,7 @@ class RecursiveEstimator {
 
     /// Gathers the light from the point towards the origin of the ray: at once, by queued shadow
     /// rays, or by rays of the next generation.
-    void shade(const Seen& seen, MetSurface& met, Generation& next) {
+    void shade(const Seen& seen, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
         met.lit = !point.material->unlit;
         if (!met.lit) {
@@ -213,8 +226,8 @@ class RecursiveEstimator {
             Path onward = seen.path;
             onward.contribution = seen.path.contribution * met.share;
             onward.cone = seen.path.cone.from(seen.t);
-            if (conventions_.trace_reflections) reflect(seen, onward, met, next);
-            if (conventions_.trace_refractions) transmit(seen, onward, met, next);
+            if (conventions_.trace_reflections) reflect(seen, onward, met, front.next);
+            if (conventions_.trace_refractions) transmit(seen, onward, met, front);
         }
         met.filtered =
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
@@ -258,19 +271,17 @@ class RecursiveEstimator {
         met.reflected = next.add(onward_ray(conventions_, point.surface, direction), onward);
     }
 
-    void transmit(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
+    void transmit(const Seen& seen, Path onward, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
         const MaterialSample& material = *point.material;
         const Rgb& kt = point.passing;
         onward.kind = RayKind::Refraction;
         onward.contribution = onward.contribution * kt;
         if (kt.is_black() || onward.contribution.max() < conventions_.min_contribution) return;
-        Vec3 direction = seen.ray.direction;
+        const bool tinted =
+            optics_ || material.physical ||
+            conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
         if (!material.thin) {
-            if (!refracted(point, seen.ray, direction)) {
-                ++counters_.total_internal;
-                return;
-            }
             const BehindSurface& behind = point.behind;
             onward.inside = behind.known ? behind.inside : point.entering;
             onward.absorption = behind.known     ? behind.absorption
@@ -278,19 +289,56 @@ class RecursiveEstimator {
                                                  : Rgb{};
             onward.medium = behind.medium;
         }
-        chance_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
-        const bool tinted =
-            optics_ || material.physical ||
-            conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
-        met.kt = tinted ? kt : Rgb{1, 1, 1};
-        met.refracted = next.add(onward_ray(conventions_, point.surface, direction), onward);
+        if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
+            split(seen, onward, met, front);
+        } else {
+            met.refracted = send_refracted(seen, onward, front.next);
+        }
+        if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
     }
 
-    [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, Vec3& direction) const {
+    /// A ray for each wavelength.
+    void split(const Seen& seen, const Path& onward, MetSurface& met, Wavefront& front) {
+        met.split = true;
+        met.refracted = static_cast<std::uint32_t>(front.split.size());
+        for (const WaveSplit::Wave& wave : split_->waves()) {
+            Path path = onward;
+            path.nm = static_cast<float>(wave.nm);
+            front.split.push_back(send_refracted(seen, path, front.next));
+        }
+    }
+
+    /// Returns the number of the ray; kNotSent where all is reflected.
+    std::uint32_t send_refracted(const Seen& seen, const Path& onward, Generation& next) {
+        const ShadingPoint& point = seen.point;
+        Vec3 direction = seen.ray.direction;
+        if (!point.material->thin &&
+            !refracted(point, seen.ray, eta_of(seen, onward.nm), direction)) {
+            ++counters_.total_internal;
+            return MetSurface::kNotSent;
+        }
+        chance_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
+        return next.add(onward_ray(conventions_, point.surface, direction), onward);
+    }
+
+    /// Index on the side of the ray over that behind; `nm` 0: that of all wavelengths.
+    [[nodiscard]] double eta_of(const Seen& seen, double nm) const {
+        const ShadingPoint& point = seen.point;
+        if (nm > 0.0) {
+            return optics_ ? optics_->eta_by_wave(seen.path.medium, point, nm)
+                           : eta_by_wave(scene_, point, nm);
+        }
         const double air = conventions_.air_index;
-        const double eta = point.behind.known ? point.behind.eta
-                           : point.entering   ? air / point.material->index
-                                              : point.material->index / air;
+        return point.behind.known ? point.behind.eta
+               : point.entering   ? air / point.material->index
+                                  : point.material->index / air;
+    }
+    [[nodiscard]] bool disperses(const Seen& seen) const {
+        return split_ != nullptr && eta_of(seen, kLineF) != eta_of(seen, kLineC);
+    }
+
+    [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, double eta,
+                                 Vec3& direction) const {
         if (!refract(ray.direction, point.normal, eta, direction)) return false;
         return !conventions_.correct_interpolated_normals ||
                !(dot(direction, point.geometric) > 0.0) ||
@@ -307,6 +355,7 @@ class RecursiveEstimator {
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Chance chance_;
+    const WaveSplit* split_;
     std::optional<ExactOptics> optics_;  ///< where the scene asks for them
     Generation eye_;
     std::deque<Wavefront> fronts_;  ///< by depth; references stay valid while it grows

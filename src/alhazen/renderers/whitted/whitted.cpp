@@ -6,11 +6,11 @@
 namespace alhazen {
 
 std::unique_ptr<TileRenderer> Whitted::begin(const RenderJob& job) const {
-    return make_pixel_renderer<RecursiveEstimator<NoChance>>(job, rays_at_once_);
+    return make_pixel_renderer<RecursiveEstimator<NoChance>>(job, rays_at_once_, split());
 }
 
 std::unique_ptr<RayAnswers> Whitted::answers(const RenderJob& job) const {
-    return std::make_unique<EstimatorAnswers<RecursiveEstimator<NoChance>>>(job);
+    return std::make_unique<EstimatorAnswers<RecursiveEstimator<NoChance>>>(job, split());
 }
 
 }  // namespace alhazen

@@ -11,9 +11,11 @@
 /// (wavefront.h), with the bits of the recursion.
 
 #include <cstddef>
+#include <optional>
 
 #include "alhazen/renderers/antialias/single_rays.h"
 #include "alhazen/renderers/core/exact_optics.h"
+#include "alhazen/renderers/whitted/wave_split.h"
 
 namespace alhazen {
 
@@ -21,7 +23,10 @@ class Whitted final : public SingleRayRenderer {
   public:
     /// `rays_at_once`: of a generation, at least 1; pixels do not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
-    explicit Whitted(const OpticsSettings& optics) : optics_(optics) {}
+    /// `waves`: that a refracted ray is split into where glass disperses; 0: none.
+    explicit Whitted(const OpticsSettings& optics, int waves = 0) : optics_(optics) {
+        if (waves > 0) split_.emplace(waves);
+    }
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
     [[nodiscard]] std::unique_ptr<RayAnswers> answers(const RenderJob& job) const override;
@@ -29,9 +34,12 @@ class Whitted final : public SingleRayRenderer {
     [[nodiscard]] bool heeds_optics() const override { return true; }
 
   private:
+    [[nodiscard]] const WaveSplit* split() const { return split_ ? &*split_ : nullptr; }
+
     static constexpr std::size_t kRaysAtOnce = 256;
     std::size_t rays_at_once_ = kRaysAtOnce;
     OpticsSettings optics_;
+    std::optional<WaveSplit> split_;
 };
 
 }  // namespace alhazen

@@ -16,6 +16,12 @@ namespace alhazen {
     return std::nullopt;
 }
 
+/// At one wavelength, of a material whose index at line d is `index_d`.
+[[nodiscard]] inline double index_at(const Material& material, double index_d, double nm) {
+    const std::optional<Dispersion> dispersion = dispersion_of(material);
+    return dispersion ? dispersion->index(index_d, nm) : index_d;
+}
+
 /// Of a material whose index at line d is `index_d`.
 [[nodiscard]] inline Spectrum index_of(const Material& material, double index_d,
                                        const Wavelengths& waves) {
