@@ -106,27 +106,27 @@ Spectrum GatheringEye::gathered(const SeenPoint& at) {
 
 Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNumbers& numbers,
                                 double& distance) {
-    Wavelengths waves = *at.path.waves;
-    path.waves = &waves;
+    along_ = *at.path.waves;
+    path.waves = &along_;
     Spectrum sum;
     for (int surface = 0; surface < settings_.depth; ++surface) {
         if (!next_.find(path, numbers)) return sum;
         const ShadingPoint& point = next_.point();
         if (surface == 0) distance = path.travelled;
         if (point.material->unlit) return sum;
-        met_.set(scene_, point, path.media, waves);
-        if (met_.needs_hero()) waves.keep_hero(path.throughput);
+        met_.set(scene_, point, path.media, along_);
+        if (met_.needs_hero()) along_.keep_hero(path.throughput);
         if (met_.has_density()) {
             sum += path.throughput * density_.radiance(maps_.pairs[at.waves].global, met_,
                                                        point.surface.point, LightPart::All,
-                                                       waves.hero_only());
+                                                       along_.hero_only());
         }
         const std::uint64_t first = 3 * static_cast<std::uint64_t>(surface);
         const auto drawn = met_.sample(
             numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, Transport::Radiance);
         if (!drawn || !drawn->singular || drawn->weight.is_black()) return sum;
         NextSurface::go_on(path, point.surface, met_, *drawn);
-        if (drawn->dispersed) waves.keep_hero(path.throughput);
+        if (drawn->dispersed) along_.keep_hero(path.throughput);
     }
     return sum;
 }

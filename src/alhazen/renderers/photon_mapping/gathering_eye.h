@@ -43,6 +43,7 @@ class GatheringEye final : public PhotonEye {
     int gather_;
     NextSurface next_;
     ScatterPoint met_;
+    Wavelengths along_;  ///< of the gathering ray
     PhotonDensity density_;
 };
 

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/renderers/photons/photon.h"
+#include "support/light_pictures.h"
+#include "support/random.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::ball;
+using testing::Blocks;
+using testing::blocks_of;
+using testing::floor_from_above;
+using testing::matt;
+using testing::mean_of;
+using testing::picture_of;
+using testing::rectangle;
+using testing::SceneMaker;
+using testing::shining;
+
+TEST(StoredLight, KeepsFourWavelengthsWithinTheirBits) {
+    testing::Random random(3);
+    Wavelengths waves = Wavelengths::drawn(0.3);
+    Wavelengths hero = waves;
+    Spectrum ignored;
+    hero.keep_hero(ignored);
+    for (int trial = 0; trial < 1000; ++trial) {
+        Spectrum light;
+        for (int i = 0; i < Spectrum::kCount; ++i) {
+            light[i] = random.coin() ? random.log_uniform(1e-30, 1e30) : 0.0;
+        }
+        for (const Wavelengths* w : {&waves, &hero}) {
+            Photon photon;
+            photon.power = stored_light(light, *w);
+            EXPECT_EQ(photon.hero_only(), w == &hero);
+            for (int i = 0; i < Spectrum::kCount; ++i) {
+                EXPECT_NEAR(photon.light()[i], light[i], 0x1p-16 * light[i]);
+            }
+        }
+    }
+    Photon photon;
+    photon.power = stored_light({0.1, 2, 30, 30}, {});
+    EXPECT_EQ(photon.light().a, double{0.1f});
+    EXPECT_EQ(photon.light().d, 30.0);
+    EXPECT_FALSE(photon.hero_only());
+}
+
+Material flint(double roughness) {
+    const NamedGlass& glass = *find_glass("SF11");
+    Material m;
+    m.dielectric.emplace();
+    m.dispersion = Dispersion{.sellmeier = glass.sellmeier, .name = std::string(glass.name)};
+    m.index.value = glass.sellmeier.index(kLineD);
+    m.roughness.value = roughness;
+    return m;
+}
+
+/// A coloured floor and a wall, a lamp, and a ball of flint before it.
+Scene room(double roughness) {
+    SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.2});
+    maker.add(rectangle({-1, 0.8, 0}, {2, 0, 0}, {0, 0, 2}), maker.material(matt({0.2, 0.5, 0.8})));
+    maker.add(ball({0, 0, 2}, 0.5), maker.material(shining({4, 4, 3})));
+    maker.add(ball({0.1, 0, 0.35}, 0.25), maker.material(flint(roughness)));
+    return maker.compile();
+}
+
+TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
+    struct Case {
+        const char* renderer;
+        double bias;  ///< of the picture's mean, of disc and radius
+        int samples;
+    };
+    const Case cases[] = {
+        {"photon_mapping:photons=16000,caustics=16000,nearest=64,filter=disc --spectral", 0.03, 16},
+        {"photon_mapping:photons=16000,caustics=16000,nearest=64,filter=disc,gather=4 --spectral",
+         0.03, 16},
+        {"sppm:photons=2000,radius=0.06 --spectral", 0.02, 16},
+        {"vcm:photons=500,radius=0.06,pilot=off --spectral", 0.01, 16},
+    };
+    for (const double roughness : {0.0, 0.4}) {
+        const Scene scene = room(roughness);
+        const Blocks truth = blocks_of(scene, "path_tracing --spectral", 128);
+        double whole = 0.0;
+        for (const double mean : truth.mean) whole += mean / double(truth.mean.size());
+        for (const Case& c : cases) {
+            const Blocks found = blocks_of(scene, c.renderer, c.samples);
+            for (std::size_t i = 0; i < truth.mean.size(); ++i) {
+                const double error = std::hypot(found.error[i], truth.error[i]);
+                EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), 5.0 * error + c.bias * whole)
+                    << "roughness " << roughness << ", block " << i << ", " << c.renderer << ": "
+                    << found.mean[i] << " +- " << found.error[i] << ", path_tracing "
+                    << truth.mean[i] << " +- " << truth.error[i];
+            }
+        }
+    }
+}
+
+TEST(PhotonWaves, ShowTheColoursOfMaterials) {
+    // A floor below a lamp that is as wide as the sky: all light is direct.
+    SceneMaker maker = floor_from_above(0.2, {0.7, 0.3, 0.1});
+    maker.description().picture.background = Rgb{2, 2, 2};
+    const Scene scene = maker.compile();
+    for (const char* renderer : {"sppm:photons=10,radius=0.1 --spectral",
+                                 "vcm:photons=10,radius=0.1,pilot=off --spectral"}) {
+        const Rgb seen = mean_of(picture_of(scene, renderer, 8, 256));
+        EXPECT_NEAR(seen.r, 1.4, 0.02) << renderer;
+        EXPECT_NEAR(seen.g, 0.6, 0.02) << renderer;
+        EXPECT_NEAR(seen.b, 0.2, 0.02) << renderer;
+    }
+}
+
+TEST(PhotonWaves, PicturesDependNeitherOnThreadsNorOnTiles) {
+    const Scene scene = room(0.0);
+    for (const char* renderer : {"photon_mapping:photons=3000,caustics=3000 --spectral",
+                                 "sppm:photons=1000,radius=0.1 --spectral",
+                                 "vcm:photons=300,radius=0.1,pilot=off --spectral"}) {
+        const Film one = picture_of(scene, renderer, 12, 4, 1, 1, 32);
+        const Film two = picture_of(scene, renderer, 12, 4, 1, 2, 5);
+        for (int i = 0; i < 144; ++i) {
+            ASSERT_EQ(one.at(i % 12, i / 12), two.at(i % 12, i / 12)) << renderer;
+        }
+    }
+}
+
+TEST(PhotonWaves, AnIrradianceCacheIsRefused) {
+    EXPECT_THROW((void)picture_of(room(0.0), "photon_mapping:gather=4,cache=0.2 --spectral", 4, 1),
+                 Error);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
