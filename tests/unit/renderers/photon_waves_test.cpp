@@ -75,15 +75,15 @@ TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
         int samples;
     };
     const Case cases[] = {
-        {"photon_mapping:photons=16000,caustics=16000,nearest=64,filter=disc --spectral", 0.03, 16},
-        {"photon_mapping:photons=16000,caustics=16000,nearest=64,filter=disc,gather=4 --spectral",
+        {"photon_mapping:photons=8000,caustics=5000,nearest=48,filter=disc --spectral", 0.03, 16},
+        {"photon_mapping:photons=6000,caustics=4000,nearest=48,filter=disc,gather=2 --spectral",
          0.03, 16},
-        {"sppm:photons=2000,radius=0.06 --spectral", 0.02, 16},
-        {"vcm:photons=500,radius=0.06,pilot=off --spectral", 0.01, 16},
+        {"sppm:photons=1000,radius=0.06 --spectral", 0.02, 16},
+        {"vcm:photons=300,radius=0.06,pilot=off --spectral", 0.01, 8},
     };
     for (const double roughness : {0.0, 0.4}) {
         const Scene scene = room(roughness);
-        const Blocks truth = blocks_of(scene, "path_tracing --spectral", 128);
+        const Blocks truth = blocks_of(scene, "path_tracing --spectral", 96);
         double whole = 0.0;
         for (const double mean : truth.mean) whole += mean / double(truth.mean.size());
         for (const Case& c : cases) {

@@ -47,10 +47,11 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
     return true;
 }
 
-/// Both maps of a set. `seed`: of the photons before, and then of these. False after a stop.
+/// Both maps of a set. `seed`: of the photons before, and then of these; `projection`: made by the
+/// first. False after a stop.
 bool fill_pair(const RenderJob& job, const Illumination& lights,
                const PhotonMappingSettings& settings, std::size_t set, std::uint64_t& seed,
-               PhotonMaps& maps) {
+               std::optional<ProjectionMap>& projection, PhotonMaps& maps) {
     PhotonMapPair& pair = maps.pairs[set];
     PhotonKinds kinds{PhotonKind::Indirect};
     if (settings.gather > 0) {
@@ -67,12 +68,11 @@ bool fill_pair(const RenderJob& job, const Illumination& lights,
     shot.count = share_of(settings.caustics, maps);
     shot.kinds = {PhotonKind::Caustic};
     shot.seed = seed;
-    std::optional<ProjectionMap> projection;
-    if (settings.projection) {
+    if (settings.projection && !projection) {
         ThreadLimit threads(job.control.threads);
         threads.run([&] { projection.emplace(job, lights, mix64(seed), maps.counters); });
-        shot.projection = &*projection;
     }
+    if (projection) shot.projection = &*projection;
     return fill(job, lights, shot, settings, maps, pair.caustic);
 }
 
@@ -86,8 +86,9 @@ PhotonMaps make_photon_maps(const RenderJob& job, const Illumination& lights,
     maps.pairs.resize(sets);
     if (!lights.shines()) return maps;
     std::uint64_t seed = job.seed;
+    std::optional<ProjectionMap> projection;
     for (std::size_t k = 0; k < sets; ++k) {
-        if (!fill_pair(job, lights, settings, k, seed, maps)) break;
+        if (!fill_pair(job, lights, settings, k, seed, projection, maps)) break;
     }
     return maps;
 }
