@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The cognac glass of scenes/light beside POV-Ray and its photons: time and noise, one thread, in turn.
 
-Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--renderer TEXT] [--spp N] [--photons N] [--keep FOLDER]
+Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--spp N] [--photons N] [--keep DIR]
 Each program is measured against its own long reference, for the light of both differs: POV-Ray does not bounce light
 from wall to table here. Noise is the root of the mean squared difference of the pictures, 0 to 255 as they are shown,
 of all pixels and of those around the caustic. Processor seconds, the least of the rounds.
@@ -130,10 +130,11 @@ def main():
     parser.add_argument("alhazen")
     parser.add_argument("--side", type=int, default=160)
     parser.add_argument("--rounds", type=int, default=2)
-    parser.add_argument("--renderer", default="sppm:photons=20000")
-    parser.add_argument("--spp", type=int, default=8)
+    parser.add_argument("--caustics", type=int, default=300000, help="photons of the caustic map of alhazen")
+    parser.add_argument("--noise", type=float, default=0.1, help="of alhazen, as --noise of render")
+    parser.add_argument("--spp", type=int, default=160, help="of alhazen, at most")
     parser.add_argument("--photons", type=int, default=200000, help="of POV-Ray")
-    parser.add_argument("--long", type=int, default=12, help="the reference has as many times the samples")
+    parser.add_argument("--long", type=int, default=6, help="times the photons of references, ours at 0.3 of the noise")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
     args = parser.parse_args()
     if not shutil.which("povray"):
@@ -148,14 +149,16 @@ def main():
         return ["povray", f"+I{at(scene)}", f"+O{at(out)}", f"+W{args.side}", f"+H{args.side}", "+WT1", "-D", "-GA",
                 "+FN", "File_Gamma=sRGB"] + more
 
-    def alhazen(out, spp, seed):
+    def alhazen(out, times, noise, seed):
+        renderer = f"photon_mapping:caustics={times * args.caustics},photons={times * 60000},nearest=60"
         return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
-                f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", args.renderer, "--spp", str(spp), "--seed",
-                str(seed)]
+                f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", renderer, "--spp", str(args.spp),
+                "--noise", str(noise), "--seed", str(seed)]
 
     runs = {"povray": (povray("cognac.pov", "povray.png", ["+A0.1", "+AM1", "+R3"]),
                        povray("cognac_long.pov", "povray_long.png", ["+A0.0", "+AM1", "+R6"])),
-            "alhazen": (alhazen("alhazen.png", args.spp, 1), alhazen("alhazen_long.png", args.long * args.spp, 2))}
+            "alhazen": (alhazen("alhazen.png", 1, args.noise, 1),
+                        alhazen("alhazen_long.png", args.long, 0.3 * args.noise, 2))}
     seconds = {name: min(processor_seconds(run) for _ in range(args.rounds)) for name, (run, _) in runs.items()}
     for name, (_, long_run) in runs.items():
         processor_seconds(long_run)

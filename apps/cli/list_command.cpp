@@ -20,7 +20,7 @@ namespace alhazen::cli {
 namespace {
 
 void print_entry(const char* name, const char* description) {
-    print("  {:<18} {}\n", name, description);
+    print("  {:<20} {}\n", name, description);
 }
 
 void list_renderers() {
