@@ -354,7 +354,7 @@ void add_render(CLI::App& app, int& exit_status) {
                      "hide between rays. exact: the integral over the whole area of each pixel, or "
                      "under a filter (`alhazen list filters`), of beam_tracing")
         ->type_name(
-            "whitted[:threshold=T,depth=D,guarantee=on|off]|exact[:filter=NAME,radius=PIXELS]");
+            "whitted[:threshold=T,depth=D,guarantee=on|off]|exact[:error=E,filter=NAME,radius=PIXELS]");
     command
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")
