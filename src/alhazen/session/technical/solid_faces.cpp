@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
@@ -38,6 +39,21 @@ void add_frustum(const Vec3& base, const Vec3& top, double base_radius, double t
     faces.push_back(plane_face(top, side.axis));
 }
 
+/// Around both rims.
+Box3 frustum_box(const Vec3& base, const Vec3& top, double base_radius, double top_radius) {
+    const Vec3 axis = normalize(top - base);
+    Box3 box;
+    for (const auto& [center, radius] :
+         {std::pair{base, base_radius}, std::pair{top, top_radius}}) {
+        Vec3 reach;
+        for (int k = 0; k < 3; ++k)
+            reach[k] = radius * std::sqrt(std::max(0.0, 1.0 - axis[k] * axis[k]));
+        box.include(center - reach);
+        box.include(center + reach);
+    }
+    return box;
+}
+
 /// The faces of a shape, and its box in its own space; false for other shapes.
 bool add_faces(const AnyShape& shape, std::vector<SolidFace>& faces, Box3& box) {
     if (const auto* s = std::get_if<Sphere>(&shape)) {
@@ -49,10 +65,10 @@ bool add_faces(const AnyShape& shape, std::vector<SolidFace>& faces, Box3& box) 
         box = s->box();
     } else if (const auto* c = std::get_if<Cylinder>(&shape)) {
         add_frustum(c->base, c->top, c->radius, c->radius, faces);
-        box = c->box();
+        box = frustum_box(c->base, c->top, c->radius, c->radius);
     } else if (const auto* k = std::get_if<Cone>(&shape)) {
         add_frustum(k->base, k->top, k->base_radius, k->top_radius, faces);
-        box = k->box();
+        box = frustum_box(k->base, k->top, k->base_radius, k->top_radius);
     } else if (const auto* b = std::get_if<BoxShape>(&shape)) {
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 normal;
