@@ -256,7 +256,7 @@ int run(const RenderArguments& args) {
         if (!args.quiet) tell("{}\n", note);
     }
     if (const double within = renderer->takes_triangles_within(); within > 0) {
-        (void)tessellate(loaded.description, within);
+        (void)tessellate(loaded.description, within, true);
     }
     options.progress = &progress;
     options.stop = &stop_on_signals();

@@ -252,7 +252,7 @@ std::vector<FeatureCurve> feature_curves(const SceneDescription& description, co
             const auto* s = std::get_if<AnyShape>(&part.what);
             if (s != nullptr &&
                 (std::holds_alternative<Sphere>(*s) || std::holds_alternative<Cylinder>(*s) ||
-                 std::holds_alternative<Cone>(*s))) {
+                 std::holds_alternative<Cone>(*s) || std::holds_alternative<Polygon>(*s))) {
                 part.what = AnyShape{BoxShape{{0, 0, 0}, {1, 1, 1}}};
             }
         }
