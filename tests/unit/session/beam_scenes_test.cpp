@@ -7,7 +7,7 @@
 
 #include "alhazen/geometry/polygon_sets/arrangement.h"
 #include "alhazen/renderers/beam_tracing/beam_tree.h"
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 #include "support/test_data.h"
