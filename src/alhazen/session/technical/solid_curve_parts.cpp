@@ -161,17 +161,18 @@ void SolidCurveParts::set_normals(const SolidCurve& curve, FeatureCurve& result)
 }
 
 bool SolidCurveParts::is_known(const SolidCurve& curve, double from, double middle, double to) {
-    const double grid = 1e-6 * length(solid_.leaf(*curve.face).box.size());
-    std::array<std::array<long long, 3>, 3> key{};
-    std::size_t n = 0;
-    for (const double t : {from, middle, to}) {
-        const std::optional<Vec3> p = curve.at(t);
-        if (!p) return false;
-        key[n++] = {std::llround(p->x / grid), std::llround(p->y / grid),
-                    std::llround(p->z / grid)};
+    const double near = 1e-5 * length(solid_.leaf(*curve.face).box.size());
+    const std::optional<Vec3> a = curve.at(from), m = curve.at(middle), b = curve.at(to);
+    if (!a || !m || !b) return false;
+    const auto same = [&](const Vec3& p, const Vec3& q) {
+        return max_component(abs(p - q)) < near;
+    };
+    for (const std::array<Vec3, 3>& k : known_) {
+        const bool ends = (same(k[0], *a) && same(k[2], *b)) || (same(k[0], *b) && same(k[2], *a));
+        if (ends && same(k[1], *m)) return true;
     }
-    if (key[2] < key[0]) std::swap(key[0], key[2]);
-    return !known_.insert(key).second;
+    known_.push_back({*a, *m, *b});
+    return false;
 }
 
 }  // namespace alhazen

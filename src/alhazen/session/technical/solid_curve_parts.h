@@ -8,7 +8,6 @@
 #include <array>
 #include <functional>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "alhazen/session/technical/feature_curves.h"
@@ -67,7 +66,7 @@ class SolidCurveParts {
     const FacedSolid& solid_;
     BeamApex eye_;
     std::vector<FeatureCurve> curves_;
-    std::set<std::array<std::array<long long, 3>, 3>> known_;
+    std::vector<std::array<Vec3, 3>> known_;  ///< ends and middles
 };
 
 }  // namespace alhazen
