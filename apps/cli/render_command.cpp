@@ -256,7 +256,7 @@ int run(const RenderArguments& args) {
         if (!args.quiet) tell("{}\n", note);
     }
     if (const double within = renderer->takes_triangles_within(); within > 0) {
-        (void)tessellate(loaded.description, within);
+        (void)tessellate(loaded.description, within, true);
     }
     options.progress = &progress;
     options.stop = &stop_on_signals();
@@ -352,9 +352,11 @@ void add_render(CLI::App& app, int& exit_status) {
                      "pixels, and more where their shades differ by more than threshold (0.05), "
                      "down to 1 / 2^depth (4) of a pixel; guarantee (on): and where an object may "
                      "hide between rays. exact: the integral over the whole area of each pixel, or "
-                     "under a filter (`alhazen list filters`), of beam_tracing")
+                     "under a filter (`alhazen list filters`), of beam_tracing; shades that change "
+                     "within a pixel are integrated to within error (0.0001)")
         ->type_name(
-            "whitted[:threshold=T,depth=D,guarantee=on|off]|exact[:filter=NAME,radius=PIXELS]");
+            "whitted[:threshold=T,depth=D,guarantee=on|off]|"
+            "exact[:error=E,filter=NAME,radius=PIXELS]");
     command
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")

@@ -106,7 +106,7 @@ int run_vector(const VectorArguments& args) {
         drawing = technical_drawing(loaded, options,
                                     {.tolerance = tolerance_of(args, loaded), .hidden = hidden});
     } else {
-        if (args.tolerance > 0) (void)tessellate(loaded.description, args.tolerance);
+        if (args.tolerance > 0) (void)tessellate(loaded.description, args.tolerance, true);
         drawing = draw_scene(loaded, options, look);
     }
     if (options.stop->requested()) {

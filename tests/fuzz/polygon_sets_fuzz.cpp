@@ -1,4 +1,4 @@
-// Loops of any points: mending, all operations, triangles; the areas have to add up.
+// Loops of any points: mending, all operations, triangles, partitions; the areas have to add up.
 // Input: one byte for the size of the window, then 4 bytes a point; the first of the top bits ends
 // a loop, the second changes the operand.
 
@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <vector>
 
+#include "alhazen/geometry/polygon_sets/arrangement.h"
 #include "alhazen/geometry/polygon_sets/mending.h"
+#include "alhazen/geometry/polygon_sets/partition.h"
 #include "alhazen/geometry/polygon_sets/set_operations.h"
 #include "alhazen/geometry/polygon_sets/weiler_atherton.h"
 
@@ -16,6 +18,40 @@ void require(bool holds) {
     if (!holds) {
         std::abort();
     }
+}
+
+bool overlap(const alhazen::PolygonSet& a, const alhazen::PolygonSet& b) {
+    using namespace alhazen;
+    for (const SubEdge& e : exact_arrangement(a, b).sub_edges) {
+        if (e.below == (kInFirst | kInSecond) || e.above == (kInFirst | kInSecond)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Pieces that are rounded one after the other, made to fit.
+void check_partition(const alhazen::PolygonSet& a, const alhazen::PolygonSet& b) {
+    using namespace alhazen;
+    LatticeBox box = a.bounds();
+    box.extend(b.bounds().lo);
+    box.extend(b.bounds().hi);
+    if (a.empty() || b.empty()) {
+        return;
+    }
+    const PolygonSet window = lattice_rectangle(box.lo, box.hi);
+    const PolygonCut first = cut(window, a);
+    const PolygonCut second = cut(first.outside, b);
+    std::vector<PolygonSet> parts{first.inside, second.inside, second.outside};
+    make_partition(window, parts);
+    Int128 sum = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        sum += twice_area(parts[i]);
+        for (std::size_t k = 0; k < i; ++k) {
+            require(!overlap(parts[i], parts[k]));
+        }
+    }
+    require(sum == twice_area(window));
 }
 
 }  // namespace
@@ -65,6 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         loops += 1 + piece.holes.size();
     }
     require(loops == all.loop_count());
+    check_partition(a, b);
     if (const auto walked = weiler_atherton(a, b)) {
         require(walked->inside == parts.inside && walked->outside == parts.outside &&
                 walked->merged == all);

@@ -129,27 +129,76 @@ TEST(TechnicalDrawing, WhatIsBehindIsDashedOrLeftOut) {
     EXPECT_GE(both.segments(LineStyle::Silhouette), 6u + 4u);
 }
 
-TEST(TechnicalDrawing, SolidsShowTheEdgesOfTheirCuts) {
+/// Points along a line of a drawing.
+std::vector<Vec2> points_of(const DrawingLine& line) {
+    if (!line.arc) return line.points;
+    std::vector<Vec2> points;
+    for (int k = 0; k <= 20; ++k) {
+        points.push_back(line.arc->at(line.arc->from + (line.arc->to - line.arc->from) * k / 20));
+    }
+    return points;
+}
+
+TEST(TechnicalDrawing, SolidsShowTheTrueEdgesOfTheirCuts) {
     SceneMaker maker;
     const MaterialId grey = maker.material({});
     const auto plate = maker.object("plate");
     maker.description().objects[static_cast<std::size_t>(plate)].combine = Combine::Difference;
     maker.add(BoxShape{{-1, -1, 0}, {1, 1, 0.5}}, grey, {}, plate);
     maker.add(Cylinder{.base = {0, 0, -1}, .top = {0, 0, 2}, .radius = 0.5}, grey, {}, plate);
+    // Its lower face lies in that of the plate.
+    maker.add(BoxShape{{0.8, -2, 0}, {2, 2, 0.2}}, grey, {}, plate);
     maker.add(plate, grey);
     const Sheet sheet(maker);
-    // Some line runs around the mouth of the hole, within the tolerance.
-    int on_mouth = 0;
+    // An arc runs around the mouth of the hole.
+    int on_mouth = 0, straight = 0;
     for (const DrawingLine& line : sheet.drawing.lines) {
-        for (const Vec2& p : line.points) {
+        if (line.style == LineStyle::Hidden) continue;
+        if (!line.arc) {
+            straight += static_cast<int>(line.points.size()) - 1;
+            continue;
+        }
+        for (const Vec2& p : points_of(line)) {
             const Ray ray = sheet.ray(p);
             const Vec3 at = ray.origin + ((0.5 - ray.origin.z) / ray.direction.z) * ray.direction;
-            on_mouth +=
-                line.style != LineStyle::Hidden && std::abs(std::hypot(at.x, at.y) - 0.5) < 0.02;
+            on_mouth += std::abs(std::hypot(at.x, at.y) - 0.5) < 1e-9;
         }
     }
-    EXPECT_GT(on_mouth, 10);
-    EXPECT_GT(sheet.count(LineStyle::Hidden), 3);
+    EXPECT_GT(on_mouth, 20);
+    EXPECT_EQ(straight, 12);
+    EXPECT_GT(sheet.count(LineStyle::Hidden), 5);
+}
+
+TEST(TechnicalDrawing, CylindersThatCrossMeetInACurveOnBoth) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    const auto pipes = maker.object("pipes");
+    maker.description().objects[static_cast<std::size_t>(pipes)].combine = Combine::Union;
+    maker.add(Cylinder{.base = {-1.5, 0, 0}, .top = {1.5, 0, 0}, .radius = 0.6}, grey, {}, pipes);
+    maker.add(Cylinder{.base = {0, 0.1, -1}, .top = {0, 0.1, 1.3}, .radius = 0.4}, grey, {}, pipes);
+    maker.add(pipes, grey);
+    const Sheet sheet(maker);
+    int both = 0, segments = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        if (line.arc || line.points.size() < 4) continue;
+        segments += static_cast<int>(line.points.size());
+        for (const Vec2& p : line.points) {
+            // Where the ray meets the first cylinder, it is on the second.
+            const Ray r = sheet.ray(p);
+            const double a = r.direction.y * r.direction.y + r.direction.z * r.direction.z;
+            const double b = r.origin.y * r.direction.y + r.origin.z * r.direction.z;
+            const double c = r.origin.y * r.origin.y + r.origin.z * r.origin.z - 0.36;
+            double off = 1;
+            for (const double sign : {-1.0, 1.0}) {
+                const double t = (-b + sign * std::sqrt(std::max(0.0, b * b - a * c))) / a;
+                const Vec3 at = r.origin + t * r.direction;
+                off = std::min(off, std::abs(std::hypot(at.x, at.y - 0.1) - 0.4));
+            }
+            both += off < 1e-4;
+        }
+    }
+    EXPECT_GT(segments, 40);
+    EXPECT_GT(both, segments - 8);  // ends of sight lie on the chords between
 }
 
 TEST(TechnicalDrawing, ItNeedsGeometry) {

@@ -3,6 +3,7 @@
 /// choice of regions and of the exact areas.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "alhazen/geometry/polygon_sets/lattice.h"
@@ -37,12 +38,12 @@ struct EdgeInterval {
 
 struct Arrangement {
     std::vector<ArrangementEdge> edges;
-    std::vector<LatticePlace> points;  ///< in ascending order, no two equal
-    std::vector<SubEdge> sub_edges;    ///< no two on each other, none in the other's inside
-    std::vector<EdgeInterval> intervals;   ///< where asked for; in ascending order of the points
-    bool rounds = false;               ///< a point is not on the lattice
-    std::size_t crossings = 0;         ///< points where edges cross that end at neither
-    std::size_t overlaps = 0;          ///< sub-edges of several edges
+    std::vector<LatticePlace> points;     ///< in ascending order, no two equal
+    std::vector<SubEdge> sub_edges;       ///< no two on each other, none in the other's inside
+    std::vector<EdgeInterval> intervals;  ///< where asked for; in ascending order of the points
+    bool rounds = false;                  ///< a point is not on the lattice
+    std::size_t crossings = 0;            ///< points where edges cross that end at neither
+    std::size_t overlaps = 0;             ///< sub-edges of several edges
 
     void clear() {
         edges.clear();
@@ -53,6 +54,26 @@ struct Arrangement {
         crossings = 0;
         overlaps = 0;
     }
+};
+
+/// The faces of an arrangement of any number of operands. A face has one number or several, which
+/// `root` makes one.
+struct ArrangementFaces {
+    std::vector<std::uint32_t> below;       ///< [sub-edge] a number of the face on its right
+    std::vector<std::uint32_t> above;       ///< on its left
+    std::vector<std::uint32_t> owner_ends;  ///< [number] in `owners`
+    std::vector<std::uint32_t> owners;      ///< operands that hold a face, ascending
+    std::vector<std::uint32_t> same;        ///< [number] one of the same face
+
+    void clear();
+    [[nodiscard]] std::uint32_t root(std::uint32_t number) const;
+    [[nodiscard]] std::span<const std::uint32_t> owners_of(std::uint32_t number) const {
+        const std::uint32_t begin = number == 0 ? 0 : owner_ends[number - 1];
+        return std::span(owners).subspan(begin, owner_ends[number] - begin);
+    }
+    /// The face across an edge of the operands `crossed`, ascending.
+    std::uint32_t add_across(std::uint32_t number, std::span<const std::uint32_t> crossed);
+    void unite(std::uint32_t a, std::uint32_t b);
 };
 
 class PolygonSet;

@@ -1,6 +1,7 @@
 #include "alhazen/geometry/polygon_sets/edge_sweep.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace alhazen {
 
@@ -18,6 +19,47 @@ LatticePoint lattice_point(std::uint64_t key) {
 
 }  // namespace
 
+void ArrangementFaces::clear() {
+    below.clear();
+    above.clear();
+    owners.clear();
+    owner_ends.assign(1, 0);
+    same.assign(1, 0);
+}
+
+std::uint32_t ArrangementFaces::root(std::uint32_t number) const {
+    while (same[number] != number) number = same[number];
+    return number;
+}
+
+std::uint32_t ArrangementFaces::add_across(std::uint32_t number,
+                                           std::span<const std::uint32_t> crossed) {
+    const std::size_t begin = number == 0 ? 0 : owner_ends[number - 1];
+    const std::size_t end = owner_ends[number];
+    owners.reserve(owners.size() + (end - begin) + crossed.size());
+    std::set_symmetric_difference(owners.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  owners.begin() + static_cast<std::ptrdiff_t>(end),
+                                  crossed.begin(), crossed.end(), std::back_inserter(owners));
+    const auto next = static_cast<std::uint32_t>(same.size());
+    owner_ends.push_back(static_cast<std::uint32_t>(owners.size()));
+    same.push_back(next);
+    return next;
+}
+
+// Both ways to the root are made shorter, so that ways stay short.
+void ArrangementFaces::unite(std::uint32_t a, std::uint32_t b) {
+    const auto find = [this](std::uint32_t n) {
+        while (same[n] != n) {
+            same[n] = same[same[n]];
+            n = same[n];
+        }
+        return n;
+    };
+    a = find(a);
+    b = find(b);
+    same[std::max(a, b)] = std::min(a, b);
+}
+
 void EdgeSweep::clear() {
     result_.clear();
     active_.clear();
@@ -27,6 +69,12 @@ void EdgeSweep::clear() {
     heap_.clear();
     free_.clear();
     status_.clear();
+    operands_.clear();
+}
+
+void EdgeSweep::add_loop_of(std::span<const LatticePoint> loop, std::uint32_t operand) {
+    add_loop(loop, kInFirst);
+    operands_.resize(result_.edges.size(), operand);
 }
 
 void EdgeSweep::add_loop(std::span<const LatticePoint> loop, std::uint8_t owner) {
@@ -71,6 +119,14 @@ void EdgeSweep::run_with_intervals() {
     with_intervals_ = true;
     run();
     with_intervals_ = false;
+}
+
+void EdgeSweep::run_with_faces(ArrangementFaces& faces) {
+    faces.clear();
+    faces_ = &faces;
+    face_above_.assign(result_.edges.size(), 0);
+    run();
+    faces_ = nullptr;
 }
 
 void EdgeSweep::run() {
@@ -172,7 +228,12 @@ void EdgeSweep::sweep_point() {
         record_intervals(lo, hi);
     }
     sort_fan();
-    bundle_fan(lo > 0 ? active_[status_[lo - 1]].above : std::uint8_t{0});
+    if (faces_ != nullptr) {
+        const std::uint32_t lower = lo > 0 ? face_above_[status_[lo - 1]] : 0;
+        bundle_fan_of_faces(lower, hi > lo ? face_above_[status_[hi - 1]] : lower);
+    } else {
+        bundle_fan(lo > 0 ? active_[status_[lo - 1]].above : std::uint8_t{0});
+    }
     replace(lo, hi);
     const std::size_t end = lo + fan_.size();
     if (lo > 0 && lo < status_.size()) {
@@ -270,6 +331,46 @@ void EdgeSweep::bundle_fan(std::uint8_t state) {
         fan_[kept++] = leader;
     }
     fan_.resize(kept);
+}
+
+// The same where faces are told by numbers: `lower` is below the fan, `upper` above it.
+void EdgeSweep::bundle_fan_of_faces(std::uint32_t lower, std::uint32_t upper) {
+    const auto point = static_cast<std::uint32_t>(result_.points.size() - 1);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < fan_.size();) {
+        const std::uint32_t leader = fan_[i];
+        std::uint32_t last = leader;
+        crossed_.assign(1, operands_[leader]);
+        for (++i; i < fan_.size() && !steeper(fan_[i], leader); ++i) {
+            active_[last].next_member = fan_[i];
+            last = fan_[i];
+            crossed_.push_back(operands_[last]);
+        }
+        active_[last].next_member = kNone;
+        // Of equal operands two cancel.
+        std::ranges::sort(crossed_);
+        std::size_t odd = 0;
+        for (const std::uint32_t operand : crossed_) {
+            if (odd > 0 && crossed_[odd - 1] == operand) {
+                --odd;
+            } else {
+                crossed_[odd++] = operand;
+            }
+        }
+        crossed_.resize(odd);
+        active_[leader].sub_edge = kNone;
+        if (odd > 0) {
+            active_[leader].sub_edge = static_cast<std::uint32_t>(result_.sub_edges.size());
+            result_.sub_edges.push_back({point, point, leader, 0, 0});
+            faces_->below.push_back(lower);
+            lower = faces_->add_across(lower, crossed_);
+            faces_->above.push_back(lower);
+        }
+        face_above_[leader] = lower;
+        fan_[kept++] = leader;
+    }
+    fan_.resize(kept);
+    faces_->unite(lower, upper);
 }
 
 void EdgeSweep::replace(std::size_t lo, std::size_t hi) {

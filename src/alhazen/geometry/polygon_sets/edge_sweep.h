@@ -7,7 +7,8 @@
 /// Differs: at each point all edges through it are taken out of the order and put back as a fan
 /// sorted by direction, so that any number of edges may meet there; edges of one direction go on as
 /// one bundle. All decisions are exact.
-/// Conventions: states are even-odd for each operand.
+/// Conventions: states are even-odd for each operand. Two operands have a bit each; any number of
+/// them are swept by `run_with_faces`.
 /// Complexity: O((n + k) log n) comparisons.
 
 #include <cstddef>
@@ -24,10 +25,14 @@ class EdgeSweep {
     void clear();
     /// Adds a loop of the operand with the bit `owner`. Equal successive points are passed over.
     void add_loop(std::span<const LatticePoint> loop, std::uint8_t owner);
+    /// The same for the operand of a number, for `run_with_faces`.
+    void add_loop_of(std::span<const LatticePoint> loop, std::uint32_t operand);
     /// Sweeps what was added.
     void run();
     /// Sweeps and records the intervals too.
     void run_with_intervals();
+    /// Sweeps and tells which operands hold the faces, instead of states. Number 0 is outside.
+    void run_with_faces(ArrangementFaces& faces);
 
     [[nodiscard]] const Arrangement& result() const { return result_; }
 
@@ -62,6 +67,7 @@ class EdgeSweep {
     void close_bundle(std::uint32_t leader);
     void sort_fan();
     void bundle_fan(std::uint8_t state);
+    void bundle_fan_of_faces(std::uint32_t lower, std::uint32_t upper);
     void replace(std::size_t lo, std::size_t hi);
     void test_neighbors(std::uint32_t lower, std::uint32_t upper);
     void push_crossing(std::uint32_t a, std::uint32_t b);
@@ -80,7 +86,11 @@ class EdgeSweep {
     LatticePoint at_;  ///< the place where it is a vertex
     bool at_vertex_ = false;
     bool with_intervals_ = false;
-    std::uint32_t through_[2]{};  ///< edges that cross in the place
+    std::uint32_t through_[2]{};             ///< edges that cross in the place
+    ArrangementFaces* faces_ = nullptr;      ///< where asked for
+    std::vector<std::uint32_t> operands_;    ///< of the edges
+    std::vector<std::uint32_t> face_above_;  ///< of the bundles that edges lead
+    std::vector<std::uint32_t> crossed_;
 };
 
 }  // namespace alhazen

@@ -8,23 +8,40 @@ namespace alhazen {
 void RegionTracer::prepare(const Arrangement& arrangement) {
     arrangement_ = &arrangement;
     rounding_.round(arrangement);
+    leaving_.assign(arrangement.points.size(), kNone);
+    where_.assign(arrangement.points.size(), kNone);
 }
 
 void RegionTracer::trace(const States& inside, PolygonSet& region) {
+    collect_links(inside);
+    trace_links(region);
+}
+
+void RegionTracer::trace(std::span<const std::pair<std::uint32_t, std::uint32_t>> links,
+                         PolygonSet& region) {
+    links_.clear();
+    for (const auto& [from, to] : links) {
+        links_.push_back({from, to});
+    }
+    trace_links(region);
+}
+
+void RegionTracer::trace_links(PolygonSet& region) {
     touches_ = 0;
     points_.clear();
     loops_.clear();
-    collect_links(inside);
     if (rounding_.merges()) {
         cancel_links();
     }
     if (!links_.empty()) {
         connect_links();
-        where_.assign(leaving_.size(), kNone);
         for (std::uint32_t link = 0; link < links_.size(); ++link) {
             if (!links_[link].visited) {
                 walk(link);
             }
+        }
+        for (const Link& link : links_) {
+            leaving_[link.from] = kNone;
         }
     }
     write(region);
@@ -41,13 +58,19 @@ void RegionTracer::collect_links(const States& inside) {
                 links_.push_back(leftward ? Link{b, a} : Link{a, b});
             }
         };
-        std::uint32_t from = rounding_.representative(e.begin);
-        for (const std::uint32_t to : rounding_.between(e)) {
-            add(from, to);
-            from = to;
+        const std::span<const std::uint32_t> way = way_of(e);
+        for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+            add(way[i], way[i + 1]);
         }
-        add(from, rounding_.representative(e.end));
     }
+}
+
+std::span<const std::uint32_t> RegionTracer::way_of(const SubEdge& sub_edge) {
+    way_.assign(1, rounding_.representative(sub_edge.begin));
+    const std::span<const std::uint32_t> between = rounding_.between(sub_edge);
+    way_.insert(way_.end(), between.begin(), between.end());
+    way_.push_back(rounding_.representative(sub_edge.end));
+    return way_;
 }
 
 // Keeps one of each bunch of links on each other, in the direction that is left over.
@@ -75,7 +98,6 @@ void RegionTracer::cancel_links() {
 }
 
 void RegionTracer::connect_links() {
-    leaving_.assign(arrangement_->points.size(), kNone);
     bool fans = false;
     for (std::uint32_t i = 0; i < links_.size(); ++i) {
         std::uint32_t& head = leaving_[links_[i].from];

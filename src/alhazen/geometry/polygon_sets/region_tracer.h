@@ -29,6 +29,12 @@ class RegionTracer {
     using States = std::array<bool, 4>;
     void trace(const States& inside, PolygonSet& region);
 
+    /// The points that a sub-edge leads through, rounded, in its order. Valid until the next call.
+    [[nodiscard]] std::span<const std::uint32_t> way_of(const SubEdge& sub_edge);
+    /// The region on the left of links from point to point, which are of ways of sub-edges; all
+    /// ways have been asked for before.
+    void trace(std::span<const std::pair<std::uint32_t, std::uint32_t>> links, PolygonSet& region);
+
     /// Points at which more than one outline of the last region met.
     [[nodiscard]] std::size_t touches() const { return touches_; }
 
@@ -49,6 +55,7 @@ class RegionTracer {
         bool leaves = false;
     };
 
+    void trace_links(PolygonSet& region);
     void collect_links(const States& inside);
     void cancel_links();
     void connect_links();
@@ -61,6 +68,7 @@ class RegionTracer {
     const Arrangement* arrangement_ = nullptr;
     SnapRounding rounding_;
     std::vector<Link> links_;
+    std::vector<std::uint32_t> way_;
     std::vector<std::uint32_t> leaving_;  ///< of each point, one link that leaves it
     std::vector<std::uint32_t> path_;     ///< points of the loop in the making
     std::vector<std::uint32_t> where_;    ///< of each point, its place in the path

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alhazen/geometry/polygon_sets/mending.h"
+#include "alhazen/geometry/polygon_sets/partition.h"
 
 namespace alhazen {
 
@@ -167,6 +168,8 @@ std::span<const FacetPiece> BeamCaster::next(Order& order, const BeamSides& side
 
 void BeamCaster::see(const BeamView& view, PolygonSet region, std::vector<SeenFacet>& result) {
     ++counts_.beams;
+    const PolygonSet whole = region;
+    const std::size_t first = result.size();
     limits_ = {view.projection.plane(0, 0, 1)};
     if (view.has_start) limits_.push_back(view.start);
     if (!options_.tree) {
@@ -185,7 +188,18 @@ void BeamCaster::see(const BeamView& view, PolygonSet region, std::vector<SeenFa
         see_rest(view, rest, waiting, result);
         if (!rest.region.empty()) result.push_back({kNoFacet, std::move(rest.region)});
     }
-    for (const SeenFacet& s : result) counts_.pieces += s.facet != kNoFacet;
+    fit_together(whole, std::span(result).subspan(first));
+    std::erase_if(result, [](const SeenFacet& s) { return s.region.empty(); });
+    for (const SeenFacet& s : std::span(result).subspan(first)) {
+        counts_.pieces += s.facet != kNoFacet;
+    }
+}
+
+void BeamCaster::fit_together(const PolygonSet& whole, std::span<SeenFacet> pieces) {
+    parts_.clear();
+    for (SeenFacet& piece : pieces) parts_.push_back(std::move(piece.region));
+    make_partition(whole, parts_);
+    for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k].region = std::move(parts_[k]);
 }
 
 void BeamCaster::see_rest(const BeamView& view, Rest& rest, std::vector<Rest>& waiting,

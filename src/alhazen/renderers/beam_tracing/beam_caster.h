@@ -65,7 +65,8 @@ class BeamCaster {
     BeamCaster(const BeamScene& scene, const BeamCastOptions& options)
         : scene_(scene), options_(options) {}
 
-    /// Appends the pieces of `region`, nearest first; then what is left of it.
+    /// Appends the pieces of `region`, nearest first; then what is left of it. They add up to
+    /// `region` without gap and overlap, and its area exactly where it is a rectangle.
     void see(const BeamView& view, PolygonSet region, std::vector<SeenFacet>& result);
 
     /// The parts of a piece of `facet` that the light reaches; `opaque`: everything blocks it.
@@ -85,6 +86,8 @@ class BeamCaster {
         Order order;
     };
 
+    /// Makes pieces a partition of `whole`.
+    void fit_together(const PolygonSet& whole, std::span<SeenFacet> pieces);
     void see_rest(const BeamView& view, Rest& rest, std::vector<Rest>& waiting,
                   std::vector<SeenFacet>& result);
     [[nodiscard]] std::span<const FacetPiece> next(Order& order, const BeamSides& sides);
@@ -113,6 +116,7 @@ class BeamCaster {
     std::vector<LatticePoint> flat_, hull_;
     PolygonSet shape_;
     PolygonCut cut_;
+    std::vector<PolygonSet> parts_;
 };
 
 }  // namespace alhazen

@@ -1,12 +1,13 @@
 #include "alhazen/renderers/beam_tracing/beam_filtering.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <variant>
 
+#include "alhazen/imaging/film/filter_integral.h"
 #include "alhazen/imaging/film/pixel_filter.h"
 #include "alhazen/renderers/beam_tracing/beam_shading.h"
+#include "alhazen/renderers/beam_tracing/pixel_quadrature.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 
 namespace alhazen {
@@ -27,42 +28,6 @@ Camera widened(Camera camera, double across, double up) {
     return camera;
 }
 
-/// The part of a loop on one side of a line across an axis: coordinate >= at, or <= at.
-void cut_loop(std::span<const Vec2> loop, int axis, double at, bool above,
-              std::vector<Vec2>& result) {
-    result.clear();
-    double Vec2::*const along = axis == 0 ? &Vec2::x : &Vec2::y;
-    const auto side = [&](const Vec2& p) { return above ? p.*along - at : at - p.*along; };
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vec2 &a = loop[k], &b = loop[k + 1 == loop.size() ? 0 : k + 1];
-        const double of_a = side(a), of_b = side(b);
-        if (of_a >= 0.0) result.push_back(a);
-        if ((of_a >= 0.0) == (of_b >= 0.0)) continue;
-        // From the same end for both regions that share the edge.
-        const bool forward = of_a < of_b;
-        const Vec2 &p = forward ? a : b, &q = forward ? b : a;
-        const double t = (forward ? of_a : of_b) / (forward ? of_a - of_b : of_b - of_a);
-        Vec2 met = p + t * (q - p);
-        met.*along = at;
-        result.push_back(met);
-    }
-}
-
-/// Area and middle of loops, by triangles to the origin.
-struct LoopMoments {
-    double twice_area = 0;
-    Vec2 moment{0, 0};
-
-    void add(std::span<const Vec2> loop) {
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            const Vec2 &a = loop[k], &b = loop[k + 1 == loop.size() ? 0 : k + 1];
-            const double cross = a.x * b.y - b.x * a.y;
-            twice_area += cross;
-            moment = moment + cross * (a + b);
-        }
-    }
-};
-
 constexpr double kLeastShare = 1e-12;
 constexpr double kWholeShare = 1.0 - 1e-9;
 
@@ -76,7 +41,8 @@ class BeamFilterRenderer final : public TileRenderer {
           pixels_(pixels),
           bands_(bands),
           integral_(*job_.antialias->filter, job_.antialias->radius),
-          shading_(job_, scene, tree) {
+          shading_(job_, scene, tree),
+          quadrature_(job_.antialias->error) {
         for (int d = -border_; d <= border_; ++d) {
             whole_.push_back(integral_.between(d - 0.5, d + 0.5));
         }
@@ -130,49 +96,46 @@ class BeamFilterRenderer final : public TileRenderer {
         const double lo = pixels_.bottom(j), hi = pixels_.top(j);
         const LatticeBox& box = region.bounds();
         if (box.hi.y <= lo || box.lo.y >= hi) return;
+        strip_.set(region, lo, hi);
         const std::span<const double> edges = pixels_.edges(tile_.x0, tile_.x1 + 2 * border_);
-        parts_.find(region, tile_.x0, edges, lo, hi);
-        for (const PixelParts::Part& part : parts_.parts()) {
-            const auto column = static_cast<std::size_t>(part.i - tile_.x0);
-            const double wide = edges[column + 1] - edges[column];
-            const auto color_at = [&](const Vec2& at) {
+        const auto begin = std::upper_bound(edges.begin(), edges.end(), strip_.left());
+        for (auto c = std::max<std::ptrdiff_t>(begin - edges.begin() - 1, 0);
+             c + 1 < static_cast<std::ptrdiff_t>(edges.size()); ++c) {
+            const double left = edges[static_cast<std::size_t>(c)];
+            const double right = edges[static_cast<std::size_t>(c + 1)];
+            if (left >= strip_.right()) break;
+            strip_.cut(left, right, part_);
+            const double share = rule_of(part_).area;
+            if (!(share > kLeastShare)) continue;
+            const int column = tile_.x0 + static_cast<int>(c);
+            const Rgb color = quadrature_.mean(part_, [&](const Vec2& at) {
                 shading_.go(piece,
-                            {edges[column] + (at.x + 0.5) * wide, lo + (at.y + 0.5) * (hi - lo)});
-                return shade(part.i);
-            };
-            const bool whole = part.share >= kWholeShare;
-            Rgb color;
-            if (whole) {
-                for (int n = 0; n < 4; ++n) {
-                    color += 0.25 * color_at({(n & 1) != 0 ? kGauss : -kGauss,
-                                              (n & 2) != 0 ? kGauss : -kGauss});
-                }
-            } else {
-                color = color_at(part.middle);
-            }
-            spread(part, j, whole, color);
+                            {left + (at.x + 0.5) * (right - left), lo + (at.y + 0.5) * (hi - lo)});
+                return shade(column);
+            });
+            spread(column, j, share >= kWholeShare, color);
         }
     }
 
-    /// Adds the light of a part to the pixels into whose filter it reaches.
-    void spread(const PixelParts::Part& part, int j, bool whole, const Rgb& color) {
+    /// Adds the light of the part in a column to the pixels into whose filter it reaches.
+    void spread(int column, int j, bool whole, const Rgb& color) {
         for (int dj = -border_; dj <= border_; ++dj) {
             for (int di = -border_; di <= border_; ++di) {
-                const std::ptrdiff_t n = pixel_at(part.i - border_ + di, j - border_ + dj);
+                const std::ptrdiff_t n = pixel_at(column - border_ + di, j - border_ + dj);
                 if (n < 0) continue;
                 // From the centre of that pixel; rows count downwards.
                 const Vec2 moved{-1.0 * di, 1.0 * dj};
                 const double weight = whole ? whole_[static_cast<std::size_t>(border_ - di)] *
                                                   whole_[static_cast<std::size_t>(border_ + dj)]
-                                            : weight_of(part, moved);
+                                            : weight_of(moved);
                 sums_[static_cast<std::size_t>(n)] += weight * color;
             }
         }
     }
-    [[nodiscard]] double weight_of(const PixelParts::Part& part, const Vec2& moved) const {
+    [[nodiscard]] double weight_of(const Vec2& moved) const {
         double weight = 0.0;
-        for (std::size_t l = part.first_loop; l < part.end_loop; ++l) {
-            const std::span<const Vec2> loop = parts_.loop(l);
+        for (std::size_t l = 0; l < part_.ends.size(); ++l) {
+            const std::span<const Vec2> loop = part_.loop(l);
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 weight += integral_.along(loop[k] + moved,
                                           loop[k + 1 == loop.size() ? 0 : k + 1] + moved);
@@ -186,7 +149,6 @@ class BeamFilterRenderer final : public TileRenderer {
         return (j - tile_.y0) * static_cast<std::ptrdiff_t>(columns_) + (i - tile_.x0);
     }
 
-    static constexpr double kGauss = 0.28867513459481287;  ///< 1 / sqrt(12)
     const RenderJob& job_;
     int border_;
     const BeamTree& tree_;
@@ -195,7 +157,9 @@ class BeamFilterRenderer final : public TileRenderer {
     FilterIntegral integral_;
     BeamShading shading_;
     std::vector<double> whole_;  ///< [distance + border] the kernel over a pixel, along one axis
-    PixelParts parts_;
+    PixelQuadrature quadrature_;
+    RowStrip strip_;
+    PixelPolygon part_;
     PixelBox tile_;
     std::size_t columns_ = 0;
     std::vector<Rgb> sums_;
@@ -223,64 +187,6 @@ std::unique_ptr<TileRenderer> beam_filter_renderer(const WiderFrame& frame, cons
                                                    const BeamTree& tree, const BeamPixels& pixels,
                                                    const BeamBands& bands) {
     return std::make_unique<BeamFilterRenderer>(frame, scene, tree, pixels, bands);
-}
-
-void PixelParts::find(const PolygonSet& region, int first, std::span<const double> edges, double lo,
-                      double hi) {
-    parts_.clear();
-    points_.clear();
-    ends_.clear();
-    strip_.clear();
-    strip_ends_.clear();
-    double from = edges.back(), to = edges.front();
-    for (std::size_t l = 0; l < region.loop_count(); ++l) {
-        one_.clear();
-        for (const LatticePoint& p : region.loop(l)) one_.push_back({1.0 * p.x, 1.0 * p.y});
-        cut_loop(one_, 1, lo, true, other_);
-        cut_loop(other_, 1, hi, false, one_);
-        if (one_.size() < 3) continue;
-        for (const Vec2& p : one_) {
-            from = std::min(from, p.x);
-            to = std::max(to, p.x);
-        }
-        strip_.insert(strip_.end(), one_.begin(), one_.end());
-        strip_ends_.push_back(strip_.size());
-    }
-    const auto begin = std::upper_bound(edges.begin(), edges.end(), from) - edges.begin() - 1;
-    for (auto c = std::max<std::ptrdiff_t>(begin, 0);
-         c + 1 < static_cast<std::ptrdiff_t>(edges.size()); ++c) {
-        const auto column = static_cast<std::size_t>(c);
-        if (edges[column] >= to) break;
-        add_pixel({edges[column], lo}, {edges[column + 1] - edges[column], hi - lo},
-                  first + static_cast<int>(c));
-    }
-}
-
-void PixelParts::add_pixel(const Vec2& corner, const Vec2& size, int number) {
-    Part part;
-    part.i = number;
-    part.first_loop = ends_.size();
-    LoopMoments moments;
-    std::size_t begin = 0;
-    for (const std::size_t end : strip_ends_) {
-        const auto loop = std::span<const Vec2>(strip_).subspan(begin, end - begin);
-        begin = end;
-        cut_loop(loop, 0, corner.x, true, one_);
-        cut_loop(one_, 0, corner.x + size.x, false, other_);
-        if (other_.size() < 3) continue;
-        for (Vec2& p : other_) {
-            p = {(p.x - corner.x) / size.x - 0.5, (p.y - corner.y) / size.y - 0.5};
-        }
-        moments.add(other_);
-        points_.insert(points_.end(), other_.begin(), other_.end());
-        ends_.push_back(points_.size());
-    }
-    part.end_loop = ends_.size();
-    part.share = 0.5 * moments.twice_area;
-    if (!(part.share > kLeastShare)) return;
-    const Vec2 middle = (1.0 / (3.0 * moments.twice_area)) * moments.moment;
-    part.middle = {std::clamp(middle.x, -0.5, 0.5), std::clamp(middle.y, -0.5, 0.5)};
-    parts_.push_back(part);
 }
 
 }  // namespace alhazen

@@ -51,7 +51,8 @@ class BeamGatherer {
         if (!refused_.empty()) {
             throw Error(ErrorKind::Usage,
                         "beams take planar facets: polygons, rectangles, boxes, polyhedra and "
-                        "triangle meshes, of materials without alpha; these are none: " +
+                        "triangle meshes, of materials without alpha (a tolerance takes "
+                        "triangles for other shapes that have an end); these are none: " +
                             refused_);
         }
         result_.tree = FacetTree(std::move(pool_), std::move(pieces_));

@@ -9,6 +9,7 @@
 #include "alhazen/renderers/beam_tracing/beam_pixels.h"
 #include "alhazen/renderers/beam_tracing/beam_raster.h"
 #include "alhazen/renderers/beam_tracing/beam_shading.h"
+#include "alhazen/renderers/beam_tracing/pixel_quadrature.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/reports/beam_report.h"
 #include "alhazen/renderers/core/tiles.h"
@@ -26,7 +27,9 @@ class BeamTileRenderer final : public TileRenderer {
           pixels_(pixels),
           bands_(bands),
           exact_(job.antialias != nullptr),
-          shading_(job, scene, tree) {}
+          shading_(job, scene, tree),
+          quadrature_(exact_ ? job.antialias->error : 0.0),
+          whole_(whole_pixel()) {}
 
     void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
         const bool layers = job_.aovs != nullptr && job_.aovs->wanted().has_geometry();
@@ -50,28 +53,50 @@ class BeamTileRenderer final : public TileRenderer {
 
   private:
     void add(const BeamPiece& piece, const PixelBox& tile, int j) {
-        find(piece.seen.region, tile, j);
         const bool of_eye = tree_.beams[piece.beam].piece == kNoFacet;
-        for (const BeamSample& s : samples_) {
-            shading_.go(piece, s.at);
-            at(tile, s) += s.share * shading_.own();
-            double& error = errors_[static_cast<std::size_t>(s.i - tile.x0)];
+        add_region(piece, piece.seen.region, tile, j, [&](std::size_t column) {
+            double& error = errors_[column];
             error = std::max(error, shading_.refraction_error());
             if (of_eye && !geometry_.empty()) {
-                PixelGeometry& g = geometry_[static_cast<std::size_t>(s.i - tile.x0)];
+                PixelGeometry& g = geometry_[column];
                 if (g.hits == 0) shading_.add_to(g);
             }
-        }
+            return shading_.own();
+        });
         for (const BeamLight& light : piece.lights) {
-            find(light.part.region, tile, j);
-            for (const BeamSample& s : samples_) {
-                shading_.go(piece, s.at);
-                at(tile, s) += s.share * shading_.light(light);
-            }
+            add_region(piece, light.part.region, tile, j,
+                       [&](std::size_t) { return shading_.light(light); });
         }
     }
-    [[nodiscard]] Rgb& at(const PixelBox& tile, const BeamSample& s) {
-        return row_[static_cast<std::size_t>(s.i - tile.x0)];
+
+    /// Adds what a region of a piece gives to the pixels of a row of the tile. `shade(column)` is
+    /// the colour of the point that `shading_` went to.
+    template <class Shade>
+    void add_region(const BeamPiece& piece, const PolygonSet& region, const PixelBox& tile, int j,
+                    const Shade& shade) {
+        find(region, tile, j);
+        bool cut = false;
+        for (const BeamSample& s : samples_) {
+            const auto column = static_cast<std::size_t>(s.i - tile.x0);
+            if (!exact_) {
+                shading_.go(piece, s.at);
+                row_[column] += s.share * shade(column);
+                continue;
+            }
+            const double lo = pixels_.bottom(j), hi = pixels_.top(j);
+            const std::span<const double> edges = pixels_.edges(s.i, s.i + 1);
+            const bool whole = s.share >= kWholeShare;
+            if (!whole) {
+                if (!cut) strip_.set(region, lo, hi);
+                cut = true;
+                strip_.cut(edges[0], edges[1], part_);
+            }
+            row_[column] += s.share * quadrature_.mean(whole ? whole_ : part_, [&](const Vec2& at) {
+                shading_.go(piece, {edges[0] + (at.x + 0.5) * (edges[1] - edges[0]),
+                                    lo + (at.y + 0.5) * (hi - lo)});
+                return shade(column);
+            });
+        }
     }
 
     /// The samples of a region in a row of the tile.
@@ -84,7 +109,6 @@ class BeamTileRenderer final : public TileRenderer {
             areas_.begin(lo, hi, pixels_.edges(tile.x0, tile.x1));
             areas_.add(region);
             areas_.take(j, tile.x0, samples_);
-            divide_whole_pixels();
             return;
         }
         const double y = pixels_.y(j);
@@ -92,34 +116,16 @@ class BeamTileRenderer final : public TileRenderer {
         add_points(region, j, y, tile.x0, pixels_.xs(tile.x0, tile.x1), crossings_, samples_);
     }
 
-    /// Shades whole pixels at the four points of Gauss' rule, parts in their middles.
-    void divide_whole_pixels() {
-        const double x = kGauss * (pixels_.edges(0, 1)[1] - pixels_.edges(0, 1)[0]);
-        const double y = kGauss * (pixels_.top(0) - pixels_.bottom(0));
-        const std::size_t count = samples_.size();
-        for (std::size_t k = 0; k < count; ++k) {
-            if (samples_[k].share < 1.0 - 1e-9) continue;
-            BeamSample s = samples_[k];
-            s.share *= 0.25;
-            const Vec2 middle = s.at;
-            for (int n = 0; n < 4; ++n) {
-                s.at = middle + Vec2{(n & 1) != 0 ? x : -x, (n & 2) != 0 ? y : -y};
-                if (n == 0) {
-                    samples_[k] = s;
-                } else {
-                    samples_.push_back(s);
-                }
-            }
-        }
-    }
-
-    static constexpr double kGauss = 0.28867513459481287;  ///< 1 / sqrt(12)
+    static constexpr double kWholeShare = 1.0 - 1e-9;
     const RenderJob& job_;
     const BeamTree& tree_;
     const BeamPixels& pixels_;
     const BeamBands& bands_;
     bool exact_;
     BeamShading shading_;
+    PixelQuadrature quadrature_;
+    PixelPolygon whole_, part_;
+    RowStrip strip_;
     RowAreas areas_;
     std::vector<double> crossings_;
     std::vector<BeamSample> samples_;

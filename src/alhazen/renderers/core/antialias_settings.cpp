@@ -30,6 +30,7 @@ AntialiasSettings parse_antialias(const std::string& text) {
     AntialiasSettings settings;
     if (given.name() == "exact") {
         settings.exact = true;
+        settings.error = given.number("error", settings.error, 1e-9, 1.0);
         read_exact_filter(given, settings);
         given.finish();
         return settings;

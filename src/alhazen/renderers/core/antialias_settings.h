@@ -1,6 +1,6 @@
 #pragma once
 /// Settings of adaptive supersampling, as `--antialias` takes them:
-/// "whitted:threshold=T,depth=D,guarantee=on|off", "exact:filter=NAME,radius=R".
+/// "whitted:threshold=T,depth=D,guarantee=on|off", "exact:error=E,filter=NAME,radius=R".
 
 #include <string>
 
@@ -20,6 +20,7 @@ struct AntialiasSettings {
     bool exact = false;
     const FilterEntry* filter = nullptr;  ///< of `exact`; null: the mean
     double radius = 0.5;                  ///< of the filter, in pixels
+    double error = 1e-4;                  ///< of the colour of a pixel, of `exact`
 };
 
 /// Throws Error (Usage) for an unknown name or setting and for values out of range.

@@ -8,6 +8,8 @@
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/technical/mesh_edges.h"
+#include "alhazen/session/technical/solid_curves.h"
+#include "alhazen/session/technical/solid_faces.h"
 
 namespace alhazen {
 
@@ -192,6 +194,10 @@ class CurveGatherer {
   private:
     void add_object(std::size_t index, const Affine& world) {
         const bool solid = d_.objects[index].combine != Combine::Group;
+        if (solid) {
+            const std::optional<FacedSolid> faced = FacedSolid::of(d_, index, world);
+            if (faced && add_solid_curves(*faced, eye_, curves_)) return;
+        }
         const std::vector<Part>& parts = (solid ? triangles_ : d_).objects[index].parts;
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const Part& part = parts[k];
@@ -246,7 +252,7 @@ std::vector<FeatureCurve> feature_curves(const SceneDescription& description, co
             const auto* s = std::get_if<AnyShape>(&part.what);
             if (s != nullptr &&
                 (std::holds_alternative<Sphere>(*s) || std::holds_alternative<Cylinder>(*s) ||
-                 std::holds_alternative<Cone>(*s))) {
+                 std::holds_alternative<Cone>(*s) || std::holds_alternative<Polygon>(*s))) {
                 part.what = AnyShape{BoxShape{{0, 0, 0}, {1, 1, 1}}};
             }
         }

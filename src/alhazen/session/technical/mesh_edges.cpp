@@ -6,6 +6,8 @@
 #include <map>
 #include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "alhazen/math/unit_vector.h"
 
@@ -25,6 +27,42 @@ struct Side {
     bool operator<(const Side& o) const {
         return std::tie(lo, hi, triangle) < std::tie(o.lo, o.hi, o.triangle);
     }
+};
+
+/// Numbers of places. Corners that were computed or written twice differ by rounding: nearer than
+/// `same` they are one.
+class PlaceNumbers {
+  public:
+    explicit PlaceNumbers(double same) : same_(same) {}
+
+    std::uint32_t number_of(const Vec3& p) {
+        // A cell has the side 4 same: what is near lies in the cells of the corners around.
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 corner{p.x + ((k & 1) != 0 ? same_ : -same_),
+                              p.y + ((k & 2) != 0 ? same_ : -same_),
+                              p.z + ((k & 4) != 0 ? same_ : -same_)};
+            const auto found = cells_.find(cell(corner));
+            if (found == cells_.end()) continue;
+            for (const auto& [at, number] : found->second) {
+                if (max_component(abs(at - p)) <= same_) return number;
+            }
+        }
+        cells_[cell(p)].push_back({p, count_});
+        return count_++;
+    }
+
+  private:
+    using Cell = std::array<long long, 3>;
+    [[nodiscard]] Cell cell(const Vec3& p) const {
+        const auto along = [&](double x) {
+            return static_cast<long long>(std::floor(x / (4.0 * same_)));
+        };
+        return {along(p.x), along(p.y), along(p.z)};
+    }
+
+    double same_;
+    std::uint32_t count_ = 0;
+    std::map<Cell, std::vector<std::pair<Vec3, std::uint32_t>>> cells_;
 };
 
 class MeshEdgeFinder {
@@ -51,17 +89,11 @@ class MeshEdgeFinder {
 
   private:
     [[nodiscard]] std::vector<Side> sorted_sides() const {
-        // Corners that were computed twice differ by rounding.
-        constexpr double kSame = 1e-7;
-        const double step = kSame * std::max(max_component(mesh_.box().size()), 1e-300);
-        const auto on_grid = [&](double x) { return std::llround(x / step); };
-        std::map<std::array<long long, 3>, std::uint32_t> numbers;
+        // Files with six digits differ by 1e-6.
+        constexpr double kSame = 2e-6;
+        PlaceNumbers numbers(kSame * std::max(max_component(mesh_.box().size()), 1e-300));
         std::vector<std::uint32_t> place;
-        for (const Vec3& p : mesh_.positions) {
-            const auto next = static_cast<std::uint32_t>(numbers.size());
-            place.push_back(numbers.try_emplace({on_grid(p.x), on_grid(p.y), on_grid(p.z)}, next)
-                                .first->second);
-        }
+        for (const Vec3& p : mesh_.positions) place.push_back(numbers.number_of(p));
         std::vector<Side> sides;
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@ struct BeamReport {
     std::uint64_t polygons_tested = 0;  ///< by all beams together
     std::uint64_t cuts = 0;             ///< set operations
     double seen_area = 0;       ///< of the pieces of the eye and the background, as a share of the
-                                ///< window: 1 but for rounding
+                                ///< window: 1, exactly
     double gather_seconds = 0;  ///< for the facets and their tree
     double beam_seconds = 0;    ///< for the tree of beams
 };

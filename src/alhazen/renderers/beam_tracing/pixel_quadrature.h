@@ -1,0 +1,78 @@
+#pragma once
+/// The mean of a colour over a polygon within a pixel.
+///
+/// Source: Lyness, "Notes on the Adaptive Simpson Quadrature Routine", Journal of the ACM 16, 1969:
+/// what a rule differs by from a lower one decides about division.
+/// Differs: over polygons. The lower rule is the colour in the middle of the polygon, the rule the
+/// mean of four points that have its moments up to the second. Where they differ, times the area,
+/// by more than the error asked for, the polygon is cut in four, each with half of that error.
+/// Conventions: coordinates in pixels from the centre of the pixel; a pixel has the area 1. Loops
+/// have the inside on their left. The difference of the rules bounds the error of the better one
+/// where the colour is smooth; what is smaller than the distance of the points may be overlooked.
+/// Complexity: five colours where that is enough, at most 5 (1 + 4 + ... + 4^kDeepest).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/renderers/beam_tracing/pixel_polygon.h"
+
+namespace alhazen {
+
+/// Area and middle, and the points of the rule.
+struct PixelRule {
+    double area = 0;
+    Vec2 middle;
+    std::array<Vec2, 4> points;
+    Vec2 lo, hi;  ///< box around the polygon
+};
+[[nodiscard]] PixelRule rule_of(const PixelPolygon& polygon);
+
+class PixelQuadrature {
+  public:
+    static constexpr int kDeepest = 6;
+
+    /// Of a pixel's colour.
+    explicit PixelQuadrature(double error) : error_(error) {}
+
+    /// `shade(at)` is the colour of a point.
+    template <class Shade>
+    [[nodiscard]] Rgb mean(const PixelPolygon& polygon, const Shade& shade) const {
+        const PixelRule rule = rule_of(polygon);
+        if (!(rule.area > kLeastArea)) return shade(rule.middle);
+        return (1.0 / rule.area) * integral(polygon, rule, error_, 0, shade);
+    }
+
+  private:
+    /// Smaller parts have one colour.
+    static constexpr double kLeastArea = 1e-6;
+
+    template <class Shade>
+    [[nodiscard]] Rgb integral(const PixelPolygon& polygon, const PixelRule& rule, double error,
+                               int depth, const Shade& shade) const {
+        const Rgb lower = shade(rule.middle);
+        Rgb sum;
+        for (const Vec2& p : rule.points) sum += 0.25 * shade(p);
+        const Rgb d = sum - lower;
+        const double off = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)});
+        // No number is no reason to divide.
+        if (!(off * rule.area > error) || depth == kDeepest) return rule.area * sum;
+        const Vec2 middle = 0.5 * (rule.lo + rule.hi);
+        Rgb result;
+        for (int k = 0; k < 4; ++k) {
+            const bool right = (k & 1) != 0, upper = (k & 2) != 0;
+            const PixelPolygon part =
+                polygon.within({right ? middle.x : rule.lo.x, upper ? middle.y : rule.lo.y},
+                               {right ? rule.hi.x : middle.x, upper ? rule.hi.y : middle.y});
+            const PixelRule of_part = rule_of(part);
+            if (!(of_part.area > 0.0)) continue;
+            result += integral(part, of_part, 0.5 * error, depth + 1, shade);
+        }
+        return result;
+    }
+
+    double error_;
+};
+
+}  // namespace alhazen
