@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "alhazen/primitives/unused_shear.h"
+#include "alhazen/shapes/core/first_hit.h"
 
 namespace alhazen {
 
@@ -20,6 +21,20 @@ MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t
         box_.include(boxes[i]);
     }
     tree_ = MotionBvh(boxes);
+    for (const Instance& instance : table_.instances) movers_.push_back(mover_of(instance));
+}
+
+MotionAggregate::Mover MotionAggregate::mover_of(const Instance& instance) {
+    Mover mover;
+    if (instance.motion) mover.slide = instance.motion->slide();
+    if (!instance.holds_one_shape) return mover;
+    mover.lone = &instance.aggregate->primitives();
+    const auto& balls = std::get<ShapeColumn<Sphere>>(mover.lone->columns);
+    if (balls.shapes.size() == 1 && balls.placements[0] == kNoPlacement &&
+        mover.lone->common_mask() == kAllRays) {
+        mover.ball = balls.shapes[0];
+    }
+    return mover;
 }
 
 MovingBox MotionAggregate::box_of(std::uint32_t primitive) const {
@@ -80,38 +95,55 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                     stats.primitive_hits(1);
                     return on_triangle(id, hit);
                 }
-                const Instance& instance = table_.instances[i - table_.first(kInstanceKind)];
-                const Placement placement = placement_at(instance, query.time);
-                Ray inner = transformed(placement.inner_from_outer, ray);
+                const std::size_t index = i - table_.first(kInstanceKind);
+                const Mover& mover = movers_[index];
+                Ray inner =
+                    mover.slide
+                        ? mover.slide->inner(ray, query.time)
+                        : transformed(
+                              placement_at(table_.instances[index], query.time).inner_from_outer,
+                              ray);
                 inner.t_max = t_max();
-                return on_instance(id, instance, inner);
+                return on_instance(id, index, inner);
             },
             stats);
     });
 }
 
-namespace {
-
-/// Tests a lone shape without its aggregate.
-bool closest_in(const Instance& instance, const Ray& ray, Hit& hit, RayQuery query) {
-    if (!instance.holds_one_shape) return instance.aggregate->closest(ray, hit, query);
-    Ray shrinking = ray;
+bool MotionAggregate::closest_in(std::size_t instance, const Ray& ray, Hit& hit,
+                                 RayQuery query) const {
+    const Mover& mover = movers_[instance];
+    if (mover.lone == nullptr) {
+        return table_.instances[instance].aggregate->closest(ray, hit, query);
+    }
     with_stats(query.stats, [&](auto stats) {
-        instance.aggregate->primitives().closest(PrimitiveId{0}, shrinking, kUnusedShear, hit,
-                                                 stats, query.mask);
+        if (mover.ball) {
+            stats.primitives(1);
+            if (!find_first_hit(*mover.ball, ray, hit)) return;
+            stats.primitive_hits(1);
+            hit.primitive = PrimitiveId{0};
+        } else {
+            Ray shrinking = ray;
+            mover.lone->closest(PrimitiveId{0}, shrinking, kUnusedShear, hit, stats, query.mask);
+        }
     });
     return hit.found();
 }
 
-bool occluded_in(const Instance& instance, const Ray& ray, RayQuery query) {
-    if (!instance.holds_one_shape) return instance.aggregate->occluded(ray, query);
+bool MotionAggregate::occluded_in(std::size_t instance, const Ray& ray, RayQuery query) const {
+    const Mover& mover = movers_[instance];
+    if (mover.lone == nullptr) return table_.instances[instance].aggregate->occluded(ray, query);
     return with_stats(query.stats, [&](auto stats) {
-        return instance.aggregate->primitives().occluded(PrimitiveId{0}, ray, kUnusedShear, stats,
-                                                         query.mask);
+        if (!mover.ball) {
+            return mover.lone->occluded(PrimitiveId{0}, ray, kUnusedShear, stats, query.mask);
+        }
+        ShapeHit hit;
+        stats.primitives(1);
+        if (!find_first_hit(*mover.ball, ray, hit)) return false;
+        stats.primitive_hits(1);
+        return true;
     });
 }
-
-}  // namespace
 
 void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) const {
     double t_max = best.found() ? best.t : ray.t_max;
@@ -125,7 +157,7 @@ void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) 
             t_max = hit.t;
             return false;
         },
-        [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
+        [&](PrimitiveId id, std::size_t instance, const Ray& inner_ray) {
             Hit inner;
             if (!closest_in(instance, inner_ray, inner, query) || !wins(inner.t, id, best)) {
                 return false;
@@ -153,7 +185,7 @@ bool MotionAggregate::occluded_by_moving(const Ray& ray, RayQuery query) const {
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId, const ShapeHit&) { return met = true; },
-        [&](PrimitiveId, const Instance& instance, const Ray& inner_ray) {
+        [&](PrimitiveId, std::size_t instance, const Ray& inner_ray) {
             return met = occluded_in(instance, inner_ray, query);
         });
     return met;
@@ -168,13 +200,13 @@ bool MotionAggregate::occluded(const Ray& ray, RayQuery query) const {
 void MotionAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
     if (!is_valid(ray)) return;
     const std::size_t before = hits.size();
-    const auto append = [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
+    const auto append = [&](PrimitiveId id, std::size_t instance, const Ray& inner_ray) {
         const std::size_t known = hits.size();
-        instance.aggregate->all_hits(inner_ray, hits, query);
+        table_.instances[instance].aggregate->all_hits(inner_ray, hits, query);
         for (std::size_t i = known; i < hits.size(); ++i) hits[i].path.push_back(id);
         return false;
     };
-    if (resting_) append(*resting_, resting_instance(), ray);
+    if (resting_) append(*resting_, table_.index(*resting_), ray);
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
@@ -191,14 +223,14 @@ bool MotionAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQ
     if (!is_valid(ray)) return false;
     const std::size_t before = crossings.size();
     bool blocked = false;
-    const auto append = [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
+    const auto append = [&](PrimitiveId id, std::size_t instance, const Ray& inner_ray) {
         const std::size_t known = crossings.size();
-        blocked = instance.aggregate->shadowed(inner_ray, crossings, query);
+        blocked = table_.instances[instance].aggregate->shadowed(inner_ray, crossings, query);
         if (blocked) return true;
         for (std::size_t i = known; i < crossings.size(); ++i) crossings[i].path.push_back(id);
         return false;
     };
-    if (resting_ && append(*resting_, resting_instance(), ray)) return true;
+    if (resting_ && append(*resting_, table_.index(*resting_), ray)) return true;
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "alhazen/accel/motion/motion_bvh.h"
+#include "alhazen/geometry/motion/transform_motion.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {
@@ -42,7 +43,16 @@ class MotionAggregate final : public Aggregate {
                            Coherence coherence) const override;
 
   private:
+    /// What the leaves of the tree need of an instance, in one place.
+    struct Mover {
+        std::optional<Slide> slide;  ///< how it moves, where it slides
+        /// What it holds, where it is one sphere with nothing around it.
+        std::optional<Sphere> ball;
+        const PrimitiveTable* lone = nullptr;  ///< of the one shape that it holds
+    };
+
     [[nodiscard]] MovingBox box_of(std::uint32_t primitive) const;
+    [[nodiscard]] static Mover mover_of(const Instance& instance);
     /// All that rests, where there is such.
     [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {
@@ -54,13 +64,17 @@ class MotionAggregate final : public Aggregate {
                                                          float time) const;
     void closest_moving(const Ray& ray, Hit& hit, RayQuery query) const;
     [[nodiscard]] bool occluded_by_moving(const Ray& ray, RayQuery query) const;
-    /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, instance, inner_ray)` for all that
-    /// the ray may hit, until that returns true.
+    /// The nearest hit in an instance; `ray` is in its frame.
+    bool closest_in(std::size_t instance, const Ray& ray, Hit& hit, RayQuery query) const;
+    [[nodiscard]] bool occluded_in(std::size_t instance, const Ray& ray, RayQuery query) const;
+    /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, index, inner_ray)` for all that the
+    /// ray may hit, until that returns true.
     template <class Reach, class OnTriangle, class OnInstance>
     void visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                OnInstance&& on_instance) const;
 
     PrimitiveTable table_;
+    std::vector<Mover> movers_;  ///< [instance]
     std::optional<PrimitiveId> resting_;
     MovingBox box_;
     MotionBvh tree_;
