@@ -7,6 +7,24 @@
 
 namespace alhazen {
 
+namespace {
+
+/// Of the coordinates: what a motion that counts as even may leave its line by. Bounds of points
+/// are padded by 1e-13.
+constexpr double kEven = 1e-12;
+
+/// False where the line of the ray passes the ball by for certain; rounding is far below the
+/// margin.
+bool may_meet(const Sphere& ball, const Ray& ray) {
+    constexpr double kMargin = 1e-12;
+    const Vec3 f = ray.origin - ball.center;
+    const double along = dot(f, ray.direction), away = length_squared(f);
+    const double beyond = (1.0 - kMargin) * away - (1.0 + kMargin) * (ball.radius * ball.radius);
+    return !(along * along < length_squared(ray.direction) * beyond);
+}
+
+}  // namespace
+
 MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t> resting)
     : table_(std::move(table)) {
     if (resting) {
@@ -26,7 +44,8 @@ MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t
 
 MotionAggregate::Mover MotionAggregate::mover_of(const Instance& instance) {
     Mover mover;
-    if (instance.motion) mover.slide = instance.motion->slide();
+    const Box3 box = instance.aggregate->box();
+    if (instance.motion && box.bounded()) mover.slide = slide_of(*instance.motion, box);
     if (!instance.holds_one_shape) return mover;
     mover.lone = &instance.aggregate->primitives();
     const auto& balls = std::get<ShapeColumn<Sphere>>(mover.lone->columns);
@@ -35,6 +54,38 @@ MotionAggregate::Mover MotionAggregate::mover_of(const Instance& instance) {
         mover.ball = balls.shapes[0];
     }
     return mover;
+}
+
+/// A motion is even where the bounds of points, which hold at every time, are the points: four of
+/// them, for all that is affine. `inner`: not empty.
+std::optional<MotionAggregate::Slide> MotionAggregate::slide_of(const TransformMotion& motion,
+                                                                const Box3& inner) {
+    const Affine open = motion.at(0.0).outer_from_inner, close = motion.at(1.0).outer_from_inner;
+    if (inner.empty() || open.linear != Mat3{} || close.linear != Mat3{}) return std::nullopt;
+    const double size = max_component(inner.size());
+    const Vec3 origin = inner.lo, steps[] = {{}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
+    const double reach = max_component(abs(open.translation)) +
+                         max_component(abs(close.translation)) + max_component(abs(origin)) + size;
+    for (const Vec3& step : steps) {
+        const Vec3 p = origin + step;
+        const MovingBox box = motion.bounds({p, p});
+        const auto is_at = [&](const Box3& b, const Vec3& place) {
+            return max_component(abs(b.lo - place)) <= kEven * reach &&
+                   max_component(abs(b.hi - place)) <= kEven * reach;
+        };
+        if (!is_at(box.at_open, open.point(p)) || !is_at(box.at_close, close.point(p))) {
+            return std::nullopt;
+        }
+    }
+    return Slide{open.translation, close.translation};
+}
+
+Ray MotionAggregate::inner_ray_of(std::size_t instance, const Ray& ray, double time) const {
+    if (const std::optional<Slide>& slide = movers_[instance].slide) {
+        const Vec3 translation = (1.0 - time) * slide->from + time * slide->to;
+        return {ray.origin - translation, ray.direction, ray.t_min, ray.t_max};
+    }
+    return transformed(placement_at(table_.instances[instance], time).inner_from_outer, ray);
 }
 
 MovingBox MotionAggregate::box_of(std::uint32_t primitive) const {
@@ -96,13 +147,7 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                     return on_triangle(id, hit);
                 }
                 const std::size_t index = i - table_.first(kInstanceKind);
-                const Mover& mover = movers_[index];
-                Ray inner =
-                    mover.slide
-                        ? mover.slide->inner(ray, query.time)
-                        : transformed(
-                              placement_at(table_.instances[index], query.time).inner_from_outer,
-                              ray);
+                Ray inner = inner_ray_of(index, ray, query.time);
                 inner.t_max = t_max();
                 return on_instance(id, index, inner);
             },
@@ -119,7 +164,7 @@ bool MotionAggregate::closest_in(std::size_t instance, const Ray& ray, Hit& hit,
     with_stats(query.stats, [&](auto stats) {
         if (mover.ball) {
             stats.primitives(1);
-            if (!find_first_hit(*mover.ball, ray, hit)) return;
+            if (!may_meet(*mover.ball, ray) || !find_first_hit(*mover.ball, ray, hit)) return;
             stats.primitive_hits(1);
             hit.primitive = PrimitiveId{0};
         } else {
@@ -139,7 +184,7 @@ bool MotionAggregate::occluded_in(std::size_t instance, const Ray& ray, RayQuery
         }
         ShapeHit hit;
         stats.primitives(1);
-        if (!find_first_hit(*mover.ball, ray, hit)) return false;
+        if (!may_meet(*mover.ball, ray) || !find_first_hit(*mover.ball, ray, hit)) return false;
         stats.primitive_hits(1);
         return true;
     });

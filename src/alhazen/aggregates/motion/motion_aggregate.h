@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "alhazen/accel/motion/motion_bvh.h"
-#include "alhazen/geometry/motion/transform_motion.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {
@@ -43,6 +42,10 @@ class MotionAggregate final : public Aggregate {
                            Coherence coherence) const override;
 
   private:
+    /// A motion without turn or stretch, evenly along a line: its translation at both ends.
+    struct Slide {
+        Vec3 from, to;
+    };
     /// What the leaves of the tree need of an instance, in one place.
     struct Mover {
         std::optional<Slide> slide;  ///< how it moves, where it slides
@@ -53,6 +56,10 @@ class MotionAggregate final : public Aggregate {
 
     [[nodiscard]] MovingBox box_of(std::uint32_t primitive) const;
     [[nodiscard]] static Mover mover_of(const Instance& instance);
+    [[nodiscard]] static std::optional<Slide> slide_of(const TransformMotion& motion,
+                                                       const Box3& inner);
+    /// The ray in the frame of an instance.
+    [[nodiscard]] Ray inner_ray_of(std::size_t instance, const Ray& ray, double time) const;
     /// All that rests, where there is such.
     [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {

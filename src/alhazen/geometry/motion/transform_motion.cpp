@@ -129,9 +129,9 @@ TransformMotion::TransformMotion(std::span<const TransformKey> keys) {
         Quaternion apart;
         for (std::size_t k = 0; k < 4; ++k) apart[k] = b.rotation[k] - a.rotation[k];
         const double half = 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(dot(apart, apart))));
-        steps_.push_back({2.0 * half, m == n, {}, {}, {}, {}});
+        steps_.push_back({2.0 * half, m == n, {}, {}});
     }
-    find_translations();
+    find_linear_parts();
 }
 
 TransformMotion::Moment TransformMotion::moment(double time) const {
@@ -153,15 +153,11 @@ Affine TransformMotion::own_at(const Moment& m) const {
     return {matrix_of(q) * mixed(1.0 - m.share, a.stretch, m.share, b.stretch), translation};
 }
 
-void TransformMotion::find_translations() {
+void TransformMotion::find_linear_parts() {
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-        Step& step = steps_[i];
-        if (!step.translates) continue;
-        const Affine &a = keys_[i].own, &b = keys_[i + 1].own;
-        step.linear = has_outer_ ? outer_.linear * a.linear : a.linear;
-        step.inverse = alhazen::inverse(step.linear);
-        step.from = has_outer_ ? outer_.point(a.translation) : a.translation;
-        step.to = has_outer_ ? outer_.point(b.translation) : b.translation;
+        if (!steps_[i].translates) continue;
+        steps_[i].linear = has_outer_ ? outer_.linear * keys_[i].own.linear : keys_[i].own.linear;
+        steps_[i].inverse = alhazen::inverse(steps_[i].linear);
     }
 }
 
@@ -169,8 +165,9 @@ Placement TransformMotion::at(double time) const {
     const Moment m = moment(time);
     if (m.i < steps_.size() && steps_[m.i].translates) {
         const Step& step = steps_[m.i];
-        const Vec3 translation =
-            m.share == 0.0 ? step.from : (1.0 - m.share) * step.from + m.share * step.to;
+        const Vec3 &a = keys_[m.i].own.translation, &b = keys_[m.i + 1].own.translation;
+        const Vec3 own = m.share == 0.0 ? a : (1.0 - m.share) * a + m.share * b;
+        const Vec3 translation = has_outer_ ? outer_.point(own) : own;
         return {{step.linear, translation}, {step.inverse, -(step.inverse * translation)}};
     }
     const Affine own = own_at(m);
@@ -178,19 +175,12 @@ Placement TransformMotion::at(double time) const {
     return {outer_from_inner, inverse(outer_from_inner)};
 }
 
-std::optional<Slide> TransformMotion::slide() const {
-    if (steps_.size() != 1 || !steps_[0].translates) return std::nullopt;
-    const Step& step = steps_[0];
-    return Slide{keys_[0].time, keys_[1].time, step.from,
-                 step.to,       step.inverse,  step.linear == Mat3{}};
-}
-
 TransformMotion TransformMotion::inside(const Affine& outer_from_here) const {
     if (outer_from_here == Affine{}) return *this;
     TransformMotion motion = *this;
     motion.outer_ = outer_from_here * outer_;
     motion.has_outer_ = true;
-    motion.find_translations();
+    motion.find_linear_parts();
     return motion;
 }
 

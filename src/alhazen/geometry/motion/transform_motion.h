@@ -11,13 +11,11 @@
 /// Threads: const functions may be called from many.
 
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "alhazen/geometry/motion/moving_box.h"
 #include "alhazen/geometry/placement.h"
-#include "alhazen/geometry/ray.h"
 
 namespace alhazen {
 
@@ -31,33 +29,12 @@ struct TransformKey {
 /// inverse, or two that mirror differently, between which something would be flat.
 [[nodiscard]] const char* fault_of(std::span<const TransformKey> keys);
 
-/// A motion that is one translation: all that a ray needs of it, in one place.
-struct Slide {
-    double begin, end;  ///< times of its keys
-    Vec3 from, to;      ///< translation of the placement at these
-    Mat3 inverse;       ///< of its linear part
-    bool is_straight;   ///< that is the identity
-
-    /// The ray in the frame of what moves, with the bits of TransformMotion::at.
-    [[nodiscard]] Ray inner(const Ray& ray, double time) const {
-        const double share = time <= begin ? 0.0
-                             : time >= end ? 1.0
-                                           : (time - begin) / (end - begin);
-        const Vec3 translation = (1.0 - share) * from + share * to;
-        if (is_straight) return {ray.origin - translation, ray.direction, ray.t_min, ray.t_max};
-        return {inverse * ray.origin + -(inverse * translation), inverse * ray.direction, ray.t_min,
-                ray.t_max};
-    }
-};
-
 class TransformMotion {
   public:
     /// Precondition: keys without fault, at least one.
     explicit TransformMotion(std::span<const TransformKey> keys);
 
     [[nodiscard]] Placement at(double time) const;
-    /// Where it has two keys and translates between them.
-    [[nodiscard]] std::optional<Slide> slide() const;
     /// The same in a frame around it, which rests.
     [[nodiscard]] TransformMotion inside(const Affine& outer_from_here) const;
     /// Contains the image of `inner` at every time from 0 to 1.
@@ -75,10 +52,7 @@ class TransformMotion {
     struct Step {
         double angle = 0;        ///< of the rotation from one to the other, radians
         bool translates = true;  ///< and does nothing else
-        // Where it translates, of the whole placement: its linear part, the inverse of that, and
-        // its translation at both keys.
-        Mat3 linear, inverse;
-        Vec3 from, to;
+        Mat3 linear, inverse;    ///< where it translates: of the whole placement
     };
     /// Between key `i` and the next; `share` 0 is the key itself.
     struct Moment {
@@ -89,7 +63,7 @@ class TransformMotion {
     [[nodiscard]] Moment moment(double time) const;
     /// The transform inside of `outer_`.
     [[nodiscard]] Affine own_at(const Moment& m) const;
-    void find_translations();
+    void find_linear_parts();
     /// Bound of the distance of a moving point from its chord, over an n-th of a step.
     [[nodiscard]] double sag(std::size_t step, double reach, int n) const;
 

@@ -164,7 +164,8 @@ void AdaptiveGrid::choose(const ObjectWatch* watch) {
     for (const Cell& cell : open_) {
         live_.clear();
         near_.clear();
-        const bool weigh = settings_.weigh && !(watch != nullptr && keep_near(cell, *watch));
+        const bool is_near_smaller = watch != nullptr && keep_near(cell, *watch);
+        const bool weigh = settings_.weigh && !is_near_smaller;
         const bool last = cell.level == settings_.depth;
         if (last || (live_.empty() && !differs(cell, weigh))) {
             end(cell);
