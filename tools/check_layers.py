@@ -129,7 +129,8 @@ INSIDE = {
         "report": [""],
     },
     "renderers": {
-        "core": [],
+        "core/reports": [],
+        "core": ["core/reports"],
         "antialias": ["core"],
         "beam_tracing": ["core"],
         "cone_tracing": ["core"],
@@ -154,8 +155,10 @@ INSIDE = {
         "analysis": ["samplers"],
     },
     "session": {
-        "": ["generators"],
+        "": ["framing", "generators"],
         "conversion": [""],
+        "framing": [],
+        "scene_info": [""],
         "technical": ["conversion"],
         "generators": [],
     },

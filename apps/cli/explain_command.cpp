@@ -9,7 +9,7 @@
 #include "alhazen/explain/page/explanation_json.h"
 #include "alhazen/explain/page/explanation_page.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/session/scene_files.h"
 #include "commands.h"
 #include "messages.h"

@@ -7,7 +7,7 @@
 #include "alhazen/base/file.h"
 #include "alhazen/base/lower_case.h"
 #include "alhazen/session/conversion/convert.h"
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 #include "commands.h"
 #include "messages.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/aggregates/accelerator_table.h"
-#include "alhazen/session/info.h"
+#include "alhazen/session/scene_info/info.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"

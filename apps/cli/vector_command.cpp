@@ -8,7 +8,7 @@
 #include "alhazen/base/lower_case.h"
 #include "alhazen/primitives/aggregate.h"
 #include "alhazen/session/conversion/tessellated.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/session/scene_files.h"
 #include "alhazen/session/technical/technical_drawing.h"
 #include "alhazen/session/vector_drawing.h"

@@ -10,7 +10,7 @@
 #include "alhazen/imaging/codecs/jpeg.h"
 #include "alhazen/imaging/codecs/png.h"
 #include "alhazen/session/aov_pictures.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/session/picture.h"
 #include "view_menus.h"
 #include "view_wishes.h"

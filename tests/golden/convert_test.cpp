@@ -9,7 +9,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/session/conversion/convert.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 #include "scene_files.h"

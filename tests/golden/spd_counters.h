@@ -6,7 +6,7 @@
 #include <string>
 
 #include "alhazen/aggregates/accelerator_table.h"
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 #include "alhazen/session/render.h"
 
 namespace alhazen::testing {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 #include "scene_files.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {

@@ -11,7 +11,7 @@
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/core/samplers.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 
 namespace alhazen {
 namespace {

@@ -7,7 +7,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/renderers/core/renderer.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/shading/lights/environment.h"
 
 namespace alhazen {

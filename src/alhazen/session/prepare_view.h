@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 

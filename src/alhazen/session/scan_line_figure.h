@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/renderers/core/reports/scan_line_report.h"
 
 namespace alhazen {
 

@@ -6,7 +6,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/antialias/adaptive_grid.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
-#include "alhazen/renderers/core/antialias_report.h"
+#include "alhazen/renderers/core/reports/antialias_report.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"

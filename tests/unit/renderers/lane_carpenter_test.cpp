@@ -7,7 +7,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/primitives/surface.h"
-#include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/renderers/core/reports/scan_line_report.h"
 #include "alhazen/renderers/lane_carpenter/edge_line.h"
 #include "alhazen/renderers/lane_carpenter/patch_surface.h"
 #include "alhazen/renderers/lane_carpenter/scan_lines.h"

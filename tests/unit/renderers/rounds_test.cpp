@@ -9,8 +9,8 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/reports/sampling_report.h"
 #include "alhazen/renderers/core/sampling_plan.h"
-#include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/sampling/samplers/sampler.h"
 #include "unit/renderers/one_pixel.h"

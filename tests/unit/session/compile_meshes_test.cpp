@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/session/render.h"
 #include "support/scene_maker.h"
 

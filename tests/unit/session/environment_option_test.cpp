@@ -6,7 +6,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/image_io.h"
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 #include "alhazen/shading/lights/environment.h"
 #include "support/scene_maker.h"
 #include "support/scratch_folder.h"

@@ -1,11 +1,11 @@
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "alhazen/base/error.h"
-#include "alhazen/session/seen_parts.h"
+#include "alhazen/session/framing/seen_parts.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {

@@ -8,7 +8,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/scene/scene.h"
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 #include "alhazen/session/unique_bytes.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {

@@ -1,4 +1,4 @@
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 
 #include <gtest/gtest.h>
 

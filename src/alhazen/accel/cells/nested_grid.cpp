@@ -4,22 +4,17 @@
 #include <numeric>
 #include <utility>
 
+#include "alhazen/accel/cells/cell_limits.h"
 #include "alhazen/base/error.h"
 
 namespace alhazen {
 namespace {
 
-constexpr double kMostAlongAxis = 1024;
-constexpr double kMostCells = 1 << 27;
 /// The cost of a step to a cell, in tests of primitives.
 constexpr double kStepCost = 0.5;
 /// A grid must save at least a quarter of the cost to be worth its memory.
 constexpr double kSaving = 0.75;
 
-/// A heap: at least this many primitives that nearly all lie in the same cells, which finer cells
-/// would not separate.
-constexpr std::size_t kHeap = 16;
-constexpr double kSameCells = 0.9;
 constexpr std::size_t kCellsAroundHeap = 8;
 
 /// The numbers of cells along each axis that make about `count` cells, as cubical as possible; flat
@@ -39,8 +34,8 @@ std::array<std::uint32_t, 3> resolution(const Vec3& size, double count, double l
         least_edge, flat == 3 ? widest : widest * std::pow(volume / count, 1.0 / (3 - flat)));
     std::array<std::uint32_t, 3> cells{};
     for (int k = 0; k < 3; ++k) {
-        cells[static_cast<std::size_t>(k)] =
-            static_cast<std::uint32_t>(std::clamp(std::round(size[k] / edge), 1.0, kMostAlongAxis));
+        cells[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(
+            std::clamp(std::round(size[k] / edge), 1.0, double(kMostAlongAxis)));
     }
     return cells;
 }

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <numeric>
 
+#include "alhazen/accel/cells/cell_limits.h"
 #include "alhazen/base/error.h"
 
 namespace alhazen {
 
 namespace {
 
-/// A heap: at least this many primitives that nearly all lie in the same cells, which smaller cells
-/// would not separate. The first levels cut off the empty space around it.
-constexpr std::size_t kHeap = 16;
-constexpr double kSameCells = 0.9;
+/// The first levels cut off the empty space around a heap.
 constexpr int kLevelsAroundHeaps = 3;
 
 }  // namespace

@@ -1,13 +1,10 @@
 #include "alhazen/accel/cells/uniform_grid.h"
 
+#include "alhazen/accel/cells/cell_limits.h"
 #include "alhazen/base/error.h"
 
 namespace alhazen {
 namespace {
-
-/// Maximum numbers of cells along an axis and in total.
-constexpr int kMostAlongAxis = 1024;
-constexpr double kMostCells = 1 << 27;
 
 /// Throws Error (Usage) for too many cells. 0: by the density.
 void check_cell_count(const std::array<int, 3>& cells) {

@@ -4,17 +4,11 @@
 #include <cmath>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/math/plane_vectors.h"
 
 namespace alhazen {
 
 namespace {
-
-double cross_of(const Vec2& a, const Vec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
-double dot_of(const Vec2& a, const Vec2& b) {
-    return a.x * b.x + a.y * b.y;
-}
 
 /// Between the directions of two points, by the shorter way.
 DiscPart sector(const Vec2& a, const Vec2& b) {

@@ -6,6 +6,7 @@
 
 #include "alhazen/math/bernstein_roots.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/math/plane_vectors.h"
 
 namespace alhazen {
 
@@ -33,13 +34,6 @@ struct AngleQuartic {
         return std::abs(m2) + std::abs(k2) + std::abs(m1) + std::abs(k1);
     }
 };
-
-double cross_of(const Vec2& a, const Vec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
-double dot_of(const Vec2& a, const Vec2& b) {
-    return a.x * b.x + a.y * b.y;
-}
 
 /// g by the factors a - z and b - z, which loses less where A or B is close to the circle.
 struct FactoredQuartic {

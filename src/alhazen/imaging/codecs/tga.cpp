@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 18, kFooterBytes = 26;
 constexpr std::string_view kSignature{"TRUEVISION-XFILE.\0", 18};
 
-struct Header {
+struct TgaHeader {
     unsigned id_length = 0, map_kind = 0, kind = 0;
     std::uint64_t map_first = 0, map_length = 0;
     unsigned map_bits = 0;
@@ -34,8 +34,8 @@ constexpr unsigned bytes_of(unsigned bits) {
     return (bits + 7) / 8;
 }
 
-Header read_header(ByteReader& reader) {
-    Header h;
+TgaHeader read_tga_header(ByteReader& reader) {
+    TgaHeader h;
     h.id_length = reader.u8();
     h.map_kind = reader.u8();
     h.kind = reader.u8();
@@ -55,7 +55,7 @@ bool is_color_size(unsigned bits) {
 }
 
 /// The reason why the header is not supported, or null.
-const char* fault_of(const Header& h) {
+const char* fault_of(const TgaHeader& h) {
     if (h.model() < 1 || h.model() > 3 || (h.kind & ~11u) != 0) return "an unknown kind of picture";
     if (h.map_kind > 1) return "an unknown kind of palette";
     if ((h.descriptor & 0xC0u) != 0) return "interleaved rows";
@@ -72,12 +72,12 @@ const char* fault_of(const Header& h) {
     return nullptr;
 }
 
-std::uint64_t bytes_before_pixels(const Header& h) {
+std::uint64_t bytes_before_pixels(const TgaHeader& h) {
     return kHeaderBytes + h.id_length + (h.map_kind == 1 ? h.map_length * bytes_of(h.map_bits) : 0);
 }
 
 /// A run of 128 pixels takes one byte and one pixel at least.
-std::uint64_t least_pixel_bytes(const Header& h) {
+std::uint64_t least_pixel_bytes(const TgaHeader& h) {
     const std::uint64_t each = bytes_of(h.bits);
     return h.run_length() ? (h.pixels() + 127) / 128 * (1 + each) : h.pixels() * each;
 }
@@ -115,7 +115,7 @@ Color color_of(std::string_view p, unsigned bits) {
 /// Converts the pixels of a file to samples, row by row in the file's order.
 class PixelReader {
   public:
-    PixelReader(ByteReader& reader, const Header& header, std::vector<Color> palette)
+    PixelReader(ByteReader& reader, const TgaHeader& header, std::vector<Color> palette)
         : reader_(reader), header_(header), palette_(std::move(palette)) {}
 
     Color next() {
@@ -146,14 +146,14 @@ class PixelReader {
     }
 
     ByteReader& reader_;
-    const Header& header_;
+    const TgaHeader& header_;
     std::vector<Color> palette_;
     unsigned left_in_packet_ = 0;
     bool repeats_ = false;
     Color repeated_{};
 };
 
-int channels_of(const Header& h, bool alpha_meant) {
+int channels_of(const TgaHeader& h, bool alpha_meant) {
     if (h.model() == 3) return h.bits == 16 && alpha_meant ? 2 : 1;
     const unsigned color_bits = h.model() == 1 ? h.map_bits : h.bits;
     const bool has_room = color_bits == 32 || color_bits == 16;
@@ -166,14 +166,14 @@ bool is_plausible_tga(std::string_view bytes) {
     if (bytes.size() < kHeaderBytes) return false;
     const std::string name;
     ByteReader reader(bytes, name);
-    const Header h = read_header(reader);
+    const TgaHeader h = read_tga_header(reader);
     return fault_of(h) == nullptr && h.width > 0 && h.height > 0 && h.alpha_bits() <= 8 &&
            bytes_before_pixels(h) + least_pixel_bytes(h) <= bytes.size();
 }
 
 StoredImage decode_tga(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     ByteReader reader(bytes, name);
-    const Header h = read_header(reader);
+    const TgaHeader h = read_tga_header(reader);
     if (const char* fault = fault_of(h)) bad_image(name, std::string("TGA with ") + fault);
     check_image_size(h.width, h.height, limits, name);
     (void)reader.take(h.id_length);

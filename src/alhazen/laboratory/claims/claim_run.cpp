@@ -8,7 +8,7 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/sampling/random.h"
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 
 namespace alhazen {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "alhazen/laboratory/claims/claim_run.h"
 #include "alhazen/laboratory/claims/sampled_pictures.h"
-#include "alhazen/renderers/core/antialias_report.h"
 #include "alhazen/renderers/core/antialias_settings.h"
+#include "alhazen/renderers/core/reports/antialias_report.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
 

@@ -9,7 +9,7 @@
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/beam_tracing/beam_tracing.h"
-#include "alhazen/renderers/core/beam_report.h"
+#include "alhazen/renderers/core/reports/beam_report.h"
 #include "alhazen/renderers/whitted/whitted.h"
 
 namespace alhazen {

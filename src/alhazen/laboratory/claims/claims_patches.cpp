@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "alhazen/laboratory/claims/claim_run.h"
-#include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/renderers/core/reports/scan_line_report.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/sampling/random.h"
 #include "alhazen/session/generators/teapot_patches.h"

@@ -6,8 +6,8 @@
 
 #include "alhazen/laboratory/claims/claim_run.h"
 #include "alhazen/laboratory/claims/sampled_pictures.h"
+#include "alhazen/renderers/core/reports/sampling_report.h"
 #include "alhazen/renderers/core/sampling_plan.h"
-#include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "alhazen/sampling/samplers/sampler.h"

@@ -14,8 +14,8 @@
 #include "alhazen/renderers/antialias/picture_grid.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
 #include "alhazen/renderers/antialias/sought_spheres.h"
-#include "alhazen/renderers/core/antialias_report.h"
 #include "alhazen/renderers/core/aov.h"
+#include "alhazen/renderers/core/reports/antialias_report.h"
 
 namespace alhazen {
 

@@ -10,7 +10,7 @@
 #include "alhazen/renderers/beam_tracing/beam_raster.h"
 #include "alhazen/renderers/beam_tracing/beam_shading.h"
 #include "alhazen/renderers/core/antialias_settings.h"
-#include "alhazen/renderers/core/beam_report.h"
+#include "alhazen/renderers/core/reports/beam_report.h"
 #include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/core/reports/sampling_report.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/core/sampling_plan.h"
-#include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {

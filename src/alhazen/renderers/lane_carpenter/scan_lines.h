@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/renderers/core/reports/scan_line_report.h"
 #include "alhazen/renderers/lane_carpenter/options.h"
 #include "alhazen/renderers/lane_carpenter/sample_grid.h"
 #include "alhazen/renderers/lane_carpenter/scan_scene.h"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/reports/sampling_report.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
-#include "alhazen/renderers/core/sampling_report.h"
 
 namespace alhazen {
 

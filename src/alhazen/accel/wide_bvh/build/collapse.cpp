@@ -69,14 +69,14 @@ float promise_of(const Emitted& child, const FloatBox& box) {
 /// Three passes: choose the conversion of each binary node, bottom-up; count the nodes and blocks
 /// of each wide subtree; write all subtrees, each to its place.
 template <std::uint32_t kWidth>
-class Collapse {
+class WideCollapse {
     using Choice = ChoiceOf<kWidth>;
     using Children = ChildrenOf<kWidth>;
     using Node = WideNodeOf<kWidth>;
 
   public:
-    Collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
-             const LeafKinds& kinds, LeafSink& sink)
+    WideCollapse(const BinaryBvh& binary, std::span<const BuildReference> references,
+                 const LeafKinds& kinds, LeafSink& sink)
         : binary_(binary),
           references_(references),
           kinds_(kinds),
@@ -287,9 +287,9 @@ class Collapse {
 WideBvh collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
                  const LeafKinds& kinds, LeafSink& sink, std::uint32_t width) {
     if (binary.empty) return {};
-    if (width == 4) return Collapse<4>(binary, references, kinds, sink).run();
-    if (width == 16) return Collapse<16>(binary, references, kinds, sink).run();
-    return Collapse<8>(binary, references, kinds, sink).run();
+    if (width == 4) return WideCollapse<4>(binary, references, kinds, sink).run();
+    if (width == 16) return WideCollapse<16>(binary, references, kinds, sink).run();
+    return WideCollapse<8>(binary, references, kinds, sink).run();
 }
 
 }  // namespace alhazen

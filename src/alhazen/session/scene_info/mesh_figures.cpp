@@ -1,4 +1,4 @@
-#include "alhazen/session/mesh_figures.h"
+#include "alhazen/session/scene_info/mesh_figures.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "alhazen/session/seen_parts.h"
+#include "alhazen/session/framing/seen_parts.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -7,7 +7,7 @@
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/primitives/unused_shear.h"
-#include "alhazen/session/outline_search.h"
+#include "alhazen/session/framing/outline_search.h"
 
 namespace alhazen {
 

@@ -1,4 +1,4 @@
-#include "alhazen/session/framing.h"
+#include "alhazen/session/framing/framing.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/overloaded.h"
 #include "alhazen/math/constants.h"
-#include "alhazen/session/seen_parts.h"
+#include "alhazen/session/framing/seen_parts.h"
 
 namespace alhazen {
 

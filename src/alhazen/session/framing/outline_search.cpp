@@ -1,4 +1,4 @@
-#include "alhazen/session/outline_search.h"
+#include "alhazen/session/framing/outline_search.h"
 
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/parallel/parallel.h"

@@ -1,4 +1,4 @@
-#include "alhazen/session/generated_solids.h"
+#include "alhazen/session/generators/generated_solids.h"
 
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "alhazen/session/info.h"
+#include "alhazen/session/scene_info/info.h"
 
 #include <cmath>
 #include <map>
@@ -7,8 +7,8 @@
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/session/masked_parts.h"
-#include "alhazen/session/mesh_figures.h"
-#include "alhazen/session/patch_figures.h"
+#include "alhazen/session/scene_info/mesh_figures.h"
+#include "alhazen/session/scene_info/patch_figures.h"
 #include "alhazen/session/unique_bytes.h"
 #include "alhazen/verification/exact_bounds.h"
 

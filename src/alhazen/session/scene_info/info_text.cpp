@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/control_characters.h"
-#include "alhazen/session/info.h"
+#include "alhazen/session/scene_info/info.h"
 
 namespace alhazen {
 

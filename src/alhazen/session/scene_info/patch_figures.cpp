@@ -1,4 +1,4 @@
-#include "alhazen/session/patch_figures.h"
+#include "alhazen/session/scene_info/patch_figures.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "alhazen/session/generate.h"
+#include "alhazen/session/generators/generate.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/formats/nff/nff_importer.h"
-#include "alhazen/session/generated_solids.h"
 #include "alhazen/session/generators/city.h"
 #include "alhazen/session/generators/field.h"
+#include "alhazen/session/generators/generated_solids.h"
 #include "alhazen/session/generators/spd.h"
 #include "alhazen/session/generators/stress_scenes.h"
 
