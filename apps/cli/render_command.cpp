@@ -349,13 +349,15 @@ void add_render(CLI::App& app, int& exit_status) {
     command
         ->add_option("--antialias", args->antialias,
                      "Adaptive supersampling instead of --spp: rays through the corners of the "
-                     "pixels, and more where their shades differ by more than threshold (0.05), "
-                     "down to 1 / 2^depth (4) of a pixel; guarantee (on): and where an object may "
-                     "hide between rays. exact: the integral over the whole area of each pixel, or "
+                     "pixels, and more where their shades would change the pixel by more than "
+                     "threshold (0.02), down to 1 / 2^depth (4) of a pixel; guarantee (on): and "
+                     "where an object may hide between rays; neighbours (on): and where rays of "
+                     "cells beside it differ; weigh (on): shades count by the area of their cell. "
+                     "exact: the integral over the whole area of each pixel, or "
                      "under a filter (`alhazen list filters`), of beam_tracing; shades that change "
                      "within a pixel are integrated to within error (0.0001)")
         ->type_name(
-            "whitted[:threshold=T,depth=D,guarantee=on|off]|"
+            "whitted[:threshold=T,depth=D,guarantee=on|off,weigh=on|off,neighbours=on|off]|"
             "exact[:error=E,filter=NAME,radius=PIXELS]");
     command
         ->add_option("--depth", args->depth,

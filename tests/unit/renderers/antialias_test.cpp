@@ -20,8 +20,8 @@ namespace {
 template <class Shade>
 std::size_t fill(AdaptiveGrid& grid, Shade&& shade) {
     std::size_t rays = 0;
+    const double step = std::ldexp(1.0, -grid.depth());
     do {
-        const double step = std::ldexp(1.0, -grid.level());
         for (std::size_t i = 0; const GridPoint& p : grid.points()) {
             grid.shades()[i++] = shade(step * p.x, step * p.y);
         }
@@ -41,7 +41,7 @@ TEST(AdaptiveGrid, TheExampleOfTheTextHas16RaysAndItsFormula) {
     std::map<char, double> v;
     for (char c = 'A'; c <= 'P'; ++c) v[c] = 0.2 + 0.04 * random_at(1, 2, std::uint64_t(c), 3);
     v['C'] = 0.9;
-    AdaptiveGrid grid(2, 1, {.threshold = 0.05, .depth = 2});
+    AdaptiveGrid grid(2, 1, {.threshold = 0.05, .depth = 2, .weigh = false, .neighbours = false});
     std::set<char> asked;
     const std::size_t rays = fill(grid, [&](double x, double y) {
         const auto found = names.find({x, y});
@@ -66,7 +66,7 @@ TEST(AdaptiveGrid, TheExampleOfTheTextHas16RaysAndItsFormula) {
 
 TEST(AdaptiveGrid, NoPointIsAskedForTwiceAndAreasAreExact) {
     // A disc: the pixels that its edge crosses are divided to the depth.
-    AdaptiveGrid grid(19, 11, {.threshold = 0.05, .depth = 6});
+    AdaptiveGrid grid(19, 11, {.threshold = 0.05, .depth = 6, .weigh = false});
     std::set<std::pair<double, double>> asked;
     fill(grid, [&](double x, double y) {
         EXPECT_TRUE(asked.insert({x, y}).second) << x << " " << y;
@@ -80,6 +80,94 @@ TEST(AdaptiveGrid, NoPointIsAskedForTwiceAndAreasAreExact) {
     }
     EXPECT_NEAR(area, 3.14159265 * 4.1 * 4.1, 0.02);
     EXPECT_LT(asked.size(), 20U * 12U + 60U * 4U * 64U);
+}
+
+TEST(AdaptiveGrid, ShadesAreWeighedByTheAreaOfTheirCell) {
+    // An edge of height 0.5: a cell of level k may change its pixel by 0.5 / 4^k.
+    const auto edge = [](double x, double) {
+        const double v = x < 0.3 ? 0.2 : 0.7;
+        return Rgb{v, v, v};
+    };
+    for (const int level : {1, 2, 3}) {
+        AdaptiveGrid grid(1, 1, {.threshold = 0.51 * std::pow(4.0, -level), .depth = 8});
+        fill(grid, edge);
+        for (std::size_t k = 0; k < grid.divided().size(); ++k) {
+            EXPECT_EQ(grid.divided()[k], k < std::size_t(level) ? 1U << k : 0U)
+                << level << ' ' << k;
+        }
+    }
+    // What lies beyond 1 in all of a pixel is not shown.
+    AdaptiveGrid bright(1, 1, {.threshold = 0.02, .depth = 8});
+    EXPECT_EQ(fill(bright, [](double x, double) { return Rgb{1 + x, 3, 1 + 9 * x}; }), 4U);
+}
+
+TEST(AdaptiveGrid, ACellSeesTheRaysOfItsNeighboursOnItsSides) {
+    // A bar that enters the left pixel by the middle of its right side, and passes its corners by.
+    const auto bar = [](double x, double y) {
+        const double v = (x > 0.3 && std::abs(y - 0.45) < 0.2) || x > 1.3 ? 1.0 : 0.0;
+        return Rgb{v, v, v};
+    };
+    const AntialiasSettings alone{.threshold = 0.001, .depth = 7, .neighbours = false};
+    AdaptiveGrid blind(2, 1, alone);
+    fill(blind, bar);
+    EXPECT_EQ(blind.pixels()[0].g, 0.0);
+    EXPECT_NEAR(blind.pixels()[1].g, 0.7 + 0.3 * 0.4, (1 + 2 * 0.3) / 64);
+    AdaptiveGrid grid(2, 1, {.threshold = 0.001, .depth = 7});
+    fill(grid, bar);
+    // Edges along the grid: each is off by at most half of a cell of 1 / 32 pixel.
+    EXPECT_NEAR(grid.pixels()[0].g, 0.7 * 0.4, (2 * 0.7 + 0.4) / 64);
+    EXPECT_NEAR(grid.pixels()[1].g, 0.7 + 0.3 * 0.4, (1 + 2 * 0.3) / 64);
+}
+
+TEST(AdaptiveGrid, APixelBesideADividedOneShowsItsCentre) {
+    // A disc in the middle pixel, met by no corner and on no side; an edge in the right one.
+    const auto shade = [](double x, double y) {
+        const double v = std::hypot(x - 1.5, y - 0.5) < 0.3 || x > 2.47 ? 1.0 : 0.0;
+        return Rgb{v, v, v};
+    };
+    AdaptiveGrid grid(4, 1, {.threshold = 0.001, .depth = 6});
+    std::set<std::pair<double, double>> asked;
+    fill(grid, [&](double x, double y) {
+        EXPECT_TRUE(asked.insert({x, y}).second) << x << ' ' << y;
+        return shade(x, y);
+    });
+    EXPECT_NEAR(grid.pixels()[1].g, 3.14159265 * 0.09, 0.005);
+    EXPECT_NEAR(grid.pixels()[2].g, 0.53, 0.02);  // along the grid
+    EXPECT_EQ(grid.pixels()[3].g, 1.0);
+    EXPECT_TRUE(asked.contains({0.5, 0.5}));  // beside the disc's
+    std::uint64_t points = 0;
+    for (const std::uint64_t n : grid.points_of_levels()) points += n;
+    EXPECT_EQ(points, asked.size());
+}
+
+TEST(AdaptiveGrid, ErrorsFollowTheThresholdAndRaysTheEdge) {
+    // A disc. Some 1 / sqrt(threshold) cells lie along an edge, each off by half the threshold at
+    // most; where it is askew their errors have different signs.
+    for (const double threshold : {0.02, 0.005}) {
+        AdaptiveGrid grid(48, 48, {.threshold = threshold, .depth = 8});
+        const double cx = 23.7, cy = 24.2, r = 20.3;
+        const std::size_t rays = fill(grid, [&](double x, double y) {
+            const double v = std::hypot(x - cx, y - cy) < r ? 1.0 : 0.0;
+            return Rgb{v, v, v};
+        });
+        double sum = 0;
+        for (int j = 0; j < 48; ++j) {
+            for (int i = 0; i < 48; ++i) {
+                double area = 0;  // columns of the disc in the pixel
+                for (int k = 0; k < 256; ++k) {
+                    const double dx = i + (k + 0.5) / 256 - cx;
+                    const double half = std::sqrt(std::max(0.0, r * r - dx * dx));
+                    area += std::clamp(cy + half, double(j), j + 1.0) -
+                            std::clamp(cy - half, double(j), j + 1.0);
+                }
+                const double off = grid.pixels()[std::size_t(48 * j + i)].g - area / 256;
+                EXPECT_LT(std::abs(off), 0.5 * std::sqrt(threshold));
+                sum += off * off;
+            }
+        }
+        EXPECT_LT(std::sqrt(sum / (48 * 48)), 0.25 * threshold);
+        EXPECT_LT(rays, 49U * 49U + 160U * std::size_t(10 / std::sqrt(threshold)));
+    }
 }
 
 TEST(AdaptiveGrid, EqualShadesNeedTheCornersOnly) {
@@ -140,6 +228,7 @@ TEST(Antialias, SpheresOfATwentiethOfAPixelAreAllMet) {
     EXPECT_EQ(with.counts().objects, 40U);
     EXPECT_EQ(with.counts().met, 40U);
     EXPECT_EQ(with.counts().below_depth, 0U);
+    EXPECT_EQ(picture(scene, {.depth = 5, .weigh = false, .neighbours = false}).counts().met, 40U);
     const AntialiasedPicture without = picture(scene, {.depth = 5, .guarantee = false});
     EXPECT_FALSE(without.counts().guarantee);
     EXPECT_LT(without.counts().total_points(), with.counts().total_points() / 4);
@@ -252,13 +341,16 @@ TEST(Antialias, WholeScenesOfOneSolidAndEndlessShapes) {
 
 TEST(Antialias, SettingsAreChecked) {
     EXPECT_EQ(parse_antialias("whitted").depth, 4);
-    const AntialiasSettings s = parse_antialias("whitted:threshold=0.1,depth=2,guarantee=off");
+    const AntialiasSettings s =
+        parse_antialias("whitted:threshold=0.1,depth=2,guarantee=off,weigh=off,neighbours=off");
+    EXPECT_FALSE(s.weigh);
+    EXPECT_FALSE(s.neighbours);
     EXPECT_EQ(s.threshold, 0.1);
     EXPECT_EQ(s.depth, 2);
     EXPECT_FALSE(s.guarantee);
     for (const char* bad :
          {"", "cook", "whitted:depth=9", "whitted:depth=1.5", "whitted:x=1", "whitted:threshold=-1",
-          "whitted:threshold=nan", "whitted:guarantee=2"}) {
+          "whitted:threshold=nan", "whitted:guarantee=2", "whitted:weigh=no"}) {
         EXPECT_THROW((void)parse_antialias(bad), Error) << bad;
     }
     EXPECT_TRUE(Whitted{}.answers_single_rays());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/accel/wide_bvh/build/binary_builder.h"
 
@@ -9,10 +10,21 @@ namespace alhazen {
 
 namespace {
 
-/// Of the sizes of the scene and the origin: far above the rounding of the tests in double.
-constexpr double kMargin = 0x1p-38;
+/// Of the size of the scene and the distance of the origin, for what a plane of a box is off by:
+/// seven roundings and that of the time (the change, its product with the time, the sum; the
+/// inverse, its product with the origin, that with the plane, the difference), each by 2^-24 of at
+/// most 2 (1 + distance).
+constexpr double kMargin = 0x1p-20;
+/// Of the offset of the frame, for the rounding of local coordinates and of the tests in double.
+constexpr double kExactMargin = 0x1p-38;
 /// Lower bound of a direction's components relative to the largest one.
-constexpr double kLeastDirection = 0x1p-100;
+constexpr double kLeastDirection = 0x1p-60;
+/// From farther away, or with another scale, a ray enters every box: exponents could leave the
+/// range of float.
+constexpr double kFarthest = 0x1p40;
+constexpr double kLeastScale = 1e-200, kMostScale = 1e200;
+/// Far outside of the frame, and well before kNowhere.
+constexpr float kOutside = 1e20f;
 /// Coordinates beyond it are taken as unbounded.
 constexpr double kReach = 1e150;
 
@@ -110,20 +122,19 @@ class Collapse {
     static void set_child(MotionBvh::Node& node, std::size_t c, const EndBoxes& box,
                           std::uint32_t child) {
         for (std::size_t k = 0; k < 3; ++k) {
-            node.lo[0][k][c] = box.open.lo[k];
-            node.lo[1][k][c] = box.close.lo[k];
-            node.hi[0][k][c] = box.open.hi[k];
-            node.hi[1][k][c] = box.close.hi[k];
+            node.open[0][k][c] = box.open.lo[k];
+            node.open[1][k][c] = box.open.hi[k];
+            node.change[0][k][c] = box.close.lo[k] - box.open.lo[k];
+            node.change[1][k][c] = box.close.hi[k] - box.open.hi[k];
         }
         node.child[c] = child;
     }
 
     static void set_no_child(MotionBvh::Node& node, std::size_t c) {
-        for (std::size_t end = 0; end < 2; ++end) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                node.lo[end][k][c] = kNowhere;
-                node.hi[end][k][c] = -kNowhere;
-            }
+        for (std::size_t k = 0; k < 3; ++k) {
+            node.open[0][k][c] = kNowhere;
+            node.open[1][k][c] = -kNowhere;
+            node.change[0][k][c] = node.change[1][k][c] = 0.0f;
         }
         node.child[c] = 0;
     }
@@ -155,7 +166,7 @@ MotionBvh::MotionBvh(std::span<const MovingBox> boxes) {
         }
     }
     if (all.empty()) return;
-    kernel_ = motion_bvh_kernel();
+    traversal_ = motion_bvh_traversal();
     frame_ = LocalFrame(all);
     std::vector<EndBoxes> things(boxes.size());
     std::vector<BuildReference> references;
@@ -170,19 +181,33 @@ MotionBvh::MotionBvh(std::span<const MovingBox> boxes) {
 
 MotionBvh::RaySlabs MotionBvh::slabs(const Ray& ray, double time) const {
     RaySlabs slabs;
-    slabs.time = time;
+    slabs.time = static_cast<float>(time);
     const Vec3 origin = frame_.local(ray.origin);
-    const Vec3 direction = frame_.scale * ray.direction;
-    const double margin = kMargin * (1.0 + frame_.offset + max_component(abs(origin)));
-    const double least = kLeastDirection * max_component(abs(direction));
+    const double away = max_component(abs(origin)), largest = max_component(abs(ray.direction));
+    slabs.scale = frame_.scale * largest;
+    if (!(away <= kFarthest && slabs.scale >= kLeastScale && slabs.scale <= kMostScale)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            slabs.inverse[k] = 1.0f;
+            slabs.near[k] = kOutside;
+            slabs.far[k] = -kOutside;
+            slabs.near_side[k] = 0;
+        }
+        slabs.t_min = -std::numeric_limits<float>::infinity();
+        slabs.scale = std::numeric_limits<double>::quiet_NaN();
+        return slabs;
+    }
+    const double margin = kMargin * (1.0 + away) + kExactMargin * frame_.offset;
+    slabs.t_min = round_down(slabs.scale * ray.t_min);
     for (int k = 0; k < 3; ++k) {
-        double d = direction[k];
-        if (std::abs(d) < least) d = std::copysign(least, d);
-        slabs.negative[k] = d < 0.0;
-        slabs.inverse[k] = 1.0 / d;
+        const double d = ray.direction[k];
+        const double inverse = std::abs(d) >= kLeastDirection * largest
+                                   ? largest / d
+                                   : std::copysign(1.0 / kLeastDirection, d);
         const double aside = std::copysign(margin, d);
-        slabs.near_origin[k] = origin[k] + aside;
-        slabs.far_origin[k] = origin[k] - aside;
+        slabs.near_side[k] = d < 0.0;
+        slabs.inverse[k] = static_cast<float>(inverse);
+        slabs.near[k] = static_cast<float>((origin[k] + aside) * inverse);
+        slabs.far[k] = static_cast<float>((origin[k] - aside) * inverse);
     }
     return slabs;
 }

@@ -6,17 +6,17 @@
 /// the shutter, interpolated at the time of the ray).
 /// Differs: each end of a node has the box of its things at that end; what does not move linearly
 /// is widened at both ends (MovingBox::widen_to). The tree is built by the binary builder of
-/// wide_bvh over the boxes at half time, then collapsed. Rays are computed in double, boxes are
-/// stored in float; the boxes of a node are interpolated and tested together.
+/// wide_bvh over the boxes at half time, then collapsed. The boxes of a node are interpolated and
+/// tested together, in float with a margin for all rounding; no hit depends on it.
 /// Conventions: times from 0 to 1. A thing is its number among the boxes given.
 /// Complexity and threads: O(n log n) to build. Const functions may be called from many threads.
 
-#include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
-#include "alhazen/accel/core/reentrant_stack.h"
 #include "alhazen/accel/core/traversal_stats.h"
 #include "alhazen/accel/wide_bvh/nodes/local_frame.h"
 #include "alhazen/geometry/motion/moving_box.h"
@@ -27,89 +27,83 @@ namespace alhazen {
 class MotionBvh {
   public:
     static constexpr std::size_t kWidth = 8;
+    static constexpr std::uint32_t kLeafBit = 1u << 31;
 
     struct alignas(64) Node {
-        /// [open, close][axis][child]; unused children have an empty box.
-        float lo[2][3][kWidth];
-        float hi[2][3][kWidth];
+        /// [lo, hi][axis][child] when the shutter opens, and how far it moves until it closes;
+        /// unused children have an empty box.
+        float open[2][3][kWidth];
+        float change[2][3][kWidth];
         std::uint32_t child[kWidth];  ///< a node, or a thing with kLeafBit
     };
-    /// A ray in the frame of the tree, its origin moved by a margin on either side of the slabs.
+    /// A ray in the frame of the tree, with the largest component of its direction scaled to 1:
+    /// it meets the plane at x where `inverse` x - `near` (or `far`), its origin moved by a margin
+    /// on either side.
     struct RaySlabs {
-        double near_origin[3], far_origin[3], inverse[3];
-        bool negative[3];
-        double time;
+        float inverse[3], near[3], far[3];
+        std::uint32_t near_side[3];  ///< 0: it enters boxes at their lower side; 1: at the upper
+        float time, t_min;
+        double scale;  ///< of distances: those of the ray times this; NaN: any box is entered
+
+        [[nodiscard]] float reach(double t_max) const {
+            const double most = scale * t_max;
+            return most < kFar ? round_up(most) : std::numeric_limits<float>::infinity();
+        }
+        static constexpr double kFar = 1e30;
     };
-    struct alignas(64) Entries {
-        double enter[kWidth];
-    };
-    /// Which children the ray meets between `t_min` and `t_max`: bit i for child i.
-    using Kernel = std::uint32_t (*)(const Node&, const RaySlabs&, double t_min, double t_max,
-                                     Entries&);
+    /// `visit(context, thing, reach)` for all that the ray may hit, near ones first, until it
+    /// returns true. `reach`: how far the ray goes, in distances of the slabs; `visit` may shrink
+    /// it.
+    using Visit = bool (*)(void* context, std::uint32_t thing, float& reach);
+    using Traversal = void (*)(const Node* nodes, const RaySlabs&, float reach, Visit,
+                               void* context, TraversalStats*);
 
     MotionBvh() = default;
     /// Ignores empty boxes.
     explicit MotionBvh(std::span<const MovingBox> boxes);
 
-    /// Calls `visit(thing)` for all that the ray may hit at `time` up to `t_max()`, near ones first,
-    /// until it returns true.
-    template <class Reach, class Visit, class Stats>
-    void traverse(const Ray& ray, double time, Reach&& t_max, Visit&& visit, Stats stats) const;
+    /// Calls `visit(thing)` for all that the ray may hit at `time` up to `t_max()`, near ones
+    /// first, until it returns true.
+    template <class Reach, class Visitation, class Stats>
+    void traverse(const Ray& ray, double time, Reach&& t_max, Visitation&& visit,
+                  Stats stats) const;
 
     [[nodiscard]] std::size_t memory_bytes() const {
         return nodes_.capacity() * sizeof(Node) + unbounded_.capacity() * sizeof(std::uint32_t);
     }
 
   private:
-    static constexpr std::uint32_t kLeafBit = 1u << 31;
     [[nodiscard]] RaySlabs slabs(const Ray& ray, double time) const;
 
     std::vector<Node> nodes_;
-    Kernel kernel_ = nullptr;
+    Traversal traversal_ = nullptr;
     std::vector<std::uint32_t> unbounded_;
     LocalFrame frame_;
 };
 
-/// The kernel for the chosen instruction set.
-[[nodiscard]] MotionBvh::Kernel motion_bvh_kernel();
+/// For the chosen instruction set.
+[[nodiscard]] MotionBvh::Traversal motion_bvh_traversal();
 
-template <class Reach, class Visit, class Stats>
-void MotionBvh::traverse(const Ray& ray, double time, Reach&& t_max, Visit&& visit,
+template <class Reach, class Visitation, class Stats>
+void MotionBvh::traverse(const Ray& ray, double time, Reach&& t_max, Visitation&& visit,
                          Stats stats) const {
     for (const std::uint32_t thing : unbounded_) {
         if (visit(thing)) return;
     }
     if (nodes_.empty()) return;
-    struct Reached {
-        std::uint32_t node;
-        double enter;
-    };
     const RaySlabs slab_ray = slabs(ray, time);
-    ReentrantStack<Reached> stack;
-    stack.push({0, ray.t_min});
-    Entries entries;
-    while (!stack.empty()) {
-        const Reached reached = stack.pop();
-        if (reached.enter > t_max()) continue;
-        if ((reached.node & kLeafBit) != 0) {
-            if (visit(reached.node & ~kLeafBit)) return;
-            continue;
-        }
-        const Node& node = nodes_[reached.node];
-        stats.nodes(1);
-        stats.boxes(kWidth);
-        const std::size_t before = stack.size();
-        std::uint32_t met = kernel_(node, slab_ray, ray.t_min, t_max(), entries);
-        for (; met != 0; met &= met - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(met));
-            stack.push({node.child[i], entries.enter[i]});
-            // The nearest on top: insertion into the few that this node has added.
-            for (auto at = stack.end() - 1;
-                 at != stack.begin() + before && (at - 1)->enter < at->enter; --at) {
-                std::swap(*at, *(at - 1));
-            }
-        }
-    }
+    struct Visitor {
+        const RaySlabs& ray;
+        std::remove_reference_t<Reach>& t_max;
+        std::remove_reference_t<Visitation>& visit;
+    } visitor{slab_ray, t_max, visit};
+    const Visit call = [](void* context, std::uint32_t thing, float& reach) {
+        const Visitor& to = *static_cast<const Visitor*>(context);
+        const bool ends = to.visit(thing);
+        reach = to.ray.reach(to.t_max());
+        return ends;
+    };
+    traversal_(nodes_.data(), slab_ray, slab_ray.reach(t_max()), call, &visitor, stats.sink());
 }
 
 }  // namespace alhazen

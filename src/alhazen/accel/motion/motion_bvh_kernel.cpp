@@ -5,6 +5,8 @@
 #define HWY_TARGET_INCLUDE "alhazen/accel/motion/motion_bvh_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
+#include <bit>
+
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,43 +14,92 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE Doubles doubles_at(const float* open, const float* close, const Doubles& at_open,
-                              const Doubles& at_close) {
-    const LaneTag<double> d;
-    const hn::Rebind<float, LaneTag<double>> df;
-    Doubles r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<double>; ++i) {
-        const auto a = hn::PromoteTo(d, hn::LoadU(df, open + i * hn::Lanes(d)));
-        const auto b = hn::PromoteTo(d, hn::LoadU(df, close + i * hn::Lanes(d)));
-        r.part[i] = hn::Add(hn::Mul(at_open.part[i], a), hn::Mul(at_close.part[i], b));
+/// A ray in registers.
+struct RayLanesOf {
+    Floats time, inverse[3], near[3], far[3];
+
+    HWY_INLINE explicit RayLanesOf(const MotionBvh::RaySlabs& ray) : time(ray.time) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            inverse[k] = Floats(ray.inverse[k]);
+            near[k] = Floats(ray.near[k]);
+            far[k] = Floats(ray.far[k]);
+        }
     }
-    return r;
+};
+
+/// A side of the boxes at the time of the ray.
+HWY_INLINE Floats plane_at(const MotionBvh::Node& node, std::size_t side, std::size_t axis,
+                           const Floats& time) {
+    return mul_add(time, load_lanes(node.change[side][axis]), load_lanes(node.open[side][axis]));
 }
 
-/// Every operation is correctly rounded, none is fused.
-std::uint32_t met_children(const MotionBvh::Node& node, const MotionBvh::RaySlabs& ray,
-                           double t_min, double t_max, MotionBvh::Entries& entries) {
-    static_assert(MotionBvh::kWidth == kLaneCount);
-    const Doubles at_open(1.0 - ray.time), at_close(ray.time);
-    Doubles enter(t_min), exit(t_max);
+/// Which children the ray meets up to `reach`: bit i for child i; `entries`: where it enters.
+HWY_INLINE std::uint32_t met_children(const MotionBvh::Node& node, const RayLanesOf& ray,
+                                      const std::uint32_t* near_side, float t_min, float reach,
+                                      float* entries) {
+    Floats enter(t_min), exit(reach);
+    ALHAZEN_UNROLL
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto& near_rows = ray.negative[k] ? node.hi : node.lo;
-        const auto& far_rows = ray.negative[k] ? node.lo : node.hi;
-        const Doubles near = doubles_at(near_rows[0][k], near_rows[1][k], at_open, at_close);
-        const Doubles far = doubles_at(far_rows[0][k], far_rows[1][k], at_open, at_close);
-        const Doubles inverse(ray.inverse[k]);
-        enter = max_lanes(enter, (near - Doubles(ray.near_origin[k])) * inverse);
-        exit = min_lanes(exit, (far - Doubles(ray.far_origin[k])) * inverse);
+        const Floats near = plane_at(node, near_side[k], k, ray.time);
+        const Floats far = plane_at(node, 1 - near_side[k], k, ray.time);
+        enter = max_lanes(enter, mul_sub(near, ray.inverse[k], ray.near[k]));
+        exit = min_lanes(exit, mul_sub(far, ray.inverse[k], ray.far[k]));
     }
-    store_lanes(enter, entries.enter);
+    store_lanes(enter, entries);
     return bits_of(enter <= exit);
+}
+
+/// Levels of the tree: binary ones up to 48, where sets are halved from then on.
+constexpr std::size_t kMostLevels = 80;
+
+void traverse_motion(const MotionBvh::Node* nodes, const MotionBvh::RaySlabs& ray, float reach,
+                     MotionBvh::Visit visit, void* context, TraversalStats* stats) {
+    static_assert(MotionBvh::kWidth == kLaneCount);
+    struct Reached {
+        std::uint32_t node;
+        float enter;
+    };
+    Reached waiting[kMostLevels * (MotionBvh::kWidth - 1) + MotionBvh::kWidth];
+    std::size_t count = 0;
+    const RayLanesOf lanes(ray);
+    alignas(64) float entries[MotionBvh::kWidth];
+    for (std::uint32_t current = 0;;) {
+        if ((current & MotionBvh::kLeafBit) == 0) {
+            const MotionBvh::Node& node = nodes[current];
+            if (stats != nullptr) {
+                ++stats->node_visits;
+                stats->box_tests += MotionBvh::kWidth;
+            }
+            std::uint32_t met = met_children(node, lanes, ray.near_side, ray.t_min, reach, entries);
+            if (met != 0 && (met & (met - 1)) == 0) {
+                current = node.child[std::countr_zero(met)];
+                continue;
+            }
+            const std::size_t before = count;
+            for (; met != 0; met &= met - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(met));
+                // The nearest last: insertion into the few that this node has added.
+                std::size_t at = count++;
+                for (; at > before && waiting[at - 1].enter < entries[i]; --at) {
+                    waiting[at] = waiting[at - 1];
+                }
+                waiting[at] = {node.child[i], entries[i]};
+            }
+        } else if (visit(context, current & ~MotionBvh::kLeafBit, reach)) {
+            return;
+        }
+        do {
+            if (count == 0) return;
+            --count;
+        } while (waiting[count].enter > reach);
+        current = waiting[count].node;
+    }
 }
 
 }  // namespace
 
-MotionBvh::Kernel met_children_kernel() {
-    return &met_children;
+MotionBvh::Traversal traverse_motion_kernel() {
+    return &traverse_motion;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -58,11 +109,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(met_children_kernel);
+HWY_EXPORT(traverse_motion_kernel);
 
-MotionBvh::Kernel motion_bvh_kernel() {
+MotionBvh::Traversal motion_bvh_traversal() {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return HWY_DYNAMIC_DISPATCH(met_children_kernel)();
+    return HWY_DYNAMIC_DISPATCH(traverse_motion_kernel)();
 }
 
 }  // namespace alhazen

@@ -3,8 +3,27 @@
 #include <vector>
 
 #include "alhazen/primitives/unused_shear.h"
+#include "alhazen/shapes/core/first_hit.h"
 
 namespace alhazen {
+
+namespace {
+
+/// Of the coordinates: what a motion that counts as even may leave its line by. Bounds of points
+/// are padded by 1e-13.
+constexpr double kEven = 1e-12;
+
+/// False where the line of the ray passes the ball by for certain; rounding is far below the
+/// margin.
+bool may_meet(const Sphere& ball, const Ray& ray) {
+    constexpr double kMargin = 1e-12;
+    const Vec3 f = ray.origin - ball.center;
+    const double along = dot(f, ray.direction), away = length_squared(f);
+    const double beyond = (1.0 - kMargin) * away - (1.0 + kMargin) * (ball.radius * ball.radius);
+    return !(along * along < length_squared(ray.direction) * beyond);
+}
+
+}  // namespace
 
 MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t> resting)
     : table_(std::move(table)) {
@@ -20,6 +39,53 @@ MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t
         box_.include(boxes[i]);
     }
     tree_ = MotionBvh(boxes);
+    for (const Instance& instance : table_.instances) movers_.push_back(mover_of(instance));
+}
+
+MotionAggregate::Mover MotionAggregate::mover_of(const Instance& instance) {
+    Mover mover;
+    const Box3 box = instance.aggregate->box();
+    if (instance.motion && box.bounded()) mover.slide = slide_of(*instance.motion, box);
+    if (!instance.holds_one_shape) return mover;
+    mover.lone = &instance.aggregate->primitives();
+    const auto& balls = std::get<ShapeColumn<Sphere>>(mover.lone->columns);
+    if (balls.shapes.size() == 1 && balls.placements[0] == kNoPlacement &&
+        mover.lone->common_mask() == kAllRays) {
+        mover.ball = balls.shapes[0];
+    }
+    return mover;
+}
+
+/// A motion is even where the bounds of points, which hold at every time, are the points: four of
+/// them, for all that is affine. `inner`: not empty.
+std::optional<MotionAggregate::Slide> MotionAggregate::slide_of(const TransformMotion& motion,
+                                                                const Box3& inner) {
+    const Affine open = motion.at(0.0).outer_from_inner, close = motion.at(1.0).outer_from_inner;
+    if (inner.empty() || open.linear != Mat3{} || close.linear != Mat3{}) return std::nullopt;
+    const double size = max_component(inner.size());
+    const Vec3 origin = inner.lo, steps[] = {{}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
+    const double reach = max_component(abs(open.translation)) +
+                         max_component(abs(close.translation)) + max_component(abs(origin)) + size;
+    for (const Vec3& step : steps) {
+        const Vec3 p = origin + step;
+        const MovingBox box = motion.bounds({p, p});
+        const auto is_at = [&](const Box3& b, const Vec3& place) {
+            return max_component(abs(b.lo - place)) <= kEven * reach &&
+                   max_component(abs(b.hi - place)) <= kEven * reach;
+        };
+        if (!is_at(box.at_open, open.point(p)) || !is_at(box.at_close, close.point(p))) {
+            return std::nullopt;
+        }
+    }
+    return Slide{open.translation, close.translation};
+}
+
+Ray MotionAggregate::inner_ray_of(std::size_t instance, const Ray& ray, double time) const {
+    if (const std::optional<Slide>& slide = movers_[instance].slide) {
+        const Vec3 translation = (1.0 - time) * slide->from + time * slide->to;
+        return {ray.origin - translation, ray.direction, ray.t_min, ray.t_max};
+    }
+    return transformed(placement_at(table_.instances[instance], time).inner_from_outer, ray);
 }
 
 MovingBox MotionAggregate::box_of(std::uint32_t primitive) const {
@@ -80,38 +146,49 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                     stats.primitive_hits(1);
                     return on_triangle(id, hit);
                 }
-                const Instance& instance = table_.instances[i - table_.first(kInstanceKind)];
-                const Placement placement = placement_at(instance, query.time);
-                Ray inner = transformed(placement.inner_from_outer, ray);
+                const std::size_t index = i - table_.first(kInstanceKind);
+                Ray inner = inner_ray_of(index, ray, query.time);
                 inner.t_max = t_max();
-                return on_instance(id, instance, inner);
+                return on_instance(id, index, inner);
             },
             stats);
     });
 }
 
-namespace {
-
-/// Tests a lone shape without its aggregate.
-bool closest_in(const Instance& instance, const Ray& ray, Hit& hit, RayQuery query) {
-    if (!instance.holds_one_shape) return instance.aggregate->closest(ray, hit, query);
-    Ray shrinking = ray;
+bool MotionAggregate::closest_in(std::size_t instance, const Ray& ray, Hit& hit,
+                                 RayQuery query) const {
+    const Mover& mover = movers_[instance];
+    if (mover.lone == nullptr) {
+        return table_.instances[instance].aggregate->closest(ray, hit, query);
+    }
     with_stats(query.stats, [&](auto stats) {
-        instance.aggregate->primitives().closest(PrimitiveId{0}, shrinking, kUnusedShear, hit,
-                                                 stats, query.mask);
+        if (mover.ball) {
+            stats.primitives(1);
+            if (!may_meet(*mover.ball, ray) || !find_first_hit(*mover.ball, ray, hit)) return;
+            stats.primitive_hits(1);
+            hit.primitive = PrimitiveId{0};
+        } else {
+            Ray shrinking = ray;
+            mover.lone->closest(PrimitiveId{0}, shrinking, kUnusedShear, hit, stats, query.mask);
+        }
     });
     return hit.found();
 }
 
-bool occluded_in(const Instance& instance, const Ray& ray, RayQuery query) {
-    if (!instance.holds_one_shape) return instance.aggregate->occluded(ray, query);
+bool MotionAggregate::occluded_in(std::size_t instance, const Ray& ray, RayQuery query) const {
+    const Mover& mover = movers_[instance];
+    if (mover.lone == nullptr) return table_.instances[instance].aggregate->occluded(ray, query);
     return with_stats(query.stats, [&](auto stats) {
-        return instance.aggregate->primitives().occluded(PrimitiveId{0}, ray, kUnusedShear, stats,
-                                                         query.mask);
+        if (!mover.ball) {
+            return mover.lone->occluded(PrimitiveId{0}, ray, kUnusedShear, stats, query.mask);
+        }
+        ShapeHit hit;
+        stats.primitives(1);
+        if (!may_meet(*mover.ball, ray) || !find_first_hit(*mover.ball, ray, hit)) return false;
+        stats.primitive_hits(1);
+        return true;
     });
 }
-
-}  // namespace
 
 void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) const {
     double t_max = best.found() ? best.t : ray.t_max;
@@ -125,7 +202,7 @@ void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) 
             t_max = hit.t;
             return false;
         },
-        [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
+        [&](PrimitiveId id, std::size_t instance, const Ray& inner_ray) {
             Hit inner;
             if (!closest_in(instance, inner_ray, inner, query) || !wins(inner.t, id, best)) {
                 return false;
@@ -153,7 +230,7 @@ bool MotionAggregate::occluded_by_moving(const Ray& ray, RayQuery query) const {
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId, const ShapeHit&) { return met = true; },
-        [&](PrimitiveId, const Instance& instance, const Ray& inner_ray) {
+        [&](PrimitiveId, std::size_t instance, const Ray& inner_ray) {
             return met = occluded_in(instance, inner_ray, query);
         });
     return met;
@@ -168,13 +245,13 @@ bool MotionAggregate::occluded(const Ray& ray, RayQuery query) const {
 void MotionAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
     if (!is_valid(ray)) return;
     const std::size_t before = hits.size();
-    const auto append = [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
+    const auto append = [&](PrimitiveId id, std::size_t instance, const Ray& inner_ray) {
         const std::size_t known = hits.size();
-        instance.aggregate->all_hits(inner_ray, hits, query);
+        table_.instances[instance].aggregate->all_hits(inner_ray, hits, query);
         for (std::size_t i = known; i < hits.size(); ++i) hits[i].path.push_back(id);
         return false;
     };
-    if (resting_) append(*resting_, resting_instance(), ray);
+    if (resting_) append(*resting_, table_.index(*resting_), ray);
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
@@ -191,14 +268,14 @@ bool MotionAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQ
     if (!is_valid(ray)) return false;
     const std::size_t before = crossings.size();
     bool blocked = false;
-    const auto append = [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
+    const auto append = [&](PrimitiveId id, std::size_t instance, const Ray& inner_ray) {
         const std::size_t known = crossings.size();
-        blocked = instance.aggregate->shadowed(inner_ray, crossings, query);
+        blocked = table_.instances[instance].aggregate->shadowed(inner_ray, crossings, query);
         if (blocked) return true;
         for (std::size_t i = known; i < crossings.size(); ++i) crossings[i].path.push_back(id);
         return false;
     };
-    if (resting_ && append(*resting_, resting_instance(), ray)) return true;
+    if (resting_ && append(*resting_, table_.index(*resting_), ray)) return true;
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {

@@ -42,7 +42,24 @@ class MotionAggregate final : public Aggregate {
                            Coherence coherence) const override;
 
   private:
+    /// A motion without turn or stretch, evenly along a line: its translation at both ends.
+    struct Slide {
+        Vec3 from, to;
+    };
+    /// What the leaves of the tree need of an instance, in one place.
+    struct Mover {
+        std::optional<Slide> slide;  ///< how it moves, where it slides
+        /// What it holds, where it is one sphere with nothing around it.
+        std::optional<Sphere> ball;
+        const PrimitiveTable* lone = nullptr;  ///< of the one shape that it holds
+    };
+
     [[nodiscard]] MovingBox box_of(std::uint32_t primitive) const;
+    [[nodiscard]] static Mover mover_of(const Instance& instance);
+    [[nodiscard]] static std::optional<Slide> slide_of(const TransformMotion& motion,
+                                                       const Box3& inner);
+    /// The ray in the frame of an instance.
+    [[nodiscard]] Ray inner_ray_of(std::size_t instance, const Ray& ray, double time) const;
     /// All that rests, where there is such.
     [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {
@@ -54,13 +71,17 @@ class MotionAggregate final : public Aggregate {
                                                          float time) const;
     void closest_moving(const Ray& ray, Hit& hit, RayQuery query) const;
     [[nodiscard]] bool occluded_by_moving(const Ray& ray, RayQuery query) const;
-    /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, instance, inner_ray)` for all that
-    /// the ray may hit, until that returns true.
+    /// The nearest hit in an instance; `ray` is in its frame.
+    bool closest_in(std::size_t instance, const Ray& ray, Hit& hit, RayQuery query) const;
+    [[nodiscard]] bool occluded_in(std::size_t instance, const Ray& ray, RayQuery query) const;
+    /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, index, inner_ray)` for all that the
+    /// ray may hit, until that returns true.
     template <class Reach, class OnTriangle, class OnInstance>
     void visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                OnInstance&& on_instance) const;
 
     PrimitiveTable table_;
+    std::vector<Mover> movers_;  ///< [instance]
     std::optional<PrimitiveId> resting_;
     MovingBox box_;
     MotionBvh tree_;

@@ -123,6 +123,7 @@ void claim_f1(ClaimRun& run);
 void claim_f2(ClaimRun& run);
 void claim_f3(ClaimRun& run);
 void claim_f4(ClaimRun& run);
+void claim_f5(ClaimRun& run);
 void claim_g2(ClaimRun& run);
 void claim_g3(ClaimRun& run);
 void claim_h1(ClaimRun& run);

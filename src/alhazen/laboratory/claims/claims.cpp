@@ -89,6 +89,9 @@ constexpr std::array kClaims{
                "half the samples of 64 independent ones at most, at equal error", &claim_f3},
     ClaimEntry{"F4", "rounds of samples where the noise is, on a sparse scene",
                "at least 1.5 times fewer samples than everywhere, at equal error", &claim_f4},
+    ClaimEntry{"F5", "Cook, Porter and Carpenter: motion, by a tree that knows time",
+               "at most 1.5 times the time of the still scene, where all things move a little",
+               &claim_f5},
     ClaimEntry{"G2", "Hachisuka and Jensen, Knaus and Zwicker: how the error of passes falls",
                "exponent of the RMSE within 0.05 of -alpha / 2, of vcm on what can be joined of "
                "-1/2; bias that of the radii",

@@ -1,7 +1,6 @@
 #include "alhazen/renderers/antialias/adaptive_grid.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -13,38 +12,41 @@ namespace {
 
 /// Side of the blocks in which corners and pixels are ordered.
 constexpr int kGridBlock = 8;
+/// Points that a division adds at most: its own and the centres of pixels around it.
+constexpr std::size_t kMostOfADivision = 5 + 8;
 constexpr std::size_t kMostPoints = std::numeric_limits<std::uint32_t>::max() / 2;
 
-double shown(double channel) {
-    return std::min(channel, 1.0);
+std::uint64_t key_of(int level, GridPoint p) {
+    // Sides of pictures are at most 2^16 pixels, and depths 8.
+    static_assert(AntialiasSettings::kDeepest <= 8);
+    return std::uint64_t(level) << 56 | std::uint64_t(std::uint32_t(p.y)) << 28 |
+           std::uint32_t(p.x);
 }
 
 }  // namespace
 
-/// The points that a level adds, by their coordinates: open addressing.
-class PointTable {
+/// The range of shades of a cell as parts of its pixel, which is cut off at 1 as it is shown.
+class AdaptiveGrid::Range {
   public:
-    /// `cells`: to be divided.
-    explicit PointTable(std::size_t cells)
-        : keys_(std::bit_ceil(std::max<std::size_t>(16, 8 * cells)), kFree),
-          values_(keys_.size()) {}
-
-    /// The value of the point, set to `fresh` where it has none.
-    std::uint32_t find(GridPoint p, std::uint32_t fresh) {
-        const std::uint64_t key = std::uint64_t(std::uint32_t(p.y)) << 32 | std::uint32_t(p.x);
-        std::size_t slot = (key * 0x9E3779B97F4A7C15u) >> 20 & (keys_.size() - 1);
-        while (keys_[slot] != kFree && keys_[slot] != key) slot = (slot + 1) & (keys_.size() - 1);
-        if (keys_[slot] == kFree) {
-            keys_[slot] = key;
-            values_[slot] = fresh;
+    explicit Range(double weight) : weight_(weight) {}
+    void include(const Rgb& shade) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const double value = std::min(weight_ * shade[channel], 1.0);
+            least_[channel] = std::min(least_[channel], value);
+            most_[channel] = std::max(most_[channel], value);
         }
-        return values_[slot];
+    }
+    [[nodiscard]] bool exceeds(double threshold) const {
+        for (int channel = 0; channel < 3; ++channel) {
+            if (most_[channel] - least_[channel] > threshold) return true;
+        }
+        return false;
     }
 
   private:
-    static constexpr std::uint64_t kFree = ~std::uint64_t{0};
-    std::vector<std::uint64_t> keys_;
-    std::vector<std::uint32_t> values_;
+    static constexpr double kInf = std::numeric_limits<double>::infinity();
+    double weight_;
+    double least_[3] = {kInf, kInf, kInf}, most_[3] = {-kInf, -kInf, -kInf};
 };
 
 AdaptiveGrid::AdaptiveGrid(int width, int height, const AntialiasSettings& settings)
@@ -55,6 +57,9 @@ AdaptiveGrid::AdaptiveGrid(int width, int height, const AntialiasSettings& setti
     }
     pixels_.resize(pixels);
     asked_.resize(pixels);
+    added_.resize(static_cast<std::size_t>(settings.depth) + 1);
+    divided_.resize(added_.size());
+    if (settings.neighbours) ended_pixels_.resize(pixels, NumberTable::kNone);
     add_corners();
 }
 
@@ -63,24 +68,26 @@ void AdaptiveGrid::add_corners() {
     points_.resize(count);
     shades_.resize(count);
     distances_.resize(count);
+    added_[0] = count;
     for (int y = 0; y <= height_; ++y) {
         for (int x = 0; x <= width_; ++x) {
-            points_[corner_index(x, y)] = {x, y};
+            points_[corner_index(x, y)] = {x << settings_.depth, y << settings_.depth};
             const int i = std::min(x, width_ - 1), j = std::min(y, height_ - 1);
             ++asked_[std::size_t(j) * std::size_t(width_) + std::size_t(i)];
         }
     }
-    cells_.reserve(pixels_.size());
+    open_.reserve(pixels_.size());
     for (int y0 = 0; y0 < height_; y0 += kGridBlock) {
         for (int x0 = 0; x0 < width_; x0 += kGridBlock) {
             for (int y = y0; y < std::min(y0 + kGridBlock, height_); ++y) {
                 for (int x = x0; x < std::min(x0 + kGridBlock, width_); ++x) {
-                    cells_.push_back({{x, y},
-                                      {corner_index(x, y), corner_index(x + 1, y),
-                                       corner_index(x, y + 1), corner_index(x + 1, y + 1)},
-                                      std::uint32_t(y) * std::uint32_t(width_) + std::uint32_t(x),
-                                      0,
-                                      0});
+                    open_.push_back({{x, y},
+                                     {corner_index(x, y), corner_index(x + 1, y),
+                                      corner_index(x, y + 1), corner_index(x + 1, y + 1)},
+                                     std::uint32_t(y) * std::uint32_t(width_) + std::uint32_t(x),
+                                     0,
+                                     0,
+                                     0});
                 }
             }
         }
@@ -96,10 +103,26 @@ std::uint32_t AdaptiveGrid::corner_index(int x, int y) const {
            std::uint32_t(x0 * block_height + (y - y0) * block_width + (x - x0));
 }
 
+/// NumberTable::kNone where the point has no ray. Not for corners of pixels.
+std::uint32_t AdaptiveGrid::sample_at(GridPoint p) const {
+    return samples_.find(key_of(0, p));
+}
+
+std::uint32_t AdaptiveGrid::add_point(GridPoint p, int level, std::uint32_t pixel) {
+    const auto fresh = static_cast<std::uint32_t>(first_ + points_.size());
+    const std::uint32_t sample = samples_.find_or_add(key_of(0, p), fresh);
+    if (sample == fresh) {
+        points_.push_back(p);
+        ++asked_[pixel];
+        ++added_[static_cast<std::size_t>(level)];
+    }
+    return sample;
+}
+
 void AdaptiveGrid::look_for(std::span<const WatchedObject> objects) {
     watched_.clear();
     for (const WatchedObject& o : objects) watched_.push_back(o.object);
-    for (Cell& cell : cells_) {
+    for (Cell& cell : open_) {
         const auto begin =
             std::lower_bound(objects.begin(), objects.end(), WatchedObject{cell.pixel, 0});
         auto end = begin;
@@ -110,70 +133,124 @@ void AdaptiveGrid::look_for(std::span<const WatchedObject> objects) {
 }
 
 bool AdaptiveGrid::refine(const ObjectWatch* watch) {
-    std::vector<Cell> split;
-    next_watched_.clear();
-    const bool last = level_ == settings_.depth;
-    for (const Cell& cell : cells_) {
-        live_.clear();
-        if (watch != nullptr) keep_live(cell, *watch);
-        if (last || (live_.empty() && !differs(cell))) {
-            add_to_pixel(cell);
-            for (const std::uint32_t object : live_) below_depth_.push_back({cell.pixel, object});
-            continue;
-        }
-        Cell& kept = split.emplace_back(cell);
-        kept.first_watched = static_cast<std::uint32_t>(next_watched_.size());
-        kept.watched = static_cast<std::uint32_t>(live_.size());
-        next_watched_.insert(next_watched_.end(), live_.begin(), live_.end());
-    }
-    watched_.swap(next_watched_);
-    divided_.push_back(split.size());
-    if (split.empty()) {
-        std::sort(below_depth_.begin(), below_depth_.end());
-        below_depth_.erase(std::unique(below_depth_.begin(), below_depth_.end()),
-                           below_depth_.end());
-        return false;
-    }
-    if (shades_.size() + 5 * split.size() > kMostPoints) {
-        throw Error(ErrorKind::Resource, "--antialias: too many rays; a smaller depth needs fewer");
-    }
     first_ = shades_.size();
     points_.clear();
-    next_cells_.clear();
-    next_cells_.reserve(4 * split.size());
-    PointTable table(split.size());
-    for (const Cell& cell : split) divide(cell, table);
-    cells_.swap(next_cells_);
+    do {
+        choose(watch);
+        if (first_ + kMostOfADivision * split_.size() > kMostPoints) {
+            throw Error(ErrorKind::Resource,
+                        "--antialias: too many rays; a smaller depth needs fewer");
+        }
+        for (const Cell& cell : split_) divide(cell);
+        open_.swap(next_open_);
+    } while (points_.empty() && !open_.empty());
     shades_.resize(first_ + points_.size());
     distances_.resize(shades_.size());
-    ++level_;
-    return true;
-}
-
-bool AdaptiveGrid::differs(const Cell& cell) const {
-    for (int channel = 0; channel < 3; ++channel) {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
-        for (const std::uint32_t corner : cell.corners) {
-            const double value = shown(shades_[corner][channel]);
-            least = std::min(least, value);
-            most = std::max(most, value);
-        }
-        if (most - least > settings_.threshold) return true;
+    if (!points_.empty()) return true;
+    for (const Cell& cell : ended_) {
+        if (!cell.is_divided) add_to_pixel(cell);
     }
+    std::sort(below_depth_.begin(), below_depth_.end());
+    below_depth_.erase(std::unique(below_depth_.begin(), below_depth_.end()), below_depth_.end());
     return false;
 }
 
-/// Collects the objects of the cell that are still sought and close to one of its corners.
-void AdaptiveGrid::keep_live(const Cell& cell, const ObjectWatch& watch) {
+/// Which of the open cells, and of those that ended beside new points, are to be divided. All
+/// points have shades here.
+void AdaptiveGrid::choose(const ObjectWatch* watch) {
+    split_.clear();
+    next_open_.clear();
+    next_watched_.clear();
+    for (const Cell& cell : open_) {
+        live_.clear();
+        near_.clear();
+        const bool is_near_smaller = watch != nullptr && keep_near(cell, *watch);
+        const bool weigh = settings_.weigh && !is_near_smaller;
+        const bool last = cell.level == settings_.depth;
+        if (last || (live_.empty() && !differs(cell, weigh))) {
+            end(cell);
+            for (const std::uint32_t object : live_) below_depth_.push_back({cell.pixel, object});
+            continue;
+        }
+        Cell& kept = split_.emplace_back(cell);
+        kept.first_watched = static_cast<std::uint32_t>(next_watched_.size());
+        kept.watched = static_cast<std::uint32_t>(near_.size());
+        next_watched_.insert(next_watched_.end(), near_.begin(), near_.end());
+    }
+    watched_.swap(next_watched_);
+    for (const std::uint32_t number : woken_) {
+        Cell& cell = ended_[number];
+        cell.is_woken = false;
+        if (!differs(cell, settings_.weigh)) continue;
+        cell.is_divided = true;
+        cell.watched = 0;
+        split_.push_back(cell);
+        if (cell.level == 0) {
+            ended_pixels_[cell.pixel] = NumberTable::kNone;
+        } else {
+            ended_cells_.set(key_of(cell.level, cell.at), NumberTable::kNone);
+        }
+    }
+    woken_.clear();
+}
+
+bool AdaptiveGrid::differs(const Cell& cell, bool weigh) const {
+    Range range(weigh ? std::ldexp(1.0, -2 * cell.level) : 1.0);
+    for (const std::uint32_t corner : cell.corners) range.include(shades_[corner]);
+    if (range.exceeds(settings_.threshold)) return true;
+    if (!settings_.neighbours || cell.level == settings_.depth) return false;
+    const int side = 1 << (settings_.depth - cell.level);
+    const GridPoint a{cell.at.x * side, cell.at.y * side}, b{a.x + side, a.y + side};
+    include_side(range, a, {b.x, a.y});
+    include_side(range, a, {a.x, b.y});
+    include_side(range, {b.x, a.y}, b);
+    include_side(range, {a.x, b.y}, b);
+    if (cell.level == 0) {
+        const std::uint32_t centre = sample_at({a.x + side / 2, a.y + side / 2});
+        if (centre != NumberTable::kNone) range.include(shades_[centre]);
+    }
+    return range.exceeds(settings_.threshold);
+}
+
+/// The points between two corners: some are there where the cell beside it was divided.
+void AdaptiveGrid::include_side(Range& range, GridPoint a, GridPoint b) const {
+    const GridPoint middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    const std::uint32_t sample = sample_at(middle);
+    if (sample == NumberTable::kNone) return;
+    range.include(shades_[sample]);
+    if (std::max(b.x - a.x, b.y - a.y) == 2) return;
+    include_side(range, a, middle);
+    include_side(range, middle, b);
+}
+
+bool AdaptiveGrid::keep_near(const Cell& cell, const ObjectWatch& watch) {
+    bool any_smaller = false;
     for (std::uint32_t k = 0; k < cell.watched; ++k) {
         const std::uint32_t object = watched_[cell.first_watched + k];
-        if (!watch.is_sought(object)) continue;
+        const bool sought = watch.is_sought(object);
+        const bool smaller = watch.is_smaller(object, cell.level);
+        if (!sought && !smaller) continue;
         for (int c = 0; c < 4; ++c) {
             const GridPoint corner{cell.at.x + (c & 1), cell.at.y + (c >> 1)};
-            if (!watch.passes(object, level_, corner, distances_[cell.corners[c]])) continue;
-            live_.push_back(object);
+            if (!watch.passes(object, cell.level, corner, distances_[cell.corners[c]])) continue;
+            near_.push_back(object);
+            if (sought) live_.push_back(object);
+            any_smaller = any_smaller || smaller;
             break;
         }
+    }
+    return any_smaller;
+}
+
+/// Keeps the cell where it may have to be divided later, else adds it to its pixel.
+void AdaptiveGrid::end(const Cell& cell) {
+    if (!settings_.neighbours || cell.level == settings_.depth) return add_to_pixel(cell);
+    const auto number = static_cast<std::uint32_t>(ended_.size());
+    ended_.push_back(cell);
+    if (cell.level == 0) {
+        ended_pixels_[cell.pixel] = number;
+    } else {
+        ended_cells_.set(key_of(cell.level, cell.at), number);
     }
 }
 
@@ -186,33 +263,77 @@ void AdaptiveGrid::add_to_pixel(const Cell& cell) {
         ++finite;
     }
     if (finite == 0) return;
-    pixels_[cell.pixel] += std::ldexp(1.0, -2 * level_) * ((1.0 / finite) * sum);
+    pixels_[cell.pixel] += std::ldexp(1.0, -2 * cell.level) * ((1.0 / finite) * sum);
 }
 
-void AdaptiveGrid::divide(const Cell& cell, PointTable& table) {
+void AdaptiveGrid::divide(const Cell& cell) {
+    ++divided_[cell.level];
+    const int level = cell.level + 1, half = 1 << (settings_.depth - level);
     const std::int32_t x = 2 * cell.at.x, y = 2 * cell.at.y;
     const auto add = [&](std::int32_t dx, std::int32_t dy) {
-        const GridPoint p{x + dx, y + dy};
-        const auto fresh = static_cast<std::uint32_t>(first_ + points_.size());
-        const std::uint32_t index = table.find(p, fresh);
-        if (index == fresh) {
-            points_.push_back(p);
-            ++asked_[cell.pixel];
-        }
-        return index;
+        return add_point({half * (x + dx), half * (y + dy)}, level, cell.pixel);
     };
     const std::uint32_t* c = cell.corners;
     const std::uint32_t up = add(1, 0), left = add(0, 1), middle = add(1, 1), right = add(2, 1),
                         down = add(1, 2);
     const auto child = [&](std::int32_t dx, std::int32_t dy, std::uint32_t a, std::uint32_t b,
                            std::uint32_t d, std::uint32_t e) {
-        next_cells_.push_back(
-            {{x + dx, y + dy}, {a, b, d, e}, cell.pixel, cell.first_watched, cell.watched});
+        next_open_.push_back({{x + dx, y + dy},
+                              {a, b, d, e},
+                              cell.pixel,
+                              cell.first_watched,
+                              cell.watched,
+                              static_cast<std::uint8_t>(level)});
     };
     child(0, 0, c[0], up, left, middle);
     child(1, 0, up, c[1], middle, right);
     child(0, 1, left, middle, c[2], down);
     child(1, 1, middle, right, down, c[3]);
+    if (!settings_.neighbours) return;
+    wake_beside(cell);
+    if (cell.level == 0) look_at_centres_around(cell);
+}
+
+/// Of the cells beside it those that ended and are not smaller are looked at again.
+void AdaptiveGrid::wake_beside(const Cell& cell) {
+    constexpr GridPoint kBeside[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (const GridPoint& d : kBeside) {
+        GridPoint at{cell.at.x + d.x, cell.at.y + d.y};
+        if (at.x < 0 || at.y < 0 || at.x >= width_ << cell.level || at.y >= height_ << cell.level) {
+            continue;
+        }
+        for (int level = cell.level; level >= 0; --level, at = {at.x / 2, at.y / 2}) {
+            const std::uint32_t ended = ended_at(level, at);
+            if (ended == NumberTable::kNone) continue;
+            wake(ended);
+            break;
+        }
+    }
+}
+
+/// Of the eight pixels around a divided one those that are not.
+void AdaptiveGrid::look_at_centres_around(const Cell& cell) {
+    const int half = 1 << settings_.depth >> 1;
+    for (int y = std::max(cell.at.y - 1, 0); y <= std::min(cell.at.y + 1, height_ - 1); ++y) {
+        for (int x = std::max(cell.at.x - 1, 0); x <= std::min(cell.at.x + 1, width_ - 1); ++x) {
+            const std::uint32_t ended = ended_at(0, {x, y});
+            if (ended == NumberTable::kNone) continue;
+            (void)add_point({half * (2 * x + 1), half * (2 * y + 1)}, 1, ended_[ended].pixel);
+            wake(ended);
+        }
+    }
+}
+
+std::uint32_t AdaptiveGrid::ended_at(int level, GridPoint at) const {
+    if (level > 0) return ended_cells_.find(key_of(level, at));
+    return ended_pixels_[std::size_t(at.y) * std::size_t(width_) + std::size_t(at.x)];
+}
+
+void AdaptiveGrid::wake(std::uint32_t ended) {
+    Cell& cell = ended_[ended];
+    if (cell.is_woken) return;
+    cell.is_woken = true;
+    woken_.push_back(ended);
 }
 
 }  // namespace alhazen

@@ -9,12 +9,14 @@
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980, section
 /// "Treatment of Aliasing"; Foley, van Dam, Feiner and Hughes, "Computer Graphics", 2nd ed., 1990,
 /// section 15.10.4 (the example with the rays A to P).
-/// Differs: all cells of a level are refined together. A new point of a level is a midpoint or a
-/// centre of cells of that level alone, so that one table per level shares every ray between all
-/// its cells, across pixels too.
-/// Conventions: points and cells of level k have whole coordinates in units of 2^-k pixels from the
-/// top left corner of the crop, y down. The order of the points keeps neighbours together. Where a
-/// shade is not finite, the mean of a cell is that of the others.
+/// Differs, each by a setting: what a difference changes is weighed by the area of its cell, as the
+/// shades are in the pixel (`weigh`); a cell is also divided where the shades that its neighbours'
+/// rays found on its sides differ, and a pixel beside one that was divided shows its centre, too
+/// (`neighbours`). All cells are refined together, in rounds, so that every ray is shared between
+/// all cells, across pixels too.
+/// Conventions: cells of level k have whole coordinates in units of 2^-k pixels from the top left
+/// corner of the crop, y down; points in units of 2^-depth. The order of the points keeps
+/// neighbours together. Where a shade is not finite, the mean of a cell is that of the others.
 /// Complexity: linear in the number of points, which are all kept.
 
 #include <cstdint>
@@ -22,11 +24,10 @@
 #include <vector>
 
 #include "alhazen/imaging/image/rgb.h"
+#include "alhazen/renderers/antialias/number_table.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 
 namespace alhazen {
-
-class PointTable;
 
 struct GridPoint {
     std::int32_t x, y;
@@ -36,12 +37,14 @@ struct GridPoint {
 class ObjectWatch {
   public:
     virtual ~ObjectWatch() = default;
-    /// No ray of this or an earlier level has met it.
+    /// No ray so far has met it.
     [[nodiscard]] virtual bool is_sought(std::uint32_t object) const = 0;
-    /// The ray through the point meets the sphere around the object, as large as this level needs
-    /// it, in front of `distance`: that of the surface it meets.
+    /// The ray through the point, in units of the level, meets the sphere around the object, as
+    /// large as this level needs it, in front of `distance`: that of the surface it meets.
     [[nodiscard]] virtual bool passes(std::uint32_t object, int level, GridPoint point,
                                       double distance) const = 0;
+    /// The object is smaller than a cell of the level.
+    [[nodiscard]] virtual bool is_smaller(std::uint32_t object, int level) const = 0;
 };
 
 /// An object looked for in a pixel; the pixel counts row by row.
@@ -55,26 +58,29 @@ class AdaptiveGrid {
     /// Throws Error (Resource) where a crop has too many pixels.
     AdaptiveGrid(int width, int height, const AntialiasSettings& settings);
 
-    [[nodiscard]] int level() const { return level_; }
-    /// The points of this level, none of which was in an earlier one; at level 0 all corners.
+    /// Points have units of 2^-depth pixels.
+    [[nodiscard]] int depth() const { return settings_.depth; }
+    /// The points of this round, none of which was in an earlier one; at first all corners.
     [[nodiscard]] std::span<const GridPoint> points() const { return points_; }
     /// To be filled in: the shades of these points, and the distances of what they show.
     [[nodiscard]] std::span<Rgb> shades() { return std::span(shades_).subspan(first_); }
     [[nodiscard]] std::span<double> distances() { return std::span(distances_).subspan(first_); }
 
-    /// At level 0: the objects to look for; sorted, each pair once.
+    /// In the first round: the objects to look for; sorted, each pair once.
     void look_for(std::span<const WatchedObject> objects);
-    /// Ends the level. False: no cell is divided further, and the pixels are complete. `watch`:
+    /// Ends the round. False: no cell is divided further, and the pixels are complete. `watch`:
     /// null without objects to look for.
     bool refine(const ObjectWatch* watch);
 
     /// [row][column]
     [[nodiscard]] std::span<const Rgb> pixels() const { return pixels_; }
-    /// What was still sought in a pixel at the last level; sorted, each pair once.
+    /// What was still sought in a pixel at the depth; sorted, each pair once.
     [[nodiscard]] std::span<const WatchedObject> below_depth() const { return below_depth_; }
     /// Points that were first needed by this pixel, [row][column].
     [[nodiscard]] std::span<const std::uint32_t> points_of_pixels() const { return asked_; }
-    /// Cells divided at the levels so far.
+    /// [level] points that have odd coordinates in units of its cells (level 0: corners), and cells
+    /// that were divided.
+    [[nodiscard]] std::span<const std::uint64_t> points_of_levels() const { return added_; }
     [[nodiscard]] std::span<const std::uint64_t> divided() const { return divided_; }
 
   private:
@@ -83,28 +89,46 @@ class AdaptiveGrid {
         std::uint32_t corners[4];  ///< samples: top left, top right, bottom ...
         std::uint32_t pixel;
         std::uint32_t first_watched, watched;  ///< range in `watched_`
+        std::uint8_t level;
+        bool is_divided = false;  ///< after it had ended
+        bool is_woken = false;
     };
+    class Range;
 
     void add_corners();
     [[nodiscard]] std::uint32_t corner_index(int x, int y) const;
-    [[nodiscard]] bool differs(const Cell& cell) const;
-    void keep_live(const Cell& cell, const ObjectWatch& watch);
+    [[nodiscard]] std::uint32_t sample_at(GridPoint p) const;
+    std::uint32_t add_point(GridPoint p, int level, std::uint32_t pixel);
+    void choose(const ObjectWatch* watch);
+    [[nodiscard]] bool differs(const Cell& cell, bool weigh) const;
+    void include_side(Range& range, GridPoint a, GridPoint b) const;
+    /// Collects the objects to look for in a cell. True: differences are not weighed.
+    bool keep_near(const Cell& cell, const ObjectWatch& watch);
+    void end(const Cell& cell);
     void add_to_pixel(const Cell& cell);
-    void divide(const Cell& cell, PointTable& table);
+    void divide(const Cell& cell);
+    void wake_beside(const Cell& cell);
+    void look_at_centres_around(const Cell& cell);
+    [[nodiscard]] std::uint32_t ended_at(int level, GridPoint at) const;
+    void wake(std::uint32_t ended);
 
     AntialiasSettings settings_;
     int width_, height_;
-    int level_ = 0;
-    std::size_t first_ = 0;  ///< sample of this level
+    std::size_t first_ = 0;  ///< sample of this round
     std::vector<GridPoint> points_;
     std::vector<Rgb> shades_;
     std::vector<double> distances_;
-    std::vector<Cell> cells_, next_cells_;
+    NumberTable samples_;                         ///< of all points but the corners of pixels
+    std::vector<Cell> open_, split_, next_open_;  ///< to be looked at, to be divided
+    std::vector<Cell> ended_;                     ///< kept where neighbours count
+    NumberTable ended_cells_;                     ///< by level and place, but level 0:
+    std::vector<std::uint32_t> ended_pixels_;
+    std::vector<std::uint32_t> woken_;  ///< ended cells whose neighbours have new points
     std::vector<std::uint32_t> watched_, next_watched_;  ///< objects, by cell
-    std::vector<std::uint32_t> live_;                    ///< of the cell at hand
+    std::vector<std::uint32_t> live_, near_;             ///< of the cell at hand
     std::vector<Rgb> pixels_;
     std::vector<std::uint32_t> asked_;
-    std::vector<std::uint64_t> divided_;
+    std::vector<std::uint64_t> added_, divided_;
     std::vector<WatchedObject> below_depth_;
 };
 

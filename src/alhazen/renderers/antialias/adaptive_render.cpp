@@ -63,13 +63,17 @@ class AdaptiveRender {
   private:
     void levels() {
         if (settings_.guarantee) collect_objects();
+        bool first = true;
         do {
-            report_.points.push_back(grid_.points().size());
             trace();
             if (job_.stop_requested()) return;
-            if (grid_.level() == 0 && objects_) look_for_objects();
+            if (first && objects_) look_for_objects();
+            first = false;
         } while (grid_.refine(spheres_ ? &*spheres_ : nullptr));
+        report_.points.assign(grid_.points_of_levels().begin(), grid_.points_of_levels().end());
+        while (report_.points.back() == 0) report_.points.pop_back();
         report_.divided.assign(grid_.divided().begin(), grid_.divided().end());
+        report_.divided.resize(report_.points.size());
         if (objects_) report_objects();
     }
 
@@ -89,8 +93,8 @@ class AdaptiveRender {
             spheres_.reset();
         } else {
             const PixelBox& crop = film_.crop();
-            const std::vector<WatchedObject> found =
-                spheres_->around(grid_.points(), grid_.distances(), crop.width(), crop.height());
+            const std::vector<WatchedObject> found = spheres_->around(
+                grid_.points(), grid_.depth(), grid_.distances(), crop.width(), crop.height());
             grid_.look_for(found);
             std::vector<std::uint32_t> sought;
             for (const WatchedObject& w : found) sought.push_back(w.object);
@@ -133,7 +137,7 @@ class AdaptiveRender {
         }
     }
 
-    /// The rays of the level.
+    /// The rays of the round.
     void trace() {
         constexpr std::size_t kBatch = RayAnswers::kRaysAtOnce;
         const std::size_t batches = (grid_.points().size() + kBatch - 1) / kBatch;
@@ -157,7 +161,7 @@ class AdaptiveRender {
                      std::span<Hit> hits, RayCounters& counters) {
         const std::span<const GridPoint> points = grid_.points().subspan(first, rays.size());
         const std::span<Rgb> shades = grid_.shades().subspan(first, rays.size());
-        picture_.rays(grid_.level(), points, rays);
+        picture_.rays(grid_.depth(), points, rays);
         answers.trace(rays, shades, hits, counters);
         const std::span<double> distances = grid_.distances().subspan(first, rays.size());
         for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -234,7 +238,7 @@ class AdaptiveRender {
     std::optional<SoughtSpheres> spheres_;  ///< where some object was not met at first
     std::mutex mutex_;                      ///< of what follows, and of counters_
     std::vector<std::unique_ptr<RayAnswers>> idle_;
-    std::size_t batches_done_ = 0;  ///< of the level
+    std::size_t batches_done_ = 0;  ///< of the round
 };
 
 /// Refuses layers that no pixel has alone.

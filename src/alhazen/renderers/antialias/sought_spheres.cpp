@@ -72,7 +72,7 @@ bool SoughtSpheres::passes(std::uint32_t object, int level, const Ray& ray, doub
     return meets_box(o.box, room, ray, distance);
 }
 
-std::vector<WatchedObject> SoughtSpheres::around(std::span<const GridPoint> points,
+std::vector<WatchedObject> SoughtSpheres::around(std::span<const GridPoint> points, int depth,
                                                  std::span<const double> distances, int width,
                                                  int height) const {
     std::vector<std::vector<WatchedObject>> found((points.size() + kRaysOfATask - 1) /
@@ -90,14 +90,15 @@ std::vector<WatchedObject> SoughtSpheres::around(std::span<const GridPoint> poin
         std::vector<Hit> hits;
         std::vector<WatchedObject>& list = found[begin / kRaysOfATask];
         for (std::size_t i = begin; i < end; ++i) {
-            Ray ray = picture_.ray(0, points[i]);
+            const GridPoint corner{points[i].x >> depth, points[i].y >> depth};
+            Ray ray = picture_.ray(0, corner);
             ray.t_min = t_min_;
             ray.t_max = distances[i];
             hits.clear();
             tree_->all_hits(ray, hits, nullptr);
             for (const Hit& hit : hits) {
                 const std::uint32_t object = sought_[static_cast<std::size_t>(hit.primitive)];
-                if (passes(object, 0, ray, distances[i])) add_pixels(points[i], object, list);
+                if (passes(object, 0, ray, distances[i])) add_pixels(corner, object, list);
             }
         }
         std::sort(list.begin(), list.end());

@@ -34,8 +34,8 @@ class SoughtSpheres final : public ObjectWatch {
 
     [[nodiscard]] bool empty() const { return sought_.empty(); }
     /// The pixels of a crop `width` wide and `height` high that share a corner whose ray passes an
-    /// object of the tree. [point] `points`, `distances`: all of level 0.
-    [[nodiscard]] std::vector<WatchedObject> around(std::span<const GridPoint> points,
+    /// object of the tree. [point] `points`, `distances`: all corners; units of 2^-depth pixels.
+    [[nodiscard]] std::vector<WatchedObject> around(std::span<const GridPoint> points, int depth,
                                                     std::span<const double> distances, int width,
                                                     int height) const;
 
@@ -43,6 +43,10 @@ class SoughtSpheres final : public ObjectWatch {
     [[nodiscard]] bool passes(std::uint32_t object, int level, GridPoint point,
                               double distance) const override {
         return passes(object, level, picture_.ray(level, point), distance);
+    }
+    [[nodiscard]] bool is_smaller(std::uint32_t object, int level) const override {
+        const BoundingSphere& sphere = objects_[object].sphere;
+        return sphere.radius < picture_.least_radius(level, picture_.distance(sphere.center));
     }
 
   private:

@@ -42,6 +42,8 @@ AntialiasSettings parse_antialias(const std::string& text) {
     settings.threshold = given.number("threshold", settings.threshold, 0.0, 1.0);
     settings.depth = given.whole("depth", settings.depth, 0, AntialiasSettings::kDeepest);
     settings.guarantee = given.choice("guarantee", 1, kSwitch) == 1;
+    settings.weigh = given.choice("weigh", 1, kSwitch) == 1;
+    settings.neighbours = given.choice("neighbours", 1, kSwitch) == 1;
     given.finish();
     return settings;
 }

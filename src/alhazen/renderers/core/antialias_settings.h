@@ -1,6 +1,7 @@
 #pragma once
 /// Settings of adaptive supersampling, as `--antialias` takes them:
-/// "whitted:threshold=T,depth=D,guarantee=on|off", "exact:error=E,filter=NAME,radius=R".
+/// "whitted:threshold=T,depth=D,guarantee=on|off,weigh=on|off,neighbours=on|off",
+/// "exact:error=E,filter=NAME,radius=R".
 
 #include <string>
 
@@ -11,10 +12,17 @@ struct FilterEntry;
 struct AntialiasSettings {
     static constexpr int kDeepest = 8;
 
-    /// Four shades whose channels, cut off at 1, differ by more than this are refined.
-    double threshold = 0.05;
+    /// Cells whose shades differ by more than this are divided: by so much of the pixel's value,
+    /// cut off at 1 in each channel, a cell may be off.
+    double threshold = 0.02;
     int depth = 4;          ///< most divisions of a pixel, at most kDeepest
     bool guarantee = true;  ///< look for objects between the rays
+    /// Shades count as parts of the pixel: by the area of their cell. Off: as they are, cut off at
+    /// 1, at every level alike.
+    bool weigh = true;
+    /// Cells also look at the rays of their neighbours, and pixels beside a divided one at their
+    /// centre.
+    bool neighbours = true;
     /// Instead of all above: the exact mean of each pixel, from renderers that know the areas of
     /// what they show.
     bool exact = false;

@@ -6,7 +6,6 @@
 /// Sampling in Computer Graphics", ACM TOG 5(1), 1986.
 /// Differs: values come from a sampler by name instead of jittered cells; each light is sampled at
 /// each point; lobes are those of Phong, and what would point below the surface is mirrored at it.
-/// Not there: motion.
 /// Conventions: pairs of dimensions of the sampler, with d the number of bounces and L that of
 /// lights: 0 pixel; 1 lens; 2 time; from 3 + d (L + 2) on: reflected lobe, refracted lobe, the
 /// point on each light. A scene with nothing to spread has the bits of `whitted` with that sampler.
