@@ -122,6 +122,7 @@ class PartitionMaker {
 }  // namespace
 
 void make_partition(const PolygonSet& whole, std::span<PolygonSet> parts) {
+    if (parts.empty()) return;
     if (parts.size() == 1) {
         parts[0] = whole;
         return;

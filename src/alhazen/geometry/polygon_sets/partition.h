@@ -18,7 +18,7 @@
 
 namespace alhazen {
 
-/// Makes a partition of `whole` out of `parts`, at least one. Some may end up empty.
+/// Makes a partition of `whole` out of `parts`. Some may end up empty; without any nothing is made.
 void make_partition(const PolygonSet& whole, std::span<PolygonSet> parts);
 
 }  // namespace alhazen
