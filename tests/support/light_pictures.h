@@ -10,6 +10,7 @@
 
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/shading/optics/dispersion.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::testing {
@@ -23,6 +24,41 @@ inline Material shining(const Rgb& radiance, const Rgb& color = {}) {
     Material m = matt(color);
     m.emission.color = radiance;
     return m;
+}
+
+/// Clear glass as glTF has it.
+inline Material smooth_glass() {
+    Material m;
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->metallic.value = 0;
+    m.metallic_roughness->roughness.value = 0;
+    m.metallic_roughness->transmission.value = 1;
+    m.metallic_roughness->thickness.value = 1;
+    m.index.value = 1.5;
+    return m;
+}
+/// Dispersing glass of the table.
+inline Material glass_named(const std::string& name) {
+    const NamedGlass& glass = *find_glass(name);
+    Material m;
+    m.dielectric.emplace();
+    m.dispersion = Dispersion{.sellmeier = glass.sellmeier, .name = std::string(glass.name)};
+    m.index.value = glass.sellmeier.index(kLineD);
+    return m;
+}
+
+/// A prism along z, its refracting edge up: an isosceles triangle with this angle at the top.
+inline TriangleMesh prism(double apex) {
+    const double half = std::tan(0.5 * apex);
+    TriangleMesh mesh;
+    for (const double z : {-1.0, 1.0}) {
+        for (const Vec3& p : {Vec3{0, 0.5, z}, Vec3{-half, -0.5, z}, Vec3{half, -0.5, z}}) {
+            mesh.positions.push_back(p);
+        }
+    }
+    mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                      {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    return mesh;
 }
 
 inline Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
@@ -81,10 +117,11 @@ struct Blocks {
     std::vector<double> mean, error;
 };
 
-inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples) {
-    constexpr int kRuns = 12, kPixels = 8, kBlocks = Blocks::kSide * Blocks::kSide;
+inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples,
+                        int runs = 12) {
+    constexpr int kPixels = 8, kBlocks = Blocks::kSide * Blocks::kSide;
     std::vector<double> sum(kBlocks), squares(kBlocks);
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < runs; ++run) {
         const Film film = picture_of(scene, renderer, kPixels, samples, std::uint64_t(100 + run));
         std::vector<double> own(kBlocks);
         for (int y = 0; y < kPixels; ++y) {
@@ -102,10 +139,10 @@ inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int sam
     }
     Blocks blocks;
     for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double mean = sum[i] / kRuns;
+        const double mean = sum[i] / runs;
         blocks.mean.push_back(mean);
         blocks.error.push_back(
-            std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1)));
+            std::sqrt(std::max(0.0, squares[i] / runs - mean * mean) / (runs - 1)));
     }
     return blocks;
 }

@@ -15,68 +15,20 @@
 #include "alhazen/renderers/photons/photon_grid.h"
 #include "alhazen/renderers/photons/photon_passes.h"
 #include "alhazen/sampling/random.h"
-#include "support/scene_maker.h"
+#include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::ball;
+using testing::Blocks;
+using testing::matt;
+using testing::mean_of;
+using testing::picture_of;
+using testing::rectangle;
 using testing::SceneMaker;
-
-Material matt(const Rgb& color) {
-    Material m;
-    m.diffuse.color = color;
-    return m;
-}
-Material glowing(const Rgb& radiance, const Rgb& color = {}) {
-    Material m = matt(color);
-    m.emission.color = radiance;
-    return m;
-}
-Material smooth_glass() {
-    Material m;
-    m.metallic_roughness.emplace();
-    m.metallic_roughness->metallic.value = 0;
-    m.metallic_roughness->roughness.value = 0;
-    m.metallic_roughness->transmission.value = 1;
-    m.metallic_roughness->thickness.value = 1;
-    m.index.value = 1.5;
-    return m;
-}
-Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
-    Rectangle r;
-    r.corner = corner;
-    r.edge_u = u;
-    r.edge_v = v;
-    return r;
-}
-Sphere ball(const Vec3& center, double radius) {
-    Sphere s;
-    s.center = center;
-    s.radius = radius;
-    return s;
-}
-
-Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
-                std::uint64_t seed = 1, int threads = 1, int tile = 32) {
-    const SamplingPlan plan;
-    Film film(side, side, {0, 0, side, side});
-    const RenderJob job{.scene = scene,
-                        .camera = scene.cameras[0].camera,
-                        .samples_per_pixel = samples,
-                        .seed = seed,
-                        .sampling = &plan,
-                        .control = {.threads = threads, .tile_size = tile}};
-    const RenderReport report = make_renderer(renderer)->render(job, film);
-    EXPECT_TRUE(report.complete());
-    EXPECT_EQ(report.counters.non_finite, 0u);
-    return film;
-}
-Rgb mean_of(const Film& film) {
-    Rgb sum;
-    const int n = film.frame_width();
-    for (int i = 0; i < n * n; ++i) sum += film.at(i % n, i / n);
-    return (1.0 / (n * n)) * sum;
-}
+using testing::shining;
+using testing::smooth_glass;
 
 const char* const kPhotonRenderers[] = {"photon_mapping:photons=20000,caustics=20000,nearest=50",
                                         "photon_mapping:photons=20000,gather=8,nearest=50",
@@ -87,7 +39,7 @@ const char* const kPhotonRenderers[] = {"photon_mapping:photons=20000,caustics=2
 TEST(PhotonRenderers, AnIntegratingSphereShowsTheSumOfTheSeries) {
     SceneMaker maker;
     maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1.0);
-    maker.add(ball({0, 0, 0}, 3), maker.material(glowing({0.5, 0.5, 0.5}, {0.5, 0.2, 0.8})));
+    maker.add(ball({0, 0, 0}, 3), maker.material(shining({0.5, 0.5, 0.5}, {0.5, 0.2, 0.8})));
     const Scene scene = maker.compile();
     for (const char* renderer : kPhotonRenderers) {
         const Rgb seen = mean_of(picture_of(scene, renderer, 8, 16));
@@ -102,7 +54,7 @@ TEST(PhotonRenderers, ASphereOfLightOverAFloorGivesItsFormFactor) {
     maker.description().cameras[0].camera =
         OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {0.2, 0, 0}, {0, 0.2, 0}};
     maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), maker.material(matt({1, 1, 1})));
-    maker.add(ball({0, 0, 2}, 0.5), maker.material(glowing({8, 4, 2})));
+    maker.add(ball({0, 0, 2}, 0.5), maker.material(shining({8, 4, 2})));
     const Scene scene = maker.compile();
     for (const char* renderer :
          {"photon_mapping:photons=2000,caustics=0",
@@ -169,7 +121,7 @@ Scene room(const std::function<void(SceneMaker&)>& fill) {
     return maker.compile("wide_bvh");
 }
 void add_lamp(SceneMaker& maker, double half, const Rgb& radiance) {
-    Material lamp = glowing(radiance);
+    Material lamp = shining(radiance);
     lamp.double_sided = false;
     maker.add(rectangle({-half, -half, 1.98}, {0, 2 * half, 0}, {2 * half, 0, 0}),
               maker.material(lamp));
@@ -227,32 +179,9 @@ std::vector<NamedRoom> rooms() {
     return all;
 }
 
-/// The mean over independent pictures, and its standard error, for each of four blocks.
-struct BlockMeans {
-    double mean[4] = {}, error[4] = {};
-};
-BlockMeans block_means(const Scene& scene, const std::string& renderer, int samples) {
-    constexpr int kRuns = 8, kPixels = 8;
-    BlockMeans blocks;
-    double squares[4] = {};
-    for (int run = 0; run < kRuns; ++run) {
-        const Film film = picture_of(scene, renderer, kPixels, samples, std::uint64_t(100 + run));
-        double own[4] = {};
-        for (int i = 0; i < kPixels * kPixels; ++i) {
-            const int x = i % kPixels, y = i / kPixels;
-            const Rgb& c = film.at(x, y);
-            own[y * 2 / kPixels * 2 + x * 2 / kPixels] += (c.r + c.g + c.b) * 4.0 / (3 * 64);
-        }
-        for (int i = 0; i < 4; ++i) {
-            blocks.mean[i] += own[i] / kRuns;
-            squares[i] += own[i] * own[i] / kRuns;
-        }
-    }
-    for (int i = 0; i < 4; ++i) {
-        const double variance = squares[i] - blocks.mean[i] * blocks.mean[i];
-        blocks.error[i] = std::sqrt(std::max(0.0, variance) / (kRuns - 1));
-    }
-    return blocks;
+/// Of eight pictures.
+Blocks block_means(const Scene& scene, const std::string& renderer, int samples) {
+    return testing::blocks_of(scene, renderer, samples, 8);
 }
 
 TEST(PhotonRenderers, AgreeWithPathTracingInSixRooms) {
@@ -271,11 +200,11 @@ TEST(PhotonRenderers, AgreeWithPathTracingInSixRooms) {
         {"sppm:photons=2000,radius=0.08", 0.02, 12},
     };
     for (const NamedRoom& r : rooms()) {
-        const BlockMeans truth = block_means(r.scene, "path_tracing", 32);
+        const Blocks truth = block_means(r.scene, "path_tracing", 32);
         const double whole = (truth.mean[0] + truth.mean[1] + truth.mean[2] + truth.mean[3]) / 4;
         for (const Case& c : cases) {
-            const BlockMeans found = block_means(r.scene, c.renderer, c.samples);
-            for (int i = 0; i < 4; ++i) {
+            const Blocks found = block_means(r.scene, c.renderer, c.samples);
+            for (std::size_t i = 0; i < 4; ++i) {
                 const double error = std::hypot(found.error[i], truth.error[i]);
                 EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), kMost * error + c.bias * whole)
                     << r.name << ", block " << i << ", " << c.renderer << ": " << found.mean[i]
@@ -294,7 +223,7 @@ TEST(PhotonRenderers, MorePhotonsTakeTheBiasAway) {
             PointLight{.position = {0.3, -0.2, 1.5}, .color = {1, 1, 2}, .attenuation = {0, 0, 1}});
     });
     const auto whole = [&](const std::string& renderer, int samples) {
-        const BlockMeans found = block_means(scene, renderer, samples);
+        const Blocks found = block_means(scene, renderer, samples);
         return (found.mean[0] + found.mean[1] + found.mean[2] + found.mean[3]) / 4;
     };
     const double truth = whole("path_tracing", 96);
@@ -316,8 +245,8 @@ TEST(PhotonRenderers, TheIrradianceCacheShowsWhatGatheringShows) {
     const auto blocks = [&](const std::string& more, int samples) {
         return block_means(scene, gathering + more, samples);
     };
-    const BlockMeans without = blocks("8", 4), with = blocks("64,cache=0.15", 4);
-    for (int i = 0; i < 4; ++i) {
+    const Blocks without = blocks("8", 4), with = blocks("64,cache=0.15", 4);
+    for (std::size_t i = 0; i < 4; ++i) {
         const double error = std::hypot(without.error[i], with.error[i]);
         EXPECT_NEAR(with.mean[i], without.mean[i], 5.4 * error + 0.02 * without.mean[i]) << i;
     }
@@ -403,7 +332,7 @@ TEST(PhotonRenderers, SayWhyTheyCannotShoot) {
         Torus ring;
         ring.major_radius = 0.4;
         ring.minor_radius = 0.1;
-        m.add(ring, m.material(glowing({1, 1, 1})), Affine::translate({0, 0, 1}));
+        m.add(ring, m.material(shining({1, 1, 1})), Affine::translate({0, 0, 1}));
     });
     const Scene dark = room([](SceneMaker&) {});
     for (const std::string name : {"photon_mapping", "sppm"}) {

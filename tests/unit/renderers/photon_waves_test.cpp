@@ -50,11 +50,7 @@ TEST(StoredLight, KeepsFourWavelengthsWithinTheirBits) {
 }
 
 Material flint(double roughness) {
-    const NamedGlass& glass = *find_glass("SF11");
-    Material m;
-    m.dielectric.emplace();
-    m.dispersion = Dispersion{.sellmeier = glass.sellmeier, .name = std::string(glass.name)};
-    m.index.value = glass.sellmeier.index(kLineD);
+    Material m = testing::glass_named("SF11");
     m.roughness.value = roughness;
     return m;
 }

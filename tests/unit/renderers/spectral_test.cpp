@@ -17,36 +17,15 @@ namespace {
 using testing::ball;
 using testing::expect_same_light;
 using testing::floor_from_above;
+using testing::glass_named;
 using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
+using testing::prism;
 using testing::rectangle;
 using testing::SceneMaker;
 using testing::shining;
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-Material glass_named(const char* name) {
-    const NamedGlass& glass = *find_glass(name);
-    Material m;
-    m.dielectric.emplace();
-    m.dispersion = Dispersion{.sellmeier = glass.sellmeier, .name = std::string(glass.name)};
-    m.index.value = glass.sellmeier.index(kLineD);
-    return m;
-}
-
-/// A prism along z, its refracting edge up: an isosceles triangle with this angle at the top.
-TriangleMesh prism(double apex) {
-    const double half = std::tan(0.5 * apex);
-    TriangleMesh mesh;
-    for (const double z : {-1.0, 1.0}) {
-        for (const Vec3& p : {Vec3{0, 0.5, z}, Vec3{-half, -0.5, z}, Vec3{half, -0.5, z}}) {
-            mesh.positions.push_back(p);
-        }
-    }
-    mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
-                      {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-    return mesh;
-}
 
 /// Walks of light at one wavelength that scatter a wanted number of times.
 class Walker {

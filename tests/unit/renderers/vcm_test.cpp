@@ -27,17 +27,7 @@ using testing::picture_of;
 using testing::rectangle;
 using testing::SceneMaker;
 using testing::shining;
-
-Material smooth_glass() {
-    Material m;
-    m.metallic_roughness.emplace();
-    m.metallic_roughness->metallic.value = 0;
-    m.metallic_roughness->roughness.value = 0;
-    m.metallic_roughness->transmission.value = 1;
-    m.metallic_roughness->thickness.value = 1;
-    m.index.value = 1.5;
-    return m;
-}
+using testing::smooth_glass;
 
 /// A path of random densities with `m` surfaces.
 WholePath random_path(RandomStream& random, std::size_t m) {

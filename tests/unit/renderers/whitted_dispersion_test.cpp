@@ -13,6 +13,7 @@ namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::ball;
+using testing::glass_named;
 using testing::matt;
 using testing::rectangle;
 using testing::SceneMaker;
@@ -30,30 +31,13 @@ Film film_of(const Scene& original, const std::string& name, int side) {
     return film;
 }
 
-Material glass_named(const std::string& name) {
-    const NamedGlass& glass = *find_glass(name);
-    Material m;
-    m.dielectric.emplace();
-    m.dispersion = Dispersion{.sellmeier = glass.sellmeier, .name = std::string(glass.name)};
-    m.index.value = glass.sellmeier.index(kLineD);
-    return m;
-}
-
 /// A ray through a prism, and a lamp as wide as 0.02 degrees where it should leave at a wavelength;
 /// `off`: the lamp is turned away by so many degrees.
 Scene prism_and_lamp(const std::string& glass, double nm, double off) {
     const double apex = 50 * kDegree, incidence = 45 * kDegree, tilt = 0.5 * apex;
     const double half = std::tan(tilt);
-    TriangleMesh mesh;
-    for (const double z : {-1.0, 1.0}) {
-        for (const Vec3& p : {Vec3{0, 0.5, z}, Vec3{-half, -0.5, z}, Vec3{half, -0.5, z}}) {
-            mesh.positions.push_back(p);
-        }
-    }
-    mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
-                      {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
     SceneMaker maker;
-    maker.add(maker.mesh(mesh), maker.material(glass_named(glass)));
+    maker.add(maker.mesh(testing::prism(apex)), maker.material(glass_named(glass)));
     const Vec3 normal{-std::cos(tilt), std::sin(tilt), 0}, up{std::sin(tilt), std::cos(tilt), 0};
     const Vec3 far_normal{std::cos(tilt), std::sin(tilt), 0};
     const Vec3 direction = -std::cos(incidence) * normal + std::sin(incidence) * up;
