@@ -210,15 +210,16 @@ class ConeGatherer {
         source.shape = shape;
         source.inward = determinant(source.placement.outer_from_inner.linear) < 0.0;
         const std::string name = std::visit(
-            [&]<class S>(const S& s) -> std::string { return add_kind(s, source) ? "" : S::kName; },
+            [&]<class S>(const S& s) -> std::string {
+                if constexpr (requires { add_kind(s, source); }) {
+                    if (add_kind(s, source)) return "";
+                }
+                return S::kName;
+            },
             *shape);
         if (!name.empty()) refuse(name, part.name, part.location);
     }
 
-    template <class S>
-    bool add_kind(const S&, ConeSource&) {
-        return false;
-    }
     bool add_kind(const Sphere& s, ConeSource& source) {
         const Affine& world = source.placement.outer_from_inner;
         const double scale = similarity_of(world.linear);

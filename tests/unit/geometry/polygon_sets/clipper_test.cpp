@@ -39,7 +39,8 @@ double clipped_area(const PolygonSet& a, const PolygonSet& b, ClipperLib::ClipTy
 TEST(Clipper, HasTheSameAreasUpToItsRounding) {
     RandomPolygons random(6);
     for (int i = 0; i < 3000; ++i) {
-        const auto [a, b] = random.pair(12);
+        const auto pair = random.pair(12);
+        const PolygonSet &a = pair.first, &b = pair.second;
         // Both move each crossing by less than a unit.
         const double room = 8 * (perimeter(a) + perimeter(b) + 4);
         const auto near = [&](const PolygonSet& ours, ClipperLib::ClipType type) {
