@@ -183,17 +183,16 @@ class BeamGatherer {
         const std::string name = std::visit(
             [&]<class S>(const S& s) -> std::string {
                 if (!plain) return std::string(S::kName) + " with alpha";
-                return add_kind(s, facet) ? "" : S::kName;
+                if constexpr (requires { add_kind(s, facet); }) {
+                    if (add_kind(s, facet)) return "";
+                }
+                return S::kName;
             },
             *prepared);
         if (!name.empty()) refuse(name, part.name, part.location);
         result_.sources.push_back(std::move(source));
     }
 
-    template <class S>
-    bool add_kind(const S&, BeamFacet) {
-        return false;
-    }
     bool add_kind(const Polygon& s, BeamFacet facet) {
         add_placed(facet, s.vertices, s.loop_ends);
         return true;
