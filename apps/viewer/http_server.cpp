@@ -11,9 +11,11 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "alhazen/base/error.h"
+#include "frame_socket.h"
 
 namespace alhazen::viewer {
 
@@ -122,8 +124,12 @@ struct HttpServer::State {
         return response;
     }
 
-    /// The checks of a request that has arrived, and its answer.
-    [[nodiscard]] HttpResponse answer(const HttpRequest& request) const {
+    static bool is_upgrade(const HttpRequest& request) {
+        return beast::websocket::is_upgrade(request) && request.target() == "/frames";
+    }
+
+    /// Of a request that is not for this server, or of another page.
+    [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const {
         const std::string_view host = view_of(request[http::field::host]);
         if (!is_own_host(host) || request.count(http::field::host) != 1) {
             return plain(403, "this is not the server of that name\n");
@@ -131,17 +137,24 @@ struct HttpServer::State {
         const bool post = request.method() == http::verb::post;
         const std::string_view origin = view_of(request[http::field::origin]);
         const bool has_origin = request.count(http::field::origin) > 0;
-        if ((post || has_origin) && origin != "http://" + std::string(host)) {
+        const bool needs_origin = post || has_origin || is_upgrade(request);
+        if (needs_origin && origin != "http://" + std::string(host)) {
             return plain(403, "requests of other pages are refused\n");
         }
         if (!post && request.method() != http::verb::get) {
             return plain(405, "expected GET or POST\n");
         }
+        return std::nullopt;
+    }
+
+    /// The answer to a request that is not refused.
+    [[nodiscard]] HttpResponse answer(const HttpRequest& request) const {
+        const bool post = request.method() == http::verb::post;
         const std::string path(view_of(request.target()));
         if (!post) return file(path);
         const std::string_view given = view_of(request[http::field::authorization]);
         if (!same_secret(given, "Bearer " + token)) return plain(401, "wrong token\n");
-        const Response made = options.handler({path, request.body()});
+        const Response made = options.handler({path, request.body(), nullptr});
         HttpResponse response;
         response.result(static_cast<unsigned>(made.status));
         response.set(http::field::content_type, made.type);
@@ -207,7 +220,19 @@ struct HttpServer::State {
             stream.expires_never();
             const HttpRequest& request = parser.get();
             keep = request.keep_alive();
-            co_await send(stream, answer(request), keep);
+            std::optional<HttpResponse> refused = refusal(request);
+            if (!refused && is_upgrade(request)) {
+                // What comes before the answer is of nobody that speaks the protocol.
+                if (buffer.size() > 0) break;
+                const auto frames =
+                    std::make_shared<FrameSocket>(std::move(stream), io, options.handler);
+                co_await frames->serve(request, token);
+                co_return;
+            }
+            // Named: with a choice inside co_await every answer crashed, as GCC 12 builds it.
+            if (!refused) refused = answer(request);
+            HttpResponse response = std::move(*refused);
+            co_await send(stream, std::move(response), keep);
         }
         boost::system::error_code ignored;
         (void)stream.socket().shutdown(tcp::socket::shutdown_send, ignored);

@@ -6,7 +6,8 @@
 /// names that lead here are refused, which defeats DNS rebinding); Origin, where there is one, and
 /// always for POST, is this server (403); method (405); for all but the files of the page the token
 /// in Authorization (401). At most 8 clients (503); 5 s for a request to arrive, and between
-/// requests. Nothing is read from the file system.
+/// requests. GET /frames is the way to a WebSocket (frame_socket.h), after the same checks with its
+/// Origin. Nothing is read from the file system.
 /// Threads: `run` serves every client by a thread; the handler is called from them.
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct Asset {
 struct Request {
     std::string path;
     std::string_view body;
+    std::shared_ptr<StopFlag> stop = nullptr;  ///< ends the work; null: a new request alone does
 };
 struct Response {
     int status = 200;

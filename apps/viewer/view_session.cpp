@@ -42,6 +42,28 @@ std::uint64_t resident_bytes() {
     return resident * 4096;
 }
 
+/// Four bytes a pixel, as a canvas takes them.
+std::string raw_pixels(const EncodedImage& image) {
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+    const std::size_t channels = image.channels;
+    const int shift = image.bits - 8;
+    std::string bytes(4 * pixels, '\xff');
+    for (std::size_t i = 0; i < pixels; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t from = channels * i + (channels < 3 ? 0 : c);
+            bytes[4 * i + c] = static_cast<char>(image.samples[from] >> shift);
+        }
+    }
+    return bytes;
+}
+
+Response picture_answer(const EncodedImage& image, const FrameWish& wish, const json& facts) {
+    if (wish.raw) return {200, "application/octet-stream", raw_pixels(image), text_of(facts)};
+    const std::vector<std::byte> bytes = wish.png ? encode_png(image, {}) : encode_jpeg(image, 85);
+    return {200, wish.png ? "image/png" : "image/jpeg",
+            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), text_of(facts)};
+}
+
 /// The picture of a frame; facts of a layer are added.
 EncodedImage picture_of(const RenderResult& result, const FrameWish& wish,
                         const FilmConventions& conventions, json& facts) {
@@ -66,10 +88,11 @@ EncodedImage picture_of(const RenderResult& result, const FrameWish& wish,
 /// Ends the work that the client has in hand, and is in its place until it is destroyed.
 class ViewSession::Turn {
   public:
-    Turn(ViewSession& session, const json& wish)
+    /// `flag` ends it, too; null: one of its own.
+    Turn(ViewSession& session, const json& wish, std::shared_ptr<StopFlag> flag = nullptr)
         : session_(session),
           client_(wish.value("client", "")),
-          flag_(std::make_shared<StopFlag>()) {
+          flag_(flag ? std::move(flag) : std::make_shared<StopFlag>()) {
         const std::lock_guard lock(session.turns_mutex_);
         std::shared_ptr<StopFlag>& place = session.turns_[client_];
         if (place) place->request();
@@ -198,8 +221,8 @@ Response ViewSession::state() const {
     return {200, "application/json", text_of(state), ""};
 }
 
-Response ViewSession::frame(const json& request) {
-    const Turn turn(*this, request);
+Response ViewSession::frame(const json& request, std::shared_ptr<StopFlag> stop) {
+    const Turn turn(*this, request, std::move(stop));
     FrameWish wish = frame_wish(request);
     const std::shared_ptr<const Loaded> here = loaded_with(request.value("accelerator", ""));
     wish.options.view = &wish.camera;
@@ -211,11 +234,11 @@ Response ViewSession::frame(const json& request) {
     json facts{{"seconds", result.seconds},
                {"rays", result.counters.total_cast()},
                {"threads", result.threads},
-               {"version", here->version}};
+               {"version", here->version},
+               {"width", *wish.options.width},
+               {"height", *wish.options.height}};
     const EncodedImage image = picture_of(result, wish, here->scene.scene.conventions.film, facts);
-    const std::vector<std::byte> bytes = wish.png ? encode_png(image, {}) : encode_jpeg(image, 85);
-    return {200, wish.png ? "image/png" : "image/jpeg",
-            std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), text_of(facts)};
+    return picture_answer(image, wish, facts);
 }
 
 Response ViewSession::explain(const json& request) {
@@ -255,7 +278,7 @@ Response ViewSession::answer(const Request& request) {
     try {
         if (request.path == "/state") return state();
         const json wish = json::parse(request.body);
-        if (request.path == "/frame") return frame(wish);
+        if (request.path == "/frame") return frame(wish, request.stop);
         if (request.path == "/explain") return explain(wish);
         if (request.path == "/stop") return stop(wish);
         return failure(404, "there is no such question");

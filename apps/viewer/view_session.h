@@ -50,7 +50,7 @@ class ViewSession {
     /// With the accelerator that is wished for. Throws Error.
     [[nodiscard]] std::shared_ptr<const Loaded> loaded_with(const std::string& accelerator);
     [[nodiscard]] Response state() const;
-    [[nodiscard]] Response frame(const Json& wish);
+    [[nodiscard]] Response frame(const Json& wish, std::shared_ptr<StopFlag> stop);
     [[nodiscard]] Response explain(const Json& wish);
     [[nodiscard]] Response stop(const Json& wish);
 

@@ -95,6 +95,7 @@ FrameWish frame_wish(const json& wish) {
     use_exact_areas(options);
     result.tone = tone_in(wish);
     result.png = wish.value("png", false);
+    result.raw = wish.value("raw", false) && !result.png;
     return result;
 }
 

@@ -18,6 +18,7 @@ struct FrameWish {
     ToneMapping tone;
     const AovEntry* layer = nullptr;  ///< instead of the colours; null: none
     bool png = false;
+    bool raw = false;  ///< red, green, blue, 255 of each pixel, unless `png`
 };
 
 [[nodiscard]] FrameWish frame_wish(const nlohmann::ordered_json& wish);

@@ -1,8 +1,11 @@
 """A running `alhazen view`, for its tests."""
 
+import base64
 import json
+import os
 import re
 import socket
+import struct
 import subprocess
 import time
 
@@ -83,3 +86,59 @@ class Server:
         status, _, body = self.ask("/state", {})
         assert status == 200, body
         return json.loads(body)
+
+    def frames(self, **change):
+        return FrameSocket(self, change)
+
+
+class FrameSocket:
+    """The WebSocket of a server, by hand, so that it can break the protocol. `status` is that of the upgrade."""
+
+    def __init__(self, server, change):
+        headers = {"Host": server.host, "Origin": f"http://{server.host}", "Upgrade": "websocket", "Connection": "Upgrade",
+                   "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(), "Sec-WebSocket-Version": "13", **change}
+        self.socket = server.connect()
+        self.socket.sendall(("GET /frames HTTP/1.1\r\n" + "".join(f"{k}: {v}\r\n" for k, v in headers.items() if v is not None)
+                             + "\r\n").encode())
+        self.stream = self.socket.makefile("rb")
+        self.status = int(self.stream.readline().split()[1])
+        while self.stream.readline() not in (b"\r\n", b""):
+            pass
+
+    def send(self, data, opcode=1, last=True, masked=True):
+        data = data if isinstance(data, bytes) else json.dumps(data).encode()
+        size, mask, bit = len(data), os.urandom(4), 0x80 if masked else 0
+        head = bytes([opcode | (0x80 if last else 0)]) + (
+            bytes([bit | size]) if size < 126 else struct.pack(">BH", bit | 126, size) if size < 65536
+            else struct.pack(">BQ", bit | 127, size))
+        if masked:
+            key = (mask * (size // 4 + 1))[:size]
+            data = mask + (int.from_bytes(data, "big") ^ int.from_bytes(key, "big")).to_bytes(size, "big")
+        try:
+            self.socket.sendall(head + data)
+        except OSError:
+            pass  # refused before all was sent
+
+    def receive(self):
+        """Opcode and body of a message; 8 and the code of a close, 0 of a connection that is gone."""
+        try:
+            first, size = self.stream.read(2)
+            if size >= 126:
+                size = int.from_bytes(self.stream.read(2 if size == 126 else 8), "big")
+            body = self.stream.read(size)
+        except (ValueError, OSError):
+            return 8, 0
+        return (8, int.from_bytes(body[:2], "big")) if first & 15 == 8 else (first & 15, body)
+
+    def picture(self):
+        """Head and body of the next picture; pings are answered."""
+        while (message := self.receive())[0] == 9:
+            self.send(message[1], 10)
+        opcode, data = message
+        assert opcode == 2, message
+        size, = struct.unpack("<I", data[:4])
+        return json.loads(data[4:4 + size]), data[4 + size:]
+
+    def close(self):
+        self.stream.close()
+        self.socket.close()

@@ -167,6 +167,76 @@ class ViewServer(unittest.TestCase):
             s.close()
         self.assertLess(self.server.state()["memory"] - memory, 32 << 20)
 
+    # ---- frames over a WebSocket
+    def socket_of(self, **change):
+        frames = self.server.frames(**change)
+        self.addCleanup(frames.close)
+        return frames
+
+    def open_socket(self):
+        frames = self.socket_of()
+        self.assertEqual(frames.status, 101)
+        frames.send({"token": self.server.token})
+        return frames
+
+    def test_a_socket_is_for_the_page_of_this_server(self):
+        for origin in (None, "null", "http://evil.com", f"https://{self.server.host}"):
+            self.assertEqual(self.socket_of(Origin=origin).status, 403, origin)
+        self.assertEqual(self.socket_of(Host="evil.com", Origin="http://evil.com").status, 403)
+
+    def test_a_socket_needs_the_token_first(self):
+        for first in ({"token": "0" * 32}, {"token": 1}, {**WISH, "id": 1}, [], b"{"):
+            frames = self.socket_of()
+            frames.send(first)
+            self.assertEqual(frames.receive(), (8, 1008), first)
+
+    def test_a_socket_without_a_token_is_let_go(self):
+        frames = self.socket_of()
+        begin = time.monotonic()
+        self.assertEqual(frames.receive()[0], 8)
+        self.assertLess(time.monotonic() - begin, 8)
+
+    def test_a_socket_refuses_what_breaks_the_protocol(self):
+        for send, codes in ((lambda f: f.send(WISH, masked=False), (1002, 0)), (lambda f: f.send(b"x" * (1 << 20 | 1)), (1009, 0)),
+                            (lambda f: f.send(b"x", 3), (1002, 0)), (lambda f: f.send(b"{"), (1007,)),
+                            (lambda f: f.send(b"\xff\xff"), (1007, 0)), (lambda f: f.send(b"x", 0), (1002, 0))):
+            frames = self.open_socket()
+            send(frames)
+            opcode, code = frames.receive()
+            self.assertEqual(opcode, 8)
+            self.assertIn(code, codes)
+        self.assertEqual(self.status(), 200)
+
+    def test_a_socket_takes_fragments_and_sends_pixels(self):
+        frames = self.open_socket()
+        text = json.dumps({**WISH, "id": 7, "raw": True}).encode()
+        frames.send(text[:50], 1, last=False)
+        frames.send(text[50:], 0)
+        head, body = frames.picture()
+        self.assertEqual((head["id"], head["status"]), (7, 200))
+        self.assertEqual(len(body), 4 * head["facts"]["width"] * head["facts"]["height"])
+        self.assertEqual(body[3::4], b"\xff" * (80 * 60))
+
+    def test_of_many_wishes_the_newest_is_shown_and_none_waits(self):
+        frames = self.open_socket()
+        for i in range(200):
+            frames.send({**WISH, "id": i, "raw": True, "moving": True})
+        ids = []
+        while not ids or ids[-1] < 199:
+            ids.append(frames.picture()[0]["id"])
+            frames.send({"shown": ids[-1]})
+        self.assertEqual(ids, sorted(ids))
+        self.assertLess(len(ids), 200)
+
+    def test_a_slow_client_has_one_picture_on_its_way(self):
+        frames = self.open_socket()
+        for i in range(3):
+            frames.send({**WISH, "id": i, "raw": True, "moving": True})
+            time.sleep(0.3)
+        self.assertEqual(frames.picture()[0]["id"], 0)
+        frames.send({"shown": 0})
+        self.assertEqual(frames.picture()[0]["id"], 2)
+
     # ---- what the answers are
     def test_frames_are_the_pictures_of_render(self):
         status, headers, body = self.server.ask("/frame", {**WISH, "png": True})
