@@ -355,7 +355,9 @@ void add_render(CLI::App& app, int& exit_status) {
                      "cells beside it differ; weigh (on): shades count by the area of their cell. "
                      "exact: the integral over the whole area of each pixel, or "
                      "under a filter (`alhazen list filters`), of beam_tracing; shades that change "
-                     "within a pixel are integrated to within error (0.0001)")
+                     "within a pixel are integrated to within error (0.0001). pixel_selection: no "
+                     "antialiasing; a quick look: rays for one pixel in step (8) of each row and "
+                     "column, more where shades differ by more than threshold (0.05)")
         ->type_name(
             "whitted[:threshold=T,depth=D,guarantee=on|off,weigh=on|off,neighbours=on|off]|"
             "exact[:error=E,filter=NAME,radius=PIXELS]");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/cameras/eye_rays.h"
@@ -44,8 +45,11 @@ json camera_json(const Scene& scene, const CameraDescription& described) {
 json renderer_menu() {
     json menu = json::array();
     for (const RendererEntry& entry : renderers()) {
-        if (make_renderer(entry.name)->takes_triangles_within() > 0.0) continue;
-        menu.push_back({{"name", entry.name}, {"what", entry.description}});
+        const std::unique_ptr<Renderer> renderer = make_renderer(entry.name);
+        if (renderer->takes_triangles_within() > 0.0) continue;
+        menu.push_back({{"name", entry.name},
+                        {"what", entry.description},
+                        {"selects", renderer->answers_single_rays()}});
     }
     return menu;
 }

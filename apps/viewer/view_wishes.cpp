@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/renderer.h"
 
 namespace alhazen::viewer {
@@ -66,6 +67,13 @@ void use_exact_areas(RenderOptions& options) {
     options.antialias->exact = true;
 }
 
+/// Rays for some pixels only, where the renderer can and nothing else is asked of the picture.
+void select_pixels(RenderOptions& options) {
+    if (options.antialias || options.samples_per_pixel != 1 || !options.aovs.empty()) return;
+    if (!make_renderer(options.renderer)->answers_single_rays()) return;
+    options.antialias = parse_antialias("pixel_selection");
+}
+
 const AovEntry* layer_in(const json& wish) {
     const std::string name = wish.value("layer", "");
     if (name.empty()) return nullptr;
@@ -93,6 +101,7 @@ FrameWish frame_wish(const json& wish) {
     result.layer = layer_in(wish);
     if (result.layer != nullptr) options.aovs.add(result.layer->kind);
     use_exact_areas(options);
+    if (wish.value("selected", false)) select_pixels(options);
     result.tone = tone_in(wish);
     result.png = wish.value("png", false);
     result.raw = wish.value("raw", false) && !result.png;

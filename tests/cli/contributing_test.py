@@ -246,7 +246,7 @@ def syntax_command(source, like, root):
     for word in words:
         if skip:
             skip = False
-        elif word in ("-o", "-c", "-include", "-MF", "-MT"):
+        elif word in ("-o", "-c", "-include", "-MF", "-MT", "-Xclang"):
             skip = True
         elif word not in ("-MD", "-Winvalid-pch"):
             command.append(word.replace(str(SOURCE) + "/", str(root) + "/"))

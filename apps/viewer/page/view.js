@@ -116,6 +116,8 @@ class Viewer {
       menu("accelerator", "accelerator", state.accelerators, state.accelerator),
       menu("layer", "layer", [{name: "colours", value: "", what: "the picture"}, ...state.layers], ""),
       menu("moving", "moving", [{name: "coarser", what: "the same renderer, as many pixels as 40 ms allow"},
+        {name: "selected", what: "the same renderer at half the width: rays for some pixels, shades between them where they " +
+          "agree, as deep as 50 ms allow"},
         {name: "flat", what: "ray_casting at half the width: no shadows, mirrors, glass"}], "coarser"),
       field("samples", "samples", 4, 1, 1024), field("depth", "depth", state.depth, 0, 100),
       field("exposure", "exposure", 0, -16, 16, 0.5),
@@ -190,7 +192,7 @@ class Viewer {
   // As wide as 40 ms allow, by the last frame; an eighth where nothing is known, half of the picture at most.
   coarse() {
     const full = this.full();
-    if (this.flat()) return full / 2;
+    if (this.flat() || this.selects()) return full / 2;
     if (!this.perPixel) return full / 8;
     return Math.min(full / 2, Math.max(64, Math.sqrt(0.04 / this.perPixel * this.camera.aspect)));
   }
@@ -205,6 +207,17 @@ class Viewer {
   }
   flat() {
     return this.moving.value === "flat" && !this.layer.value && this.scene.renderers.some(r => r.name === "ray_casting");
+  }
+  // Only renderers that answer single rays can.
+  selects() {
+    return this.moving.value === "selected" && !this.layer.value &&
+      this.scene.renderers.some(r => r.name === this.renderer.value && r.selects);
+  }
+  // As deep as the last frame that moved allows, beginning with eye rays and their shadows.
+  movingDepth(seconds) {
+    const depth = this.deep ?? 0;
+    if (seconds !== undefined) this.deep = seconds > 0.05 ? Math.max(0, depth - 1) : seconds < 0.025 ? depth + 1 : depth;
+    return Math.min(this.deep ?? 0, Number(this.depth.value));
   }
   // [width as a part of the whole, samples]
   levels() {
@@ -235,9 +248,10 @@ class Viewer {
     this.refine();
   }
   async frame(scale, samples, generation) {
-    const first = this.level === 0, flat = first && this.flat(), begin = performance.now();
+    const first = this.level === 0, flat = first && this.flat(), selects = first && this.selects(), begin = performance.now();
     const width = Math.round(first ? this.coarse() : this.full() * scale), wish = this.wish(this.camera, width);
-    const answer = await this.ask("/frame", {...wish, samples, ...(flat ? {renderer: "ray_casting"} : {})});
+    const answer = await this.ask("/frame", {...wish, samples, ...(flat ? {renderer: "ray_casting"} : {}),
+      ...(selects ? {selected: true, depth: this.movingDepth()} : {})});
     if (answer.status === 204) return "ended";
     if (!answer.ok) {
       this.say("frame", (await answer.json()).error);
@@ -246,7 +260,8 @@ class Viewer {
     const facts = JSON.parse(answer.headers.get("X-Alhazen")), blob = await answer.blob();
     this.say("frame", "");
     if (generation >= (this.shownGeneration ?? 0)) this.show(blob, generation, facts, width, begin, samples);
-    if (samples === 1 && !flat) this.perPixel = facts.seconds / (width * width / this.camera.aspect);
+    if (selects) this.movingDepth(facts.seconds);
+    else if (samples === 1 && !flat) this.perPixel = facts.seconds / (width * width / this.camera.aspect);
     return "shown";
   }
   show(blob, generation, facts, width, begin, samples) {

@@ -206,10 +206,12 @@ void check_antialias(const RenderOptions& options, const Renderer& renderer) {
                             renderers_where(&Renderer::gives_exact_areas), options.renderer));
         }
     } else if (!renderer.answers_single_rays()) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--antialias whitted is for renderers that answer single rays: "
-                                "{}; renderer '{}' does not",
-                                renderers_where(&Renderer::answers_single_rays), options.renderer));
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--antialias {} is for renderers that answer single rays: {}; renderer "
+                        "'{}' does not",
+                        options.antialias->step > 0 ? "pixel_selection" : "whitted",
+                        renderers_where(&Renderer::answers_single_rays), options.renderer));
     }
     if (options.samples_per_pixel != 1) {
         throw Error(ErrorKind::Usage,

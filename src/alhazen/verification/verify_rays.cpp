@@ -47,9 +47,12 @@ VerifyRays::Sample VerifyRays::next() {
             return {"lattice", lattice_ray()};
         case 2:
             return {"aimed", aimed_ray()};
-        default:
+        default: {
             if (camera_ == nullptr) return {"random", random_line()};
-            return {"eye", eye_ray(*camera_, random_.uniform(), random_.uniform())};
+            // One after the other: the order of arguments is the compiler's.
+            const double x = random_.uniform(), y = random_.uniform();
+            return {"eye", eye_ray(*camera_, x, y)};
+        }
     }
 }
 

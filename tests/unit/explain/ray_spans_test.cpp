@@ -105,8 +105,8 @@ TEST(PolynomialsOnRay, RootsAreItsZeros) {
         RandomStream random(4);
         int roots = 0;
         for (int i = 0; i < 200; ++i) {
-            const Ray ray = eye_ray(loaded.scene.cameras.front().camera, random.uniform(0, 1),
-                                    random.uniform(0, 1));
+            const double x = random.uniform(0, 1), y = random.uniform(0, 1);
+            const Ray ray = eye_ray(loaded.scene.cameras.front().camera, x, y);
             for (const PolynomialOnRay& p : polynomials_on_ray(loaded, ray)) {
                 ASSERT_EQ(p.bernstein.size(), static_cast<std::size_t>(p.degree) + 1);
                 for (const double t : p.roots) {

@@ -12,6 +12,7 @@
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/antialias/adaptive_grid.h"
 #include "alhazen/renderers/antialias/picture_grid.h"
+#include "alhazen/renderers/antialias/pixel_selection.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
 #include "alhazen/renderers/antialias/sought_spheres.h"
 #include "alhazen/renderers/core/aov.h"
@@ -261,8 +262,9 @@ RenderReport render_adaptively(const SingleRayRenderer& renderer, const RenderJo
 }
 
 RenderReport SingleRayRenderer::render(const RenderJob& job, Film& film) const {
-    return job.antialias == nullptr ? TiledRenderer::render(job, film)
-                                    : render_adaptively(*this, job, film);
+    if (job.antialias == nullptr) return TiledRenderer::render(job, film);
+    return job.antialias->step > 0 ? render_selected_pixels(*this, job, film)
+                                   : render_adaptively(*this, job, film);
 }
 
 }  // namespace alhazen

@@ -35,9 +35,15 @@ AntialiasSettings parse_antialias(const std::string& text) {
         given.finish();
         return settings;
     }
+    if (given.name() == "pixel_selection") {
+        settings.threshold = given.number("threshold", 0.05, 0.0, 1.0);
+        settings.step = given.whole("step", 8, 1, AntialiasSettings::kLargestStep);
+        given.finish();
+        return settings;
+    }
     if (given.name() != "whitted") {
-        throw Error(ErrorKind::Usage,
-                    "--antialias '" + given.name() + "': unknown; known: whitted, exact");
+        throw Error(ErrorKind::Usage, "--antialias '" + given.name() +
+                                          "': unknown; known: whitted, exact, pixel_selection");
     }
     settings.threshold = given.number("threshold", settings.threshold, 0.0, 1.0);
     settings.depth = given.whole("depth", settings.depth, 0, AntialiasSettings::kDeepest);

@@ -11,10 +11,14 @@ struct FilterEntry;
 
 struct AntialiasSettings {
     static constexpr int kDeepest = 8;
+    static constexpr int kLargestStep = 64;
 
     /// Cells whose shades differ by more than this are divided: by so much of the pixel's value,
     /// cut off at 1 in each channel, a cell may be off.
     double threshold = 0.02;
+    /// Above 0: pixel selection instead of what follows. At first one pixel in `step` of each row
+    /// and column has a ray.
+    int step = 0;
     int depth = 4;          ///< most divisions of a pixel, at most kDeepest
     bool guarantee = true;  ///< look for objects between the rays
     /// Shades count as parts of the pixel: by the area of their cell. Off: as they are, cut off at

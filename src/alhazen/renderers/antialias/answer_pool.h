@@ -1,0 +1,62 @@
+#pragma once
+/// Traces many single rays in parallel batches, with a few RayAnswers that are made once.
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/antialias/single_rays.h"
+
+namespace alhazen {
+
+class AnswerPool {
+  public:
+    /// Both must outlive the pool.
+    AnswerPool(const SingleRayRenderer& renderer, const RenderJob& job)
+        : renderer_(renderer), job_(job) {}
+
+    /// Calls batch(answers, first, count, counters) for the rays 0 to `total`, at most
+    /// RayAnswers::kRaysAtOnce at a time, from many threads. Returns early after a stop.
+    template <class Batch>
+    void trace(std::size_t total, Batch&& batch) {
+        constexpr std::size_t kBatch = RayAnswers::kRaysAtOnce;
+        const std::size_t batches = (total + kBatch - 1) / kBatch;
+        parallel_for(batches, 4, [&](std::size_t begin, std::size_t end) {
+            std::unique_ptr<RayAnswers> own = take();
+            RayCounters counters;
+            for (std::size_t b = begin; b < end && !job_.stop_requested(); ++b) {
+                batch(*own, b * kBatch, std::min(kBatch, total - b * kBatch), counters);
+            }
+            const std::lock_guard lock(mutex_);
+            idle_.push_back(std::move(own));
+            counters_ += counters;
+        });
+    }
+
+    /// Of all rays that were traced.
+    [[nodiscard]] const RayCounters& counters() const { return counters_; }
+
+  private:
+    [[nodiscard]] std::unique_ptr<RayAnswers> take() {
+        {
+            const std::lock_guard lock(mutex_);
+            if (!idle_.empty()) {
+                std::unique_ptr<RayAnswers> taken = std::move(idle_.back());
+                idle_.pop_back();
+                return taken;
+            }
+        }
+        return renderer_.answers(job_);
+    }
+
+    const SingleRayRenderer& renderer_;
+    const RenderJob& job_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<RayAnswers>> idle_;
+    RayCounters counters_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,251 @@
+#include "alhazen/renderers/antialias/pixel_selection.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/antialias/answer_pool.h"
+#include "alhazen/renderers/core/antialias_settings.h"
+#include "alhazen/renderers/core/samplers.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Pixels x0 to x1 by y0 to y1, of the crop, both included; the corners have rays.
+struct SelectionCell {
+    int x0, y0, x1, y1;
+    bool agreed = false;  ///< with all rays that were there in the last round
+};
+
+/// Number of the part that a ray meets first, and of that which placed it in the scene.
+std::uint64_t thing_of(const Scene& scene, const Ray& ray, const Hit& hit) {
+    if (!hit.found()) return 0;
+    const Surface surface = surface_at(*scene.aggregate, ray, hit);
+    return (std::uint64_t{surface.instance} << 32) + surface.part + 1;
+}
+
+double shown(double channel) {
+    return channel > 0.0 ? (channel < 1.0 ? channel : 1.0) : 0.0;
+}
+bool differ(const Rgb& a, const Rgb& b, double threshold) {
+    return std::abs(shown(a.r) - shown(b.r)) > threshold ||
+           std::abs(shown(a.g) - shown(b.g)) > threshold ||
+           std::abs(shown(a.b) - shown(b.b)) > threshold;
+}
+
+/// The round that traced a pixel, from 1 on; or one of these.
+using PixelRound = std::uint32_t;
+constexpr PixelRound kNoRay = 0, kAskedFor = std::numeric_limits<PixelRound>::max();
+
+/// Renders one film.
+class PixelSelection {
+  public:
+    PixelSelection(const SingleRayRenderer& renderer, const RenderJob& job, Film& film)
+        : job_(job),
+          film_(film),
+          settings_(*job.antialias),
+          sampler_(job, film.frame_width(), film.frame_height()),
+          eye_(job.camera),
+          pool_(renderer, job),
+          width_(film.crop().width()),
+          height_(film.crop().height()),
+          shades_(film.crop().area()),
+          things_(film.crop().area()),
+          rounds_(film.crop().area(), kNoRay) {}
+
+    RenderReport run() {
+        RenderReport report;
+        report.parts = 1;
+        ThreadLimit threads(job_.control.threads);
+        report.threads = threads.threads();
+        threads.run([&] { select(); });
+        report.counters = pool_.counters();
+        if (job_.stop_requested()) return report;
+        for (const SelectionCell& cell : cells_) fill(cell);
+        const PixelBox& crop = film_.crop();
+        for (int y = 0; y < height_; ++y) {
+            for (int x = 0; x < width_; ++x) {
+                film_.set(crop.x0 + x, crop.y0 + y, shades_[at(x, y)]);
+            }
+        }
+        report.done = 1;
+        return report;
+    }
+
+  private:
+    [[nodiscard]] std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
+    }
+
+    /// Where cells begin and end in one direction: multiples of the step in the frame.
+    [[nodiscard]] std::vector<int> marks(int first, int count) const {
+        std::vector<int> result{0};
+        const int step = settings_.step;
+        for (int k = step - first % step; k < count; k += step) result.push_back(k);
+        if (result.back() != count - 1) result.push_back(count - 1);
+        if (result.size() == 1) result.push_back(result.front());
+        return result;
+    }
+
+    void select() {
+        const PixelBox& crop = film_.crop();
+        const std::vector<int> columns = marks(crop.x0, width_), rows = marks(crop.y0, height_);
+        for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+            for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+                add({columns[i], rows[j], columns[i + 1], rows[j + 1]});
+            }
+        }
+        do {
+            trace();
+            if (job_.stop_requested()) return;
+        } while (divide());
+    }
+
+    /// A cell, and rays of its corners.
+    void add(const SelectionCell& c) {
+        cells_.push_back(c);
+        for (const int y : {c.y0, c.y1}) {
+            for (const int x : {c.x0, c.x1}) {
+                PixelRound& known = rounds_[at(x, y)];
+                if (known != kNoRay) continue;
+                asked_.push_back(static_cast<std::uint32_t>(at(x, y)));
+                known = kAskedFor;
+            }
+        }
+    }
+
+    /// Divides cells that do not agree with their rays. False where there are none.
+    bool divide() {
+        const std::vector<SelectionCell> before = std::move(cells_);
+        cells_.clear();
+        bool any = false;
+        for (const SelectionCell& c : before) {
+            if ((c.x1 - c.x0 <= 1 && c.y1 - c.y0 <= 1) || agrees(c)) {
+                cells_.push_back(c);
+                cells_.back().agreed = true;
+                continue;
+            }
+            any = true;
+            const int xm = (c.x0 + c.x1) / 2, ym = (c.y0 + c.y1) / 2;
+            const bool wide = c.x1 - c.x0 > 1, high = c.y1 - c.y0 > 1;
+            add({c.x0, c.y0, wide ? xm : c.x1, high ? ym : c.y1});
+            if (wide) add({xm, c.y0, c.x1, high ? ym : c.y1});
+            if (high) add({c.x0, ym, wide ? xm : c.x1, c.y1});
+            if (wide && high) add({xm, ym, c.x1, c.y1});
+        }
+        return any;
+    }
+
+    [[nodiscard]] bool agrees(const SelectionCell& c) const {
+        return (c.agreed || corners_agree(c)) && sides_agree(c);
+    }
+    [[nodiscard]] bool corners_agree(const SelectionCell& c) const {
+        const std::size_t corners[] = {at(c.x0, c.y0), at(c.x1, c.y0), at(c.x0, c.y1),
+                                       at(c.x1, c.y1)};
+        for (std::size_t i = 1; i < 4; ++i) {
+            if (things_[corners[i]] != things_[corners[0]]) return false;
+            for (std::size_t j = 0; j < i; ++j) {
+                if (differ(shades_[corners[i]], shades_[corners[j]], settings_.threshold)) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+    [[nodiscard]] bool sides_agree(const SelectionCell& c) const {
+        for (int x = c.x0 + 1; x < c.x1; ++x) {
+            if (!agrees_at(c, x, c.y0) || !agrees_at(c, x, c.y1)) return false;
+        }
+        for (int y = c.y0 + 1; y < c.y1; ++y) {
+            if (!agrees_at(c, c.x0, y) || !agrees_at(c, c.x1, y)) return false;
+        }
+        return true;
+    }
+    [[nodiscard]] bool agrees_at(const SelectionCell& c, int x, int y) const {
+        const std::size_t k = at(x, y);
+        if (rounds_[k] == kNoRay || rounds_[k] == kAskedFor) return true;
+        if (c.agreed && rounds_[k] != round_) return true;
+        return things_[k] == things_[at(c.x0, c.y0)] &&
+               !differ(shades_[k], between(c, x, y), settings_.threshold);
+    }
+    /// The bilinear mean of the corners' shades.
+    [[nodiscard]] Rgb between(const SelectionCell& c, int x, int y) const {
+        const double u = c.x1 > c.x0 ? double(x - c.x0) / (c.x1 - c.x0) : 0.0;
+        const double v = c.y1 > c.y0 ? double(y - c.y0) / (c.y1 - c.y0) : 0.0;
+        return (1 - v) * ((1 - u) * shades_[at(c.x0, c.y0)] + u * shades_[at(c.x1, c.y0)]) +
+               v * ((1 - u) * shades_[at(c.x0, c.y1)] + u * shades_[at(c.x1, c.y1)]);
+    }
+
+    void fill(const SelectionCell& c) {
+        for (int y = c.y0; y <= c.y1; ++y) {
+            for (int x = c.x0; x <= c.x1; ++x) {
+                if (rounds_[at(x, y)] == kNoRay) shades_[at(x, y)] = between(c, x, y);
+            }
+        }
+    }
+
+    /// The rays that are asked for.
+    void trace() {
+        ++round_;
+        pool_.trace(asked_.size(), [&](RayAnswers& answers, std::size_t first, std::size_t count,
+                                       RayCounters& counters) {
+            std::array<Ray, RayAnswers::kRaysAtOnce> rays;
+            std::array<Rgb, RayAnswers::kRaysAtOnce> shades;
+            std::array<Hit, RayAnswers::kRaysAtOnce> hits;
+            const std::span asked = std::span(asked_).subspan(first, count);
+            for (std::size_t k = 0; k < count; ++k) rays[k] = ray(asked[k]);
+            answers.trace(std::span(rays).first(count), std::span(shades).first(count),
+                          std::span(hits).first(count), counters);
+            for (std::size_t k = 0; k < count; ++k) {
+                const bool finite = shades[k].is_finite();
+                counters.non_finite += !finite;
+                shades_[asked[k]] = finite ? shades[k] : Rgb{};
+                things_[asked[k]] = thing_of(job_.scene, rays[k], hits[k]);
+                rounds_[asked[k]] = round_;
+            }
+        });
+        asked_.clear();
+    }
+    [[nodiscard]] Ray ray(std::uint32_t pixel) const {
+        const int x = film_.crop().x0 + static_cast<int>(pixel) % width_;
+        const int y = film_.crop().y0 + static_cast<int>(pixel) / width_;
+        const Vec2 place = sampler_.at(x, y);
+        return eye_.ray(eye_.column(place.x) + eye_.row(place.y));
+    }
+
+    const RenderJob& job_;
+    Film& film_;
+    const AntialiasSettings& settings_;
+    PointSampler sampler_;
+    EyeRays eye_;
+    AnswerPool pool_;
+    int width_, height_;
+    std::vector<Rgb> shades_;            ///< [pixel of the crop]
+    std::vector<std::uint64_t> things_;  ///< [pixel of the crop] with a ray
+    PixelRound round_ = 0;               ///< the last
+    std::vector<PixelRound> rounds_;     ///< [pixel of the crop]
+    std::vector<std::uint32_t> asked_;   ///< pixels of the next round
+    std::vector<SelectionCell> cells_;   ///< without gaps
+};
+
+}  // namespace
+
+RenderReport render_selected_pixels(const SingleRayRenderer& renderer, const RenderJob& job,
+                                    Film& film) {
+    if (job.aovs != nullptr) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias pixel_selection: layers are for pixels with rays of their own");
+    }
+    return PixelSelection(renderer, job, film).run();
+}
+
+}  // namespace alhazen
