@@ -21,6 +21,13 @@ py::array as_plain(const py::object& numbers, const char* what) {
         const auto array = py::reinterpret_borrow<py::array>(numbers);
         if (py::isinstance<Plain<float>>(array) || py::isinstance<Plain<double>>(array))
             return array;
+        if (array.dtype().kind() == 'c') {
+            throw Error(ErrorKind::Usage, std::string(what) + ": expected real numbers");
+        }
+        // Of any layout and byte order.
+        if (array.dtype().kind() == 'f' && array.itemsize() == sizeof(float)) {
+            return py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(array);
+        }
     }
     auto copy = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(numbers);
     if (!copy) {

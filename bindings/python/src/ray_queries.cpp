@@ -195,6 +195,11 @@ py::dict all_hits(const BuiltScene& scene, const py::object& rays_object,
         scene.tracer().all_hits(range, scratch.lists, options.mask);
         for (std::size_t i = 0; i < range.size(); ++i) {
             auto at = static_cast<std::size_t>(splits[begin + i]);
+            // The caller's array is read again: another thread may write to it.
+            if (scratch.lists.of(i).size() !=
+                static_cast<std::size_t>(splits[begin + i + 1]) - at) {
+                throw Error(ErrorKind::Usage, "the rays were changed while they were traced");
+            }
             for (const Hit& hit : scratch.lists.of(i)) {
                 ray_ids[at] = static_cast<std::int64_t>(begin + i);
                 arrays.set(scene.tracer(), range[i], hit, at++, scratch.surface);

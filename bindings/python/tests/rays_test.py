@@ -93,6 +93,9 @@ class Arrays(unittest.TestCase):
         single = self.scene.intersect(rays.astype(np.float32))
         self.assertEqual(single["t_hit"].dtype, np.float32)
         self.assertEqual(single["uvs"].dtype, np.float32)
+        flat = rays.reshape(24, 6)
+        for other in (np.asfortranarray(flat.astype(np.float32)), flat.astype(np.float32)[::2], flat.astype(">f4")):
+            self.assertEqual(self.scene.intersect(other)["t_hit"].dtype, np.float32)
         one = self.scene.intersect([0.2, 0.3, 5, 0, 0, -1])
         self.assertEqual(one["t_hit"].shape, ())
         self.assertEqual(float(one["t_hit"]), 4.0)
@@ -130,6 +133,27 @@ class Arrays(unittest.TestCase):
         tracemalloc.stop()
         self.assertGreater(peak, results + rays.nbytes / 2)
 
+    def test_rays_that_another_thread_writes_to_harm_nobody(self):
+        hit, miss = [0.2, 0.3, 9, 0, 0, -1], [9, 9, 9, 0, 0, 1]
+        rays, ended = np.tile(np.float64(miss), (20000, 1)), threading.Event()
+        def write():
+            while not ended.is_set():
+                rays[:] = hit
+                rays[:] = miss
+        writer = threading.Thread(target=write)
+        writer.start()
+        try:
+            for _ in range(30):
+                try:
+                    found = self.scene.all_hits(rays)
+                except alhazen.UsageError as error:
+                    self.assertIn("changed while they were traced", str(error))
+                else:
+                    self.assertEqual(found["ray_splits"][-1], len(found["t_hit"]))
+        finally:
+            ended.set()
+            writer.join()
+
     def test_aligned_rays_are_traced_where_they_lie(self):
         rays = alhazen.aligned_rays(10, 100)
         rays[..., :6] = random_rays(1000).reshape(10, 100, 6)
@@ -143,7 +167,7 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(self.scene.intersect(rays)["t_hit"], self.scene.intersect(shifted)["t_hit"])
 
     def test_wrong_arrays_are_errors(self):
-        for rays in (np.zeros((3, 5)), np.zeros(0), 1.0, [["a"] * 6], np.zeros((2, 7))):
+        for rays in (np.zeros((3, 5)), np.zeros((3, 6), complex), np.zeros(0), 1.0, [["a"] * 6], np.zeros((2, 7))):
             with self.assertRaisesRegex(alhazen.UsageError, "rays: expected"):
                 self.scene.intersect(rays)
         with self.assertRaisesRegex(alhazen.UsageError, "unknown field 'normal'; known are t_hit"):

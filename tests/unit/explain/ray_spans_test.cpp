@@ -104,7 +104,7 @@ TEST(PolynomialsOnRay, RootsAreItsZeros) {
         const LoadedScene loaded = loaded_file(name);
         RandomStream random(4);
         int roots = 0;
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < 400; ++i) {
             const double x = random.uniform(0, 1), y = random.uniform(0, 1);
             const Ray ray = eye_ray(loaded.scene.cameras.front().camera, x, y);
             for (const PolynomialOnRay& p : polynomials_on_ray(loaded, ray)) {
