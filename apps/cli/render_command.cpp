@@ -360,7 +360,7 @@ void add_render(CLI::App& app, int& exit_status) {
                      "column, more where shades differ by more than threshold (0.05)")
         ->type_name(
             "whitted[:threshold=T,depth=D,guarantee=on|off,weigh=on|off,neighbours=on|off]|"
-            "exact[:error=E,filter=NAME,radius=PIXELS]");
+            "exact[:error=E,filter=NAME,radius=PIXELS]|pixel_selection[:step=N,threshold=T]");
     command
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")

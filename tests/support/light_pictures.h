@@ -27,14 +27,14 @@ inline Material shining(const Rgb& radiance, const Rgb& color = {}) {
 }
 
 /// Clear glass as glTF has it.
-inline Material smooth_glass() {
+inline Material smooth_glass(double index = 1.5) {
     Material m;
     m.metallic_roughness.emplace();
     m.metallic_roughness->metallic.value = 0;
     m.metallic_roughness->roughness.value = 0;
     m.metallic_roughness->transmission.value = 1;
     m.metallic_roughness->thickness.value = 1;
-    m.index.value = 1.5;
+    m.index.value = index;
     return m;
 }
 /// Dispersing glass of the table.

@@ -11,35 +11,17 @@
 #include "alhazen/renderers/photons/photon_shooting.h"
 #include "alhazen/renderers/photons/photon_tree.h"
 #include "alhazen/sampling/random.h"
+#include "support/light_pictures.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::ball;
+using testing::matt;
 using testing::SceneMaker;
+using testing::smooth_glass;
 constexpr double kPi = std::numbers::pi;
-
-Material matt(const Rgb& color) {
-    Material m;
-    m.diffuse.color = color;
-    return m;
-}
-Material glass(double index) {
-    Material m;
-    m.metallic_roughness.emplace();
-    m.metallic_roughness->metallic.value = 0;
-    m.metallic_roughness->roughness.value = 0;
-    m.metallic_roughness->transmission.value = 1;
-    m.metallic_roughness->thickness.value = 1;
-    m.index.value = index;
-    return m;
-}
-Sphere ball(const Vec3& center, double radius) {
-    Sphere s;
-    s.center = center;
-    s.radius = radius;
-    return s;
-}
 
 TEST(Photon, DirectionsAreKeptWithinATenThousandthOfARadian) {
     RandomStream random(2);
@@ -219,7 +201,7 @@ TEST(PhotonWalk, ALampOfEachKindSendsItsPower) {
 TEST(PhotonWalk, TheSameForAnyThreads) {
     SceneMaker maker;
     maker.add(ball({0, 0, 0}, 3), maker.material(matt({0.5, 0.5, 0.5})));
-    maker.add(ball({0, 0, -1}, 1), maker.material(glass(1.5)));
+    maker.add(ball({0, 0, -1}, 1), maker.material(smooth_glass(1.5)));
     maker.light(PointLight{.position = {1, 0, 1}, .color = {3, 2, 1}, .attenuation = {0, 0, 1}});
     const Scene scene = maker.compile();
     const auto bits = [](const Photon& p) {
@@ -257,7 +239,7 @@ BallLens ball_lens(double radius_of_beam) {
     lens.half_angle = std::asin(radius_of_beam / BallLens::kAway);
     lens.power = kPi * 2 * kPi * (1 - std::cos(lens.half_angle));
     SceneMaker maker;
-    maker.add(ball({0, 0, 0}, 1), maker.material(glass(BallLens::kIndex)));
+    maker.add(ball({0, 0, 0}, 1), maker.material(smooth_glass(BallLens::kIndex)));
     maker.add(ball({0, 0, 0}, 100), maker.material(matt({0, 0, 0.0001})));
     SpotLight spot;
     spot.position = {0, 0, BallLens::kAway};
@@ -309,7 +291,7 @@ TEST(ProjectionMap, SendsThePhotonsTowardsTheGlassAndLosesNoLight) {
     const double received = sphere * (1 - std::cos(kAngle)) / 2;
     const auto lit_by = [&](bool two_lights) {
         SceneMaker maker;
-        maker.add(ball({3, 0, 0}, 3 * std::sin(kAngle)), maker.material(glass(1.5)));
+        maker.add(ball({3, 0, 0}, 3 * std::sin(kAngle)), maker.material(smooth_glass(1.5)));
         maker.add(ball({0, 0, 0}, 10), maker.material(matt({0, 0, 0.0001})));
         maker.light(PointLight{.color = {1, 1, 1}, .attenuation = {0, 0, 1}});
         if (two_lights) {
@@ -357,7 +339,7 @@ TEST(ProjectionMap, LosesNoLightOfAnyKindOfLamp) {
     disc.normal = {0, 0, -1};
     for (int kind = 0; kind < 5; ++kind) {
         SceneMaker maker;
-        maker.add(ball({0, 0, 0}, 0.5), maker.material(glass(1.5)));
+        maker.add(ball({0, 0, 0}, 0.5), maker.material(smooth_glass(1.5)));
         Disc floor;
         floor.center = {0, 0, -3};
         floor.radius = 4;

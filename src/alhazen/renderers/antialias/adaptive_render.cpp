@@ -1,16 +1,16 @@
 #include "alhazen/renderers/antialias/adaptive_render.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "alhazen/base/error.h"
-#include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/antialias/adaptive_grid.h"
+#include "alhazen/renderers/antialias/answer_pool.h"
 #include "alhazen/renderers/antialias/picture_grid.h"
 #include "alhazen/renderers/antialias/pixel_selection.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
@@ -37,8 +37,8 @@ std::uint64_t count_distinct(std::vector<std::uint32_t>& numbers) {
 class AdaptiveRender {
   public:
     AdaptiveRender(const SingleRayRenderer& renderer, const RenderJob& job, Film& film)
-        : renderer_(renderer),
-          job_(job),
+        : job_(job),
+          pool_(renderer, job),
           film_(film),
           settings_(*job.antialias),
           picture_(job.camera, film),
@@ -51,6 +51,7 @@ class AdaptiveRender {
         report.threads = threads.threads();
         report_.pixels = film_.crop().area();
         threads.run([&] { levels(); });
+        counters_ = pool_.counters();
         report.counters = counters_;
         if (job_.stop_requested()) return report;
         write_pixels();
@@ -140,23 +141,12 @@ class AdaptiveRender {
 
     /// The rays of the round.
     void trace() {
-        constexpr std::size_t kBatch = RayAnswers::kRaysAtOnce;
-        const std::size_t batches = (grid_.points().size() + kBatch - 1) / kBatch;
-        parallel_for(batches, 8, [&](std::size_t begin, std::size_t end) {
-            std::unique_ptr<RayAnswers> own = take();
-            RayCounters counters;
-            std::vector<Ray> rays(kBatch);
-            std::vector<Hit> hits(objects_ ? kBatch : 0);
-            for (std::size_t b = begin; b < end; ++b) {
-                if (job_.stop_requested()) return;
-                const std::size_t first = b * kBatch;
-                const std::size_t count = std::min(kBatch, grid_.points().size() - first);
-                trace_batch(*own, first, std::span(rays).first(count),
-                            std::span(hits).first(objects_ ? count : 0), counters);
-            }
-            give_back(std::move(own), counters, end - begin, batches);
+        pool_.trace(grid_.points().size(), [&](RayAnswers& answers, std::size_t first,
+                                               std::size_t count, RayCounters& counters) {
+            std::array<Ray, RayAnswers::kRaysAtOnce> rays;
+            std::vector<Hit> hits(objects_ ? count : 0);
+            trace_batch(answers, first, std::span(rays).first(count), hits, counters);
         });
-        batches_done_ = 0;
     }
     void trace_batch(RayAnswers& answers, std::size_t first, std::span<Ray> rays,
                      std::span<Hit> hits, RayCounters& counters) {
@@ -172,23 +162,6 @@ class AdaptiveRender {
                 .store(1, std::memory_order_relaxed);
         }
         for (const Rgb& shade : shades) counters.non_finite += !shade.is_finite();
-    }
-
-    [[nodiscard]] std::unique_ptr<RayAnswers> take() {
-        const std::lock_guard lock(mutex_);
-        if (idle_.empty()) return renderer_.answers(job_);
-        std::unique_ptr<RayAnswers> taken = std::move(idle_.back());
-        idle_.pop_back();
-        return taken;
-    }
-    void give_back(std::unique_ptr<RayAnswers> answers, const RayCounters& counters,
-                   std::size_t done, std::size_t batches) {
-        const std::lock_guard lock(mutex_);
-        idle_.push_back(std::move(answers));
-        counters_ += counters;
-        batches_done_ += done;
-        if (job_.control.progress == nullptr) return;
-        job_.control.progress->update("render", batches_done_, batches);
     }
 
     void write_pixels() {
@@ -226,8 +199,8 @@ class AdaptiveRender {
         }
     }
 
-    const SingleRayRenderer& renderer_;
     const RenderJob& job_;
+    AnswerPool pool_;
     Film& film_;
     const AntialiasSettings& settings_;
     PictureGrid picture_;
@@ -237,9 +210,6 @@ class AdaptiveRender {
     std::optional<SceneObjects> objects_;   ///< with the guarantee
     std::vector<std::uint8_t> met_;         ///< [object] a ray met it
     std::optional<SoughtSpheres> spheres_;  ///< where some object was not met at first
-    std::mutex mutex_;                      ///< of what follows, and of counters_
-    std::vector<std::unique_ptr<RayAnswers>> idle_;
-    std::size_t batches_done_ = 0;  ///< of the round
 };
 
 /// Refuses layers that no pixel has alone.

@@ -18,12 +18,13 @@ class AnswerPool {
     AnswerPool(const SingleRayRenderer& renderer, const RenderJob& job)
         : renderer_(renderer), job_(job) {}
 
-    /// Calls batch(answers, first, count, counters) for the rays 0 to `total`, at most
-    /// RayAnswers::kRaysAtOnce at a time, from many threads. Returns early after a stop.
+    /// The rays of a round. Calls batch(answers, first, count, counters) for the rays 0 to `total`,
+    /// at most RayAnswers::kRaysAtOnce at a time, from many threads. Returns early after a stop.
     template <class Batch>
     void trace(std::size_t total, Batch&& batch) {
         constexpr std::size_t kBatch = RayAnswers::kRaysAtOnce;
         const std::size_t batches = (total + kBatch - 1) / kBatch;
+        std::size_t done = 0;  // under the mutex
         parallel_for(batches, 4, [&](std::size_t begin, std::size_t end) {
             std::unique_ptr<RayAnswers> own = take();
             RayCounters counters;
@@ -33,6 +34,10 @@ class AnswerPool {
             const std::lock_guard lock(mutex_);
             idle_.push_back(std::move(own));
             counters_ += counters;
+            done += end - begin;
+            if (job_.control.progress != nullptr) {
+                job_.control.progress->update("render", done, batches);
+            }
         });
     }
 

@@ -7,7 +7,7 @@
 /// Differs: of the trees of rays only the first hits are compared. The sides of a cell are looked
 /// at, too: where a ray of a smaller neighbour disagrees with the shade that the cell gives it, the
 /// cell is divided.
-/// Conventions: pixel (i, j) of a pixel that is traced has the bits that it has without selection.
+/// Conventions: a pixel that is traced has the bits that it has without selection.
 /// Pixels depend neither on the threads nor on the tile size. What lies between the rays of a cell
 /// is missed.
 
