@@ -112,11 +112,21 @@ std::vector<RayBatch> pieces_of(const RayStream& stream, bool whole) {
     return pieces;
 }
 
-void shuffle(std::vector<RayBatch>& pieces) {
+/// Random order, but for the first piece of each kind: those come first, so that the shortest
+/// sample has all kinds. Returns how many these are.
+std::size_t shuffle(std::vector<RayBatch>& pieces) {
     RandomStream random(1);
     for (std::size_t i = pieces.size(); i > 1; --i) {
         std::swap(pieces[i - 1], pieces[random.below(i)]);
     }
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < kRayKindCount; ++k) {
+        const auto piece = std::find_if(
+            pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(),
+            [&](const RayBatch& at) { return static_cast<std::size_t>(at.kind) == k; });
+        if (piece != pieces.end()) std::swap(*piece, pieces[first++]);
+    }
+    return first;
 }
 
 std::string name_of(const RayBatch& batch, const Ray& ray) {
@@ -128,9 +138,10 @@ std::string name_of(const RayBatch& batch, const Ray& ray) {
         ray.t_min, ray.t_max);
 }
 
-/// Counts and compares; returns how many of the pieces were asked.
-std::size_t count(const RayStream& stream, const std::vector<RayBatch>& pieces, double seconds,
-                  Questioner& questioner, Answers& expected, ReplayFigures& figures) {
+/// Counts and compares, at least the first `begin` pieces; returns how many were asked.
+std::size_t count(const RayStream& stream, const std::vector<RayBatch>& pieces, std::size_t begin,
+                  double seconds, Questioner& questioner, Answers& expected,
+                  ReplayFigures& figures) {
     const bool fill = expected.empty();
     if (fill) expected.resize(stream.rays.size());
     const CpuClock clock;
@@ -151,7 +162,7 @@ std::size_t count(const RayStream& stream, const std::vector<RayBatch>& pieces, 
         }
         ++asked;
         rays += piece.count;
-        if (fill || rays < kPiece) continue;
+        if (fill || rays < kPiece || asked < begin) continue;
         rays = 0;
         if (clock.seconds() > seconds) break;
     }
@@ -240,9 +251,9 @@ ReplayFigures replay(const RayStream& stream, const Aggregate& asked, const Repl
     Questioner questioner(stream, asked, options.mask);
     std::vector<RayBatch> pieces = pieces_of(stream, options.in_batches);
     const std::vector<RayBatch> in_order = pieces;
-    if (!expected.empty() && !options.in_order) shuffle(pieces);
+    const std::size_t begin = !expected.empty() && !options.in_order ? shuffle(pieces) : 1;
     const std::size_t counted =
-        count(stream, pieces, options.seconds, questioner, expected, figures);
+        count(stream, pieces, begin, options.seconds, questioner, expected, figures);
     figures.all_counted = counted == pieces.size();
     if (options.repetitions == 0) {
         figures.all_timed = false;
