@@ -14,7 +14,8 @@ Vec2 in_plane(const HomogeneousPoint& p) {
     return p.w == 1.0 ? Vec2{p.x, p.y} : Vec2{p.x / p.w, p.y / p.w};
 }
 
-void fit_box(TrimArc& arc) {
+template <class Arc>
+void fit_box(Arc& arc) {
     arc.lo = {std::min(arc.begin.x, arc.end.x), std::min(arc.begin.y, arc.end.y)};
     arc.hi = {std::max(arc.begin.x, arc.end.x), std::max(arc.begin.y, arc.end.y)};
     for (const HomogeneousPoint& point : arc.points) {
@@ -26,7 +27,8 @@ void fit_box(TrimArc& arc) {
 
 /// Largest distance of a control point from the middle of the chord's nearest third, an upper bound
 /// of the distance from the chord.
-double bend_of(const TrimArc& arc) {
+template <class Arc>
+double bend_of(const Arc& arc) {
     const Vec2 chord = arc.end - arc.begin;
     const double length2 = chord.x * chord.x + chord.y * chord.y;
     double most = 0.0;
@@ -39,14 +41,20 @@ double bend_of(const TrimArc& arc) {
     return most;
 }
 
-void append_flat(TrimArc arc, double flatness, int depth, std::vector<TrimArc>& arcs) {
+template <class Arc>
+void append_flat(const Arc& arc, double flatness, int depth, std::vector<TrimArc>& arcs) {
     if (arc.straight() || depth == 0 || bend_of(arc) <= flatness) {
-        arcs.push_back(std::move(arc));
+        arcs.push_back({.points = {arc.points.begin(), arc.points.end()},
+                        .begin = arc.begin,
+                        .end = arc.end,
+                        .lo = arc.lo,
+                        .hi = arc.hi,
+                        .loop = arc.loop});
         return;
     }
-    auto [first, second] = halved(arc);
-    append_flat(std::move(first), flatness, depth - 1, arcs);
-    append_flat(std::move(second), flatness, depth - 1, arcs);
+    const auto [first, second] = halved(arc);
+    append_flat(first, flatness, depth - 1, arcs);
+    append_flat(second, flatness, depth - 1, arcs);
 }
 
 double weight_of(const TrimCurve& curve, std::size_t k) {
@@ -80,24 +88,28 @@ std::vector<HomogeneousRow> bezier_rows(const TrimCurve& curve) {
 
 }  // namespace
 
-std::pair<TrimArc, TrimArc> halved(const TrimArc& arc) {
-    TrimArc first{
-        .points = {}, .begin = arc.begin, .end = {}, .lo = {}, .hi = {}, .loop = arc.loop};
-    TrimArc second{.points = {}, .begin = {}, .end = arc.end, .lo = {}, .hi = {}, .loop = arc.loop};
-    std::vector<HomogeneousPoint> row = arc.points;
-    const std::size_t count = row.size();
-    first.points.resize(count);
-    second.points.resize(count);
-    for (std::size_t level = 0; level < count; ++level) {
-        first.points[level] = row[0];
-        second.points[count - 1 - level] = row[count - 1 - level];
-        for (std::size_t k = 0; k + 1 + level < count; ++k) row[k] = 0.5 * (row[k] + row[k + 1]);
+template <class Points>
+std::pair<TrimPiece, TrimPiece> halved(const TrimArcOf<Points>& arc) {
+    TrimPiece row, first, second;
+    for (const HomogeneousPoint& point : arc.points) row.points.push_back(point);
+    first.loop = second.loop = arc.loop;
+    second.points = row.points;
+    for (std::size_t last = row.points.size(); last-- > 0;) {
+        first.points.push_back(row.points[0]);
+        second.points[last] = row.points[last];
+        for (std::size_t k = 0; k < last; ++k) {
+            row.points[k] = 0.5 * (row.points[k] + row.points[k + 1]);
+        }
     }
+    first.begin = arc.begin;
     first.end = second.begin = in_plane(first.points.back());
+    second.end = arc.end;
     fit_box(first);
     fit_box(second);
-    return {std::move(first), std::move(second)};
+    return {first, second};
 }
+template std::pair<TrimPiece, TrimPiece> halved(const TrimArc& arc);
+template std::pair<TrimPiece, TrimPiece> halved(const TrimPiece& piece);
 
 Vec2 begin_of(const TrimCurve& curve) {
     return in_plane(bezier_rows(curve).front().front());
@@ -125,7 +137,7 @@ std::vector<TrimArc> trim_arcs(std::span<const TrimLoop> loops, double flatness)
             pieces[k].end = in_plane(pieces[(k + 1) % pieces.size()].points.front());
             fit_box(pieces[k]);
         }
-        for (TrimArc& arc : pieces) append_flat(std::move(arc), flatness, kMaxDepth, arcs);
+        for (const TrimArc& arc : pieces) append_flat(arc, flatness, kMaxDepth, arcs);
     }
     return arcs;
 }
@@ -137,7 +149,8 @@ class ArcCrossing {
   public:
     explicit ArcCrossing(double size) : flatness_(1e-9 * size) {}
 
-    bool find(const TrimArc& a, const TrimArc& b, int depth, Vec2& point) {
+    template <class A, class B>
+    bool find(const A& a, const B& b, int depth, Vec2& point) {
         // Arcs that run along each other are not followed for ever: that is no proper crossing.
         if (++steps_ > 20000) return false;
         if (a.hi.x < b.lo.x || b.hi.x < a.lo.x || a.hi.y < b.lo.y || b.hi.y < a.lo.y) return false;
@@ -150,17 +163,21 @@ class ArcCrossing {
             point = 0.5 * (a.begin + a.end);
             return a0 * a1 < 0 && b0 * b1 < 0;
         }
-        const bool divide_a = !flat_a && (flat_b || extent(a) >= extent(b));
-        const auto [first, second] = halved(divide_a ? a : b);
-        return divide_a ? find(first, b, depth - 1, point) || find(second, b, depth - 1, point)
-                        : find(a, first, depth - 1, point) || find(a, second, depth - 1, point);
+        if (!flat_a && (flat_b || extent(a) >= extent(b))) {
+            const auto [first, second] = halved(a);
+            return find(first, b, depth - 1, point) || find(second, b, depth - 1, point);
+        }
+        const auto [first, second] = halved(b);
+        return find(a, first, depth - 1, point) || find(a, second, depth - 1, point);
     }
 
   private:
-    static double extent(const TrimArc& arc) {
+    template <class Arc>
+    static double extent(const Arc& arc) {
         return std::max(arc.hi.x - arc.lo.x, arc.hi.y - arc.lo.y);
     }
-    [[nodiscard]] bool is_flat(const TrimArc& arc) const {
+    template <class Arc>
+    [[nodiscard]] bool is_flat(const Arc& arc) const {
         return arc.straight() || bend_of(arc) <= flatness_;
     }
 

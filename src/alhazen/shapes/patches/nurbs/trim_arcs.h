@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/base/inline_vector.h"
 #include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 
 namespace alhazen {
@@ -18,17 +19,22 @@ inline constexpr std::uint32_t kMaxTrimDegree = 15;
 inline constexpr double kMaxTrimGap = 1e-6;
 
 /// A rational Bezier curve of the parameter plane.
-struct TrimArc {
-    std::vector<HomogeneousPoint> points;  ///< z = 0
+template <class Points>
+struct TrimArcOf {
+    Points points;    ///< z = 0
     Vec2 begin, end;  ///< the first and the last point, as neighbours have them
     Vec2 lo, hi;      ///< box of the control points and of both ends
     std::uint32_t loop = 0;
 
     [[nodiscard]] bool straight() const { return points.size() == 2; }
 };
+using TrimArc = TrimArcOf<std::vector<HomogeneousPoint>>;
+/// A part of an arc: made and forgotten by recursions, thus without memory of its own.
+using TrimPiece = TrimArcOf<InlineVector<HomogeneousPoint, kMaxTrimDegree + 1>>;
 
-/// Both halves at the middle of the parameter; they share a point.
-[[nodiscard]] std::pair<TrimArc, TrimArc> halved(const TrimArc& arc);
+/// Both halves of an arc or a piece at the middle of the parameter; they share a point.
+template <class Points>
+[[nodiscard]] std::pair<TrimPiece, TrimPiece> halved(const TrimArcOf<Points>& arc);
 
 /// First and last point of a curve. Precondition: its degree, knots, points and weights are good.
 [[nodiscard]] Vec2 begin_of(const TrimCurve& curve);

@@ -15,7 +15,8 @@ namespace {
 constexpr double kArcFlatness = 1e-3;
 
 /// Whether the half-line from p towards greater u crosses an arc an odd number of times.
-bool crosses_half_line(const TrimArc& arc, const Vec2& p, int depth) {
+template <class Arc>
+bool crosses_half_line(const Arc& arc, const Vec2& p, int depth) {
     if (p.y < arc.lo.y || p.y > arc.hi.y || p.x > arc.hi.x) return false;
     const bool ends_differ = (arc.begin.y > p.y) != (arc.end.y > p.y);
     if (p.x < arc.lo.x) return ends_differ;
