@@ -85,9 +85,10 @@ inline int report_span(const Ray& ray, double entry, std::uint32_t entry_part, d
 
 // ---- planes
 
-/// t of the crossing with a plane; not finite when the ray is parallel to it.
+/// t of the crossing with a plane; infinite when the ray is parallel to it.
 inline double plane_crossing(const Ray& ray, const Vec3& point, const Vec3& unit_normal) {
-    return dot(unit_normal, point - ray.origin) / dot(unit_normal, ray.direction);
+    const double slope = dot(unit_normal, ray.direction);
+    return slope == 0.0 ? kInfinity : dot(unit_normal, point - ray.origin) / slope;
 }
 
 /// `p` projected to the plane through `point`, with its error; the caller sets uv.

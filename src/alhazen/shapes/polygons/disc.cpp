@@ -1,5 +1,7 @@
 #include "alhazen/shapes/polygons/disc.h"
 
+#include <cmath>
+
 #include "alhazen/shapes/core/shape_numerics.h"
 
 namespace alhazen {
@@ -25,6 +27,7 @@ Interval Disc::extent(const Vec3& axis) const {
 
 int Disc::intersect(const Ray& ray, ShapeHit* hits) const {
     const double t = plane_crossing(ray, center, unit_normal);
+    if (!std::isfinite(t)) return 0;
     // Relative to the centre: more accurate for a disc far from the origin.
     const double squared = length_squared((ray.origin - center) + t * ray.direction);
     if (!(squared <= radius * radius && squared >= inner_radius * inner_radius)) return 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 
 #include "alhazen/shapes/polygons/disc.h"
 #include "alhazen/shapes/polygons/plane.h"
@@ -169,6 +170,23 @@ TEST(Rectangle, BoxIsThatOfTheCorners) {
         ASSERT_LT(max_component(abs(box.lo - rounded.lo)), 1e-8) << i;
         ASSERT_LT(max_component(abs(box.hi - rounded.hi)), 1e-8) << i;
     }
+}
+
+TEST(PlanarShapes, RaysAlongThemAreNoInvalidOperation) {
+    const Plane plane = prepared(Plane{.point = {0, 0, 2}, .normal = {0, 0, 1}});
+    const Disc disc = prepared(Disc{.center = {0, 0, 2}, .normal = {0, 0, 1}});
+    const Rectangle rectangle =
+        prepared(Rectangle{.corner = {-1, -1, 2}, .edge_u = {2, 0, 0}, .edge_v = {0, 2, 0}});
+    ShapeHit hit;
+    std::feclearexcept(FE_INVALID);
+    for (const double z : {1.0, 2.0, 3.0}) {
+        for (const Vec3& along : {Vec3{1, 0, 0}, Vec3{0, -1, -0.0}, Vec3{1, 1, 0}}) {
+            EXPECT_EQ(plane.intersect(line({0, 0, z}, along), &hit), 0);
+            EXPECT_EQ(disc.intersect(line({0, 0, z}, along), &hit), 0);
+            EXPECT_EQ(rectangle.intersect(line({0, 0, z}, along), &hit), 0);
+        }
+    }
+    EXPECT_FALSE(std::fetestexcept(FE_INVALID));
 }
 
 TEST(PlanarShapes, BadFieldsAreReported) {
