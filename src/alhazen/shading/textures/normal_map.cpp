@@ -23,6 +23,10 @@ void apply_uv_transform(const UvTransform& transform, Vec3& dpdu, Vec3& dpdv) {
         return;
     }
     const double determinant = transform.uu * transform.vv - transform.uv * transform.vu;
+    if (determinant == 0.0) {
+        dpdu = dpdv = {};
+        return;
+    }
     const Vec3 by_u = (transform.vv * dpdu - transform.vu * dpdv) / determinant;
     const Vec3 by_v = (transform.uu * dpdv - transform.uv * dpdu) / determinant;
     const bool usable = is_finite(by_u) && is_finite(by_v);
