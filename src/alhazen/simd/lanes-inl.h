@@ -280,6 +280,51 @@ HWY_INLINE Lanes<T, N> select_lanes(const LaneMask<T, N>& mask, const Lanes<T, N
     return r;
 }
 
+/// Lane 0 is combine(combine(lane 0, lane 1), combine(lane 2, lane 3)) of a, lane 1 of b, and so
+/// on.
+template <class F>
+HWY_INLINE Lanes<double, 4> combined_lanes(const Lanes<double, 4>& a, const Lanes<double, 4>& b,
+                                           const Lanes<double, 4>& c, const Lanes<double, 4>& d,
+                                           const F& combine) {
+    Lanes<double, 4> r;
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+    if constexpr (kParts<double, 4> == 1) {
+        const LaneTag<double, 4> tag;
+        const auto ab = combine(hn::InterleaveLower(tag, a.part[0], b.part[0]),
+                                hn::InterleaveUpper(tag, a.part[0], b.part[0]));
+        const auto cd = combine(hn::InterleaveLower(tag, c.part[0], d.part[0]),
+                                hn::InterleaveUpper(tag, c.part[0], d.part[0]));
+        r.part[0] = combine(hn::ConcatLowerLower(tag, cd, ab), hn::ConcatUpperUpper(tag, cd, ab));
+        return r;
+    }
+#endif
+    // By columns.
+    HWY_ALIGN double rows[4][4], columns[4][4];
+    store_lanes(a, rows[0]);
+    store_lanes(b, rows[1]);
+    store_lanes(c, rows[2]);
+    store_lanes(d, rows[3]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) columns[k][i] = rows[i][k];
+    }
+    const Lanes<double, 4> x = load_lanes<4>(columns[0]), y = load_lanes<4>(columns[1]);
+    const Lanes<double, 4> z = load_lanes<4>(columns[2]), w = load_lanes<4>(columns[3]);
+    for (std::size_t i = 0; i < kParts<double, 4>; ++i) {
+        r.part[i] = combine(combine(x.part[i], y.part[i]), combine(z.part[i], w.part[i]));
+    }
+    return r;
+}
+/// The largest lane of a, of b, of c and of d. Precondition: no NaN.
+HWY_INLINE Lanes<double, 4> largest_of_each(const Lanes<double, 4>& a, const Lanes<double, 4>& b,
+                                            const Lanes<double, 4>& c, const Lanes<double, 4>& d) {
+    return combined_lanes(a, b, c, d, [](auto x, auto y) { return hn::Max(x, y); });
+}
+/// The sums of the lanes of a, of b, of c and of d.
+HWY_INLINE Lanes<double, 4> sum_of_each(const Lanes<double, 4>& a, const Lanes<double, 4>& b,
+                                        const Lanes<double, 4>& c, const Lanes<double, 4>& d) {
+    return combined_lanes(a, b, c, d, [](auto x, auto y) { return hn::Add(x, y); });
+}
+
 template <class T, std::size_t N>
 HWY_INLINE LaneMask<T, N> operator|(const LaneMask<T, N>& a, const LaneMask<T, N>& b) {
     LaneMask<T, N> r;

@@ -99,7 +99,7 @@ class PatchFinder {
         if (order.size() > most) order.resize(most);
         std::vector<PatchSubdivision> kept;
         for (const std::size_t i : order) {
-            subdivide(*nets_[i].first, nets_[i].second, found_[i]);
+            subdivide(nets_[i].first, nets_[i].second, found_[i]);
             kept.push_back(std::move(found_[i]));
         }
         found_ = std::move(kept);
@@ -144,12 +144,12 @@ class PatchFinder {
             result.crossings.push_back({hit.t, in_piece(hit.u, piece.lo.x, piece.hi.x),
                                         in_piece(hit.v, piece.lo.y, piece.hi.y)});
         }
-        nets_.emplace_back(&piece.net, ray);
+        nets_.emplace_back(piece.net, ray);
     }
 
     const LoadedScene& loaded_;
     std::vector<PatchSubdivision>& found_;
-    std::vector<std::pair<const BezierNet*, Ray>> nets_;
+    std::vector<std::pair<BezierNet, Ray>> nets_;
 };
 
 }  // namespace

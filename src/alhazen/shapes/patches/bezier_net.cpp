@@ -144,12 +144,12 @@ BezierNet bezier_net(int degree_u, int degree_v, std::span<const Vec3> points,
     return net;
 }
 
-bool is_rational(const BezierNet& net) {
-    return std::any_of(net.points.begin(), net.points.begin() + net.count(),
+bool is_rational(BezierView net) {
+    return std::any_of(net.points, net.points + net.count(),
                        [&](const HomogeneousPoint& p) { return p.w != net.points[0].w; });
 }
 
-PatchPoint derivatives_at(const BezierNet& net, double u, double v) {
+PatchPoint derivatives_at(BezierView net, double u, double v) {
     Row values, firsts, seconds;  // of the curves in v, along u
     for (int i = 0; i <= net.degree_u; ++i) {
         Row row;
@@ -176,7 +176,7 @@ PatchPoint derivatives_at(const BezierNet& net, double u, double v) {
     return p;
 }
 
-Vec3 point_at(const BezierNet& net, double u, double v) {
+Vec3 point_at(BezierView net, double u, double v) {
     Row values;
     for (int i = 0; i <= net.degree_u; ++i) {
         Row row;
@@ -186,7 +186,7 @@ Vec3 point_at(const BezierNet& net, double u, double v) {
     return projected(curve_at(values, net.degree_u, u).value);
 }
 
-Vec3 patch_normal(const BezierNet& net, double u, double v) {
+Vec3 patch_normal(BezierView net, double u, double v) {
     // Towards the centre by steps that grow until the derivatives span a plane.
     for (double step = 0.0; step < 0.6; step = step == 0.0 ? 0x1p-30 : 4.0 * step) {
         const double s = u + step * (0.5 - u) * 2.0;
@@ -256,8 +256,7 @@ BezierNet elevated(const BezierNet& net, int degree_u, int degree_v) {
     return transposed(raise(transposed(raise(net, degree_u)), degree_v));
 }
 
-int boundary_curve(const BezierNet& net, int side,
-                   std::array<HomogeneousPoint, kMaxPatchOrder>& curve) {
+int boundary_curve(BezierView net, int side, std::array<HomogeneousPoint, kMaxPatchOrder>& curve) {
     const bool along_u = side % 2 == 0;
     const int degree = along_u ? net.degree_u : net.degree_v;
     const int fixed = side == 1 ? net.degree_u : side == 2 ? net.degree_v : 0;
@@ -267,10 +266,10 @@ int boundary_curve(const BezierNet& net, int side,
     return degree + 1;
 }
 
-Box3 control_box(const BezierNet& net) {
+Box3 control_box(BezierView net) {
     Box3 box;
     for (int k = 0; k < net.count(); ++k) {
-        box.include(projected(net.points[static_cast<std::size_t>(k)]));
+        box.include(projected(net.points[k]));
     }
     return box;
 }

@@ -57,13 +57,29 @@ struct BezierNet {
     }
 };
 
+/// A net that lies elsewhere: what the methods that only read one take.
+struct BezierView {
+    int degree_u, degree_v;
+    const HomogeneousPoint* points;
+
+    BezierView(int u, int v, const HomogeneousPoint* first)
+        : degree_u(u), degree_v(v), points(first) {}
+    BezierView(const BezierNet& net)  // NOLINT(google-explicit-constructor)
+        : BezierView(net.degree_u, net.degree_v, net.points.data()) {}
+
+    [[nodiscard]] int count() const { return (degree_u + 1) * (degree_v + 1); }
+    [[nodiscard]] const HomogeneousPoint& at(int i, int j) const {
+        return points[i * (degree_v + 1) + j];
+    }
+};
+
 /// A net of points and weights, u-major; no weights: all 1.
 /// Preconditions: (degree_u + 1) * (degree_v + 1) points, as many weights or none.
 [[nodiscard]] BezierNet bezier_net(int degree_u, int degree_v, std::span<const Vec3> points,
                                    std::span<const double> weights = {});
 
 /// Whether a weight differs from the first one.
-[[nodiscard]] bool is_rational(const BezierNet& net);
+[[nodiscard]] bool is_rational(BezierView net);
 
 /// A point of the patch with its derivatives by u and v of first and second order.
 struct PatchPoint {
@@ -71,11 +87,11 @@ struct PatchPoint {
     Vec3 du, dv;
     Vec3 duu, duv, dvv;
 };
-[[nodiscard]] Vec3 point_at(const BezierNet& net, double u, double v);
-[[nodiscard]] PatchPoint derivatives_at(const BezierNet& net, double u, double v);
+[[nodiscard]] Vec3 point_at(BezierView net, double u, double v);
+[[nodiscard]] PatchPoint derivatives_at(BezierView net, double u, double v);
 /// The unit normal du x dv; where that is zero (an edge that is one point, coincident control
 /// points) the limit from inside of the patch. Zero for a patch without area.
-[[nodiscard]] Vec3 patch_normal(const BezierNet& net, double u, double v);
+[[nodiscard]] Vec3 patch_normal(BezierView net, double u, double v);
 
 /// Two halves at u = 1/2 or v = 1/2, by midpoints.
 [[nodiscard]] std::pair<BezierNet, BezierNet> halved_u(const BezierNet& net);
@@ -88,11 +104,10 @@ struct PatchPoint {
 
 /// The four boundary curves in order: v = 0, u = 1, v = 1, u = 0; each towards rising parameters.
 /// Returns its number of points, written to `curve`.
-int boundary_curve(const BezierNet& net, int side,
-                   std::array<HomogeneousPoint, kMaxPatchOrder>& curve);
+int boundary_curve(BezierView net, int side, std::array<HomogeneousPoint, kMaxPatchOrder>& curve);
 
 /// Contains the control points, and thus the patch; not rounded outward.
-[[nodiscard]] Box3 control_box(const BezierNet& net);
+[[nodiscard]] Box3 control_box(BezierView net);
 
 /// Area, and flux volume (a third of the integral of P . (Pu x Pv)), by Gauss quadrature in
 /// adaptively halved parts to the relative error of about 1e-12. The flux volume of a closed set of

@@ -35,7 +35,7 @@ double t_at(const Vec3& from_origin, const PatchLine& line) {
 
 }  // namespace
 
-bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, const PatchCell& cell,
+bool certified_root(RootOf what, BezierView net, const PatchLine& line, const PatchCell& cell,
                     double noise, double u, double v, PatchRoot& root) {
     const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
     const Vec3& d = line.direction;
@@ -192,7 +192,7 @@ class CellFacts {
         }
         return thin ? Hull::Thin : Hull::Around;
     }
-    enum class Newton { Certified, NoRoot, Unsure };
+    enum class Newton { Certified, Unique, NoRoot, Unsure };
     /// Whether Newton's method is certified; sets the first step from the middle, in half-widths,
     /// and about the distance of the cell's borders from its middle. No root: that step is farther
     /// than it is from any root in the cell, by more than `tiny`.
@@ -212,7 +212,10 @@ class CellFacts {
         if (std::abs(step.x) > margin + 0.5 * bend_u || std::abs(step.y) > margin + 0.5 * bend_v) {
             return Newton::NoRoot;
         }
-        return std::max(bend_u, bend_v) <= kCertified ? Newton::Certified : Newton::Unsure;
+        const double bend = std::max(bend_u, bend_v);
+        return bend <= kCertified ? Newton::Certified
+               : bend < kUnique   ? Newton::Unique
+                                  : Newton::Unsure;
     }
     /// Whether to halve in u: where it bends more, else where it is longer.
     [[nodiscard]] bool split_u() const {
@@ -239,9 +242,14 @@ std::array<PatchCell, 2> halves_of(const PatchCell& cell, bool along_u) {
 
 }  // namespace
 
-CellSearch::CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell)
+CellSearch::CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell)
     : net_(net), line_(line) {
     size_ = 1;
+    if (net.degree_u == 3 && net.degree_v == 3) {
+        patch_kernels().cubic_part(plane_net(net, line), cell, stack_[0].net);
+        stack_[0].cell = cell;
+        return;
+    }
     stack_[0].net = plane_net(net, line);
     // Down to the cell; the other halves are dropped.
     PatchCell& at = stack_[0].cell;
@@ -270,7 +278,7 @@ void CellSearch::push_halves(bool along_u) {
 bool CellSearch::next(PatchRoot& root) {
     while (size_ > 0) {
         const Entry& top = stack_[size_ - 1];
-        const PatchCell& cell = top.cell;
+        const PatchCell cell = top.cell;
         const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
         const CellFacts facts(top.net, line_.tiny);
         const auto hull = facts.hull(line_.tiny);
@@ -286,16 +294,17 @@ bool CellSearch::next(PatchRoot& root) {
             --size_;
             continue;
         }
-        if (newton == CellFacts::Newton::Certified) {
+        if (newton == CellFacts::Newton::Certified || newton == CellFacts::Newton::Unique) {
             const double u = cell.u0 + 0.5 * (1.0 + step.x) * width_u;
             const double v = cell.v0 + 0.5 * (1.0 + step.y) * width_v;
-            --size_;
             const double noise = 2.0 * line_.tiny / radius;
-            const bool met = noise > 0x1p-6 ? settle(cell, root)
+            const bool sure = newton == CellFacts::Newton::Certified;
+            const bool met = noise > 0x1p-6 ? sure && settle(cell, root)
                                             : certified_root(RootOf::WeightedPoint, net_, line_,
                                                              cell, noise, u, v, root);
+            if (met || sure) --size_;
             if (met) return true;
-            continue;
+            if (sure) continue;
         }
         bool along_u = facts.split_u();
         if ((along_u ? width_u : width_v) <= kSmallestCell) along_u = !along_u;

@@ -36,14 +36,14 @@ enum class RootOf { Point, WeightedPoint };
 
 /// Finds the root in a certified cell from (u, v), the first step of Newton's method from its
 /// middle. `noise` is the rounding error of a step in widths of the cell, where above kCellMargin.
-[[nodiscard]] bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line,
+[[nodiscard]] bool certified_root(RootOf what, BezierView net, const PatchLine& line,
                                   const PatchCell& cell, double noise, double u, double v,
                                   PatchRoot& root);
 
 /// Calls for each root in a cell: halves it until its parts are certified or tiny.
 class CellSearch {
   public:
-    CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell);
+    CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell);
 
     /// Finds the next root; false where there are no more.
     bool next(PatchRoot& root);
@@ -61,7 +61,7 @@ class CellSearch {
     void push_halves(bool along_u);
     [[nodiscard]] bool settle(PatchCell cell, PatchRoot& root) const;
 
-    const BezierNet& net_;
+    BezierView net_;
     const PatchLine& line_;
     int size_ = 0, cells_ = 0;
     Entry stack_[kMostEntries];

@@ -7,7 +7,7 @@
 
 namespace alhazen {
 
-PlaneNet plane_net(const BezierNet& net, const PatchLine& line) {
+PlaneNet plane_net(BezierView net, const PatchLine& line) {
     PlaneNet plane;
     plane.degree_u = net.degree_u;
     plane.degree_v = net.degree_v;
@@ -20,7 +20,7 @@ PlaneNet plane_net(const BezierNet& net, const PatchLine& line) {
     return plane;
 }
 
-PlaneNet border_net(const BezierNet& net, const PatchLine& line) {
+PlaneNet border_net(BezierView net, const PatchLine& line) {
     PatchLine beside = line;
     beside.origin += line.tiny * (line.axis_x + 0.37 * line.axis_y);
     return plane_net(net, beside);

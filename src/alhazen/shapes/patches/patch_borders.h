@@ -54,10 +54,10 @@ struct PatchLine {
     double tiny = 0;        ///< far above the rounding errors of a projected control point
 };
 
-[[nodiscard]] PlaneNet plane_net(const BezierNet& net, const PatchLine& line);
+[[nodiscard]] PlaneNet plane_net(BezierView net, const PatchLine& line);
 /// The same for a line that lies about `tiny` beside: what lies within rounding of the line itself
 /// (an edge that is one point, a straight edge along the line) is then clearly beside it.
-[[nodiscard]] PlaneNet border_net(const BezierNet& net, const PatchLine& line);
+[[nodiscard]] PlaneNet border_net(BezierView net, const PatchLine& line);
 
 /// A part of the unit square.
 struct PatchCell {

@@ -5,7 +5,7 @@
 
 namespace alhazen {
 
-PatchIndex::PatchIndex(std::span<const BezierPiece> pieces, const Box3& box) {
+PatchIndex::PatchIndex(const PatchPieces& pieces, const Box3& box) {
     frame_.center = box.empty() ? Vec3{} : box.center();
     const double half = 0.5 * max_component(box.size());
     frame_.scale = half > 0.0 ? 1.0 / half : 1.0;
@@ -13,7 +13,7 @@ PatchIndex::PatchIndex(std::span<const BezierPiece> pieces, const Box3& box) {
     std::vector<PatchLeaf> leaves;
     std::vector<Box3> boxes;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const BezierNet& net = pieces[k].net;
+        const BezierNet net = pieces[k].net;
         append_leaves(net, static_cast<std::uint32_t>(k), frame_, leaves, boxes);
         for (int i = 0; i < net.count(); ++i) {
             const HomogeneousPoint& p = net.points[static_cast<std::size_t>(i)];

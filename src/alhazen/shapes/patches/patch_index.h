@@ -20,7 +20,7 @@ namespace alhazen {
 
 class PatchIndex {
   public:
-    PatchIndex(std::span<const BezierPiece> pieces, const Box3& box);
+    PatchIndex(const PatchPieces& pieces, const Box3& box);
 
     /// Without the axes of its plane, which most rays do not need.
     [[nodiscard]] PatchLine line_of(const Ray& ray) const;
@@ -32,15 +32,15 @@ class PatchIndex {
 
     /// Calls `found(piece, root)` for every root in [t_min, limit]; `found` returns the new limit.
     template <class F>
-    void search(std::span<const BezierPiece> pieces, PatchLine line, double t_min, double limit,
+    void search(const PatchPieces& pieces, PatchLine line, double t_min, double limit,
                 F&& found) const;
 
     /// The same for lines side by side: calls `found(i, piece, root)` for every root of line i in
     /// [rays[i]->t_min, limit of i] and perhaps for others; false, without a call, where the rays
     /// are not side by side.
     template <class F>
-    [[nodiscard]] bool search_together(std::span<const BezierPiece> pieces,
-                                       std::span<const Ray* const> rays, F&& found) const;
+    [[nodiscard]] bool search_together(const PatchPieces& pieces, std::span<const Ray* const> rays,
+                                       F&& found) const;
 
   private:
     /// t in the frame of `line`, with a margin to the side.
@@ -50,7 +50,7 @@ class PatchIndex {
     [[nodiscard]] Vec3 in_frame(const Vec3& p) const { return frame_.scale * (p - frame_.center); }
 
     template <class F>
-    void visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line, const Vec3& origin,
+    void visit_leaf(const PatchPieces& pieces, PatchLine& line, const Vec3& origin,
                     const PatchLeaf& leaf, F& found) const;
     PatchFrame frame_;
     double reach_ = 0, most_weight_ = 0, far_ = 0;
@@ -64,14 +64,14 @@ enum class LeafAnswer { None, Certified, Unique, Divide };
                                    double& a, double& b);
 
 template <class F>
-void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line,
-                            const Vec3& origin, const PatchLeaf& leaf, F& found) const {
+void PatchIndex::visit_leaf(const PatchPieces& pieces, PatchLine& line, const Vec3& origin,
+                            const PatchLeaf& leaf, F& found) const {
     double a = 0, b = 0;
     const LeafAnswer answer = test_leaf(leaf, origin, line.direction, a, b);
     if (answer == LeafAnswer::None) return;
     if (line.axis_x == Vec3{}) add_axes(line);
     const PatchCell cell = leaf.cell();
-    const BezierNet& net = pieces[leaf.piece].net;
+    const BezierView net = pieces.net(leaf.piece);
     PatchRoot root;
     if (answer != LeafAnswer::Divide) {
         const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
@@ -85,8 +85,8 @@ void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line
 }
 
 template <class F>
-void PatchIndex::search(std::span<const BezierPiece> pieces, PatchLine line, double t_min,
-                        double limit, F&& found) const {
+void PatchIndex::search(const PatchPieces& pieces, PatchLine line, double t_min, double limit,
+                        F&& found) const {
     if (!is_near(line)) return;
     PatchWalk walk = walk_of(line, t_min, limit);
     const Vec3 origin = in_frame(line.origin);
@@ -102,8 +102,8 @@ void PatchIndex::search(std::span<const BezierPiece> pieces, PatchLine line, dou
 }
 
 template <class F>
-bool PatchIndex::search_together(std::span<const BezierPiece> pieces,
-                                 std::span<const Ray* const> rays, F&& found) const {
+bool PatchIndex::search_together(const PatchPieces& pieces, std::span<const Ray* const> rays,
+                                 F&& found) const {
     if (!side_by_side(rays)) return false;
     RayLanes lanes;
     for (std::size_t i = 0; i < kRayLanes; ++i) lanes.set(i, *rays[i < rays.size() ? i : 0]);

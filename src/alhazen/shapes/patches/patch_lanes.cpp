@@ -106,7 +106,7 @@ HWY_INLINE void cubic_values(double t, double (&values)[4], double (&derivatives
     derivatives[3] = 3.0 * tt;
 }
 
-HomogeneousValue bicubic(const BezierNet& net, double u, double v) {
+HomogeneousValue bicubic(BezierView net, double u, double v) {
     double bu[4], bv[4], cu[4], cv[4];
     cubic_values(u, bu, cu);
     cubic_values(v, bv, cv);
@@ -225,9 +225,9 @@ std::uint32_t lines_near(const PatchLeaf& leaf, const PatchPacket& packet) {
 }  // namespace
 
 const PatchKernels& patch_kernels_of_target() {
-    static constexpr PatchKernels kernels{&next_leaf,  &begin_packet, &next_leaf_of_packet,
-                                          &lines_near, &bicubic,      &cubic_bounds,
-                                          &halve_cubic};
+    static constexpr PatchKernels kernels{&next_leaf,   &begin_packet, &next_leaf_of_packet,
+                                          &lines_near,  &bicubic,      &cubic_bounds,
+                                          &halve_cubic, &cubic_part};
     return kernels;
 }
 

@@ -61,11 +61,13 @@ struct PatchKernels {
     /// The lines for which `test_leaf` has another answer than None, and hardly any others.
     std::uint32_t (*lines_near)(const PatchLeaf& leaf, const PatchPacket& packet);
     /// For bicubic patches.
-    HomogeneousValue (*bicubic)(const BezierNet& net, double u, double v);
+    HomogeneousValue (*bicubic)(BezierView net, double u, double v);
     /// Only `least` and `most` where these leave out the origin by more than `margin`.
     void (*cubic_bounds)(const PlaneNet& net, double margin, CellBounds& out);
     /// `low` may be `net`.
     void (*halve_cubic)(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high);
+    /// The control points over a cell, to some roundings.
+    void (*cubic_part)(const PlaneNet& whole, const PatchCell& cell, PlaneNet& part);
 };
 [[nodiscard]] const PatchKernels& patch_kernels();
 

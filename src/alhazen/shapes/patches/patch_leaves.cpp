@@ -9,7 +9,10 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kMostLeaves = 20;
+constexpr std::size_t kFewestLeaves = 20;  ///< that a patch may have
+/// Of a bicubic patch with its points, leaves and boxes.
+constexpr std::size_t kMostBytes = 4096;
+constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 36;  ///< with its share of the boxes
 constexpr int kMostLeafLevel = 8;
 /// Part of a patch's area, seen from everywhere, that need not be certified.
 constexpr double kUncertified = 0.05;
@@ -175,7 +178,11 @@ void append_leaves(const BezierNet& net, std::uint32_t piece, const PatchFrame& 
     parts[0].leaf = {};
     parts[0].leaf.piece = piece;
     measure(parts[0], frame);
-    while (parts.size() < kMostLeaves) {
+    const std::size_t room = kMostBytes - 48;
+    const std::size_t points = sizeof(HomogeneousPoint) * static_cast<std::size_t>(net.count());
+    const std::size_t most =
+        std::max(kFewestLeaves, points < room ? (room - points) / kBytesOfLeaf : 0);
+    while (parts.size() < most) {
         double area = 0.0, uncertified = 0.0;
         for (const Part& part : parts) {
             area += part.area;

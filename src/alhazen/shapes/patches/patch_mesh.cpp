@@ -34,7 +34,7 @@ struct CurveUse {
 
 /// The control points of a boundary curve, from the end that compares less; returns their number,
 /// or 0 for a curve that is one point. Sets `turned`.
-int curve_points(const BezierNet& net, int side, CurvePoints& curve, bool& turned) {
+int curve_points(BezierView net, int side, CurvePoints& curve, bool& turned) {
     const int count = boundary_curve(net, side, curve);
     const std::span points(curve.data(), static_cast<std::size_t>(count));
     bool is_point = true, backward = false;
@@ -57,14 +57,14 @@ int curve_points(const BezierNet& net, int side, CurvePoints& curve, bool& turne
 /// together.
 class CurveUses {
   public:
-    explicit CurveUses(std::span<const BezierPiece> pieces) : pieces_(pieces) {
+    explicit CurveUses(const PatchPieces& pieces) : pieces_(pieces) {
         uses_.reserve(4 * pieces.size());
         CurvePoints curve;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             for (int side = 0; side < 4; ++side) {
                 CurveUse use{0, static_cast<std::uint32_t>(k), static_cast<std::uint8_t>(side),
                              false};
-                const int count = curve_points(pieces[k].net, side, curve, use.turned);
+                const int count = curve_points(pieces.net(k), side, curve, use.turned);
                 if (count == 0) continue;
                 use.curve = hash_of({curve.data(), static_cast<std::size_t>(count)});
                 uses_.push_back(use);
@@ -108,8 +108,8 @@ class CurveUses {
     [[nodiscard]] std::strong_ordering compare(const CurveUse& a, const CurveUse& b) const {
         CurvePoints p, q;
         bool turned = false;
-        const int n = curve_points(pieces_[a.patch].net, a.side, p, turned);
-        const int m = curve_points(pieces_[b.patch].net, b.side, q, turned);
+        const int n = curve_points(pieces_.net(a.patch), a.side, p, turned);
+        const int m = curve_points(pieces_.net(b.patch), b.side, q, turned);
         return std::lexicographical_compare_three_way(p.begin(), p.begin() + n, q.begin(),
                                                       q.begin() + m, by_coordinates);
     }
@@ -132,12 +132,12 @@ class CurveUses {
         }
     }
 
-    std::span<const BezierPiece> pieces_;
+    const PatchPieces& pieces_;
     std::vector<CurveUse> uses_;
 };
 
 /// A third of the integral of (P - center) . n over a patch, roughly.
-double rough_flux(const BezierNet& net, const Vec3& center) {
+double rough_flux(BezierView net, const Vec3& center) {
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
@@ -150,7 +150,7 @@ double rough_flux(const BezierNet& net, const Vec3& center) {
 
 /// The patches of a closed mesh whose normal points inward: neighbours agree across the curve that
 /// they share, and all together enclose a positive volume.
-std::vector<bool> inward_patches(std::span<const BezierPiece> pieces, const CurveUses& uses,
+std::vector<bool> inward_patches(const PatchPieces& pieces, const CurveUses& uses,
                                  const Vec3& center) {
     constexpr std::uint32_t kNone = ~0u;
     struct Neighbour {
@@ -173,7 +173,7 @@ std::vector<bool> inward_patches(std::span<const BezierPiece> pieces, const Curv
         while (!next.empty()) {
             const std::uint32_t patch = next.back();
             next.pop_back();
-            flux += (inward[patch] ? -1.0 : 1.0) * rough_flux(pieces[patch].net, center);
+            flux += (inward[patch] ? -1.0 : 1.0) * rough_flux(pieces.net(patch), center);
             for (const Neighbour& other : neighbours[patch]) {
                 if (other.patch == kNone || seen[other.patch]) continue;
                 seen[other.patch] = true;
@@ -186,11 +186,10 @@ std::vector<bool> inward_patches(std::span<const BezierPiece> pieces, const Curv
     return inward;
 }
 
-std::vector<BezierPiece> pieces_of(const PatchMesh& mesh) {
-    std::vector<BezierPiece> pieces;
-    pieces.reserve(mesh.patch_count());
+PatchPieces pieces_of(const PatchMesh& mesh) {
+    PatchPieces pieces;
     for (std::size_t patch = 0; patch < mesh.patch_count(); ++patch) {
-        pieces.push_back({.net = mesh.net(patch), .part = static_cast<std::uint32_t>(patch)});
+        pieces.add({.net = mesh.net(patch), .part = static_cast<std::uint32_t>(patch)});
     }
     return pieces;
 }
@@ -218,7 +217,7 @@ bool PatchMesh::closed() const {
     Diagnostics findings;
     validate({}, findings);
     if (findings.error_count() != 0) return false;
-    const std::vector<BezierPiece> pieces = pieces_of(*this);
+    const PatchPieces pieces = pieces_of(*this);
     return CurveUses(pieces).all_even();
 }
 

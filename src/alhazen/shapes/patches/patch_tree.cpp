@@ -10,30 +10,31 @@ namespace alhazen {
 
 namespace {
 
-ShapeHit hit_of(const BezierPiece& piece, const PatchRoot& root) {
+ShapeHit hit_of(const PatchPieces& pieces, std::uint32_t piece, const PatchRoot& root) {
     const double u = std::clamp(root.u, 0.0, 1.0), v = std::clamp(root.v, 0.0, 1.0);
-    return {root.t, piece.lo.x + u * (piece.hi.x - piece.lo.x),
-            piece.lo.y + v * (piece.hi.y - piece.lo.y), piece.part};
+    const Vec2 &lo = pieces.lo(piece), &hi = pieces.hi(piece);
+    return {root.t, lo.x + u * (hi.x - lo.x), lo.y + v * (hi.y - lo.y), pieces.part(piece)};
 }
 
 /// Bound of the rounding errors of a point of `derivatives_at`. Each level of de Casteljau's
 /// algorithm is a convex combination with three roundings, for the numerator and the weight, and
 /// the weighted mean of the points' sizes is at most the largest.
-Vec3 evaluation_error(const BezierNet& net) {
+Vec3 evaluation_error(BezierView net) {
     Vec3 most;
     for (int k = 0; k < net.count(); ++k) {
-        const Vec3 size = abs(projected(net.points[static_cast<std::size_t>(k)]));
+        const Vec3 size = abs(projected(net.points[k]));
         most = {std::max(most.x, size.x), std::max(most.y, size.y), std::max(most.z, size.z)};
     }
     return (2.0 * gamma_bound(3 * (net.degree_u + net.degree_v) + 1)) * most;
 }
 
 /// How far a crossing at a border may lie outside of its patch: see docs/design/patches.md.
-double border_reach(std::span<const BezierPiece> pieces, const Box3& box) {
+double border_reach(const PatchPieces& pieces, const Box3& box) {
     double reach = 0.0, least = kInfinity, most = 0.0;
-    for (const BezierPiece& piece : pieces) {
-        for (int k = 0; k < piece.net.count(); ++k) {
-            const HomogeneousPoint& p = piece.net.points[static_cast<std::size_t>(k)];
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const BezierView net = pieces.net(i);
+        for (int k = 0; k < net.count(); ++k) {
+            const HomogeneousPoint& p = net.points[k];
             reach = std::max(reach, length(Vec3{p.x, p.y, p.z}));
             least = std::min(least, p.w);
             most = std::max(most, p.w);
@@ -60,8 +61,9 @@ bool keep_first(const Ray& ray, const ShapeHit& crossing, bool found, ShapeHit& 
 
 }  // namespace
 
-PatchTree::PatchTree(std::vector<BezierPiece> pieces) : pieces_(std::move(pieces)) {
-    for (const BezierPiece& piece : pieces_) box_.include(control_box(piece.net));
+PatchTree::PatchTree(PatchPieces pieces) : pieces_(std::move(pieces)) {
+    pieces_.shrink_to_fit();
+    for (std::size_t k = 0; k < pieces_.size(); ++k) box_.include(control_box(pieces_.net(k)));
     const double reach = border_reach(pieces_, box_);
     if (!box_.empty())
         box_ = {box_.lo - Vec3{reach, reach, reach}, box_.hi + Vec3{reach, reach, reach}};
@@ -70,9 +72,10 @@ PatchTree::PatchTree(std::vector<BezierPiece> pieces) : pieces_(std::move(pieces
 
 Interval PatchTree::extent(const Vec3& axis) const {
     Interval range{kInfinity, -kInfinity};
-    for (const BezierPiece& piece : pieces_) {
-        for (int k = 0; k < piece.net.count(); ++k) {
-            const double x = dot(axis, projected(piece.net.points[static_cast<std::size_t>(k)]));
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const BezierView net = pieces_.net(i);
+        for (int k = 0; k < net.count(); ++k) {
+            const double x = dot(axis, projected(net.points[k]));
             range = {std::min(range.lo, x), std::max(range.hi, x)};
         }
     }
@@ -85,7 +88,7 @@ void PatchTree::intersect(const Ray& ray, ShapeHits& hits) const {
     const std::size_t first = hits.size();
     index_->search(pieces_, index_->line_of(ray), ray.t_min, ray.t_max,
                    [&](std::uint32_t piece, const PatchRoot& root) {
-                       hits.grow(report_crossing(ray, hit_of(pieces_[piece], root), hits.room(1)));
+                       hits.grow(report_crossing(ray, hit_of(pieces_, piece, root), hits.room(1)));
                        return ray.t_max;
                    });
     std::sort(hits.begin() + first, hits.end(), is_before);
@@ -95,7 +98,7 @@ bool PatchTree::first_hit(const Ray& ray, ShapeHit& hit) const {
     bool found = false;
     index_->search(pieces_, index_->line_of(ray), ray.t_min, ray.t_max,
                    [&](std::uint32_t piece, const PatchRoot& root) {
-                       found |= keep_first(ray, hit_of(pieces_[piece], root), found, hit);
+                       found |= keep_first(ray, hit_of(pieces_, piece, root), found, hit);
                        return found ? hit.t : ray.t_max;
                    });
     return found;
@@ -105,7 +108,7 @@ std::uint32_t PatchTree::first_hits(std::span<const Ray* const> rays, ShapeHit* 
     std::uint32_t met = 0;
     const auto offer = [&](std::size_t i, std::uint32_t piece, const PatchRoot& root) {
         const std::uint32_t bit = 1u << i;
-        const ShapeHit next = hit_of(pieces_[piece], root);
+        const ShapeHit next = hit_of(pieces_, piece, root);
         if (keep_first(*rays[i], next, (met & bit) != 0, hits[i])) met |= bit;
         return (met & bit) != 0 ? hits[i].t : rays[i]->t_max;
     };
@@ -116,32 +119,28 @@ std::uint32_t PatchTree::first_hits(std::span<const Ray* const> rays, ShapeHit* 
     return met;
 }
 
-const BezierPiece& PatchTree::piece_of(std::uint32_t part) const {
-    if (part < pieces_.size() && pieces_[part].part == part) return pieces_[part];
-    return *std::partition_point(pieces_.begin(), pieces_.end(),
-                                 [&](const BezierPiece& p) { return p.part < part; });
-}
-
 ShapeSurface PatchTree::surface(const Ray&, const ShapeHit& hit) const {
-    const BezierPiece& piece = piece_of(hit.part);
-    const auto within = [](double x, double lo, double hi) {
-        return std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
+    const std::size_t piece = pieces_.find(hit.part);
+    const BezierView net = pieces_.net(piece);
+    const Vec2 &lo = pieces_.lo(piece), &hi = pieces_.hi(piece);
+    const auto within = [](double x, double from, double to) {
+        return std::clamp((x - from) / (to - from), 0.0, 1.0);
     };
-    const double u = within(hit.u, piece.lo.x, piece.hi.x);
-    const double v = within(hit.v, piece.lo.y, piece.hi.y);
-    const PatchPoint p = derivatives_at(piece.net, u, v);
+    const double u = within(hit.u, lo.x, hi.x);
+    const double v = within(hit.v, lo.y, hi.y);
+    const PatchPoint p = derivatives_at(net, u, v);
     ShapeSurface surface;
     surface.point = p.point;
-    surface.normal = surface.shading_normal = patch_normal(piece.net, u, v);
+    surface.normal = surface.shading_normal = patch_normal(net, u, v);
     surface.uv = {hit.u, hit.v};
-    surface.dpdu = p.du / (piece.hi.x - piece.lo.x);
-    surface.dpdv = p.dv / (piece.hi.y - piece.lo.y);
-    surface.error = evaluation_error(piece.net);
+    surface.dpdu = p.du / (hi.x - lo.x);
+    surface.dpdv = p.dv / (hi.y - lo.y);
+    surface.error = evaluation_error(net);
     return surface;
 }
 
 std::size_t PatchTree::bytes() const {
-    return sizeof *this + pieces_.capacity() * sizeof(BezierPiece) + index_->bytes();
+    return sizeof *this + pieces_.bytes() + index_->bytes();
 }
 
 }  // namespace alhazen

@@ -14,23 +14,17 @@
 #include <vector>
 
 #include "alhazen/shapes/core/shape.h"
-#include "alhazen/shapes/patches/bezier_net.h"
+#include "alhazen/shapes/patches/patch_pieces.h"
 
 namespace alhazen {
-
-/// One rational Bezier patch of a surface.
-struct BezierPiece {
-    BezierNet net;
-    std::uint32_t part = 0;
-    Vec2 lo{0, 0}, hi{1, 1};  ///< the surface's parameters at the corners of the piece
-};
 
 class PatchIndex;  // the leaves, and the boxes around them
 
 class PatchTree {
   public:
     /// Precondition: parts ascend.
-    explicit PatchTree(std::vector<BezierPiece> pieces);
+    explicit PatchTree(PatchPieces pieces);
+    explicit PatchTree(const std::vector<BezierPiece>& pieces) : PatchTree(PatchPieces(pieces)) {}
 
     [[nodiscard]] const Box3& box() const { return box_; }
     /// Range of dot(axis, p) over the control points, rounded outward.
@@ -44,13 +38,11 @@ class PatchTree {
     /// The surface at a crossing, with its parameters as texture coordinates.
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
 
-    [[nodiscard]] std::span<const BezierPiece> pieces() const { return pieces_; }
-    /// The piece of that part.
-    [[nodiscard]] const BezierPiece& piece_of(std::uint32_t part) const;
+    [[nodiscard]] const PatchPieces& pieces() const { return pieces_; }
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    std::vector<BezierPiece> pieces_;
+    PatchPieces pieces_;
     Box3 box_;
     std::shared_ptr<const PatchIndex> index_;
 };

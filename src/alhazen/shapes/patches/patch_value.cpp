@@ -21,7 +21,7 @@ void bernstein_values(int degree, double t, double* values, double* derivatives)
 
 namespace {
 
-HomogeneousValue value_of(const BezierNet& net, double u, double v) {
+HomogeneousValue value_of(BezierView net, double u, double v) {
     if (net.degree_u == 3 && net.degree_v == 3) return patch_kernels().bicubic(net, u, v);
     double bu[kMaxPatchOrder], bv[kMaxPatchOrder], cu[kMaxPatchOrder], cv[kMaxPatchOrder];
     bernstein_values(net.degree_u, u, bu, cu);
@@ -47,7 +47,7 @@ Vec3 numerator_of(const HomogeneousPoint& p) {
 
 }  // namespace
 
-PatchValue patch_value(const BezierNet& net, double u, double v) {
+PatchValue patch_value(BezierView net, double u, double v) {
     const HomogeneousValue at = value_of(net, u, v);
     PatchValue value;
     value.weight = at.s.w;
@@ -57,7 +57,7 @@ PatchValue patch_value(const BezierNet& net, double u, double v) {
     return value;
 }
 
-PatchValue weighted_value(const BezierNet& net, const Vec3& origin, double u, double v) {
+PatchValue weighted_value(BezierView net, const Vec3& origin, double u, double v) {
     const HomogeneousValue at = value_of(net, u, v);
     return {numerator_of(at.s) - at.s.w * origin, numerator_of(at.s_u) - at.s_u.w * origin,
             numerator_of(at.s_v) - at.s_v.w * origin, at.s.w};

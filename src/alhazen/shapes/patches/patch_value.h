@@ -26,9 +26,8 @@ struct HomogeneousValue {
 void bernstein_values(int degree, double t, double* values, double* derivatives);
 
 /// Precondition: the weight is positive at (u, v).
-[[nodiscard]] PatchValue patch_value(const BezierNet& net, double u, double v);
+[[nodiscard]] PatchValue patch_value(BezierView net, double u, double v);
 /// The same, of weight * (point - origin), a polynomial in u and v.
-[[nodiscard]] PatchValue weighted_value(const BezierNet& net, const Vec3& origin, double u,
-                                        double v);
+[[nodiscard]] PatchValue weighted_value(BezierView net, const Vec3& origin, double u, double v);
 
 }  // namespace alhazen

@@ -98,7 +98,7 @@ ShapeSurface SteinerPatch::surface(const Ray&, const ShapeHit& hit) const {
     if (size > 1e-10 * (dot(surface.dpdu, surface.dpdu) + dot(surface.dpdv, surface.dpdv))) {
         surface.normal = normal / size;
     } else {
-        surface.normal = patch_normal(tree->pieces()[0].net, v < 1.0 ? u / (1.0 - v) : 0.5, v);
+        surface.normal = patch_normal(tree->pieces().net(0), v < 1.0 ? u / (1.0 - v) : 0.5, v);
     }
     surface.shading_normal = surface.normal;
     // Two steps of three terms, for the numerator and the weight, and one division; the mean of the

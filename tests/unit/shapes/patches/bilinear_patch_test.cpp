@@ -46,7 +46,7 @@ TEST(BilinearPatch, CrossingsAreThoseOfTheCertifiedPatch) {
         for (int i = 0; i < 100; ++i) {
             const double u = random.uniform(0, 1), v = random.uniform(0, 1);
             const Ray ray = whole_line(
-                tree.pieces()[0].net.degree_u == 1 ? point_at(tree.pieces()[0].net, u, v) : Vec3{},
+                tree.pieces().net(0).degree_u == 1 ? point_at(tree.pieces().net(0), u, v) : Vec3{},
                 random.unit_vector());
             ShapeHit hits[2];
             const int count = patch.intersect(ray, hits);

@@ -167,7 +167,9 @@ TEST(NurbsSurface, PiecesHaveTheValuesOfTheBasisFunctions) {
             };
             const double u = within(s.knots_u, s.degree_u), v = within(s.knots_v, s.degree_v);
             const Vec3 expected = value_of(s, u, v);
-            for (const BezierPiece& piece : s.tree->pieces()) {
+            for (std::size_t piece_index = 0; piece_index < s.tree->pieces().size();
+                 ++piece_index) {
+                const BezierPiece piece = s.tree->pieces()[piece_index];
                 if (u < piece.lo.x || u > piece.hi.x || v < piece.lo.y || v > piece.hi.y) continue;
                 const Vec3 found = point_at(piece.net, (u - piece.lo.x) / (piece.hi.x - piece.lo.x),
                                             (v - piece.lo.y) / (piece.hi.y - piece.lo.y));

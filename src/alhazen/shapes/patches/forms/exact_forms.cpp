@@ -232,14 +232,20 @@ void append_pieces(const BezierPatch& shape, std::vector<BezierPiece>& pieces) {
     pieces.push_back({.net = shape.net()});
 }
 
+namespace {
+
+void append_pieces(const PatchPieces& own, std::vector<BezierPiece>& pieces) {
+    for (std::size_t k = 0; k < own.size(); ++k) pieces.push_back(own[k]);
+}
+
+}  // namespace
+
 void append_pieces(const PatchMesh& shape, std::vector<BezierPiece>& pieces) {
-    const std::span<const BezierPiece> own = shape.tree->pieces();
-    pieces.insert(pieces.end(), own.begin(), own.end());
+    append_pieces(shape.tree->pieces(), pieces);
 }
 
 void append_pieces(const NurbsSurface& shape, std::vector<BezierPiece>& pieces) {
-    const std::span<const BezierPiece> own = shape.tree->pieces();
-    pieces.insert(pieces.end(), own.begin(), own.end());
+    append_pieces(shape.tree->pieces(), pieces);
 }
 
 void append_pieces(const BilinearPatch& shape, std::vector<BezierPiece>& pieces) {
