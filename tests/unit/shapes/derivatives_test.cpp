@@ -63,7 +63,18 @@ TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
             const Ray next = line(origin + step * aside, direction);
             append_hits(shape, next, next_hits);
             if (next_hits.empty() || next_hits[0].part != hits[0].part) return -1.0;
-            const ShapeSurface b = shape.surface(next, next_hits[0]);
+            // Sheets of a folded plane are met at one t, in any order: the same sheet is compared.
+            const ShapeHit* same = &next_hits[0];
+            const auto distance = [&](const ShapeHit& hit) {
+                return std::abs(hit.u - hits[0].u) + std::abs(hit.v - hits[0].v);
+            };
+            for (const ShapeHit& hit : next_hits) {
+                const bool is_tie = std::abs(hit.t - next_hits[0].t) <= 1e-14 * next_hits[0].t;
+                if (is_tie && hit.part == hits[0].part && distance(hit) < distance(*same)) {
+                    same = &hit;
+                }
+            }
+            const ShapeSurface b = shape.surface(next, *same);
             if (dot(a.normal, b.normal) < 0.99) return -1.0;
             const Vec3 moved = b.point - a.point;
             if (length(moved) < 0.1 * step || length(moved) > 10 * step) return -1.0;

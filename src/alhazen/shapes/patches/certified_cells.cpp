@@ -35,8 +35,8 @@ double t_at(const Vec3& from_origin, const PatchLine& line) {
 
 }  // namespace
 
-bool certified_root(RootOf what, BezierView net, const PatchLine& line, const PatchCell& cell,
-                    double noise, double u, double v, PatchRoot& root) {
+bool certified_root(NewtonProof proof, RootOf what, BezierView net, const PatchLine& line,
+                    const PatchCell& cell, double noise, double u, double v, PatchRoot& root) {
     const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
     const Vec3& d = line.direction;
     // Distance of the root, if there is one, from the estimate, in widths.
@@ -64,8 +64,10 @@ bool certified_root(RootOf what, BezierView net, const PatchLine& line, const Pa
         v += dv;
         reach = std::max({0.7 * reach, kCellMargin, noise});
         const double moved = std::max(std::abs(du) / width_u, std::abs(dv) / width_v);
-        // Done, unless the steps still shrink as they do before rounding stops them.
-        const bool stalled = last < 0x1p-4 && moved > 0.25 * last;
+        // Done, unless the steps still shrink as they do before rounding stops them. Where they
+        // are not proven to, steps that do not shrink are no sign of rounding.
+        const bool stalled =
+            proof == NewtonProof::Converges && last < 0x1p-4 && moved > 0.25 * last;
         last = moved;
         if (moved > 0x1p-23 && !stalled) continue;
         const double scale = what == RootOf::Point ? 1.0 / at.weight : 1.0;
@@ -74,13 +76,14 @@ bool certified_root(RootOf what, BezierView net, const PatchLine& line, const Pa
         if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
             return false;
         }
-        if (what == RootOf::Point) {
+        // At a border the root may lie outside of the patch; the crossing is the patch's point.
+        root.u = std::clamp(u, 0.0, 1.0);
+        root.v = std::clamp(v, 0.0, 1.0);
+        if (what == RootOf::Point && root.u == u && root.v == v) {
             root.t = t_at(at.point + du * at.du + dv * at.dv, line);
         } else {
-            root.t = t_at(patch_value(net, u, v).point - line.origin, line);
+            root.t = t_at(patch_value(net, root.u, root.v).point - line.origin, line);
         }
-        root.u = u;
-        root.v = v;
         return true;
     }
     return false;
@@ -299,9 +302,10 @@ bool CellSearch::next(PatchRoot& root) {
             const double v = cell.v0 + 0.5 * (1.0 + step.y) * width_v;
             const double noise = 2.0 * line_.tiny / radius;
             const bool sure = newton == CellFacts::Newton::Certified;
+            const NewtonProof proof = sure ? NewtonProof::Converges : NewtonProof::Unique;
             const bool met = noise > 0x1p-6 ? sure && settle(cell, root)
-                                            : certified_root(RootOf::WeightedPoint, net_, line_,
-                                                             cell, noise, u, v, root);
+                                            : certified_root(proof, RootOf::WeightedPoint, net_,
+                                                             line_, cell, noise, u, v, root);
             if (met || sure) --size_;
             if (met) return true;
             if (sure) continue;
@@ -320,7 +324,8 @@ bool CellSearch::next(PatchRoot& root) {
 }
 
 /// Reports one root where the winding number is odd: in the half where it is odd, and so on, then
-/// by Newton's method kept inside of the cell.
+/// the point nearest to the line, there or beside: where a derivative is zero, the half-line that
+/// begins beside the line's image moves the root by the square root of `tiny`.
 bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
     const PlaneNet whole = border_net(net_, line_);
     if (!passes_through(whole, cell, line_.tiny)) return false;
@@ -329,26 +334,47 @@ bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
         const auto halves = halves_of(cell, cell.u1 - cell.u0 >= cell.v1 - cell.v0);
         cell = halves[passes_through(whole, halves[0], line_.tiny) ? 0 : 1];
     }
-    root.u = 0.5 * (cell.u0 + cell.u1);
-    root.v = 0.5 * (cell.v0 + cell.v1);
-    const Vec3& d = line_.direction;
-    double nearest = kInfinity;
-    PatchRoot next = root;
-    for (int step = 0; step < 40; ++step) {
-        const PatchValue at = weighted_value(net_, line_.origin, next.u, next.v);
-        const Vec3 off = cross(at.point, d);
-        const double distance = dot(off, off);
-        if (!(distance < nearest)) break;
-        nearest = distance;
-        root = next;
-        const Vec3 across_v = cross(at.dv, d), across_u = cross(d, at.du);
-        const double det = dot(at.du, across_v);
-        if (det == 0.0) break;
-        next.u = std::clamp(next.u - dot(across_v, at.point) / det, cell.u0, cell.u1);
-        next.v = std::clamp(next.v - dot(across_u, at.point) / det, cell.v0, cell.v1);
-    }
+    cell = {std::max(cell.u0 - kFine, 0.0), std::min(cell.u1 + kFine, 1.0),
+            std::max(cell.v0 - kFine, 0.0), std::min(cell.v1 + kFine, 1.0)};
+    root = nearest_point(cell);
     root.t = t_at(patch_value(net_, root.u, root.v).point - line_.origin, line_);
     return true;
+}
+
+/// Source: Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares",
+/// Quarterly of Applied Mathematics 2(2), 1944. Without damping it is Newton's method; where the
+/// derivatives are parallel, or one is zero, the other direction still converges.
+PatchRoot CellSearch::nearest_point(const PatchCell& cell) const {
+    constexpr double kLeastDamping = 0x1p-40;
+    PatchRoot root{.u = 0.5 * (cell.u0 + cell.u1), .v = 0.5 * (cell.v0 + cell.v1)};
+    const Vec3& d = line_.direction;
+    PatchValue at = weighted_value(net_, line_.origin, root.u, root.v);
+    Vec3 off = cross(at.point, d);
+    double damping = 0.0;
+    for (int step = 0; step < 60; ++step) {
+        const Vec3 by_u = cross(at.du, d), by_v = cross(at.dv, d);
+        const double added = damping * (dot(by_u, by_u) + dot(by_v, by_v));
+        const double uu = dot(by_u, by_u) + added, vv = dot(by_v, by_v) + added;
+        const double uv = dot(by_u, by_v), det = uu * vv - uv * uv;
+        if (det > 0.0) {
+            const double u = dot(by_u, off), v = dot(by_v, off);
+            PatchRoot next = root;
+            next.u = std::clamp(root.u - (vv * u - uv * v) / det, cell.u0, cell.u1);
+            next.v = std::clamp(root.v - (uu * v - uv * u) / det, cell.v0, cell.v1);
+            const PatchValue next_at = weighted_value(net_, line_.origin, next.u, next.v);
+            const Vec3 next_off = cross(next_at.point, d);
+            if (dot(next_off, next_off) < dot(off, off)) {
+                root = next;
+                at = next_at;
+                off = next_off;
+                damping = damping > kLeastDamping ? 0x1p-4 * damping : 0.0;
+                continue;
+            }
+        }
+        if (damping > 1.0) break;
+        damping = std::max(16.0 * damping, kLeastDamping);
+    }
+    return root;
 }
 
 }  // namespace alhazen

@@ -34,11 +34,16 @@ inline constexpr double kCellMargin = 0x1p-10;
 /// for patches without weights.
 enum class RootOf { Point, WeightedPoint };
 
-/// Finds the root in a certified cell from (u, v), the first step of Newton's method from its
-/// middle. `noise` is the rounding error of a step in widths of the cell, where above kCellMargin.
-[[nodiscard]] bool certified_root(RootOf what, BezierView net, const PatchLine& line,
-                                  const PatchCell& cell, double noise, double u, double v,
-                                  PatchRoot& root);
+/// What is known of Newton's method in a cell: that it converges, or that what it converges to is
+/// the only root.
+enum class NewtonProof { Converges, Unique };
+
+/// Finds the root in a cell from (u, v), the first step of Newton's method from its middle. `noise`
+/// is the rounding error of a step in widths of the cell, where above kCellMargin. With
+/// NewtonProof::Unique false says nothing of the cell.
+[[nodiscard]] bool certified_root(NewtonProof proof, RootOf what, BezierView net,
+                                  const PatchLine& line, const PatchCell& cell, double noise,
+                                  double u, double v, PatchRoot& root);
 
 /// Calls for each root in a cell: halves it until its parts are certified or tiny.
 class CellSearch {
@@ -60,6 +65,8 @@ class CellSearch {
 
     void push_halves(bool along_u);
     [[nodiscard]] bool settle(PatchCell cell, PatchRoot& root) const;
+    /// Without its t.
+    [[nodiscard]] PatchRoot nearest_point(const PatchCell& cell) const;
 
     BezierView net_;
     const PatchLine& line_;

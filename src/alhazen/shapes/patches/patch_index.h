@@ -76,7 +76,9 @@ void PatchIndex::visit_leaf(const PatchPieces& pieces, PatchLine& line, const Ve
     if (answer != LeafAnswer::Divide) {
         const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
         const double v = cell.v0 + 0.5 * (1.0 + b) * (cell.v1 - cell.v0);
-        const bool met = certified_root(RootOf::Point, net, line, cell, 0.0, u, v, root);
+        const NewtonProof proof =
+            answer == LeafAnswer::Certified ? NewtonProof::Converges : NewtonProof::Unique;
+        const bool met = certified_root(proof, RootOf::Point, net, line, cell, 0.0, u, v, root);
         if (met) found(leaf.piece, root);
         if (met || answer == LeafAnswer::Certified) return;
     }

@@ -7,6 +7,7 @@
 #include "alhazen/shapes/quadrics/sphere.h"
 #include "simple_patches.h"
 #include "support/any_ray.h"
+#include "support/random_shapes.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -53,6 +54,26 @@ TEST(SteinerPatch, TheQuarticOfTheRomanSurfaceIsThatOfTheRomanSurface) {
         const Vec3 p = random.in_cube(0.5);
         EXPECT_NEAR(implicit.value(p), factor * known(p), 1e-12 * std::abs(factor));
     }
+}
+
+TEST(SteinerPatch, PointsAreAtTheirCrossings) {
+    // Among them lines in the plane of a flat patch, along an edge at which a derivative is zero.
+    Random random(31);
+    int compared = 0;
+    for (int k = 0; k < 800; ++k) {
+        const auto patch = testing::random_shape<SteinerPatch>({random, true});
+        for (int i = 0; i < 200; ++i) {
+            const Ray ray = whole_line(random.on_lattice(5, 0.25), random.lattice_direction());
+            ShapeHit hits[SteinerPatch::kMaxHits];
+            const int count = patch.intersect(ray, hits);
+            for (int j = 0; j < count; ++j) {
+                const Vec3 point = patch.surface(ray, hits[j]).point;
+                ASSERT_LT(length(point - ray.at(hits[j].t)), 4e-13) << k << " " << i;
+            }
+            compared += count;
+        }
+    }
+    EXPECT_GT(compared, 300);
 }
 
 TEST(SteinerPatch, ASurfaceWithABasePointIsACubic) {
