@@ -5,30 +5,33 @@
 #include <memory>
 #include <utility>
 
+#include "alhazen/base/overloaded.h"
 #include "alhazen/shading/lights/environment.h"
 
 namespace alhazen {
 
 namespace {
 
-/// Textures of one image share its pyramid.
-void compile_textures(const SceneDescription& description, Scene& scene) {
-    std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids;
-    for (const TextureDescription& t : description.textures) {
-        Texture& texture = scene.textures.emplace_back(t.texture);
-        if (texture.solid) {
-            scene.has_solid_textures = true;
-            continue;
-        }
-        if (texture.filter != TextureFilter::Mipmapped) continue;
-        auto& pyramid = pyramids[{texture.image.get(), texture.decode_srgb}];
+class TextureCompiler {
+  public:
+    explicit TextureCompiler(Scene& scene) : scene_(scene) {}
+
+    void operator()(SolidTexture& /*texture*/) { scene_.has_solid_textures = true; }
+    /// Textures of one image share its pyramid.
+    void operator()(ImageTexture& texture) {
+        if (texture.filter != TextureFilter::Mipmapped) return;
+        auto& pyramid = pyramids_[{texture.image.get(), texture.decode_srgb}];
         if (!pyramid) {
             pyramid = std::make_shared<const MipPyramid>(texture.image, texture.decode_srgb);
         }
         texture.pyramid = pyramid;
-        scene.has_mipmaps = true;
+        scene_.has_mipmaps = true;
     }
-}
+
+  private:
+    Scene& scene_;
+    std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids_;
+};
 
 }  // namespace
 
@@ -46,7 +49,10 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
         }
         scene.materials.push_back(std::move(m));
     }
-    compile_textures(description, scene);
+    TextureCompiler compile(scene);
+    for (const TextureDescription& t : description.textures) {
+        std::visit(compile, scene.textures.emplace_back(t.texture));
+    }
     for (const LightDescription& l : description.lights) {
         scene.lights.push_back(ready_to_sample(l.light));
     }
@@ -70,13 +76,15 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
 
 std::uint64_t texture_bytes(const std::vector<Texture>& textures) {
     std::map<const void*, std::uint64_t> bytes;
-    for (const Texture& t : textures) {
-        if (!t.image) continue;
+    const auto count = [&](const ImageTexture& t) {
         bytes[t.image.get()] = t.image->memory_bytes();
         if (t.pyramid) bytes[t.pyramid.get()] = t.pyramid->memory_bytes();
+    };
+    for (const Texture& texture : textures) {
+        std::visit(Overloaded{count, [](const SolidTexture&) {}}, texture);
     }
     std::uint64_t sum = 0;
-    for (const auto& [what, count] : bytes) sum += count;
+    for (const auto& [what, size] : bytes) sum += size;
     return sum;
 }
 

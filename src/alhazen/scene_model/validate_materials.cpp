@@ -35,7 +35,8 @@ class Checker {
         not_negative(m.alpha_cutoff, "alpha cutoff");
         texture_id(m.normal_map.texture, "normal map");
         const auto map = static_cast<std::size_t>(m.normal_map.texture);
-        if (map < d_.textures.size() && d_.textures[map].texture.solid) {
+        if (map < d_.textures.size() &&
+            std::holds_alternative<SolidTexture>(d_.textures[map].texture)) {
             error(fmt::format("the normal map of material '{}' is a solid texture", name_));
         }
         if (!std::isfinite(m.normal_map.scale)) {
@@ -154,9 +155,9 @@ class Checker {
     std::string name_;
 };
 
-void check_solid_texture(const TextureDescription& t, const SolidTexture& solid, Checker& checker) {
+void check(const std::string& name, const SolidTexture& solid, Checker& checker) {
     const auto need = [&](bool condition, const char* what) {
-        if (!condition) checker.error(fmt::format("solid texture '{}': {}", t.name, what));
+        if (!condition) checker.error(fmt::format("solid texture '{}': {}", name, what));
     };
     need(solid.color.is_finite() && solid.other.is_finite(), "its colours must be finite");
     need(is_finite(solid.origin), "its origin must be finite");
@@ -167,20 +168,17 @@ void check_solid_texture(const TextureDescription& t, const SolidTexture& solid,
     need(std::isfinite(solid.turbulence), "its turbulence must be finite");
 }
 
-void check_texture(const TextureDescription& t, Checker checker) {
-    const Texture& texture = t.texture;
-    if (texture.solid) {
-        check_solid_texture(t, *texture.solid, checker);
-    } else if (!texture.image || texture.image->width <= 0 || texture.image->height <= 0) {
-        checker.error(fmt::format("texture '{}' has no image", t.name));
+void check(const std::string& name, const ImageTexture& texture, Checker& checker) {
+    if (!texture.image || texture.image->width <= 0 || texture.image->height <= 0) {
+        checker.error(fmt::format("texture '{}' has no image", name));
     }
     if (texture.uv_set != 0 && texture.uv_set != 1) {
         checker.error(fmt::format("texture '{}' uses set {} of coordinates; there are 0 and 1",
-                                  t.name, texture.uv_set));
+                                  name, texture.uv_set));
     }
     const UvTransform& u = texture.uv_transform;
     if (!std::isfinite(u.uu + u.uv + u.vu + u.vv + u.offset.x + u.offset.y)) {
-        checker.error(fmt::format("the transform of texture '{}' must be finite", t.name));
+        checker.error(fmt::format("the transform of texture '{}' must be finite", name));
     }
 }
 
@@ -191,7 +189,8 @@ void validate_materials(const SceneDescription& description, Diagnostics& diagno
         Checker(description, m.location, diagnostics).material(m.material);
     }
     for (const TextureDescription& t : description.textures) {
-        check_texture(t, Checker(description, t.location, diagnostics));
+        Checker checker(description, t.location, diagnostics);
+        std::visit([&](const auto& texture) { check(t.name, texture, checker); }, t.texture);
     }
 }
 

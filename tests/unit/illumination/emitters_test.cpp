@@ -217,7 +217,7 @@ Material pictured(SceneMaker& maker) {
     for (std::size_t i = 0; i < image.samples.size(); ++i) {
         image.samples[i] = static_cast<float>(i * 7 % 11);
     }
-    Texture texture;
+    ImageTexture texture;
     texture.image = std::make_shared<const StoredImage>(stored(image));
     maker.description().textures.push_back({"picture", texture, {}});
     Material m = shining({1, 1, 1});

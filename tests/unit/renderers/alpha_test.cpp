@@ -283,7 +283,7 @@ TEST(NormalMaps, BendTheLightAsTheSurfaceWouldLookTilted) {
     const float half = float(0.5 + 0.5 * std::sqrt(0.5));
     image.samples = {0.5f, half, half};
     SceneMaker maker;
-    Texture texture;
+    ImageTexture texture;
     texture.image = std::make_shared<const StoredImage>(stored(std::move(image)));
     maker.description().textures.push_back({"", texture, {}});
     Material m;
@@ -305,7 +305,7 @@ TEST(NormalMaps, AreTheSameOnAMirroredInstanceOfAMesh) {
     // Tangents and coordinates must agree however the mesh is placed.
     Image image(1, 1, 3);
     image.samples = {0.9f, 0.7f, 0.8f};
-    Texture texture;
+    ImageTexture texture;
     texture.image = std::make_shared<const StoredImage>(stored(std::move(image)));
     for (const Vec3 scale : {Vec3{1, 1, 1}, {-1, 1, 1}, {1, -2, 1}, {1, 1, -1}}) {
         for (const bool shared : {false, true}) {

@@ -21,7 +21,7 @@ Scene checkerboard(TextureFilter filter, double mirror = 0) {
         for (int x = 0; x < 64; ++x) image.pixel(x, y)[0] = float((x / 32 + y / 32) % 2);
     }
     SceneMaker maker;
-    Texture texture;
+    ImageTexture texture;
     texture.image = std::make_shared<const StoredImage>(stored(std::move(image)));
     texture.filter = filter;
     maker.description().textures.push_back({"", texture, {}});

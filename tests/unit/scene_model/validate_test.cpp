@@ -141,7 +141,7 @@ TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = inf; }), 0u);
 
     SceneMaker maker = good_scene();
-    Texture texture;
+    ImageTexture texture;
     texture.image = std::make_shared<const StoredImage>(stored(Image(1, 1, 1)));
     texture.uv_set = 2;
     texture.uv_transform.uu = kNan;

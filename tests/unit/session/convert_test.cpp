@@ -11,6 +11,7 @@
 #include "alhazen/base/file.h"
 #include "alhazen/session/conversion/placed_meshes.h"
 #include "alhazen/session/load.h"
+#include "support/image_texture.h"
 #include "support/same_description.h"
 #include "support/scene_maker.h"
 #include "support/scratch_folder.h"
@@ -238,7 +239,7 @@ TEST(ConvertMeshes, BuffersMeshesAndIncludedFilesBelongToTheScene) {
 /// One textured mesh of many triangles; `grey` is the only texel of its texture.
 SceneDescription textured(std::uint8_t grey) {
     SceneMaker maker;
-    Texture texture;
+    ImageTexture texture;
     texture.image =
         std::make_shared<StoredImage>(StoredImage{1, 1, 1, false, std::vector<std::uint8_t>{grey}});
     maker.description().textures.push_back({"t", texture, {}});
@@ -253,7 +254,7 @@ SceneDescription textured(std::uint8_t grey) {
 double texel_of(const std::filesystem::path& path) {
     Diagnostics found;
     const SceneDescription scene = load_description(path, {}, found);
-    return std::round(255 * scene.textures.at(0).texture.image->pixel(0, false).r);
+    return std::round(255 * testing::image_texture(scene.textures.at(0)).image->pixel(0, false).r);
 }
 
 std::size_t entries_in(const std::filesystem::path& folder) {
@@ -321,7 +322,7 @@ TEST(ConvertNative, WhatFailsLeavesNothingBehind) {
 TEST(ConvertMeshes, WhatMtlCannotSayIsReported) {
     const ScratchFolder folder;
     SceneDescription scene = textured(10);
-    scene.textures[0].texture.wrap_u = Wrap::Mirror;
+    std::get<ImageTexture>(scene.textures[0].texture).wrap_u = Wrap::Mirror;
     const ConvertReport report = convert(scene, folder.path() / "out.obj");
     ASSERT_FALSE(report.lost.empty());
     EXPECT_NE(report.lost[0].find("mirrored repeat"), std::string::npos) << report.lost[0];
@@ -359,7 +360,8 @@ TEST(ConvertNative, BumpMapsStayBitForBit) {
     EXPECT_TRUE(report.lost.empty()) << report.lost[0];
     const SceneDescription back = load_description(folder.path() / "out.obj", {}, found);
     const auto map_of = [](const SceneDescription& s) {
-        return s.textures.at(std::size_t(s.materials.at(0).material.normal_map.texture)).texture;
+        return testing::image_texture(
+            s.textures.at(std::size_t(s.materials.at(0).material.normal_map.texture)));
     };
     EXPECT_EQ(map_of(back).image->samples, map_of(scene).image->samples);
     EXPECT_EQ(map_of(back).uv_transform, map_of(scene).uv_transform);

@@ -8,12 +8,13 @@ namespace {
 TEST(Material, ATextureMultipliesTheConstant) {
     auto image = std::make_shared<Image>(1, 1, 3);
     image->samples = {0.5f, 0.25f, 1.0f};
-    Texture texture;
+    ImageTexture texture;
     texture.image = std::make_shared<const StoredImage>(stored(*image));
     Material m;
     m.diffuse = {{2, 2, 2}, TextureId{0}};
     m.shininess = {128, TextureId{0}};
-    const MaterialSample s = evaluate(m, std::span(&texture, 1), Vec2{0.5, 0.5});
+    const std::vector<Texture> textures{texture};
+    const MaterialSample s = evaluate(m, textures, Vec2{0.5, 0.5});
     EXPECT_EQ(s.diffuse, (Rgb{1.0, 0.5, 2.0}));
     EXPECT_NEAR(s.shininess, 128 * (1.75 / 3), 1e-12);
 }

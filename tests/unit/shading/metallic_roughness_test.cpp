@@ -158,7 +158,7 @@ TEST(AlphaModes, MaskCutsAndBlendCovers) {
 Texture one_texel(std::vector<float> samples) {
     Image image(1, 1, int(samples.size()));
     image.samples = std::move(samples);
-    Texture t;
+    ImageTexture t;
     t.image = std::make_shared<const StoredImage>(stored(std::move(image)));
     return t;
 }
@@ -190,14 +190,15 @@ TEST(MetallicRoughness, AVolumeStaysOneWhereTheTextureOfItsThicknessIsBlack) {
 TEST(MetallicRoughness, TheSecondSetAndTheTransformOfCoordinatesAreUsed) {
     Image image(2, 1, 1);
     image.samples = {0.25f, 0.75f};
-    Texture t;
+    ImageTexture t;
     t.image = std::make_shared<const StoredImage>(stored(std::move(image)));
     t.filter = TextureFilter::Nearest;
     t.uv_set = 1;
     Material m;
     m.diffuse = {{1, 1, 1}, TextureId{0}};
     const auto red = [&](Vec2 first, Vec2 second) {
-        return evaluate(m, std::span(&t, 1), SurfaceLookup{{first, second}, {}, {1, 1, 1, 1}})
+        const Texture texture = t;
+        return evaluate(m, std::span(&texture, 1), SurfaceLookup{{first, second}, {}, {1, 1, 1, 1}})
             .diffuse.r;
     };
     EXPECT_EQ(red({0.25, 0}, {0.75, 0}), 0.75);

@@ -68,8 +68,8 @@ TEST(MipPyramid, MeansAreOfLightNotOfCodes) {
     EXPECT_NEAR(srgb_from_linear(p.texel(1, 0, 0).r), 188.0 / 255, 1e-2);
 }
 
-Texture mipmapped(Image image) {
-    Texture t;
+ImageTexture mipmapped(Image image) {
+    ImageTexture t;
     t.image = store(std::move(image));
     t.filter = TextureFilter::Mipmapped;
     t.pyramid = std::make_shared<const MipPyramid>(t.image, false);
@@ -85,8 +85,8 @@ Image checker(int size) {
 }
 
 TEST(MipmappedTexture, WithoutAFootprintIsTheBilinearOne) {
-    const Texture t = mipmapped(ramp(6, 5, 3));
-    Texture plain = t;
+    const ImageTexture t = mipmapped(ramp(6, 5, 3));
+    ImageTexture plain = t;
     plain.filter = TextureFilter::Bilinear;
     for (const Vec2 uv : {Vec2{0.1, 0.7}, {0.5, 0.5}, {-3.2, 0.9}}) {
         EXPECT_EQ(evaluate(t, uv), evaluate(plain, uv));
@@ -94,7 +94,7 @@ TEST(MipmappedTexture, WithoutAFootprintIsTheBilinearOne) {
 }
 
 TEST(MipmappedTexture, ALargeFootprintIsTheMeanWhateverItsShape) {
-    const Texture t = mipmapped(checker(64));
+    const ImageTexture t = mipmapped(checker(64));
     const Vec2 uv{0.31, 0.77};
     EXPECT_NEAR(evaluate(t, uv, {{1, 0}, {0, 1}}).r, 0.5, 1e-6);
     EXPECT_NEAR(evaluate(t, uv, {{50, 0}, {0, 3}}).r, 0.5, 1e-6);
@@ -107,7 +107,7 @@ TEST(MipmappedTexture, AThinFootprintFiltersAlongItselfOnly) {
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) image.pixel(x, y)[0] = float(y / 8 % 2);
     }
-    const Texture t = mipmapped(std::move(image));
+    const ImageTexture t = mipmapped(std::move(image));
     // Centre of a white stripe; footprint 12 texels long and 1 wide.
     const Vec2 uv{0.5, 1 - 12.0 / 64};
     const double twelve = 12.0 / 64, one = 1.0 / 64;
@@ -118,7 +118,7 @@ TEST(MipmappedTexture, AThinFootprintFiltersAlongItselfOnly) {
 }
 
 TEST(MipmappedTexture, ConjugateDiametersOfOneEllipseAreOneFootprint) {
-    const Texture t = mipmapped(ramp(64, 64, 1));
+    const ImageTexture t = mipmapped(ramp(64, 64, 1));
     const double a = 0.2, b = 0.05, c = std::sqrt(0.5);
     const Rgba straight = evaluate(t, {0.4, 0.4}, {{a, 0}, {0, b}});
     const Rgba turned = evaluate(t, {0.4, 0.4}, {{c * a, c * b}, {-c * a, c * b}});
@@ -128,7 +128,7 @@ TEST(MipmappedTexture, ConjugateDiametersOfOneEllipseAreOneFootprint) {
 TEST(MipmappedTexture, AlphaIsFilteredToo) {
     Image image(2, 2, 4);
     image.samples = {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 1};
-    const Texture t = mipmapped(std::move(image));
+    const ImageTexture t = mipmapped(std::move(image));
     EXPECT_NEAR(evaluate(t, {0.5, 0.5}, {{1, 0}, {0, 1}}).a, 0.5, 1e-6);
 }
 

@@ -131,7 +131,7 @@ void BrlcadMaterials::tell_unknown(const BrlcadShader& shader,
 
 TextureId BrlcadMaterials::texture_of(BrlcadPattern pattern, const Vec2& unit,
                                       const BrlcadPlace& place) {
-    Texture texture;
+    ImageTexture texture;
     texture.filter = pattern.smooth ? TextureFilter::Bilinear : TextureFilter::Nearest;
     texture.image = std::make_shared<const StoredImage>(stored(std::move(pattern.image)));
     texture.uv_transform.uu = pattern.repeats / unit.x;

@@ -39,7 +39,7 @@ struct NamedMesh {
 /// A texture that accompanies an MTL file.
 struct MtlTexture {
     std::string file;  ///< image file, relative to the MTL file; empty: the map is omitted
-    Texture settings;
+    ImageTexture settings;
 };
 /// The MTL file of these materials, by name; `textures` [texture]. Appends a line to `lost` for
 /// each kind of property that MTL cannot express.

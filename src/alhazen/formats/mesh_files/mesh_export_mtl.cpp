@@ -153,7 +153,7 @@ class MtlWriter {
         out_ += ' ' + one_line(texture.file) + '\n';
         lookup(texture.settings, is_color);
     }
-    void placement(const Texture& t) {
+    void placement(const ImageTexture& t) {
         const UvTransform& uv = t.uv_transform;
         if (uv.uu != 1.0 || uv.vv != 1.0) three_numbers(" -s", uv.uu, uv.vv, 1.0);
         if (uv.offset.x != 0.0 || uv.offset.y != 0.0) {
@@ -161,7 +161,7 @@ class MtlWriter {
         }
         if (uv.uv != 0.0 || uv.vu != 0.0) lose("the rotation of texture coordinates");
     }
-    void wrap(const Texture& t) {
+    void wrap(const ImageTexture& t) {
         if (t.wrap_u == Wrap::Mirror || t.wrap_v == Wrap::Mirror) {
             lose("the mirrored repeat of a texture");
         } else if (t.wrap_u != t.wrap_v) {
@@ -170,7 +170,7 @@ class MtlWriter {
             out_ += " -clamp on";
         }
     }
-    void lookup(const Texture& t, bool is_color) {
+    void lookup(const ImageTexture& t, bool is_color) {
         if (t.uv_set != 0) lose("the second set of texture coordinates");
         if (t.filter != TextureFilter::Mipmapped) lose("the filter of a texture");
         if (t.corner_texels) lose("corner-aligned texels");

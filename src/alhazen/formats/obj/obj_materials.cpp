@@ -189,7 +189,7 @@ void ObjMaterials::set_light_through(const MtlMaterial& m, Material& out) {
     out.alpha = {d * m.map_d.gain, map, Channel::Mean};
     if (map == kNoTexture) return;
     // Coverage from the alpha channel, otherwise from the grey value.
-    const bool used = !scene_.textures[std::size_t(map)].texture.image->is_opaque();
+    const bool used = !image_texture(map).image->is_opaque();
     out.alpha.channel = m.map_d.channel.value_or(used ? Channel::Alpha : Channel::Mean);
 }
 
@@ -213,7 +213,7 @@ NormalMap ObjMaterials::normal_map(const MtlMaterial& m) {
     const TextureId id = texture(map, false);
     if (id == kNoTexture) return {};
     // An explicit channel indicates scalar data.
-    if (!map.channel && is_normal_map(scene_.textures[std::size_t(id)].texture.image)) {
+    if (!map.channel && is_normal_map(image_texture(id).image)) {
         return {id, map.bump};
     }
     const HeightMap heights{map.bump * map.gain, map.channel.value_or(Channel::Mean),
@@ -243,7 +243,7 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
                                                "folder; it is omitted");
         return kNoTexture;
     }
-    Texture settings;
+    ImageTexture settings;
     settings.filter = TextureFilter::Mipmapped;
     settings.wrap_u = settings.wrap_v = map.clamp ? Wrap::Clamp : Wrap::Repeat;
     settings.uv_transform = {map.scale.x, 0, 0, map.scale.y, map.offset};
@@ -255,7 +255,7 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
                              picture_findings_.all().back().message + "; it is omitted");
     }
     if (!id) return kNoTexture;
-    Texture& texture = scene_.textures[std::size_t(*id)].texture;
+    ImageTexture& texture = image_texture(*id);
     texture.decode_srgb = is_color && !texture.image->linear;
     return *id;
 }

@@ -47,6 +47,10 @@ class ObjMaterials {
     ColorInput color(const Rgb& value, const MtlMap& map);
     ScalarInput scalar(double value, const MtlMap& map);
 
+    [[nodiscard]] ImageTexture& image_texture(TextureId id) {
+        return std::get<ImageTexture>(scene_.textures[static_cast<std::size_t>(id)].texture);
+    }
+
     const ImportSource& source_;
     SceneDescription& scene_;
     Diagnostics& diagnostics_;

@@ -51,7 +51,7 @@ std::shared_ptr<const StoredImage> TextureTable::decoded(const Decode& decode) {
 
 std::optional<TextureId> TextureTable::load(const std::string& file,
                                             const std::filesystem::path& folder,
-                                            const Texture& settings, std::string name,
+                                            const ImageTexture& settings, std::string name,
                                             const FileLocation& where) {
     Picture none;
     Picture* picture = &none;
@@ -80,7 +80,7 @@ void TextureTable::report(const FileLocation& where, const Error& error) {
     diagnostics_.error(where, message);
 }
 
-std::optional<TextureId> TextureTable::add(std::string_view encoded, const Texture& settings,
+std::optional<TextureId> TextureTable::add(std::string_view encoded, const ImageTexture& settings,
                                            std::string name, const FileLocation& where) {
     const auto [entry, fresh] = embedded_.try_emplace({encoded.data(), encoded.size()});
     try {
@@ -103,25 +103,26 @@ std::optional<TextureId> TextureTable::add(std::string_view encoded, const Textu
 
 void TextureTable::derive(TextureId id, const std::string& key,
                           const std::function<StoredImage(const StoredImage&)>& make) {
-    const TextureDescription& description = scene_.textures[std::size_t(id)];
-    const std::shared_ptr<const StoredImage> source = description.texture.image;
+    TextureDescription& description = scene_.textures[std::size_t(id)];
+    auto& texture = std::get<ImageTexture>(description.texture);
+    const std::shared_ptr<const StoredImage> source = texture.image;
     const auto [entry, fresh] = derived_.try_emplace({source, key});
     if (fresh) {
         count(3 * std::uint64_t(source->width) * std::uint64_t(source->height), description.name);
         entry->second = std::make_shared<const StoredImage>(make(*source));
         count(MipPyramid::memory_bytes_for(*entry->second), description.name);
     }
-    scene_.textures[std::size_t(id)].texture.image = entry->second;
+    texture.image = entry->second;
 }
 
-std::optional<TextureId> TextureTable::use(Picture& picture, const Texture& settings,
+std::optional<TextureId> TextureTable::use(Picture& picture, const ImageTexture& settings,
                                            std::string name, const FileLocation& where) {
     if (!picture.image) return std::nullopt;
     if (settings.filter == TextureFilter::Mipmapped &&
         !std::exchange(picture.counted_pyramid[settings.decode_srgb ? 1 : 0], true)) {
         count(MipPyramid::memory_bytes_for(*picture.image), name);
     }
-    Texture texture = settings;
+    ImageTexture texture = settings;
     texture.image = picture.image;
     scene_.textures.push_back({std::move(name), std::move(texture), where});
     return static_cast<TextureId>(scene_.textures.size() - 1);

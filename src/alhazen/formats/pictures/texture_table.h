@@ -37,13 +37,13 @@ class TextureTable {
     /// `settings`. Reports an error at `where` and returns none when the file is unusable. Throws
     /// Error (Resource) when all images together exceed the limit.
     std::optional<TextureId> load(const std::string& file, const std::filesystem::path& folder,
-                                  const Texture& settings, std::string name,
+                                  const ImageTexture& settings, std::string name,
                                   const FileLocation& where);
 
     /// The texture of an image embedded in the scene's bytes, `encoded` as in an image file. Images
     /// are identified by the address of their bytes, which must stay valid for the lifetime of the
     /// table. Otherwise as `load`.
-    std::optional<TextureId> add(std::string_view encoded, const Texture& settings,
+    std::optional<TextureId> add(std::string_view encoded, const ImageTexture& settings,
                                  std::string name, const FileLocation& where);
 
     /// Replaces the image of texture `id` by the result of `make`, three channels of 8-bit codes of
@@ -66,7 +66,7 @@ class TextureTable {
     /// Throws when `bytes` exceeds the memory left.
     void count(std::uint64_t bytes, const std::string& name);
 
-    std::optional<TextureId> use(Picture& picture, const Texture& settings, std::string name,
+    std::optional<TextureId> use(Picture& picture, const ImageTexture& settings, std::string name,
                                  const FileLocation& where);
 
     SceneDescription& scene_;

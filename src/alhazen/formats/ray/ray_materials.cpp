@@ -137,7 +137,7 @@ std::optional<TextureId> RayMaterials::read_map(TextNode value, std::string_view
     const auto known = maps_.find(file);
     if (known != maps_.end()) return known->second;
     // Coordinates are in [0, 1]; clamping prevents bleeding between opposite edges.
-    Texture settings;
+    ImageTexture settings;
     settings.wrap_u = settings.wrap_v = Wrap::Clamp;
     const auto id = textures_.load(file, folder_, settings, file, list.first().location());
     if (id) maps_.emplace(file, *id);

@@ -157,7 +157,7 @@ std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::
     }
     std::optional<TextureId> id;
     if (const auto found = textures_.find(name); found != textures_.end()) {
-        Texture settings;
+        ImageTexture settings;
         const bool bilinear = values_.flag(found->second, "Bilinear", true);
         settings.filter = bilinear ? TextureFilter::Bilinear : TextureFilter::Nearest;
         // Texel i lies at i / width; without interpolation it fills i to i + 1 all the same.

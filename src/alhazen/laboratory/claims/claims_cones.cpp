@@ -35,9 +35,7 @@ SceneDescription horizon_scene() {
     checks.color = {0.85, 0.85, 0.8, 1};
     checks.other = {0.12, 0.14, 0.2, 1};
     checks.origin = {0.3, 0.2, 0};
-    Texture texture;
-    texture.solid = std::make_shared<const SolidTexture>(checks);
-    d.textures.push_back({"checks", texture, {}});
+    d.textures.push_back({"checks", checks, {}});
     const Rgb colors[] = {{1, 1, 1}, {0.75, 0.2, 0.1}, {0.1, 0.25, 0.7}};
     for (const Rgb& color : colors) {
         Material m;

@@ -29,12 +29,13 @@ bool has_normal_map(const Scene& scene, const Surface& surface) {
     return material.normal_map.texture != kNoTexture;
 }
 
-/// The interpolated normal, modified by the material's normal map.
+/// The interpolated normal, modified by the material's normal map, which is an image (`validate`).
 Vec3 mapped_normal(const Scene& scene, const Surface& surface,
                    const std::array<UvFootprint, 2>& footprint) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
     const NormalMap& map = material.normal_map;
-    const Texture& texture = scene.textures[static_cast<std::size_t>(map.texture)];
+    const auto& texture =
+        std::get<ImageTexture>(scene.textures[static_cast<std::size_t>(map.texture)]);
     const bool second = texture.uv_set == 1;
     const Vec3& n = surface.shading_normal;
     TangentFrame frame;

@@ -9,6 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/base/lower_case.h"
+#include "alhazen/base/overloaded.h"
 #include "alhazen/formats/native/write/native_writer.h"
 #include "alhazen/formats/pictures/picture_export.h"
 #include "alhazen/formats/text/unique_labels.h"
@@ -90,21 +91,23 @@ std::string write_materials(const SceneDescription& description,
                             const std::vector<std::string>& names, ConvertOutput& output) {
     std::map<const StoredImage*, std::string> files;
     std::vector<MtlTexture> textures;
-    for (const TextureDescription& texture : description.textures) {
-        const StoredImage* image = texture.texture.image.get();
-        if (image == nullptr) {
-            output.report().lost.push_back("solid texture " + texture.name);
-            textures.push_back({"", texture.texture});
-            continue;
-        }
-        std::string& file = files[image];
+    const auto write = [&](const ImageTexture& texture) {
+        const StoredImage& image = *texture.image;
+        std::string& file = files[&image];
         if (file.empty()) {
-            const PictureFile picture = picture_file(*image);
+            const PictureFile picture = picture_file(image);
             file =
                 fmt::format("{}/texture_{}.{}", output.folder(), textures.size(), picture.suffix);
             file = output.write_beside(file, picture.bytes);
         }
-        textures.push_back({file, texture.texture});
+        textures.push_back({file, texture});
+    };
+    for (const TextureDescription& texture : description.textures) {
+        const auto lose = [&](const SolidTexture&) {
+            output.report().lost.push_back("solid texture " + texture.name);
+            textures.push_back({"", {}});
+        };
+        std::visit(Overloaded{write, lose}, texture.texture);
     }
     std::vector<Material> materials;
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -138,25 +138,28 @@ json materials_json(const SceneDescription& d) {
     return materials;
 }
 
+json texture_json(const std::string& name, const SolidTexture& t) {
+    static constexpr const char* kKinds[] = {"checks", "stripes", "noise", "marble", "wood"};
+    return {{"name", name}, {"solid", kKinds[static_cast<int>(t.kind)]}};
+}
+
+json texture_json(const std::string& name, const ImageTexture& t) {
+    static constexpr const char* kFilters[] = {"nearest", "bilinear", "mipmapped"};
+    static constexpr int kBits[] = {8, 16, 32};
+    return {{"name", name},
+            {"width", t.image->width},
+            {"height", t.image->height},
+            {"channels", t.image->channels},
+            {"bits", kBits[t.image->samples.index()]},
+            {"filter", kFilters[static_cast<int>(t.filter)]},
+            {"bytes", t.image->memory_bytes()}};
+}
+
 json textures_json(const SceneDescription& d) {
-    static constexpr const char* kSolid[] = {"checks", "stripes", "noise", "marble", "wood"};
-    static constexpr const char* kFilter[] = {"nearest", "bilinear", "mipmapped"};
     json textures = json::array();
     for (const TextureDescription& description : d.textures) {
-        const Texture& t = description.texture;
-        static constexpr int kBits[] = {8, 16, 32};
-        if (t.solid) {
-            textures.push_back(
-                {{"name", description.name}, {"solid", kSolid[static_cast<int>(t.solid->kind)]}});
-            continue;
-        }
-        textures.push_back({{"name", description.name},
-                            {"width", t.image->width},
-                            {"height", t.image->height},
-                            {"channels", t.image->channels},
-                            {"bits", kBits[t.image->samples.index()]},
-                            {"filter", kFilter[static_cast<int>(t.filter)]},
-                            {"bytes", t.image->memory_bytes()}});
+        textures.push_back(std::visit(
+            [&](const auto& t) { return texture_json(description.name, t); }, description.texture));
     }
     return textures;
 }

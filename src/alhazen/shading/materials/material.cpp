@@ -1,14 +1,19 @@
 #include "alhazen/shading/materials/material.h"
 
 #include <algorithm>
+#include <variant>
 
 #include "alhazen/shading/materials/texture_inputs.h"
 
 namespace alhazen {
 
-Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
-    const Texture& texture = textures[static_cast<std::uint32_t>(id)];
-    if (texture.solid) return evaluate(*texture.solid, lookup.aperture);
+namespace {
+
+Rgba texel_of(const SolidTexture& texture, const SurfaceLookup& lookup) {
+    return evaluate(texture, lookup.aperture);
+}
+
+Rgba texel_of(const ImageTexture& texture, const SurfaceLookup& lookup) {
     const std::size_t set = texture.uv_set == 1 ? 1 : 0;
     const UvTransform& transform = texture.uv_transform;
     if (transform == UvTransform{}) {
@@ -17,6 +22,13 @@ Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLook
     return evaluate(
         texture, transform.apply(lookup.uv[set]),
         {transform.linear(lookup.footprint[set].a), transform.linear(lookup.footprint[set].b)});
+}
+
+}  // namespace
+
+Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
+    return std::visit([&](const auto& texture) { return texel_of(texture, lookup); },
+                      textures[static_cast<std::uint32_t>(id)]);
 }
 
 bool reads_textures(const Material& m) {

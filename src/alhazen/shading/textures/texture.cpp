@@ -25,7 +25,7 @@ int wrapped(long long i, int n, Wrap wrap) {
 }
 
 /// A texel of the picture itself, inside it.
-Rgba texel(const Texture& texture, int x, int y) {
+Rgba texel(const ImageTexture& texture, int x, int y) {
     const StoredImage& image = *texture.image;
     return image.pixel(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                            static_cast<std::size_t>(x),
@@ -41,7 +41,7 @@ double bounded(double x) {
 /// Interpolates `texel_at(x, y)` at (x, y) of a grid of `width` x `height` texels, where texel i
 /// stands at i.
 template <class TexelAt>
-Rgba bilinear(const Texture& texture, double x, double y, int width, int height,
+Rgba bilinear(const ImageTexture& texture, double x, double y, int width, int height,
               TexelAt&& texel_at) {
     const double x0 = std::floor(x);
     const double y0 = std::floor(y);
@@ -59,7 +59,7 @@ Rgba bilinear(const Texture& texture, double x, double y, int width, int height,
 }
 
 /// At (x, y) in texels of level 0, where texel i stands at i; between the two nearest levels.
-Rgba trilinear(const Texture& texture, double x, double y, double level) {
+Rgba trilinear(const ImageTexture& texture, double x, double y, double level) {
     const MipPyramid& pyramid = *texture.pyramid;
     const auto at_level = [&](int l) {
         const int width = pyramid.width(l);
@@ -102,7 +102,7 @@ Axes axes_of(const Vec2& a, const Vec2& b) {
 constexpr int kMaxProbes = 16;
 
 /// The mean over the footprint around (x, y), in texels of level 0.
-Rgba filtered(const Texture& texture, double x, double y, const UvFootprint& footprint) {
+Rgba filtered(const ImageTexture& texture, double x, double y, const UvFootprint& footprint) {
     const double sx = texture.image->width, sy = texture.image->height;
     Axes axes = axes_of({footprint.a.x * sx, -footprint.a.y * sy},
                         {footprint.b.x * sx, -footprint.b.y * sy});
@@ -124,7 +124,7 @@ Rgba filtered(const Texture& texture, double x, double y, const UvFootprint& foo
 
 }  // namespace
 
-Rgba evaluate(const Texture& texture, const Vec2& uv, const UvFootprint& footprint) {
+Rgba evaluate(const ImageTexture& texture, const Vec2& uv, const UvFootprint& footprint) {
     const StoredImage& image = *texture.image;
     const double u = bounded(uv.x);
     const double v = 1.0 - bounded(uv.y);  // rows run downward

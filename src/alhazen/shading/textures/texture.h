@@ -1,20 +1,18 @@
 #pragma once
 /// Textures: images looked up by texture coordinates, and solid textures (solid_texture.h).
 ///
-/// ADD A TEXTURE HERE: a further kind beside Texture::image and Texture::solid has its word in
-///   - shading/textures/texture.cpp: evaluate;
-///   - scene/compile_materials.cpp: pyramids and bytes;
-///   - scene_model/validate_materials.cpp: check of the values;
-///   - formats/pictures/texture_table.cpp, formats/obj/obj_materials.cpp;
-///   - formats/native/read/native_materials.cpp and write/native_write_materials.cpp: its block;
-///   - formats/mesh_files/mesh_export_mtl.cpp; session/info.cpp, session/convert.cpp;
-///   - tests/support/same_description.h: same.
+/// ADD A TEXTURE HERE: a further kind is a struct with `evaluate`, in a file pair of its own, and a
+/// member of `Texture` below. What the compiler then points at: shading/materials/material.cpp,
+/// scene/compile_materials.cpp, scene_model/validate_materials.cpp, formats/native/write/
+/// native_write_materials.cpp, session/scene_info/info.cpp, session/conversion/convert.cpp and
+/// tests/support/same_description.h. Its block is read in formats/native/read/native_materials.cpp.
 /// A new Wrap or TextureFilter needs its case in texture.cpp and a word in
-/// formats/native/native_words.h; session/info.cpp names the filters.
+/// formats/native/native_words.h; session/scene_info/info.cpp names the filters.
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "alhazen/imaging/codecs/stored_image.h"
 #include "alhazen/math/vec.h"
@@ -56,10 +54,9 @@ struct UvFootprint {
     Vec2 a{0, 0}, b{0, 0};
 };
 
-/// An image looked up by texture coordinates: u from left to right, v from bottom to top. Or a
-/// solid texture, for which only `solid` counts.
-struct Texture {
-    std::shared_ptr<const StoredImage> image;  ///< in a compiled scene null only beside `solid`
+/// An image looked up by texture coordinates: u from left to right, v from bottom to top.
+struct ImageTexture {
+    std::shared_ptr<const StoredImage> image;  ///< in a compiled scene not null
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
     TextureFilter filter = TextureFilter::Bilinear;
@@ -71,7 +68,6 @@ struct Texture {
     UvTransform uv_transform;
     /// Of `image`; made by `compile` for Mipmapped. Null: looked up as Bilinear.
     std::shared_ptr<const MipPyramid> pyramid;
-    std::shared_ptr<const SolidTexture> solid;  ///< null: an image
 };
 
 /// The linear colour and alpha of an image at `uv`, to which uv_transform has been applied; the
@@ -82,7 +78,9 @@ struct Texture {
 /// Texture Mapping", SIGGRAPH 1999 (probes along its long axis).
 /// Differs: probes have equal weights (the pixel is a box); at most 16 of them, beyond which the
 /// short axis is lengthened.
-[[nodiscard]] Rgba evaluate(const Texture& texture, const Vec2& uv,
+[[nodiscard]] Rgba evaluate(const ImageTexture& texture, const Vec2& uv,
                             const UvFootprint& footprint = {});
+
+using Texture = std::variant<ImageTexture, SolidTexture>;
 
 }  // namespace alhazen

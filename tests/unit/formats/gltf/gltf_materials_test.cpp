@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alhazen/formats/gltf/scene/gltf_textures.h"
+#include "support/image_texture.h"
 #include "unit/formats/gltf/gltf_nodes_text.h"
 
 namespace alhazen::testing::ALHAZEN_TEST_FILE {
@@ -77,17 +78,17 @@ TEST(GltfMaterial, TexturesShareTheirPictureAndKeepTheirUse) {
     EXPECT_EQ(result.errors(), 0u) << result.messages();
     const Material& m = result.scene.materials.at(0).material;
     const auto texture = [&](TextureId id) {
-        return result.scene.textures.at(std::size_t(id)).texture;
+        return testing::image_texture(result.scene.textures.at(std::size_t(id)));
     };
     ASSERT_TRUE(m.metallic_roughness);
-    const Texture base = texture(m.metallic_roughness->base_color.texture);
+    const ImageTexture base = texture(m.metallic_roughness->base_color.texture);
     EXPECT_TRUE(base.decode_srgb);
     EXPECT_EQ(base.uv_set, 1);
     EXPECT_EQ(base.wrap_u, Wrap::Clamp);
     EXPECT_EQ(base.wrap_v, Wrap::Mirror);
     EXPECT_EQ(base.filter, TextureFilter::Nearest);
     EXPECT_EQ(m.alpha.texture, m.metallic_roughness->base_color.texture);
-    const Texture normal = texture(m.normal_map.texture);
+    const ImageTexture normal = texture(m.normal_map.texture);
     EXPECT_FALSE(normal.decode_srgb);
     EXPECT_EQ(normal.image, base.image);
     EXPECT_EQ(m.normal_map.scale, 2);

@@ -197,7 +197,7 @@ TEST(MeshExport, MaterialsReadBackAsTheyWere) {
     leaf.alpha_mode = AlphaMode::Blend;
     leaf.alpha.value = 0.5;
     const std::vector<Material> all{matt, glass, leaf};
-    Texture settings;
+    ImageTexture settings;
     settings.filter = TextureFilter::Mipmapped;
     const std::vector<MtlTexture> textures{{"", settings}, {"leaf picture.png", settings}};
     Diagnostics found;
@@ -223,7 +223,7 @@ struct MtlTrip {
     std::vector<std::string> lost;
     std::vector<MtlMaterial> back;
 
-    explicit MtlTrip(const Texture& settings, Material m = {}) {
+    explicit MtlTrip(const ImageTexture& settings, Material m = {}) {
         m.name = "m";
         m.diffuse = {{.5, .5, .5}, TextureId{0}};
         if (m.metallic_roughness) m.metallic_roughness->base_color = m.diffuse;
@@ -242,7 +242,7 @@ struct MtlTrip {
 };
 
 TEST(MeshExport, MtlKeepsTheScaleOffsetAndClampOfPictures) {
-    Texture settings;
+    ImageTexture settings;
     settings.filter = TextureFilter::Mipmapped;
     settings.wrap_u = settings.wrap_v = Wrap::Clamp;
     settings.uv_transform = {-2.5, 0, 0, 0.1, {0.25, -1e-3}};
@@ -256,10 +256,10 @@ TEST(MeshExport, MtlKeepsTheScaleOffsetAndClampOfPictures) {
 }
 
 TEST(MeshExport, WhatMtlCannotSayIsTold) {
-    Texture usual;
+    ImageTexture usual;
     usual.filter = TextureFilter::Mipmapped;
     EXPECT_TRUE(MtlTrip(usual).lost.empty());
-    Texture t = usual;
+    ImageTexture t = usual;
     t.uv_transform.uv = 0.5;
     EXPECT_TRUE(MtlTrip(t).loses("rotation"));
     t = usual;
@@ -304,7 +304,7 @@ TEST(MeshExport, LossesAreToldOnceWithTheirNumber) {
 }
 
 TEST(MeshExport, BlackTimesAPictureStaysBlack) {
-    Texture settings;
+    ImageTexture settings;
     settings.filter = TextureFilter::Mipmapped;
     Material m;
     m.name = "m";

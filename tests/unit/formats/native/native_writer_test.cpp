@@ -16,6 +16,7 @@
 #include "alhazen/imaging/image/image.h"
 #include "alhazen/shading/spectrum/illuminant_spectrum.h"
 #include "native_round_trip.h"
+#include "support/image_texture.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -193,7 +194,7 @@ TEST(NativeWriter, PicturesKeepTheirSamplesAndAreWrittenOnce) {
     SceneDescription scene = empty_scene();
     for (int channels = 1; channels <= 4; ++channels) {
         for (int kind = 0; kind < 3; ++kind) {
-            Texture texture;
+            ImageTexture texture;
             texture.image = picture(channels, kind);
             texture.wrap_u = Wrap(kind);
             texture.wrap_v = Wrap((kind + 1) % 3);
@@ -212,14 +213,15 @@ TEST(NativeWriter, PicturesKeepTheirSamplesAndAreWrittenOnce) {
     EXPECT_TRUE(trip.files.contains("scene_files/texture_0.png"));
     EXPECT_TRUE(trip.files.contains("scene_files/texture_4.exr"));
     testing::expect_same(scene, trip.read.scene);
-    EXPECT_EQ(trip.read.scene.textures[0].texture.image, trip.read.scene.textures[1].texture.image);
+    EXPECT_EQ(testing::image_texture(trip.read.scene.textures[0]).image,
+              testing::image_texture(trip.read.scene.textures[1]).image);
 }
 
 TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
     Numbers n(12);
     SceneDescription scene = empty_scene();
     for (int i = 0; i < 2; ++i) {
-        Texture texture;
+        ImageTexture texture;
         texture.image = picture(4, 0);
         scene.textures.push_back({"wood", texture, {}});
     }

@@ -10,6 +10,7 @@
 
 #include "alhazen/formats/pictures/texture_table.h"
 #include "alhazen/imaging/codecs/image_io.h"
+#include "support/image_texture.h"
 #include "support/random.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -171,10 +172,12 @@ TEST(BumpMap, ConversionsAreSharedAndCountAsPictures) {
         const auto a = table.add(bytes, {}, "a", {}), b = table.add(bytes, {}, "b", {});
         table.derive(a.value(), "1", make);
         table.derive(b.value(), "1", make);
-        EXPECT_EQ(scene.textures[0].texture.image, scene.textures[1].texture.image);
-        EXPECT_EQ(scene.textures[0].texture.image->channels, 3);
+        EXPECT_EQ(testing::image_texture(scene.textures[0]).image,
+                  testing::image_texture(scene.textures[1]).image);
+        EXPECT_EQ(testing::image_texture(scene.textures[0]).image->channels, 3);
         table.derive(table.add(bytes, {}, "c", {}).value(), "2", make);
-        EXPECT_NE(scene.textures[2].texture.image, scene.textures[1].texture.image);
+        EXPECT_NE(testing::image_texture(scene.textures[2]).image,
+                  testing::image_texture(scene.textures[1]).image);
     };
     fill(100'000);
     EXPECT_EQ(made, 2);

@@ -6,6 +6,7 @@
 
 #include "alhazen/formats/obj/mtl_reader.h"
 #include "alhazen/imaging/codecs/image_io.h"
+#include "support/image_texture.h"
 #include "support/random.h"
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
@@ -182,8 +183,8 @@ struct WithPicture {
             found, folder.path());
     }
     [[nodiscard]] const Material& material() const { return scene.materials.at(0).material; }
-    [[nodiscard]] const Texture& texture(TextureId id) const {
-        return scene.textures.at(std::size_t(id)).texture;
+    [[nodiscard]] const ImageTexture& texture(TextureId id) const {
+        return testing::image_texture(scene.textures.at(std::size_t(id)));
     }
 };
 
@@ -250,8 +251,8 @@ struct WithBumps {
     [[nodiscard]] const NormalMap& map(std::size_t i) const {
         return scene.materials.at(i).material.normal_map;
     }
-    [[nodiscard]] const Texture& texture(std::size_t i) const {
-        return scene.textures.at(std::size_t(map(i).texture)).texture;
+    [[nodiscard]] const ImageTexture& texture(std::size_t i) const {
+        return testing::image_texture(scene.textures.at(std::size_t(map(i).texture)));
     }
 };
 

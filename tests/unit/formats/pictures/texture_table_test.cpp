@@ -4,6 +4,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/imaging/codecs/image_io.h"
+#include "support/image_texture.h"
 #include "support/scratch_folder.h"
 #include "unit/formats/gltf/gltf_text.h"
 
@@ -28,7 +29,7 @@ constexpr std::uint64_t kCodes = 1200, kRow = 300;
 
 /// Number of images that are loaded before `max_bytes` is exceeded.
 std::size_t taken(const std::vector<std::string>& pictures, std::uint64_t max_bytes,
-                  const Texture& settings = {}) {
+                  const ImageTexture& settings = {}) {
     SceneDescription scene;
     Diagnostics found;
     ImageLimits limits;
@@ -61,7 +62,7 @@ TEST(TextureTable, AllPicturesTogetherAreLimited) {
 
 TEST(TextureTable, SmallerCopiesAreCountedBeforeTheyAreMade) {
     const std::vector<std::string> one{picture(100)};
-    const Texture mipmapped{.filter = TextureFilter::Mipmapped};
+    const ImageTexture mipmapped{.filter = TextureFilter::Mipmapped};
     // 50 x 2, 25 x 1, 12, 6, 3 and 1 texels of three shorts.
     const std::uint64_t bytes = kCodes + one[0].size() + (100 + 25 + 12 + 6 + 3 + 1) * 6;
     EXPECT_EQ(taken(one, bytes, mipmapped), 1U);
@@ -75,7 +76,7 @@ TEST(TextureTable, SmallerCopiesAreCountedForColourAndForDataOnceEach) {
     const std::string bytes = picture(100);
     limits.max_bytes = kCodes + bytes.size() + 2 * 147 * 6 - 1;
     TextureTable table(scene, found, {"."}, limits);
-    Texture settings{.filter = TextureFilter::Mipmapped};
+    ImageTexture settings{.filter = TextureFilter::Mipmapped};
     EXPECT_TRUE(table.add(bytes, settings, "colour", {}));
     EXPECT_TRUE(table.add(bytes, settings, "the same", {}));
     settings.decode_srgb = true;
@@ -129,7 +130,8 @@ TEST(TextureTable, TheSameBytesAreOnePicture) {
     limits.max_bytes = kCodes + kRow + bytes.size();
     TextureTable table(scene, found, {"."}, limits);
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(table.add(bytes, {}, std::to_string(i), {}));
-    EXPECT_EQ(scene.textures.at(0).texture.image, scene.textures.at(4).texture.image);
+    EXPECT_EQ(testing::image_texture(scene.textures.at(0)).image,
+              testing::image_texture(scene.textures.at(4)).image);
 }
 
 TEST(TextureTable, BytesThatManyPicturesShareAreCountedForEach) {
@@ -183,7 +185,8 @@ TEST(TextureTable, ManyImagesOfAGltfFileInOneBufferViewAreOnePicture) {
     ASSERT_EQ(imported.errors(), 0U) << imported.messages();
     ASSERT_EQ(imported.scene.textures.size(), 40U);
     for (const TextureDescription& texture : imported.scene.textures) {
-        EXPECT_EQ(texture.texture.image, imported.scene.textures[0].texture.image);
+        EXPECT_EQ(testing::image_texture(texture).image,
+                  testing::image_texture(imported.scene.textures[0]).image);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "alhazen/imaging/codecs/image_io.h"
+#include "support/image_texture.h"
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
@@ -317,7 +318,7 @@ TEST(UwYaml, ATexelLiesAtItsCornerInRowsFromTheTopAndTheCubeHasTheCoursesFaces) 
     ASSERT_EQ(text_of(found), "");
 
     ASSERT_EQ(scene.textures.size(), 1u);
-    const Texture& texture = scene.textures[0].texture;
+    const ImageTexture& texture = testing::image_texture(scene.textures[0]);
     const auto at = [&](double u, double v) {
         const Rgba c = evaluate(texture, texture.uv_transform.apply({u, v}));
         return Vec3{c.r, c.g, c.b};

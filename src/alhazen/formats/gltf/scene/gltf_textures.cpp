@@ -68,7 +68,7 @@ TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
                                                 info.texture, info.tex_coord));
     }
     const Sampler sampler = texture.sampler ? document_.samplers[*texture.sampler] : Sampler{};
-    alhazen::Texture settings;
+    ImageTexture settings;
     settings.wrap_u = sampler.wrap_s;
     settings.wrap_v = sampler.wrap_t;
     settings.filter = filter_of(sampler);

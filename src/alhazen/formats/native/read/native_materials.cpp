@@ -468,7 +468,7 @@ void read_native_texture(const NativeBlock& block, NativeContext& context,
                          const NativeScope& scope) {
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, "texture");
-    Texture settings;
+    ImageTexture settings;
     settings.filter = TextureFilter::Mipmapped;
     std::string file, name = block.name;
     bool srgb = false;
@@ -490,7 +490,7 @@ void read_native_texture(const NativeBlock& block, NativeContext& context,
     if (!has_file) return;
     const auto id = context.textures.load(file, scope.folder, settings, name, block.location);
     if (!id) return;
-    Texture& texture = context.scene.textures.back().texture;
+    auto& texture = std::get<ImageTexture>(context.scene.textures.back().texture);
     texture.decode_srgb = has_srgb ? srgb : !texture.image->linear;
     define_name(block.name, *id, "texture", block.location, context.texture_names,
                 context.diagnostics);
@@ -523,10 +523,8 @@ void read_native_solid_texture(const NativeBlock& block, NativeContext& context)
     reader.read("octaves", solid.octaves);
     reader.read("turbulence", solid.turbulence);
     reader.finish();
-    Texture texture;
-    texture.solid = std::make_shared<const SolidTexture>(solid);
     const auto id = static_cast<TextureId>(context.scene.textures.size());
-    context.scene.textures.push_back({std::move(name), std::move(texture), block.location});
+    context.scene.textures.push_back({std::move(name), solid, block.location});
     define_name(block.name, id, "texture", block.location, context.texture_names,
                 context.diagnostics);
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <map>
 
+#include "alhazen/base/overloaded.h"
 #include "alhazen/formats/native/native_words.h"
 #include "alhazen/formats/native/write/native_write_context.h"
 #include "alhazen/formats/pictures/picture_export.h"
@@ -162,12 +163,11 @@ std::string uv_rows(const UvTransform& t) {
            native_value(Vec3{t.vu, t.vv, t.offset.y}) + ")";
 }
 
-void write_solid_texture(NativeWriteContext& context, const TextureDescription& description,
-                         std::size_t number) {
-    const SolidTexture& t = *description.texture.solid;
+NativeBlockText solid_texture_block(const std::string& label, const std::string& name,
+                                    const SolidTexture& t) {
     const SolidTexture usual;
-    NativeBlockText block("solid_texture", context.texture_labels[number]);
-    add_name(block, context.texture_labels[number], description.name);
+    NativeBlockText block("solid_texture", label);
+    add_name(block, label, name);
     block.add("kind", std::string(native_word(t.kind)));
     block.add_unless("color", t.color.rgb(), usual.color.rgb());
     block.add_unless("other", t.other.rgb(), usual.other.rgb());
@@ -176,7 +176,23 @@ void write_solid_texture(NativeWriteContext& context, const TextureDescription& 
     block.add_unless("direction", t.direction, usual.direction);
     block.add_unless("octaves", t.octaves, usual.octaves);
     block.add_unless("turbulence", t.turbulence, usual.turbulence);
-    context.append(block);
+    return block;
+}
+
+NativeBlockText image_texture_block(const std::string& label, const std::string& name,
+                                    const ImageTexture& t, const std::string& file) {
+    NativeBlockText block("texture", label);
+    add_name(block, label, name);
+    block.add("file", native_string(file));
+    if (t.wrap_u != Wrap::Repeat) block.add("wrap_u", std::string(native_word(t.wrap_u)));
+    if (t.wrap_v != Wrap::Repeat) block.add("wrap_v", std::string(native_word(t.wrap_v)));
+    block.add("filter", std::string(native_word(t.filter)));
+    block.add_unless("corner_texels", t.corner_texels, false);
+    block.add("srgb", native_value(t.decode_srgb));
+    block.add_unless("uv_set", t.uv_set, 0);
+    const std::string rows = uv_rows(t.uv_transform);
+    if (rows != uv_rows({})) block.add("uv_transform", rows);
+    return block;
 }
 
 }  // namespace
@@ -185,29 +201,16 @@ void write_native_textures(NativeWriteContext& context) {
     std::map<const StoredImage*, std::string> files;  // pictures are often shared
     for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
         const TextureDescription& description = context.scene.textures[i];
-        const Texture& texture = description.texture;
-        if (texture.solid) {
-            write_solid_texture(context, description, i);
-            continue;
-        }
-        std::string& file = files[texture.image.get()];
-        if (file.empty()) file = write_picture(context, *texture.image, i);
-        NativeBlockText block("texture", context.texture_labels[i]);
-        add_name(block, context.texture_labels[i], description.name);
-        block.add("file", native_string(file));
-        if (texture.wrap_u != Wrap::Repeat) {
-            block.add("wrap_u", std::string(native_word(texture.wrap_u)));
-        }
-        if (texture.wrap_v != Wrap::Repeat) {
-            block.add("wrap_v", std::string(native_word(texture.wrap_v)));
-        }
-        block.add("filter", std::string(native_word(texture.filter)));
-        block.add_unless("corner_texels", texture.corner_texels, false);
-        block.add("srgb", native_value(texture.decode_srgb));
-        block.add_unless("uv_set", texture.uv_set, 0);
-        const std::string rows = uv_rows(texture.uv_transform);
-        if (rows != uv_rows({})) block.add("uv_transform", rows);
-        context.append(block);
+        const std::string& label = context.texture_labels[i];
+        const auto solid = [&](const SolidTexture& t) {
+            return solid_texture_block(label, description.name, t);
+        };
+        const auto image = [&](const ImageTexture& t) {
+            std::string& file = files[t.image.get()];
+            if (file.empty()) file = write_picture(context, *t.image, i);
+            return image_texture_block(label, description.name, t, file);
+        };
+        context.append(std::visit(Overloaded{solid, image}, description.texture));
     }
 }
 
