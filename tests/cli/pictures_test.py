@@ -125,7 +125,7 @@ class Pictures(CommandLineCase):
     def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
         process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",
                                     "--spp", "400", "--tile-size", "4"], stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
+        time.sleep(PATIENCE / 60)
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGINT)  # a second signal, as timeout(1) may send
         _, messages = process.communicate(timeout=PATIENCE)
@@ -141,7 +141,7 @@ class Pictures(CommandLineCase):
                            f"sphere {{ radius = 1; {glass} }}\nsphere {{ radius = 0.8; {glass} }}\n")
         process = subprocess.Popen([ALHAZEN, "render", scene, "-o", self.path("slow.png"), "--size", "64x64"],
                                    stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
+        time.sleep(PATIENCE / 60)
         self.assertIsNone(process.poll())
         begin = time.monotonic()
         process.send_signal(signal.SIGTERM)
