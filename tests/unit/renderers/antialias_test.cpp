@@ -6,15 +6,19 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/antialias/adaptive_grid.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
-#include "alhazen/renderers/core/reports/antialias_report.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
-#include "alhazen/renderers/whitted/whitted.h"
 #include "alhazen/sampling/random.h"
-#include "support/scene_maker.h"
+#include "unit/renderers/antialiased_picture.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+using testing::AntialiasedPicture;
+using testing::bright;
+using testing::kPixel;
+using testing::kSide;
+using testing::picture;
 
 /// Runs the grid to its end with the shade of a place in pixels.
 template <class Shade>
@@ -185,32 +189,6 @@ TEST(AdaptiveGrid, LeavesOutWhatIsNotFinite) {
     EXPECT_EQ(grid.pixels()[0], (Rgb{0.5, 0.5, 0.5}));
 }
 
-constexpr int kSide = 16;
-constexpr double kPixel = 2 * 5 * 0.36502849483904305 / kSide;  ///< at the origin: 5 tan(0.35)
-
-struct AntialiasedPicture {
-    Film film{kSide, kSide, {0, 0, kSide, kSide}};
-    RenderReport report;
-    [[nodiscard]] const AntialiasReport& counts() const { return *report.antialias; }
-};
-
-AntialiasedPicture picture(const Scene& scene, const AntialiasSettings& settings,
-                           const Renderer& renderer = Whitted{}, int threads = 2) {
-    AntialiasedPicture result;
-    RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
-    job.antialias = &settings;
-    job.control.threads = threads;
-    result.report = renderer.render(job, result.film);
-    return result;
-}
-
-/// Emits light, so that it is seen without lamps.
-MaterialId bright(testing::SceneMaker& maker) {
-    Material m;
-    m.emission.color = {1, 1, 1};
-    return maker.material(m);
-}
-
 Vec3 random_place(std::uint64_t i) {
     const auto at = [&](std::uint64_t k) { return 3.0 * (random_at(11, i, k, 0) - 0.5); };
     return {0.7 * at(0), 0.7 * at(1), at(2)};
@@ -318,7 +296,9 @@ TEST(Antialias, ThreadsChangeNoBitAndNoCount) {
             for (int x = 0; x < kSide; ++x) EXPECT_EQ(one.film.at(x, y), four.film.at(x, y));
         }
         EXPECT_EQ(one.report.counters.total_cast(), four.report.counters.total_cast());
-        EXPECT_EQ(one.report.counters[RayKind::Eye].cast, one.counts().total_points());
+        EXPECT_EQ(one.report.counters[RayKind::Eye].cast,
+                  one.counts().total_points() + one.counts().searching);
+        EXPECT_EQ(one.counts().searching, four.counts().searching);
         EXPECT_EQ(one.counts().met, four.counts().met);
     };
     same(Whitted{});

@@ -14,14 +14,6 @@ namespace {
 constexpr int kGridBlock = 8;
 /// Points that a division adds at most: its own and the centres of pixels around it.
 constexpr std::size_t kMostOfADivision = 5 + 8;
-constexpr std::size_t kMostPoints = std::numeric_limits<std::uint32_t>::max() / 2;
-
-std::uint64_t key_of(int level, GridPoint p) {
-    // Sides of pictures are at most 2^16 pixels, and depths 8.
-    static_assert(AntialiasSettings::kDeepest <= 8);
-    return std::uint64_t(level) << 56 | std::uint64_t(std::uint32_t(p.y)) << 28 |
-           std::uint32_t(p.x);
-}
 
 }  // namespace
 
@@ -103,14 +95,19 @@ std::uint32_t AdaptiveGrid::corner_index(int x, int y) const {
            std::uint32_t(x0 * block_height + (y - y0) * block_width + (x - x0));
 }
 
+double AdaptiveGrid::farthest_of_pixel(int x, int y) const {
+    return std::max({distances_[corner_index(x, y)], distances_[corner_index(x + 1, y)],
+                     distances_[corner_index(x, y + 1)], distances_[corner_index(x + 1, y + 1)]});
+}
+
 /// NumberTable::kNone where the point has no ray. Not for corners of pixels.
 std::uint32_t AdaptiveGrid::sample_at(GridPoint p) const {
-    return samples_.find(key_of(0, p));
+    return samples_.find(grid_key(0, p));
 }
 
 std::uint32_t AdaptiveGrid::add_point(GridPoint p, int level, std::uint32_t pixel) {
     const auto fresh = static_cast<std::uint32_t>(first_ + points_.size());
-    const std::uint32_t sample = samples_.find_or_add(key_of(0, p), fresh);
+    const std::uint32_t sample = samples_.find_or_add(grid_key(0, p), fresh);
     if (sample == fresh) {
         points_.push_back(p);
         ++asked_[pixel];
@@ -150,8 +147,6 @@ bool AdaptiveGrid::refine(const ObjectWatch* watch) {
     for (const Cell& cell : ended_) {
         if (!cell.is_divided) add_to_pixel(cell);
     }
-    std::sort(below_depth_.begin(), below_depth_.end());
-    below_depth_.erase(std::unique(below_depth_.begin(), below_depth_.end()), below_depth_.end());
     return false;
 }
 
@@ -169,7 +164,6 @@ void AdaptiveGrid::choose(const ObjectWatch* watch) {
         const bool last = cell.level == settings_.depth;
         if (last || (live_.empty() && !differs(cell, weigh))) {
             end(cell);
-            for (const std::uint32_t object : live_) below_depth_.push_back({cell.pixel, object});
             continue;
         }
         Cell& kept = split_.emplace_back(cell);
@@ -188,7 +182,7 @@ void AdaptiveGrid::choose(const ObjectWatch* watch) {
         if (cell.level == 0) {
             ended_pixels_[cell.pixel] = NumberTable::kNone;
         } else {
-            ended_cells_.set(key_of(cell.level, cell.at), NumberTable::kNone);
+            ended_cells_.set(grid_key(cell.level, cell.at), NumberTable::kNone);
         }
     }
     woken_.clear();
@@ -225,19 +219,19 @@ void AdaptiveGrid::include_side(Range& range, GridPoint a, GridPoint b) const {
 
 bool AdaptiveGrid::keep_near(const Cell& cell, const ObjectWatch& watch) {
     bool any_smaller = false;
+    double farthest = 0.0;
+    for (const std::uint32_t corner : cell.corners) {
+        farthest = std::max(farthest, distances_[corner]);
+    }
     for (std::uint32_t k = 0; k < cell.watched; ++k) {
         const std::uint32_t object = watched_[cell.first_watched + k];
         const bool sought = watch.is_sought(object);
         const bool smaller = watch.is_smaller(object, cell.level);
         if (!sought && !smaller) continue;
-        for (int c = 0; c < 4; ++c) {
-            const GridPoint corner{cell.at.x + (c & 1), cell.at.y + (c >> 1)};
-            if (!watch.passes(object, cell.level, corner, distances_[cell.corners[c]])) continue;
-            near_.push_back(object);
-            if (sought) live_.push_back(object);
-            any_smaller = any_smaller || smaller;
-            break;
-        }
+        if (!watch.may_hide(object, cell.level, cell.at, farthest)) continue;
+        near_.push_back(object);
+        if (sought) live_.push_back(object);
+        any_smaller = any_smaller || smaller;
     }
     return any_smaller;
 }
@@ -250,7 +244,7 @@ void AdaptiveGrid::end(const Cell& cell) {
     if (cell.level == 0) {
         ended_pixels_[cell.pixel] = number;
     } else {
-        ended_cells_.set(key_of(cell.level, cell.at), number);
+        ended_cells_.set(grid_key(cell.level, cell.at), number);
     }
 }
 
@@ -325,7 +319,7 @@ void AdaptiveGrid::look_at_centres_around(const Cell& cell) {
 }
 
 std::uint32_t AdaptiveGrid::ended_at(int level, GridPoint at) const {
-    if (level > 0) return ended_cells_.find(key_of(level, at));
+    if (level > 0) return ended_cells_.find(grid_key(level, at));
     return ended_pixels_[std::size_t(at.y) * std::size_t(width_) + std::size_t(at.x)];
 }
 

@@ -33,16 +33,24 @@ struct GridPoint {
     std::int32_t x, y;
 };
 
-/// Objects that no ray has met so far, and the rays that pass close to them.
+/// A key of NumberTable for a cell of a level, or for a point (level 0).
+[[nodiscard]] inline std::uint64_t grid_key(int level, GridPoint p) {
+    // Sides of pictures are at most 2^16 pixels, and depths 8.
+    static_assert(AntialiasSettings::kDeepest <= 8);
+    return std::uint64_t(level) << 56 | std::uint64_t(std::uint32_t(p.y)) << 28 |
+           std::uint32_t(p.x);
+}
+
+/// Objects that no ray with a shade has met so far, and the rays that pass close to them.
 class ObjectWatch {
   public:
     virtual ~ObjectWatch() = default;
-    /// No ray so far has met it.
+    /// No ray with a shade has met it.
     [[nodiscard]] virtual bool is_sought(std::uint32_t object) const = 0;
-    /// The ray through the point, in units of the level, meets the sphere around the object, as
-    /// large as this level needs it, in front of `distance`: that of the surface it meets.
-    [[nodiscard]] virtual bool passes(std::uint32_t object, int level, GridPoint point,
-                                      double distance) const = 0;
+    /// A part of the object may be seen in the cell, of whose corners none shows anything farther
+    /// away than `farthest`.
+    [[nodiscard]] virtual bool may_hide(std::uint32_t object, int level, GridPoint cell,
+                                        double farthest) const = 0;
     /// The object is smaller than a cell of the level.
     [[nodiscard]] virtual bool is_smaller(std::uint32_t object, int level) const = 0;
 };
@@ -55,9 +63,13 @@ struct WatchedObject {
 
 class AdaptiveGrid {
   public:
+    static constexpr std::size_t kMostPoints = 0x7FFFFFFF;
+
     /// Throws Error (Resource) where a crop has too many pixels.
     AdaptiveGrid(int width, int height, const AntialiasSettings& settings);
 
+    [[nodiscard]] std::uint32_t width() const { return static_cast<std::uint32_t>(width_); }
+    [[nodiscard]] std::uint32_t height() const { return static_cast<std::uint32_t>(height_); }
     /// Points have units of 2^-depth pixels.
     [[nodiscard]] int depth() const { return settings_.depth; }
     /// The points of this round, none of which was in an earlier one; at first all corners.
@@ -65,8 +77,13 @@ class AdaptiveGrid {
     /// To be filled in: the shades of these points, and the distances of what they show.
     [[nodiscard]] std::span<Rgb> shades() { return std::span(shades_).subspan(first_); }
     [[nodiscard]] std::span<double> distances() { return std::span(distances_).subspan(first_); }
+    /// In the first round: the number of the point of a corner, [0, width] x [0, height].
+    [[nodiscard]] std::uint32_t corner_index(int x, int y) const;
+    /// In the first round: the largest distance at the corners of a pixel.
+    [[nodiscard]] double farthest_of_pixel(int x, int y) const;
 
-    /// In the first round: the objects to look for; sorted, each pair once.
+    /// In the first round: objects that rays through points of the grid are known to meet, which
+    /// the pixels are to show; sorted, each pair once.
     void look_for(std::span<const WatchedObject> objects);
     /// Ends the round. False: no cell is divided further, and the pixels are complete. `watch`:
     /// null without objects to look for.
@@ -74,8 +91,6 @@ class AdaptiveGrid {
 
     /// [row][column]
     [[nodiscard]] std::span<const Rgb> pixels() const { return pixels_; }
-    /// What was still sought in a pixel at the depth; sorted, each pair once.
-    [[nodiscard]] std::span<const WatchedObject> below_depth() const { return below_depth_; }
     /// Points that were first needed by this pixel, [row][column].
     [[nodiscard]] std::span<const std::uint32_t> points_of_pixels() const { return asked_; }
     /// [level] points that have odd coordinates in units of its cells (level 0: corners), and cells
@@ -96,7 +111,6 @@ class AdaptiveGrid {
     class Range;
 
     void add_corners();
-    [[nodiscard]] std::uint32_t corner_index(int x, int y) const;
     [[nodiscard]] std::uint32_t sample_at(GridPoint p) const;
     std::uint32_t add_point(GridPoint p, int level, std::uint32_t pixel);
     void choose(const ObjectWatch* watch);
@@ -129,7 +143,6 @@ class AdaptiveGrid {
     std::vector<Rgb> pixels_;
     std::vector<std::uint32_t> asked_;
     std::vector<std::uint64_t> added_, divided_;
-    std::vector<WatchedObject> below_depth_;
 };
 
 }  // namespace alhazen

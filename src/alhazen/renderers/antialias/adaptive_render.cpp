@@ -11,6 +11,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/antialias/adaptive_grid.h"
 #include "alhazen/renderers/antialias/answer_pool.h"
+#include "alhazen/renderers/antialias/object_search.h"
 #include "alhazen/renderers/antialias/picture_grid.h"
 #include "alhazen/renderers/antialias/pixel_selection.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
@@ -68,8 +69,8 @@ class AdaptiveRender {
         bool first = true;
         do {
             trace();
-            if (job_.stop_requested()) return;
             if (first && objects_) look_for_objects();
+            if (job_.stop_requested()) return;
             first = false;
         } while (grid_.refine(spheres_ ? &*spheres_ : nullptr));
         report_.points.assign(grid_.points_of_levels().begin(), grid_.points_of_levels().end());
@@ -87,20 +88,24 @@ class AdaptiveRender {
         report_.seconds += seconds_since(begin);
     }
 
-    /// Finds the pixels where objects may hide that no corner ray met.
+    /// Finds objects that hide between the corner rays; the grid is to show them.
     void look_for_objects() {
+        if (job_.stop_requested()) return;
         const auto begin = std::chrono::steady_clock::now();
         spheres_.emplace(objects_->objects(), met_, picture_);
         if (spheres_->empty()) {
             spheres_.reset();
         } else {
-            const PixelBox& crop = film_.crop();
-            const std::vector<WatchedObject> found = spheres_->around(
-                grid_.points(), grid_.depth(), grid_.distances(), crop.width(), crop.height());
-            grid_.look_for(found);
+            std::vector<WatchedObject> around = spheres_->around(grid_);
             std::vector<std::uint32_t> sought;
-            for (const WatchedObject& w : found) sought.push_back(w.object);
+            for (const WatchedObject& w : around) sought.push_back(w.object);
             report_.sought = count_distinct(sought);
+            search_.emplace(ObjectSearch::Where{*objects_, *spheres_, picture_, grid_}, met_,
+                            around);
+            search_->run(pool_, job_);
+            std::erase_if(around,
+                          [&](const WatchedObject& w) { return !search_->has_met(w.object); });
+            grid_.look_for(around);
         }
         report_.seconds += seconds_since(begin);
     }
@@ -112,9 +117,16 @@ class AdaptiveRender {
             report_.unbounded += objects[i].is_seen && !(objects[i].sphere.radius < kInfinity);
             report_.met += met_[i];
         }
+        if (!search_) return;
+        for (const std::uint32_t pixel : search_->pixels()) {
+            report_.searching += pixel != ObjectSearch::kNone;
+        }
+        below_depth_.assign(search_->below_depth().begin(), search_->below_depth().end());
+        // The shades may have met it elsewhere.
+        std::erase_if(below_depth_, [&](const WatchedObject& w) { return met_[w.object] != 0; });
         std::vector<std::uint32_t> unmet;
         std::uint32_t before = std::numeric_limits<std::uint32_t>::max();
-        for (const WatchedObject& w : grid_.below_depth()) {
+        for (const WatchedObject& w : below_depth_) {
             report_.below_depth_pixels += w.pixel != before;
             before = w.pixel;
             unmet.push_back(w.object);
@@ -128,7 +140,7 @@ class AdaptiveRender {
         std::vector<std::uint8_t> named(met_.size(), 0);
         const PixelBox& crop = film_.crop();
         const auto width = static_cast<std::uint32_t>(crop.width());
-        for (const WatchedObject& w : grid_.below_depth()) {
+        for (const WatchedObject& w : below_depth_) {
             if (report_.unmet.size() == AntialiasReport::kNamed) return;
             if (named[w.object] != 0) continue;
             named[w.object] = 1;
@@ -139,29 +151,61 @@ class AdaptiveRender {
         }
     }
 
-    /// The rays of the round.
+    /// The rays of the round. Those that the search has traced are shaded from their hits.
     void trace() {
-        pool_.trace(grid_.points().size(), [&](RayAnswers& answers, std::size_t first,
-                                               std::size_t count, RayCounters& counters) {
+        if (!search_) {
+            return trace_all(
+                grid_.points().size(), [](std::size_t i) { return i; }, nullptr);
+        }
+        std::vector<std::uint32_t> fresh, known, rays;
+        for (std::uint32_t i = 0; const GridPoint& p : grid_.points()) {
+            const std::uint32_t ray = search_->ray_at(p);
+            if (ray == ObjectSearch::kNone) {
+                fresh.push_back(i);
+            } else {
+                known.push_back(i);
+                rays.push_back(ray);
+                search_->hand_over(ray);
+            }
+            ++i;
+        }
+        trace_all(
+            fresh.size(), [&](std::size_t k) { return fresh[k]; }, nullptr);
+        trace_all(
+            known.size(), [&](std::size_t k) { return known[k]; }, rays.data());
+    }
+    /// The points `index(0)` ... `index(count - 1)` of the round. `known`: their rays in the
+    /// search, or null.
+    template <class Index>
+    void trace_all(std::size_t total, Index&& index, const std::uint32_t* known) {
+        pool_.trace(total, [&](RayAnswers& answers, std::size_t first, std::size_t count,
+                               RayCounters& counters) {
             std::array<Ray, RayAnswers::kRaysAtOnce> rays;
+            std::array<Rgb, RayAnswers::kRaysAtOnce> shades;
             std::vector<Hit> hits(objects_ ? count : 0);
-            trace_batch(answers, first, std::span(rays).first(count), hits, counters);
+            for (std::size_t k = 0; k < count; ++k) {
+                rays[k] = picture_.ray(grid_.depth(), grid_.points()[index(first + k)]);
+                if (known != nullptr) hits[k] = search_->hit(known[first + k]);
+            }
+            const std::span<const Ray> some = std::span(rays).first(count);
+            if (known != nullptr) {
+                answers.shade(some, hits, std::span(shades).first(count), counters);
+            } else {
+                answers.trace(some, std::span(shades).first(count), hits, counters);
+            }
+            for (std::size_t k = 0; k < count; ++k) {
+                const std::size_t i = index(first + k);
+                grid_.shades()[i] = shades[k];
+                counters.non_finite += !shades[k].is_finite();
+                if (objects_) take_hit(i, hits[k]);
+            }
         });
     }
-    void trace_batch(RayAnswers& answers, std::size_t first, std::span<Ray> rays,
-                     std::span<Hit> hits, RayCounters& counters) {
-        const std::span<const GridPoint> points = grid_.points().subspan(first, rays.size());
-        const std::span<Rgb> shades = grid_.shades().subspan(first, rays.size());
-        picture_.rays(grid_.depth(), points, rays);
-        answers.trace(rays, shades, hits, counters);
-        const std::span<double> distances = grid_.distances().subspan(first, rays.size());
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            distances[i] = hits[i].t;
-            if (!hits[i].found()) continue;
-            std::atomic_ref<std::uint8_t>(met_[objects_->number_of(hits[i])])
-                .store(1, std::memory_order_relaxed);
-        }
-        for (const Rgb& shade : shades) counters.non_finite += !shade.is_finite();
+    void take_hit(std::size_t point, const Hit& hit) {
+        grid_.distances()[point] = hit.t;
+        if (!hit.found()) return;
+        std::atomic_ref<std::uint8_t>(met_[objects_->number_of(hit)])
+            .store(1, std::memory_order_relaxed);
     }
 
     void write_pixels() {
@@ -177,6 +221,7 @@ class AdaptiveRender {
         if (job_.aovs == nullptr) return;
         AovRecorder recorder(job_, counters_);
         const PixelBox& crop = film_.crop();
+        const std::vector<std::uint32_t> rays_of_pixels = count_rays();
         std::size_t k = 0;
         for (int y = crop.y0; y < crop.y1; ++y) {
             for (int x = crop.x0; x < crop.x1; ++x, ++k) {
@@ -186,17 +231,28 @@ class AdaptiveRender {
                                        picture_.place(0, {p.x, p.y + 1}),
                                        picture_.place(0, {p.x + 1, p.y + 1})};
                 recorder.end_pixel(x, y, places);
-                const double rays = grid_.points_of_pixels()[k];
+                const double rays = rays_of_pixels[k];
                 job_.aovs->set(AovKind::Rays, x, y, {&rays, 1});
             }
         }
-        for (std::size_t i = 0, n = 0; i < grid_.below_depth().size(); ++i) {
-            const std::uint32_t pixel = grid_.below_depth()[i].pixel;
-            n = i > 0 && grid_.below_depth()[i - 1].pixel == pixel ? n + 1 : 1;
+        for (std::size_t i = 0, n = 0; i < below_depth_.size(); ++i) {
+            const std::uint32_t pixel = below_depth_[i].pixel;
+            n = i > 0 && below_depth_[i - 1].pixel == pixel ? n + 1 : 1;
             const int width = crop.width();
             job_.aovs->set_whole(AovKind::Unmet, crop.x0 + static_cast<int>(pixel) % width,
                                  crop.y0 + static_cast<int>(pixel) / width, n);
         }
+    }
+
+    /// [pixel] eye rays that were traced for it first.
+    [[nodiscard]] std::vector<std::uint32_t> count_rays() const {
+        const std::span<const std::uint32_t> points = grid_.points_of_pixels();
+        std::vector<std::uint32_t> rays(points.begin(), points.end());
+        if (!search_) return rays;
+        for (const std::uint32_t pixel : search_->pixels()) {
+            if (pixel != ObjectSearch::kNone) ++rays[pixel];
+        }
+        return rays;
     }
 
     const RenderJob& job_;
@@ -208,8 +264,10 @@ class AdaptiveRender {
     RayCounters counters_;
     AntialiasReport report_;
     std::optional<SceneObjects> objects_;   ///< with the guarantee
-    std::vector<std::uint8_t> met_;         ///< [object] a ray met it
+    std::vector<std::uint8_t> met_;         ///< [object] a ray with a shade met it
     std::optional<SoughtSpheres> spheres_;  ///< where some object was not met at first
+    std::optional<ObjectSearch> search_;    ///< likewise
+    std::vector<WatchedObject> below_depth_;
 };
 
 /// Refuses layers that no pixel has alone.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 
 namespace alhazen {
@@ -55,6 +56,17 @@ class VertexSets {
 };
 
 }  // namespace
+
+double stretch_bound(const Mat3& m) {
+    const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
+    double most = 0;
+    for (const Vec3& a : columns) {
+        double sum = 0;
+        for (const Vec3& b : columns) sum += std::abs(dot(a, b));
+        most = std::max(most, sum);
+    }
+    return (1.0 + 1e-15) * std::sqrt(most);
+}
 
 MeshPieces::MeshPieces(const TriangleMesh& mesh) : of_vertex(mesh.positions.size(), kNoPiece) {
     VertexSets sets(first_of_position(mesh.positions));

@@ -15,6 +15,9 @@
 
 namespace alhazen {
 
+/// Upper bound of the stretch of a map; see most_stretch in primitive_bounds.cpp.
+[[nodiscard]] double stretch_bound(const Mat3& m);
+
 struct MeshPieces {
     struct Piece {
         Box3 box;

@@ -13,23 +13,24 @@ namespace {
 
 constexpr std::uint64_t kCountless = std::uint64_t{1} << 62;
 
-/// Upper bound of the stretch of a map; see most_stretch in primitive_bounds.cpp.
-double stretch_bound(const Mat3& m) {
-    const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
-    double most = 0;
-    for (const Vec3& a : columns) {
-        double sum = 0;
-        for (const Vec3& b : columns) sum += std::abs(dot(a, b));
-        most = std::max(most, sum);
-    }
-    return (1.0 + 1e-15) * std::sqrt(most);
-}
-
 Box3 box_around(const Affine& to_from, const Box3& box) {
     if (box.empty() || !box.bounded()) return box.empty() ? box : kAllSpace;
     Box3 result;
     for (int i = 0; i < 8; ++i) result.include(to_from.point(box.corner(i)));
     return result;
+}
+
+/// Widens the extents of an object by those of a shape of the table.
+void include_diagonals(const PrimitiveTable& table, std::uint32_t shape, const Affine& world,
+                       SceneObject& object) {
+    for (std::size_t k = 0; k < kDiagonals.size(); ++k) {
+        const double shift = dot(kDiagonals[k], world.translation);
+        const Interval inner = table.extent(shape, transpose_times(world.linear, kDiagonals[k]));
+        const double pad =
+            1e-15 * (std::abs(shift) + std::max(std::abs(inner.lo), std::abs(inner.hi)));
+        object.diagonals[k].include(inner.lo + shift - pad);
+        object.diagonals[k].include(inner.hi + shift + pad);
+    }
 }
 
 std::uint32_t part_of_shape(const PrimitiveTable& table, PrimitiveId id) {
@@ -41,7 +42,10 @@ std::uint32_t part_of_shape(const PrimitiveTable& table, PrimitiveId id) {
 }  // namespace
 
 struct SceneObjects::Layout {
+    explicit Layout(const Aggregate& a) : aggregate(&a), shapes(a.primitives()) {}
+
     const Aggregate* aggregate;
+    JoinedPolygons shapes;
     std::vector<const MeshPieces*> pieces;        ///< [mesh]
     std::vector<std::uint64_t> mesh_objects;      ///< [mesh] number of its first piece
     std::vector<const Layout*> inner;             ///< [instance] null: it is one object
@@ -73,18 +77,21 @@ SceneObjects::SceneObjects(const Aggregate& root, std::uint64_t most) {
     objects_.reserve(root_->count);
     add_objects(*root_, {});
     for (SceneObject& object : objects_) {
-        if (object.sphere.radius < kInfinity) object.box.include(object.sphere.center);
+        if (!(object.sphere.radius < kInfinity)) continue;
+        object.box.include(object.sphere.center);
+        for (std::size_t k = 0; k < kDiagonals.size(); ++k) {
+            object.diagonals[k].include(dot(kDiagonals[k], object.sphere.center));
+        }
     }
 }
 
 const SceneObjects::Layout* SceneObjects::layout_of(const Aggregate& aggregate, int levels) {
     std::unique_ptr<Layout>& found = layouts_[{&aggregate, levels}];
     if (found) return found.get();
-    found = std::make_unique<Layout>();
+    found = std::make_unique<Layout>(aggregate);
     Layout& layout = *found;  // the map keeps its elements in place
-    layout.aggregate = &aggregate;
     const PrimitiveTable& table = aggregate.primitives();
-    layout.count = table.first(kTriangleKind);
+    layout.count = layout.shapes.objects;
     for (const PlacedMesh& mesh : table.meshes) {
         layout.mesh_objects.push_back(layout.count);
         layout.pieces.push_back(&pieces_of(*mesh.mesh));
@@ -124,30 +131,44 @@ void SceneObjects::add_objects(const Layout& layout, const Place& place) {
         }
         const std::size_t id = table.first(kInstanceKind) + i;
         const BoundingSphere s = table.sphere(id);
-        objects_.push_back({{place.world_from_inner.point(s.center),
-                             stretch_bound(place.world_from_inner.linear) * s.radius},
-                            box_around(place.world_from_inner, table.box(id)),
-                            instance.part,
-                            inside.outermost->part,
-                            inside.is_seen});
+        objects_.push_back({.sphere = {place.world_from_inner.point(s.center),
+                                       stretch_bound(place.world_from_inner.linear) * s.radius},
+                            .box = box_around(place.world_from_inner, table.box(id)),
+                            .part = instance.part,
+                            .instance = inside.outermost->part,
+                            .is_seen = inside.is_seen});
     }
 }
 
 void SceneObjects::add_shapes(const Layout& layout, const Place& place) {
     const PrimitiveTable& table = layout.table();
     const double stretch = stretch_bound(place.world_from_inner.linear);
+    const std::vector<std::uint32_t>& of_shape = layout.shapes.of_shape;
+    const std::size_t first = objects_.size();
     for (std::uint32_t id = 0; id < table.first(kTriangleKind); ++id) {
+        const std::size_t number = of_shape.empty() ? id : of_shape[id];
+        const Box3 box = box_around(place.world_from_inner, table.box(id));
+        if (first + number < objects_.size()) {
+            // Another polygon of the object.
+            SceneObject& joined = objects_[first + number];
+            joined.box.include(box);
+            include_diagonals(table, id, place.world_from_inner, joined);
+            continue;
+        }
         const PrimitiveId shape{id};
         const std::uint32_t part = part_of_shape(table, shape);
         SceneObject& object = objects_.emplace_back();
         object.part = part;
         object.instance = place.outermost != nullptr ? place.outermost->part : part;
         object.is_seen = place.is_seen && (table.visible_to(shape) & mask_of(RayKind::Eye)) != 0;
-        object.box = box_around(place.world_from_inner, table.box(id));
+        object.box = box;
         object.sphere.radius = kInfinity;
         if (object.box.empty() || !object.box.bounded()) continue;
-        const BoundingSphere sphere = table.sphere(id);
+        const BoundingSphere sphere =
+            of_shape.empty() ? table.sphere(id) : layout.shapes.spheres[number];
         object.sphere = {place.world_from_inner.point(sphere.center), stretch * sphere.radius};
+        object.diagonals.fill({});
+        include_diagonals(table, id, place.world_from_inner, object);
     }
 }
 
@@ -158,11 +179,12 @@ void SceneObjects::add_meshes(const Layout& layout, const Place& place) {
         const std::uint32_t part = place.of_shared_mesh ? place.part : mesh.part;
         for (const MeshPieces::Piece& piece : layout.pieces[m]->pieces) {
             objects_.push_back(
-                {{place.world_from_inner.point(piece.sphere.center), stretch * piece.sphere.radius},
-                 box_around(place.world_from_inner, piece.box),
-                 part,
-                 place.outermost != nullptr ? place.outermost->part : part,
-                 place.is_seen && (mesh.visible_to & mask_of(RayKind::Eye)) != 0});
+                {.sphere = {place.world_from_inner.point(piece.sphere.center),
+                            stretch * piece.sphere.radius},
+                 .box = box_around(place.world_from_inner, piece.box),
+                 .part = part,
+                 .instance = place.outermost != nullptr ? place.outermost->part : part,
+                 .is_seen = place.is_seen && (mesh.visible_to & mask_of(RayKind::Eye)) != 0});
         }
     }
 }
@@ -180,7 +202,9 @@ std::uint32_t SceneObjects::number_of(const Hit& hit) const {
     const PrimitiveTable& table = layout->table();
     const std::uint32_t index = table.index(hit.primitive);
     if (table.kind(hit.primitive) != kTriangleKind) {
-        return static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(hit.primitive);
+        const std::vector<std::uint32_t>& of_shape = layout->shapes.of_shape;
+        const auto shape = static_cast<std::uint32_t>(hit.primitive);
+        return static_cast<std::uint32_t>(first) + (of_shape.empty() ? shape : of_shape[shape]);
     }
     const PlacedMesh& mesh = table.mesh_of(index);
     const std::size_t m = static_cast<std::size_t>(&mesh - table.meshes.data());

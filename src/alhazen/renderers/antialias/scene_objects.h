@@ -1,6 +1,7 @@
 #pragma once
 /// The objects of a scene, for the guarantee of adaptive supersampling: shapes, connected pieces
-/// of meshes and solids of constructive geometry, instances expanded, each with a sphere around it.
+/// of meshes and of polygons, and solids of constructive geometry, instances expanded, each with
+/// bounds.
 ///
 /// Conventions: objects are numbered; a hit names its object. Where the scene has more than
 /// `most` objects, the innermost instances count as one object each, then those around them, until
@@ -8,7 +9,9 @@
 /// Complexity: linear in the number of objects, and in the size of meshes.
 /// Threads: const functions may be called from many threads.
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -16,16 +19,30 @@
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/primitives/aggregate.h"
+#include "alhazen/renderers/antialias/joined_polygons.h"
 #include "alhazen/renderers/antialias/mesh_pieces.h"
 
 namespace alhazen {
 
+/// Unit axes besides those of the frame, for bounds that are tight around what lies askew: Kay and
+/// Kajiya's seven slabs.
+inline constexpr double kThird = 0.57735026918962576451;
+inline constexpr std::array<Vec3, 4> kDiagonals{{{kThird, kThird, kThird},
+                                                 {kThird, kThird, -kThird},
+                                                 {kThird, -kThird, kThird},
+                                                 {kThird, -kThird, -kThird}}};
+
 struct SceneObject {
     BoundingSphere sphere;  ///< of radius infinity where it is endless
     Box3 box;
+    /// [diagonal] where they are known: else all numbers.
+    std::array<Interval, 4> diagonals{kAllNumbers, kAllNumbers, kAllNumbers, kAllNumbers};
     std::uint32_t part = 0;      ///< number of its part; see Surface
     std::uint32_t instance = 0;  ///< number of the part that placed it in the scene
     bool is_seen = true;         ///< by eye rays
+
+    static constexpr Interval kAllNumbers{-std::numeric_limits<double>::infinity(),
+                                          std::numeric_limits<double>::infinity()};
 };
 
 class SceneObjects {

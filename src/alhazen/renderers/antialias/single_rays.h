@@ -3,15 +3,18 @@
 /// for it.
 ///
 /// Conventions: those of RadianceEstimator (estimator.h); such an estimator also has
-/// `keep_hits(hits)`, which makes `trace` store the first hit of each eye ray.
+/// `keep_hits(hits)`, which makes `trace` store the first hit of each eye ray, and
+/// `start_from(hits)`, which makes it begin with first hits that are known.
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/tiles.h"
+#include "alhazen/renderers/core/visible_batch.h"
 
 namespace alhazen {
 
@@ -25,6 +28,12 @@ class RayAnswers {
     /// Adds to `counters`.
     virtual void trace(std::span<const Ray> rays, std::span<Rgb> radiance, std::span<Hit> hits,
                        RayCounters& counters) = 0;
+    /// At most kRaysAtOnce eye rays: what they meet, without a shade.
+    virtual void find(std::span<const Ray> rays, std::span<Hit> hits, RayCounters& counters) = 0;
+    /// The radiance along rays that have been traced by `find`, from their hits; they are not
+    /// counted again.
+    virtual void shade(std::span<const Ray> rays, std::span<const Hit> hits,
+                       std::span<Rgb> radiance, RayCounters& counters) = 0;
 };
 
 /// RayAnswers of an estimator.
@@ -34,7 +43,7 @@ class EstimatorAnswers final : public RayAnswers {
     /// `more`: further arguments of the estimator.
     template <class... More>
     explicit EstimatorAnswers(const RenderJob& job, const More&... more)
-        : estimator_(job, kRaysAtOnce, counters_, more...) {}
+        : job_(job), estimator_(job, kRaysAtOnce, counters_, more...) {}
 
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance, std::span<Hit> hits,
                RayCounters& counters) override {
@@ -45,10 +54,40 @@ class EstimatorAnswers final : public RayAnswers {
         counters += counters_;
         counters_ = {};
     }
+    void find(std::span<const Ray> rays, std::span<Hit> hits, RayCounters& counters) override {
+        if (!finder_) finder_.emplace(job_.scene, job_.count_tests ? &counters_.tests : nullptr);
+        std::fill(hits.begin(), hits.end(), Hit{});
+        RayCount& count = counters_[RayKind::Eye];
+        count.cast += rays.size();
+        finder_->find(
+            rays, Coherence::Any, [&](std::size_t) -> const Path& { return eye_; },
+            [](std::size_t, const ShadingPoint*, double) {},
+            [&](std::size_t k, const Hit& hit) {
+                hits[k] = hit;
+                ++count.hit;
+                return true;
+            });
+        counters += counters_;
+        counters_ = {};
+    }
+    void shade(std::span<const Ray> rays, std::span<const Hit> hits, std::span<Rgb> radiance,
+               RayCounters& counters) override {
+        std::fill(radiance.begin(), radiance.end(), Rgb{});
+        estimator_.keep_hits({});
+        estimator_.start_from(hits);
+        estimator_.trace(rays, radiance);
+        estimator_.start_from({});
+        counters_[RayKind::Eye] = {};
+        counters += counters_;
+        counters_ = {};
+    }
 
   private:
+    const RenderJob& job_;
     RayCounters counters_;
     Estimator estimator_;
+    std::optional<VisibleBatch> finder_;  ///< once it is used
+    const Path eye_{};
 };
 
 class SingleRayRenderer : public TiledRenderer {

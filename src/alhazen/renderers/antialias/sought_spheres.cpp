@@ -12,22 +12,38 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kRaysOfATask = 4096;
+constexpr std::size_t kRowsOfATask = 4;
 
-/// Whether the ray meets the box, widened by `room`, in [0, distance].
-bool meets_box(const Box3& box, double room, const Ray& ray, double distance) {
-    double enter = 0.0, leave = distance;
-    for (int k = 0; k < 3; ++k) {
-        const double a = box.lo[k] - room - ray.origin[k], b = box.hi[k] + room - ray.origin[k];
-        if (ray.direction[k] == 0.0) {
-            if (a > 0.0 || b < 0.0) return false;
-            continue;
+/// The part of a ray that lies between planes.
+struct Stretch {
+    double enter, leave;
+
+    /// `origin`, `direction`: of the ray along the normal of two planes at `lo` and `hi`.
+    void narrow(double lo, double hi, double origin, double direction) {
+        const double a = lo - origin, b = hi - origin;
+        if (direction == 0.0) {
+            if (a > 0.0 || b < 0.0) leave = -kInfinity;
+            return;
         }
-        const double ta = a / ray.direction[k], tb = b / ray.direction[k];
+        const double ta = a / direction, tb = b / direction;
         enter = std::max(enter, std::min(ta, tb) * (1.0 - 1e-14));
         leave = std::min(leave, std::max(ta, tb) * (1.0 + 1e-14));
     }
-    return enter <= leave;
+};
+
+/// Whether the ray meets the bounds of the object, widened by `room`, in [0, distance].
+bool meets_bounds(const SceneObject& object, double room, const Ray& ray, double distance) {
+    Stretch stretch{0.0, distance};
+    for (int k = 0; k < 3; ++k) {
+        stretch.narrow(object.box.lo[k] - room, object.box.hi[k] + room, ray.origin[k],
+                       ray.direction[k]);
+    }
+    for (std::size_t k = 0; k < kDiagonals.size() && stretch.enter <= stretch.leave; ++k) {
+        const Interval& extent = object.diagonals[k];
+        stretch.narrow(extent.lo - room, extent.hi + room, dot(kDiagonals[k], ray.origin),
+                       dot(kDiagonals[k], ray.direction));
+    }
+    return stretch.enter <= stretch.leave;
 }
 
 }  // namespace
@@ -40,7 +56,7 @@ SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
         const SceneObject& object = objects[i];
         if (met[i] != 0 || !object.is_seen || !(object.sphere.radius < kInfinity)) continue;
-        const double r = (1.0 + 1e-9) * radius(object, 0);
+        const double r = (1.0 + 1e-9) * (object.sphere.radius + room(object, 0));
         sought_.push_back(i);
         column.shapes.push_back({object.sphere.center, r});
         column.placements.push_back(kNoPlacement);
@@ -54,60 +70,54 @@ SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
     if (!sought_.empty()) tree_ = make_aggregate(kDefaultAccelerator, std::move(table));
 }
 
-double SoughtSpheres::radius(const SceneObject& object, int level) const {
-    const double distance = picture_.distance(object.sphere.center);
-    return std::max(object.sphere.radius, picture_.least_radius(level, distance));
+double SoughtSpheres::room(const SceneObject& object, int level) const {
+    const double nearest = picture_.distance(object.sphere.center);
+    return picture_.least_radius(level, nearest + object.sphere.radius);
 }
 
-bool SoughtSpheres::passes(std::uint32_t object, int level, const Ray& ray, double distance) const {
+bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
+                             double farthest) const {
     const SceneObject& o = objects_[object];
+    const Ray ray = picture_.ray(level + 1, {2 * cell.x + 1, 2 * cell.y + 1});
     const Vec3 to_center = o.sphere.center - ray.origin;
     const Vec3 across = cross(to_center, ray.direction);
-    const double r = radius(o, level);
+    const double around = room(o, level), r = o.sphere.radius + around;
     const double within = r * r - dot(across, across);
     if (!(within >= 0.0)) return false;
     const double middle = dot(to_center, ray.direction), half = std::sqrt(within);
-    if (!(middle - half < distance) || middle + half < 0.0) return false;
-    const double room = picture_.least_radius(level, picture_.distance(o.sphere.center));
-    return meets_box(o.box, room, ray, distance);
+    if (!(middle - half < farthest) || middle + half < 0.0) return false;
+    return meets_bounds(o, around, ray, farthest);
 }
 
-std::vector<WatchedObject> SoughtSpheres::around(std::span<const GridPoint> points, int depth,
-                                                 std::span<const double> distances, int width,
-                                                 int height) const {
-    std::vector<std::vector<WatchedObject>> found((points.size() + kRaysOfATask - 1) /
-                                                  kRaysOfATask);
-    const auto add_pixels = [&](GridPoint p, std::uint32_t object,
-                                std::vector<WatchedObject>& list) {
-        for (int y = std::max(p.y - 1, 0); y <= std::min(p.y, height - 1); ++y) {
-            for (int x = std::max(p.x - 1, 0); x <= std::min(p.x, width - 1); ++x) {
-                list.push_back(
-                    {std::uint32_t(y) * std::uint32_t(width) + std::uint32_t(x), object});
-            }
-        }
-    };
-    parallel_for(points.size(), kRaysOfATask, [&](std::size_t begin, std::size_t end) {
+std::vector<WatchedObject> SoughtSpheres::around(const AdaptiveGrid& grid) const {
+    const std::uint32_t width = grid.width(), height = grid.height();
+    std::vector<std::vector<WatchedObject>> found((height + kRowsOfATask - 1) / kRowsOfATask);
+    parallel_for(height, kRowsOfATask, [&](std::size_t begin, std::size_t end) {
         std::vector<Hit> hits;
-        std::vector<WatchedObject>& list = found[begin / kRaysOfATask];
-        for (std::size_t i = begin; i < end; ++i) {
-            const GridPoint corner{points[i].x >> depth, points[i].y >> depth};
-            Ray ray = picture_.ray(0, corner);
-            ray.t_min = t_min_;
-            ray.t_max = distances[i];
-            hits.clear();
-            tree_->all_hits(ray, hits, nullptr);
-            for (const Hit& hit : hits) {
-                const std::uint32_t object = sought_[static_cast<std::size_t>(hit.primitive)];
-                if (passes(object, 0, ray, distances[i])) add_pixels(corner, object, list);
+        std::vector<std::uint32_t> hiding;
+        std::vector<WatchedObject>& list = found[begin / kRowsOfATask];
+        for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < static_cast<int>(width); ++x) {
+                const double farthest = grid.farthest_of_pixel(x, y);
+                Ray ray = picture_.ray(1, {2 * x + 1, 2 * y + 1});
+                ray.t_min = t_min_;
+                ray.t_max = farthest;
+                hits.clear();
+                tree_->all_hits(ray, hits, nullptr);
+                hiding.clear();
+                for (const Hit& hit : hits) {
+                    const std::uint32_t object = sought_[static_cast<std::size_t>(hit.primitive)];
+                    if (may_hide(object, 0, {x, y}, farthest)) hiding.push_back(object);
+                }
+                std::sort(hiding.begin(), hiding.end());
+                hiding.erase(std::unique(hiding.begin(), hiding.end()), hiding.end());
+                const std::uint32_t pixel = std::uint32_t(y) * width + std::uint32_t(x);
+                for (const std::uint32_t object : hiding) list.push_back({pixel, object});
             }
         }
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
     });
     std::vector<WatchedObject> all;
     for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
 }
 

@@ -36,8 +36,14 @@ class VisibleBatch {
     template <class PathOf, class Tell, class Take>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
               Take&& take) {
+        go_on(closest(rays, coherence, path), rays, path, tell, take);
+    }
+    /// The same, from the first hits that `find` gave to `take` for the same rays.
+    template <class PathOf, class Tell, class Take>
+    void go_on(std::span<const Hit> first, std::span<const Ray> rays, PathOf&& path, Tell&& tell,
+               Take&& take) {
         behind_.clear();
-        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, path)) {
+        for (std::size_t k = 0; const Hit& hit : first) {
             if (hit.found()) {
                 if (!take(k, hit)) meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
             } else {

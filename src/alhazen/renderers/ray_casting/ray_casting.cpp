@@ -29,21 +29,25 @@ class Caster {
         on_way_.clear();
         behind_.clear();
         rays_behind_.clear();
-        visible_.find(
-            eye_rays, Coherence::Coherent, [&](std::size_t) -> const OnWay& { return eye_; },
-            [&](std::size_t k, const ShadingPoint* point, double t) {
-                if (point == nullptr) return end(k, 1.0, radiance);
-                ++count_.hit;
-                meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
-            },
-            [&](std::size_t k, const Hit& hit) {
-                if (!eye_hits_.empty()) eye_hits_[k] = hit;
-                const Rgb* color = unlit_.find(hit);
-                if (color == nullptr) return false;
-                ++count_.hit;
-                radiance[k] += *color;
-                return true;
-            });
+        const auto path = [&](std::size_t) -> const OnWay& { return eye_; };
+        const auto tell = [&](std::size_t k, const ShadingPoint* point, double t) {
+            if (point == nullptr) return end(k, 1.0, radiance);
+            ++count_.hit;
+            meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
+        };
+        const auto take = [&](std::size_t k, const Hit& hit) {
+            if (!eye_hits_.empty()) eye_hits_[k] = hit;
+            const Rgb* color = unlit_.find(hit);
+            if (color == nullptr) return false;
+            ++count_.hit;
+            radiance[k] += *color;
+            return true;
+        };
+        if (known_hits_.empty()) {
+            visible_.find(eye_rays, Coherence::Coherent, path, tell, take);
+        } else {
+            visible_.go_on(known_hits_, eye_rays, path, tell, take);
+        }
         for (int met = 1; met < kMaxPassedSurfaces && !behind_.empty(); ++met) {
             if (job_.stop_requested()) return;
             go_on(radiance);
@@ -53,6 +57,8 @@ class Caster {
 
     /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
     void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
+    /// From now on these are the first hits of the eye rays; they are found where empty.
+    void start_from(std::span<const Hit> hits) { known_hits_ = hits; }
 
   private:
     /// The rest of a ray behind partly covering surfaces.
@@ -101,7 +107,8 @@ class Caster {
     const std::vector<Rgb> ambient_;
     UnlitCache unlit_;
     VisibleBatch visible_;
-    std::span<Hit> eye_hits_;  ///< see keep_hits
+    std::span<Hit> eye_hits_;          ///< see keep_hits
+    std::span<const Hit> known_hits_;  ///< see start_from
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;
 };

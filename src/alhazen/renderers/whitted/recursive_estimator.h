@@ -98,6 +98,8 @@ class RecursiveEstimator {
 
     /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
     void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
+    /// From now on these are the first hits of the eye rays; they are found where empty.
+    void start_from(std::span<const Hit> hits) { known_hits_ = hits; }
 
   private:
     /// All rays of a generation; `depth` is 0 for eye rays.
@@ -147,35 +149,38 @@ class RecursiveEstimator {
             return part.paths[front.active[k]];
         };
         const bool keeps = first && depth == 0 && !eye_hits_.empty();
-        visible_.find(
-            rays, coherence, path_of,
-            [&](std::size_t k, const ShadingPoint* point, double t) {
-                const std::uint32_t i = front.active[k];
-                Rgb& left = front.left[i];
-                if (point == nullptr) {
-                    if constexpr (TreeWatcher<Chance>) chance_.miss(i, left, depth);
-                    part.radiance[i] = part.radiance[i] + left * scene_.background;
-                    return;
-                }
-                Path& path = part.paths[i];
-                counters_[path.kind].hit += first;
-                if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
-                const double coverage = point->material->coverage;
-                MetSurface& met = front.met.emplace_back();
-                met.ray = i;
-                met.share = coverage * left;
-                shade({*point, rays[k], t, path, depth}, met, front);
-                if constexpr (TreeWatcher<Chance>) chance_.meet(*point, t, path, depth, met);
-                left = (1.0 - coverage) * left;
-                if (!(left.max() >= kLeastTransmittance)) return;
-                front.next_active.push_back(i);
-                front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
-                path.cone = path.cone.from(t);
-            },
-            [&](std::size_t k, const Hit& hit) {
-                if (keeps) eye_hits_[k] = hit;
-                return false;
-            });
+        const auto tell = [&](std::size_t k, const ShadingPoint* point, double t) {
+            const std::uint32_t i = front.active[k];
+            Rgb& left = front.left[i];
+            if (point == nullptr) {
+                if constexpr (TreeWatcher<Chance>) chance_.miss(i, left, depth);
+                part.radiance[i] = part.radiance[i] + left * scene_.background;
+                return;
+            }
+            Path& path = part.paths[i];
+            counters_[path.kind].hit += first;
+            if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
+            const double coverage = point->material->coverage;
+            MetSurface& met = front.met.emplace_back();
+            met.ray = i;
+            met.share = coverage * left;
+            shade({*point, rays[k], t, path, depth}, met, front);
+            if constexpr (TreeWatcher<Chance>) chance_.meet(*point, t, path, depth, met);
+            left = (1.0 - coverage) * left;
+            if (!(left.max() >= kLeastTransmittance)) return;
+            front.next_active.push_back(i);
+            front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
+            path.cone = path.cone.from(t);
+        };
+        const auto take = [&](std::size_t k, const Hit& hit) {
+            if (keeps) eye_hits_[k] = hit;
+            return false;
+        };
+        if (first && depth == 0 && !known_hits_.empty()) {
+            visible_.go_on(known_hits_, rays, path_of, tell, take);
+        } else {
+            visible_.find(rays, coherence, path_of, tell, take);
+        }
     }
 
     /// Adds the colours of the surfaces to the radiance of the rays.
@@ -351,7 +356,9 @@ class RecursiveEstimator {
     RayCounters& counters_;
     std::size_t rays_at_once_;
     const std::vector<Rgb> ambient_;
-    std::span<Hit> eye_hits_;  ///< of a batch that begins with its first ray; see keep_hits
+    // Of a batch that begins with its first ray.
+    std::span<Hit> eye_hits_;          ///< see keep_hits
+    std::span<const Hit> known_hits_;  ///< see start_from
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Chance chance_;

@@ -26,6 +26,7 @@ struct AntialiasReport {
     std::uint64_t objects = 0;    ///< with a sphere
     std::uint64_t unbounded = 0;  ///< without one: planes and other endless shapes
     std::uint64_t met = 0;        ///< objects that some eye ray met
+    std::uint64_t searching = 0;  ///< eye rays without a shade, besides `points`
     std::uint64_t sought = 0;     ///< objects whose sphere a ray met before anything met the object
     std::uint64_t below_depth = 0;         ///< of these, the ones that none met down to the depth
     std::uint64_t below_depth_pixels = 0;  ///< where they were looked for
