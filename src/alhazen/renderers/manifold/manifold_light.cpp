@@ -89,7 +89,7 @@ ManifoldLight::Choice ManifoldLight::choose_part(double choice) const {
         const auto i = std::min(static_cast<std::size_t>(choice * double(n)), n - 1);
         return {&manifold_.parts[some[i]], 1.0 / double(n)};
     }
-    double weights[kMostWeighed], sum = 0.0;
+    double weights[kMostWeighed] = {}, sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         // Never 0: what is small may send much.
         weights[i] = share_of_directions(manifold_.parts[some[i]], at_->surface.point) + 1e-3;
