@@ -12,6 +12,7 @@ namespace {
 struct ThreadErrors {
     std::vector<std::pair<std::uint64_t, AlhazenError>> first;  ///< by number of the device
     std::string text;
+    bool telling = false;  ///< the error function of a device runs
 };
 
 ThreadErrors& errors_of_thread() {
@@ -82,10 +83,17 @@ void note_error(Device* device) noexcept {
         const auto known = std::find_if(errors.first.begin(), errors.first.end(),
                                         [&](const auto& e) { return e.first == number; });
         if (known == errors.first.end()) errors.first.emplace_back(number, code);
-        errors.text = std::move(text);
-        if (device != nullptr && device->error_function != nullptr) {
-            device->error_function(device->error_pointer, code, errors.text.c_str());
+        errors.text = text;
+        if (device == nullptr || device->error_function == nullptr || errors.telling) return;
+        // Calls of the function may fail too: they are not told, and leave this text.
+        errors.telling = true;
+        try {
+            device->error_function(device->error_pointer, code, text.c_str());
+        } catch (...) {
+            // Of a function in C++.
         }
+        errors.telling = false;
+        errors.text = std::move(text);
     } catch (...) {
         // No memory for the error itself.
     }
@@ -170,8 +178,25 @@ ssize_t alhazenGetDeviceProperty(AlhazenDevice, AlhazenDeviceProperty property) 
             return ALHAZEN_C_MINOR;
         case ALHAZEN_DEVICE_PROPERTY_VERSION_PATCH:
             return ALHAZEN_C_PATCH;
+        case ALHAZEN_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED:
         case ALHAZEN_DEVICE_PROPERTY_RAY_MASK_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_IGNORE_INVALID_RAYS_ENABLED:
+        case ALHAZEN_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_POINT_GEOMETRY_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_JOIN_COMMIT_SUPPORTED:
             return 1;
+        case ALHAZEN_DEVICE_PROPERTY_BACKFACE_CULLING_ENABLED:
+        case ALHAZEN_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_QUAD_GEOMETRY_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_SUBDIVISION_GEOMETRY_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_USER_GEOMETRY_SUPPORTED:
+        case ALHAZEN_DEVICE_PROPERTY_TASKING_SYSTEM:
+        case ALHAZEN_DEVICE_PROPERTY_PARALLEL_COMMIT_SUPPORTED:
+            break;
     }
     return 0;
 }

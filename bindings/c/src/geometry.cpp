@@ -59,6 +59,23 @@ Affine affine_of(AlhazenFormat format, const float* m) {
     return {{column(0), column(1), column(2)}, column(3)};
 }
 
+/// The matrix, in the format.
+void write_affine(const Affine& transform, AlhazenFormat format, float* m) {
+    const Vec3 columns[] = {transform.linear.x_axis, transform.linear.y_axis,
+                            transform.linear.z_axis, transform.translation};
+    const bool rows = format == ALHAZEN_FORMAT_FLOAT3X4_ROW_MAJOR;
+    const int stride = format == ALHAZEN_FORMAT_FLOAT4X4_COLUMN_MAJOR ? 4 : 3;
+    need_argument(rows || stride == 4 || format == ALHAZEN_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                  "a transform has the format FLOAT3X4 or FLOAT4X4_COLUMN_MAJOR");
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            m[rows ? 4 * row + column : stride * column + row] =
+                static_cast<float>(columns[column][row]);
+        }
+        if (stride == 4 && !rows) m[4 * column + 3] = column == 3 ? 1.0f : 0.0f;
+    }
+}
+
 /// Runs `work` with the geometry, which must not be null.
 template <class Work>
 void with_geometry(AlhazenGeometry handle, const Work& work) {
@@ -67,6 +84,15 @@ void with_geometry(AlhazenGeometry handle, const Work& work) {
         need_argument(geometry != nullptr, "the geometry is NULL");
         work(*geometry);
     });
+}
+
+/// Replaces a buffer. Throws CodedError for one that the geometry cannot have.
+void set_buffer(Geometry& geometry, AlhazenBufferType type, unsigned slot, Buffer next) {
+    Buffer& buffer = geometry.buffer(type, slot);
+    check_format(geometry, type, next.format);
+    need_argument(next.stride >= size_of(next.format) || next.count <= 1,
+                  "byteStride is less than an item");
+    buffer = std::move(next);
 }
 
 }  // namespace
@@ -121,43 +147,50 @@ void alhazenReleaseGeometry(AlhazenGeometry geometry) {
     if (geometry != nullptr) object(geometry)->release();
 }
 
+void alhazenSetGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type, unsigned int slot,
+                              AlhazenFormat format, AlhazenBuffer buffer, size_t byteOffset,
+                              size_t byteStride, size_t itemCount) {
+    with_geometry(geometry, [&](Geometry& g) {
+        need_argument(buffer != nullptr, "the buffer is NULL");
+        Memory& memory = *object(buffer);
+        const std::size_t item = size_of(format);
+        need_argument(itemCount == 0 ||
+                          (byteOffset <= memory.bytes && item <= memory.bytes - byteOffset &&
+                           (itemCount == 1 ||
+                            byteStride <= (memory.bytes - byteOffset - item) / (itemCount - 1))),
+                      "the items reach beyond the buffer");
+        set_buffer(
+            g, type, slot,
+            {format, memory.begin + byteOffset, byteStride, itemCount, Reference<Memory>(&memory)});
+    });
+}
 void alhazenSetSharedGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
                                     unsigned int slot, AlhazenFormat format, const void* ptr,
                                     size_t byteOffset, size_t byteStride, size_t itemCount) {
     with_geometry(geometry, [&](Geometry& g) {
-        Buffer& buffer = g.buffer(type, slot);
-        check_format(g, type, format);
         need_argument(ptr != nullptr || itemCount == 0, "the memory of a buffer is NULL");
-        need_argument(byteStride >= size_of(format) || itemCount <= 1,
-                      "byteStride is less than an item");
-        buffer.own.clear();
-        buffer.format = format;
-        buffer.begin = ptr != nullptr ? static_cast<const std::byte*>(ptr) + byteOffset : nullptr;
-        buffer.stride = byteStride;
-        buffer.count = itemCount;
+        const auto* begin = static_cast<const std::byte*>(ptr);
+        set_buffer(
+            g, type, slot,
+            {format, ptr != nullptr ? begin + byteOffset : nullptr, byteStride, itemCount, {}});
     });
 }
-
 void* alhazenSetNewGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
                                   unsigned int slot, AlhazenFormat format, size_t byteStride,
                                   size_t itemCount) {
-    void* memory = nullptr;
+    void* begin = nullptr;
     with_geometry(geometry, [&](Geometry& g) {
-        Buffer& buffer = g.buffer(type, slot);
-        check_format(g, type, format);
         need_argument(byteStride >= size_of(format), "byteStride is less than an item");
         // Room for one item more: callers may write a float3 as 16 bytes.
-        need(itemCount < SIZE_MAX / byteStride - 1, ALHAZEN_ERROR_OUT_OF_MEMORY,
+        need(byteStride == 0 || itemCount < SIZE_MAX / byteStride - 1, ALHAZEN_ERROR_OUT_OF_MEMORY,
              "the buffer is too large");
-        std::vector<std::byte> own((itemCount + 1) * byteStride);
-        buffer.own.swap(own);
-        buffer.format = format;
-        buffer.begin = buffer.own.data();
-        buffer.stride = byteStride;
-        buffer.count = itemCount;
-        memory = buffer.own.data();
+        auto memory =
+            Reference<Memory>::adopt(new Memory(g.device.get(), (itemCount + 1) * byteStride));
+        std::byte* const own = memory->begin;
+        set_buffer(g, type, slot, {format, own, byteStride, itemCount, std::move(memory)});
+        begin = own;
     });
-    return memory;
+    return begin;
 }
 
 void* alhazenGetGeometryBufferData(AlhazenGeometry geometry, AlhazenBufferType type,
@@ -183,12 +216,27 @@ void* alhazenGetGeometryUserData(AlhazenGeometry geometry) {
     return geometry != nullptr ? object(geometry)->user_pointer : nullptr;
 }
 
+void alhazenSetGeometryBuildQuality(AlhazenGeometry geometry, AlhazenBuildQuality) {
+    with_geometry(geometry, [](Geometry&) {});
+}
+void alhazenSetGeometryTimeStepCount(AlhazenGeometry geometry, unsigned int timeStepCount) {
+    with_geometry(geometry, [&](Geometry&) {
+        need_argument(timeStepCount == 1, "there is one time step: nothing moves");
+    });
+}
+
 void alhazenSetGeometryInstancedScene(AlhazenGeometry geometry, AlhazenScene scene) {
     with_geometry(geometry, [&](Geometry& g) {
         need(g.type == ALHAZEN_GEOMETRY_TYPE_INSTANCE, ALHAZEN_ERROR_INVALID_OPERATION,
              "only an instance has a scene");
         need_argument(scene != nullptr, "the scene is NULL");
-        g.instanced = Reference<Scene>(object(scene));
+        Reference<Scene> next(object(scene));  // keeps the one before until the mutex is free
+        const std::lock_guard lock(structure_mutex());
+        for (const Scene* holder : g.holders) {
+            need(!next->reaches(holder), ALHAZEN_ERROR_INVALID_OPERATION,
+                 "the scene holds the instance: a scene cannot be an instance in itself");
+        }
+        std::swap(g.instanced, next);
     });
 }
 void alhazenSetGeometryTransform(AlhazenGeometry geometry, unsigned int timeStep,
@@ -199,6 +247,14 @@ void alhazenSetGeometryTransform(AlhazenGeometry geometry, unsigned int timeStep
         need_argument(timeStep == 0, "there is one time step, 0");
         need_argument(xfm != nullptr, "the transform is NULL");
         g.transform = affine_of(format, static_cast<const float*>(xfm));
+    });
+}
+void alhazenGetGeometryTransform(AlhazenGeometry geometry, float, AlhazenFormat format, void* xfm) {
+    with_geometry(geometry, [&](Geometry& g) {
+        need(g.type == ALHAZEN_GEOMETRY_TYPE_INSTANCE, ALHAZEN_ERROR_INVALID_OPERATION,
+             "only an instance has a transform");
+        need_argument(xfm != nullptr, "the transform is NULL");
+        write_affine(g.transform, format, static_cast<float*>(xfm));
     });
 }
 void alhazenEnableGeometry(AlhazenGeometry geometry) {

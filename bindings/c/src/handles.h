@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <map>
@@ -11,6 +12,8 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "alhazen/alhazen.h"
@@ -48,6 +51,12 @@ class Reference {
     }
     ~Reference() {
         if (object_ != nullptr) object_->release();
+    }
+    /// Takes the reference that `object` begins with.
+    static Reference adopt(T* object) {
+        Reference reference;
+        reference.object_ = object;
+        return reference;
     }
     [[nodiscard]] T* get() const { return object_; }
     T* operator->() const { return object_; }
@@ -116,12 +125,28 @@ class Device final : public Counted {
     void* memory_pointer = nullptr;
 };
 
-/// Items of one buffer.
+/// Memory behind an AlhazenBuffer: its own, or the caller's.
+class Memory final : public Counted {
+  public:
+    /// Throws CodedError when there is not as much.
+    Memory(Device* owner, std::size_t size);
+    Memory(Device* owner, void* shared, std::size_t size)
+        : device(owner), begin(static_cast<std::byte*>(shared)), bytes(size) {}
+
+    Reference<Device> device;
+    std::byte* begin = nullptr;
+    std::size_t bytes = 0;
+
+  private:
+    std::vector<std::byte> own_;
+};
+
+/// Items of one buffer of a geometry.
 struct Buffer {
     AlhazenFormat format = ALHAZEN_FORMAT_FLOAT3;
     const std::byte* begin = nullptr;
     std::size_t stride = 0, count = 0;
-    std::vector<std::byte> own;  ///< of alhazenSetNewGeometryBuffer
+    Reference<Memory> memory;  ///< null: the caller's (alhazenSetSharedGeometryBuffer)
 
     /// Number `k` of item `i`, of a format of floats or doubles.
     [[nodiscard]] double real(std::size_t i, std::size_t k) const;
@@ -142,6 +167,7 @@ class Geometry final : public Counted {
     Buffer index, vertex;
     Affine transform;
     Reference<Scene> instanced;
+    std::vector<Scene*> holders;  ///< scenes that an instance is attached to, once for each id
     RayMask mask = kAllRays;
     void* user_pointer = nullptr;
     bool enabled = true, committed = false;
@@ -160,23 +186,45 @@ struct Built {
     std::int64_t bytes = 0;
 };
 
+/// Guards which geometry is in which scene, of all scenes: `Scene::geometries`,
+/// `Geometry::instanced`, `Geometry::holders`. Nothing is released, and no function of the caller
+/// runs, while it is held.
+std::mutex& structure_mutex();
+
 class Scene final : public Counted {
   public:
     explicit Scene(Device* owner) : device(owner) {}
     ~Scene() override;
 
-    void commit();
+    /// Throws CodedError for an id in use, and for an instance of a scene that holds this one.
+    void attach(unsigned id, Geometry& geometry);
+    /// The smallest free id.
+    unsigned attach(Geometry& geometry);
+    void detach(unsigned id);
+    /// Whether it is `other`, or has instances, at any depth, of it. Under structure_mutex().
+    [[nodiscard]] bool reaches(const Scene* other) const;
+
+    /// `join`: waits for the commit of another thread, which is an error otherwise.
+    void commit(bool join);
 
     Reference<Device> device;
-    std::mutex mutex;
     std::map<unsigned, Reference<Geometry>> geometries;
     AlhazenProgressMonitorFunction progress = nullptr;
     void* progress_pointer = nullptr;
     std::optional<BuildQuality> quality;
+    AlhazenSceneFlags flags = ALHAZEN_SCENE_FLAG_NONE;
     std::shared_ptr<const Built> built;
 
   private:
+    void attach_locked(unsigned id, Geometry& geometry);
+    void build();
     void tell(double done) const;
+
+    unsigned first_free_ = 0;         ///< no id below is free
+    std::size_t instance_count_ = 0;  ///< of `geometries`
+    std::mutex commit_mutex_;
+    std::condition_variable commit_ended_;
+    std::optional<std::thread::id> committing_;
 };
 
 inline Device* object(AlhazenDevice handle) {
@@ -187,6 +235,9 @@ inline Geometry* object(AlhazenGeometry handle) {
 }
 inline Scene* object(AlhazenScene handle) {
     return reinterpret_cast<Scene*>(handle);
+}
+inline Memory* object(AlhazenBuffer handle) {
+    return reinterpret_cast<Memory*>(handle);
 }
 /// The device of an object that may be null.
 template <class Object>

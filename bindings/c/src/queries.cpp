@@ -1,8 +1,8 @@
-#include <cstring>
-#include <limits>
+#include <algorithm>
 #include <span>
 
 #include "handles.h"
+#include "ray_layouts.h"
 
 namespace alhazen::capi {
 
@@ -23,25 +23,6 @@ Wishes wishes_of(const AlhazenIntersectContext* context) {
                                                                    : Coherence::Any,
             (flags & ALHAZEN_INTERSECT_CONTEXT_FLAG_NO_NORMALS) == 0};
 }
-
-/// The answer of one ray.
-struct Answer {
-    bool found = false;
-    double t = 0, u = 0, v = 0;
-    Vec3 normal;
-    unsigned primitive = ALHAZEN_INVALID_ID, geometry = ALHAZEN_INVALID_ID,
-             instance = ALHAZEN_INVALID_ID;
-};
-
-/// The rays of a call: [i] its ray, its mask, and where the answer goes.
-template <class Rays>
-concept RayLayout = requires(const Rays& rays, std::size_t i, const Answer& answer) {
-    { rays.ray(i) } -> std::same_as<Ray>;
-    { rays.mask(i) } -> std::same_as<RayMask>;
-    { rays.active(i) } -> std::same_as<bool>;
-    rays.answer(i, answer);
-    rays.occlude(i);
-};
 
 Answer answer_of(const Built& built, const Ray& ray, const Hit& hit, bool normals,
                  Surface& scratch) {
@@ -156,140 +137,41 @@ void occlude_all(const Built& built, const Wishes& wishes, std::size_t count, co
     }
 }
 
-constexpr float kMinusInfinity = -std::numeric_limits<float>::infinity();
-
-Ray ray_of(const AlhazenRay& r) {
-    return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tnear, r.tfar};
-}
-
-/// Structs of rays, a stride apart: AlhazenRayHit, or for occlusion AlhazenRay.
-class StructRays {
-  public:
-    StructRays(void* begin, std::size_t stride)
-        : begin_(static_cast<std::byte*>(begin)), stride_(stride) {}
-
-    [[nodiscard]] Ray ray(std::size_t i) const { return ray_of(ray_at(i)); }
-    [[nodiscard]] RayMask mask(std::size_t i) const { return ray_at(i).mask; }
-    [[nodiscard]] bool active(std::size_t) const { return true; }
-    void occlude(std::size_t i) const { ray_at(i).tfar = kMinusInfinity; }
-    void answer(std::size_t i, const Answer& a) const {
-        AlhazenHit& hit = reinterpret_cast<AlhazenRayHit*>(begin_ + i * stride_)->hit;
-        hit.geomID = a.geometry;
-        hit.primID = a.primitive;
-        hit.instID[0] = a.instance;
-        if (!a.found) return;
-        ray_at(i).tfar = static_cast<float>(a.t);
-        hit.Ng_x = static_cast<float>(a.normal.x);
-        hit.Ng_y = static_cast<float>(a.normal.y);
-        hit.Ng_z = static_cast<float>(a.normal.z);
-        hit.u = static_cast<float>(a.u);
-        hit.v = static_cast<float>(a.v);
-    }
-
-  private:
-    /// The ray is the first member of either struct.
-    [[nodiscard]] AlhazenRay& ray_at(std::size_t i) const {
-        return *reinterpret_cast<AlhazenRay*>(begin_ + i * stride_);
-    }
-    std::byte* begin_;
-    std::size_t stride_;
-};
-
-/// Rays in double, a stride apart.
-class DoubleRays {
-  public:
-    DoubleRays(void* begin, std::size_t stride)
-        : begin_(static_cast<std::byte*>(begin)), stride_(stride) {}
-
-    [[nodiscard]] Ray ray(std::size_t i) const {
-        const AlhazenRayHitd& r = at(i);
-        return {{r.org[0], r.org[1], r.org[2]}, {r.dir[0], r.dir[1], r.dir[2]}, r.tnear, r.tfar};
-    }
-    [[nodiscard]] RayMask mask(std::size_t i) const { return at(i).mask; }
-    [[nodiscard]] bool active(std::size_t) const { return true; }
-    void occlude(std::size_t i) const { at(i).tfar = -std::numeric_limits<double>::infinity(); }
-    void answer(std::size_t i, const Answer& a) const {
-        AlhazenRayHitd& r = at(i);
-        r.geomID = a.geometry;
-        r.primID = a.primitive;
-        r.instID = a.instance;
-        if (!a.found) return;
-        r.tfar = a.t;
-        for (int k = 0; k < 3; ++k) r.Ng[k] = a.normal[k];
-        r.u = a.u;
-        r.v = a.v;
-    }
-
-  private:
-    [[nodiscard]] AlhazenRayHitd& at(std::size_t i) const {
-        return *reinterpret_cast<AlhazenRayHitd*>(begin_ + i * stride_);
-    }
-    std::byte* begin_;
-    std::size_t stride_;
-};
-
-/// A packet: rays, and hits or null.
-template <class PacketRay, class PacketHit>
-class PacketRays {
-  public:
-    PacketRays(const int* valid, PacketRay& rays, PacketHit* hits)
-        : valid_(valid), rays_(rays), hits_(hits) {}
-
-    [[nodiscard]] Ray ray(std::size_t i) const {
-        return {{rays_.org_x[i], rays_.org_y[i], rays_.org_z[i]},
-                {rays_.dir_x[i], rays_.dir_y[i], rays_.dir_z[i]},
-                rays_.tnear[i],
-                rays_.tfar[i]};
-    }
-    [[nodiscard]] RayMask mask(std::size_t i) const { return rays_.mask[i]; }
-    [[nodiscard]] bool active(std::size_t i) const { return valid_ == nullptr || valid_[i] == -1; }
-    void occlude(std::size_t i) const { rays_.tfar[i] = kMinusInfinity; }
-    void answer(std::size_t i, const Answer& a) const {
-        PacketHit& hit = *hits_;
-        hit.geomID[i] = a.geometry;
-        hit.primID[i] = a.primitive;
-        hit.instID[0][i] = a.instance;
-        if (!a.found) return;
-        rays_.tfar[i] = static_cast<float>(a.t);
-        hit.Ng_x[i] = static_cast<float>(a.normal.x);
-        hit.Ng_y[i] = static_cast<float>(a.normal.y);
-        hit.Ng_z[i] = static_cast<float>(a.normal.z);
-        hit.u[i] = static_cast<float>(a.u);
-        hit.v[i] = static_cast<float>(a.v);
-    }
-
-  private:
-    const int* valid_;
-    PacketRay& rays_;
-    PacketHit* hits_;
-};
-
-/// Runs query(built, wishes) for a committed scene.
+/// Runs query(built, wishes) for a committed scene and `count` rays; without rays there is nothing
+/// to do.
 template <class Query>
-void ask(AlhazenScene handle, const AlhazenIntersectContext* context, const void* rays,
-         const Query& query) {
+void ask_for(std::size_t count, AlhazenScene handle, const AlhazenIntersectContext* context,
+             const void* rays, const Query& query) {
     const Scene* scene = object(handle);
     guarded(device_of(scene), [&] {
-        need_argument(scene != nullptr && rays != nullptr, "the scene or the rays are NULL");
+        need_argument(scene != nullptr, "the scene is NULL");
+        need_argument(rays != nullptr || count == 0, "the rays are NULL");
         need(scene->built != nullptr, ALHAZEN_ERROR_INVALID_OPERATION,
              "the scene is not committed");
-        query(*scene->built, wishes_of(context));
+        const Wishes wishes = wishes_of(context);
+        if (count > 0) query(*scene->built, wishes);
     });
 }
+template <class Query>
+void ask(AlhazenScene scene, const AlhazenIntersectContext* context, const void* rays,
+         const Query& query) {
+    ask_for(1, scene, context, rays, query);
+}
 
-template <std::size_t N, class PacketRay, class PacketHit>
+/// A packet of n rays with their hits.
 void intersect_packet(const int* valid, AlhazenScene scene, const AlhazenIntersectContext* context,
-                      PacketRay* ray, PacketHit* hit) {
-    ask(scene, context, ray, [&](const Built& built, const Wishes& wishes) {
-        intersect_all(built, wishes, N, PacketRays<PacketRay, PacketHit>(valid, *ray, hit));
+                      void* rayhit, std::size_t n) {
+    ask(scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
+        auto* const hits = static_cast<float*>(rayhit) + kRayWords * n;
+        intersect_all(built, wishes, n,
+                      ArrayRays(arrays_of_rays(rayhit, n), arrays_of_hits(hits, n), valid));
     });
 }
 
-template <std::size_t N, class PacketHit, class PacketRay>
 void occlude_packet(const int* valid, AlhazenScene scene, const AlhazenIntersectContext* context,
-                    PacketRay* ray) {
-    ask(scene, context, ray, [&](const Built& built, const Wishes& wishes) {
-        occlude_all(built, wishes, N, PacketRays<PacketRay, PacketHit>(valid, *ray, nullptr));
+                    void* rays, std::size_t n) {
+    ask(scene, context, rays, [&](const Built& built, const Wishes& wishes) {
+        occlude_all(built, wishes, n, ArrayRays(arrays_of_rays(rays, n), {}, valid));
     });
 }
 
@@ -302,57 +184,100 @@ using namespace alhazen::capi;
 void alhazenIntersect1(AlhazenScene scene, AlhazenIntersectContext* context,
                        AlhazenRayHit* rayhit) {
     ask(scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
-        intersect_one(built, wishes, StructRays(rayhit, sizeof(AlhazenRayHit)));
-    });
-}
-void alhazenIntersect1M(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRayHit* rayhit,
-                        unsigned int M, size_t byteStride) {
-    ask(scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
-        intersect_all(built, wishes, M, StructRays(rayhit, byteStride));
-    });
-}
-void alhazenIntersect1Md(AlhazenScene scene, AlhazenIntersectContext* context,
-                         AlhazenRayHitd* rayhit, size_t M, size_t byteStride) {
-    ask(scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
-        intersect_all(built, wishes, M, DoubleRays(rayhit, byteStride));
+        intersect_one(built, wishes, structs_apart(rayhit, 0));
     });
 }
 void alhazenIntersect4(const int* valid, AlhazenScene scene, AlhazenIntersectContext* context,
                        AlhazenRayHit4* rayhit) {
-    intersect_packet<4>(valid, scene, context, rayhit != nullptr ? &rayhit->ray : nullptr,
-                        rayhit != nullptr ? &rayhit->hit : nullptr);
+    intersect_packet(valid, scene, context, rayhit, 4);
 }
 void alhazenIntersect8(const int* valid, AlhazenScene scene, AlhazenIntersectContext* context,
                        AlhazenRayHit8* rayhit) {
-    intersect_packet<8>(valid, scene, context, rayhit != nullptr ? &rayhit->ray : nullptr,
-                        rayhit != nullptr ? &rayhit->hit : nullptr);
+    intersect_packet(valid, scene, context, rayhit, 8);
 }
 void alhazenIntersect16(const int* valid, AlhazenScene scene, AlhazenIntersectContext* context,
                         AlhazenRayHit16* rayhit) {
-    intersect_packet<16>(valid, scene, context, rayhit != nullptr ? &rayhit->ray : nullptr,
-                         rayhit != nullptr ? &rayhit->hit : nullptr);
+    intersect_packet(valid, scene, context, rayhit, 16);
 }
-void alhazenOccluded1(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay* ray) {
-    ask(scene, context, ray, [&](const Built& built, const Wishes&) {
-        const StructRays rays(ray, sizeof(AlhazenRay));
-        if (built.tracer->occluded(rays.ray(0), rays.mask(0))) rays.occlude(0);
+void alhazenIntersect1M(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRayHit* rayhit,
+                        unsigned int M, size_t byteStride) {
+    ask_for(M, scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
+        intersect_all(built, wishes, M, structs_apart(rayhit, byteStride));
     });
 }
-void alhazenOccluded1M(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay* ray,
-                       unsigned int M, size_t byteStride) {
-    ask(scene, context, ray, [&](const Built& built, const Wishes& wishes) {
-        occlude_all(built, wishes, M, StructRays(ray, byteStride));
+void alhazenIntersect1Mp(AlhazenScene scene, AlhazenIntersectContext* context,
+                         AlhazenRayHit** rayhit, unsigned int M) {
+    ask_for(M, scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
+        intersect_all(built, wishes, M, structs_at(rayhit));
+    });
+}
+void alhazenIntersectNM(AlhazenScene scene, AlhazenIntersectContext* context,
+                        AlhazenRayHitN* rayhit, unsigned int N, unsigned int M, size_t byteStride) {
+    ask_for(std::size_t{N} * M, scene, context, rayhit,
+            [&](const Built& built, const Wishes& wishes) {
+                for (std::size_t m = 0; m < M; ++m) {
+                    auto* const rays = reinterpret_cast<std::byte*>(rayhit) + m * byteStride;
+                    intersect_all(built, wishes, N,
+                                  ArrayRays(arrays_of_rays(rays, N),
+                                            arrays_of_hits(rays + 4 * kRayWords * N, N), nullptr));
+                }
+            });
+}
+void alhazenIntersectNp(AlhazenScene scene, AlhazenIntersectContext* context,
+                        const AlhazenRayHitNp* rayhit, unsigned int N) {
+    ask_for(N, scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
+        intersect_all(built, wishes, N, ArrayRays(rayhit->ray, rayhit->hit, nullptr));
+    });
+}
+void alhazenIntersect1Md(AlhazenScene scene, AlhazenIntersectContext* context,
+                         AlhazenRayHitd* rayhit, size_t M, size_t byteStride) {
+    ask_for(M, scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
+        intersect_all(built, wishes, M, DoubleRays(rayhit, byteStride));
+    });
+}
+
+void alhazenOccluded1(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay* ray) {
+    ask(scene, context, ray, [&](const Built& built, const Wishes&) {
+        const auto rays = structs_apart(ray, 0);
+        if (built.tracer->occluded(rays.ray(0), rays.mask(0))) rays.occlude(0);
     });
 }
 void alhazenOccluded4(const int* valid, AlhazenScene scene, AlhazenIntersectContext* context,
                       AlhazenRay4* ray) {
-    occlude_packet<4, AlhazenHit4>(valid, scene, context, ray);
+    occlude_packet(valid, scene, context, ray, 4);
 }
 void alhazenOccluded8(const int* valid, AlhazenScene scene, AlhazenIntersectContext* context,
                       AlhazenRay8* ray) {
-    occlude_packet<8, AlhazenHit8>(valid, scene, context, ray);
+    occlude_packet(valid, scene, context, ray, 8);
 }
 void alhazenOccluded16(const int* valid, AlhazenScene scene, AlhazenIntersectContext* context,
                        AlhazenRay16* ray) {
-    occlude_packet<16, AlhazenHit16>(valid, scene, context, ray);
+    occlude_packet(valid, scene, context, ray, 16);
+}
+void alhazenOccluded1M(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay* ray,
+                       unsigned int M, size_t byteStride) {
+    ask_for(M, scene, context, ray, [&](const Built& built, const Wishes& wishes) {
+        occlude_all(built, wishes, M, structs_apart(ray, byteStride));
+    });
+}
+void alhazenOccluded1Mp(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay** ray,
+                        unsigned int M) {
+    ask_for(M, scene, context, ray, [&](const Built& built, const Wishes& wishes) {
+        occlude_all(built, wishes, M, structs_at(ray));
+    });
+}
+void alhazenOccludedNM(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRayN* ray,
+                       unsigned int N, unsigned int M, size_t byteStride) {
+    ask_for(std::size_t{N} * M, scene, context, ray, [&](const Built& built, const Wishes& wishes) {
+        for (std::size_t m = 0; m < M; ++m) {
+            auto* const rays = reinterpret_cast<std::byte*>(ray) + m * byteStride;
+            occlude_all(built, wishes, N, ArrayRays(arrays_of_rays(rays, N), {}, nullptr));
+        }
+    });
+}
+void alhazenOccludedNp(AlhazenScene scene, AlhazenIntersectContext* context,
+                       const AlhazenRayNp* ray, unsigned int N) {
+    ask_for(N, scene, context, ray, [&](const Built& built, const Wishes& wishes) {
+        occlude_all(built, wishes, N, ArrayRays(*ray, {}, nullptr));
+    });
 }

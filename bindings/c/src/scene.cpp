@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -124,8 +126,75 @@ float above(double x) {
 
 }  // namespace
 
+std::mutex& structure_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 Scene::~Scene() {
+    {
+        const std::lock_guard lock(structure_mutex());
+        for (const auto& [id, geometry] : geometries) {
+            std::erase(geometry->holders, this);
+        }
+    }
     if (built) device->tell_memory(-built->bytes, true);
+}
+
+bool Scene::reaches(const Scene* other) const {
+    std::set<const Scene*> seen{this};
+    std::vector<const Scene*> open{this};
+    while (!open.empty()) {
+        const Scene* scene = open.back();
+        open.pop_back();
+        if (scene == other) return true;
+        if (scene->instance_count_ == 0) continue;
+        for (const auto& [id, geometry] : scene->geometries) {
+            const Scene* inner = geometry->instanced.get();
+            if (inner != nullptr && seen.insert(inner).second) open.push_back(inner);
+        }
+    }
+    return false;
+}
+
+void Scene::attach_locked(unsigned id, Geometry& geometry) {
+    need(!geometry.instanced || !geometry.instanced->reaches(this), ALHAZEN_ERROR_INVALID_OPERATION,
+         "the scene of the instance holds this scene: a scene cannot be an instance in itself");
+    const bool instance = geometry.type == ALHAZEN_GEOMETRY_TYPE_INSTANCE;
+    if (instance) geometry.holders.reserve(geometry.holders.size() + 1);
+    const bool added = geometries.emplace(id, Reference<Geometry>(&geometry)).second;
+    need(added, ALHAZEN_ERROR_INVALID_OPERATION, "the id is in use");
+    if (!instance) return;
+    geometry.holders.push_back(this);
+    ++instance_count_;
+}
+
+void Scene::attach(unsigned id, Geometry& geometry) {
+    const std::lock_guard lock(structure_mutex());
+    attach_locked(id, geometry);
+}
+
+unsigned Scene::attach(Geometry& geometry) {
+    const std::lock_guard lock(structure_mutex());
+    unsigned id = first_free_;
+    while (geometries.count(id) != 0) ++id;
+    attach_locked(id, geometry);
+    first_free_ = id + 1;
+    return id;
+}
+
+void Scene::detach(unsigned id) {
+    Reference<Geometry> geometry;  // released without the mutex
+    const std::lock_guard lock(structure_mutex());
+    const auto found = geometries.find(id);
+    need_argument(found != geometries.end(), "no geometry has this id");
+    geometry = std::move(found->second);
+    geometries.erase(found);
+    first_free_ = std::min(first_free_, id);
+    if (geometry->type != ALHAZEN_GEOMETRY_TYPE_INSTANCE) return;
+    auto& holders = geometry->holders;
+    holders.erase(std::find(holders.begin(), holders.end(), this));
+    --instance_count_;
 }
 
 void Scene::tell(double done) const {
@@ -133,23 +202,51 @@ void Scene::tell(double done) const {
          "the progress monitor ended the commit");
 }
 
-void Scene::commit() {
-    const std::lock_guard lock(mutex);
+void Scene::commit(bool join) {
+    const Reference<Scene> alive(this);  // a monitor may release the caller's
+    {
+        std::unique_lock lock(commit_mutex_);
+        if (committing_) {
+            need(join && *committing_ != std::this_thread::get_id(),
+                 ALHAZEN_ERROR_INVALID_OPERATION,
+                 "the scene is being committed; another thread may alhazenJoinCommitScene");
+            commit_ended_.wait(lock, [&] { return !committing_; });
+            return;
+        }
+        committing_ = std::this_thread::get_id();
+    }
+    const auto end = [this] {
+        const std::lock_guard lock(commit_mutex_);
+        committing_.reset();
+        commit_ended_.notify_all();
+    };
+    try {
+        build();
+    } catch (...) {
+        end();
+        throw;
+    }
+    end();
+}
+
+void Scene::build() {
     auto next = std::make_shared<Built>();
     Gatherer gatherer(*next);
-    std::vector<std::pair<unsigned, const Geometry*>> wanted;
-    std::int64_t bytes = 0;
-    for (const auto& [id, geometry] : geometries) {
-        if (!geometry->enabled || !geometry->committed) continue;
-        wanted.emplace_back(id, geometry.get());
-        bytes += bytes_of(*geometry.get());
+    std::vector<std::pair<unsigned, Reference<Geometry>>> wanted;
+    {
+        const std::lock_guard lock(structure_mutex());
+        for (const auto& [id, geometry] : geometries) {
+            if (geometry->enabled && geometry->committed) wanted.emplace_back(id, geometry);
+        }
     }
+    std::int64_t bytes = 0;
+    for (const auto& [id, geometry] : wanted) bytes += bytes_of(*geometry.get());
     tell(0.0);
     ToldMemory memory(*device.get());
     memory.add(bytes, false);
     // Gathering counts as a tenth of the work.
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        gatherer.add(wanted[i].first, *wanted[i].second);
+        gatherer.add(wanted[i].first, *wanted[i].second.get());
         tell(0.1 * static_cast<double>(i + 1) / static_cast<double>(wanted.size()));
     }
     TracerOptions options = device->options;
@@ -190,8 +287,21 @@ void alhazenSetSceneBuildQuality(AlhazenScene scene, AlhazenBuildQuality quality
         s.quality = kQualities[quality];
     });
 }
-void alhazenSetSceneFlags(AlhazenScene scene, AlhazenSceneFlags) {
-    with_scene(scene, [](Scene&) {});
+void alhazenSetSceneFlags(AlhazenScene scene, AlhazenSceneFlags flags) {
+    with_scene(scene, [&](Scene& s) { s.flags = flags; });
+}
+AlhazenSceneFlags alhazenGetSceneFlags(AlhazenScene scene) {
+    AlhazenSceneFlags flags = ALHAZEN_SCENE_FLAG_NONE;
+    with_scene(scene, [&](Scene& s) { flags = s.flags; });
+    return flags;
+}
+AlhazenDevice alhazenGetSceneDevice(AlhazenScene scene) {
+    AlhazenDevice device = nullptr;
+    with_scene(scene, [&](Scene& s) {
+        s.device->retain();
+        device = reinterpret_cast<AlhazenDevice>(s.device.get());
+    });
+    return device;
 }
 void alhazenSetSceneProgressMonitorFunction(AlhazenScene scene,
                                             AlhazenProgressMonitorFunction progress,
@@ -206,11 +316,7 @@ unsigned int alhazenAttachGeometry(AlhazenScene scene, AlhazenGeometry geometry)
     unsigned id = ALHAZEN_INVALID_ID;
     with_scene(scene, [&](Scene& s) {
         need_argument(geometry != nullptr, "the geometry is NULL");
-        const std::lock_guard lock(s.mutex);
-        unsigned free = 0;
-        while (s.geometries.count(free) != 0) ++free;
-        s.geometries.emplace(free, Reference<Geometry>(object(geometry)));
-        id = free;
+        id = s.attach(*object(geometry));
     });
     return id;
 }
@@ -218,31 +324,31 @@ void alhazenAttachGeometryByID(AlhazenScene scene, AlhazenGeometry geometry, uns
     with_scene(scene, [&](Scene& s) {
         need_argument(geometry != nullptr, "the geometry is NULL");
         need_argument(geomID != ALHAZEN_INVALID_ID, "the id is ALHAZEN_INVALID_ID");
-        const std::lock_guard lock(s.mutex);
-        const bool added =
-            s.geometries.emplace(geomID, Reference<Geometry>(object(geometry))).second;
-        need(added, ALHAZEN_ERROR_INVALID_OPERATION, "the id is in use");
+        s.attach(geomID, *object(geometry));
     });
 }
 void alhazenDetachGeometry(AlhazenScene scene, unsigned int geomID) {
-    with_scene(scene, [&](Scene& s) {
-        const std::lock_guard lock(s.mutex);
-        need_argument(s.geometries.erase(geomID) == 1, "no geometry has this id");
-    });
+    with_scene(scene, [&](Scene& s) { s.detach(geomID); });
 }
 AlhazenGeometry alhazenGetGeometry(AlhazenScene scene, unsigned int geomID) {
     AlhazenGeometry geometry = nullptr;
     with_scene(scene, [&](Scene& s) {
-        const std::lock_guard lock(s.mutex);
+        const std::lock_guard lock(structure_mutex());
         const auto found = s.geometries.find(geomID);
         need_argument(found != s.geometries.end(), "no geometry has this id");
         geometry = reinterpret_cast<AlhazenGeometry>(found->second.get());
     });
     return geometry;
 }
+AlhazenGeometry alhazenGetGeometryThreadSafe(AlhazenScene scene, unsigned int geomID) {
+    return alhazenGetGeometry(scene, geomID);
+}
 
 void alhazenCommitScene(AlhazenScene scene) {
-    with_scene(scene, [](Scene& s) { s.commit(); });
+    with_scene(scene, [](Scene& s) { s.commit(false); });
+}
+void alhazenJoinCommitScene(AlhazenScene scene) {
+    with_scene(scene, [](Scene& s) { s.commit(true); });
 }
 
 void alhazenGetSceneBounds(AlhazenScene scene, AlhazenBounds* bounds_o) {

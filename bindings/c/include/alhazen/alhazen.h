@@ -42,6 +42,7 @@ extern "C" {
 typedef struct AlhazenDeviceTy* AlhazenDevice;
 typedef struct AlhazenSceneTy* AlhazenScene;
 typedef struct AlhazenGeometryTy* AlhazenGeometry;
+typedef struct AlhazenBufferTy* AlhazenBuffer;
 
 enum AlhazenError {
     ALHAZEN_ERROR_NONE = 0,
@@ -53,9 +54,11 @@ enum AlhazenError {
     ALHAZEN_ERROR_CANCELLED = 6
 };
 
+/* May call the library; errors of such calls are kept as codes, and not told. */
 typedef void (*AlhazenErrorFunction)(void* userPtr, enum AlhazenError code, const char* text);
-/* Called before (post false) and after (post true) memory of a scene is taken, and with negative bytes when it is given
- * back; false ends alhazenCommitScene with ALHAZEN_ERROR_OUT_OF_MEMORY. */
+/* Called once for each amount that a scene takes: before (post false) for its copy of the geometry, after (post true) for
+ * the acceleration structure, and with negative bytes when both are given back; false ends alhazenCommitScene with
+ * ALHAZEN_ERROR_OUT_OF_MEMORY. Monitors run in the thread of the commit and may ask the scene. */
 typedef bool (*AlhazenMemoryMonitorFunction)(void* userPtr, ssize_t bytes, bool post);
 /* Called by alhazenCommitScene with the share that is done, from 0 to 1; false ends it with ALHAZEN_ERROR_CANCELLED. The
  * build of the acceleration structure itself is one step. */
@@ -80,9 +83,25 @@ enum AlhazenDeviceProperty {
     ALHAZEN_DEVICE_PROPERTY_VERSION_MAJOR = 1,
     ALHAZEN_DEVICE_PROPERTY_VERSION_MINOR = 2,
     ALHAZEN_DEVICE_PROPERTY_VERSION_PATCH = 3,
-    ALHAZEN_DEVICE_PROPERTY_RAY_MASK_SUPPORTED = 64
+    ALHAZEN_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED = 32,
+    ALHAZEN_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED = 33,
+    ALHAZEN_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED = 34,
+    ALHAZEN_DEVICE_PROPERTY_RAY_STREAM_SUPPORTED = 35,
+    ALHAZEN_DEVICE_PROPERTY_RAY_MASK_SUPPORTED = 64,
+    ALHAZEN_DEVICE_PROPERTY_BACKFACE_CULLING_ENABLED = 65,
+    ALHAZEN_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED = 66,
+    ALHAZEN_DEVICE_PROPERTY_IGNORE_INVALID_RAYS_ENABLED = 67,
+    ALHAZEN_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED = 96,
+    ALHAZEN_DEVICE_PROPERTY_QUAD_GEOMETRY_SUPPORTED = 97,
+    ALHAZEN_DEVICE_PROPERTY_SUBDIVISION_GEOMETRY_SUPPORTED = 98,
+    ALHAZEN_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED = 99,
+    ALHAZEN_DEVICE_PROPERTY_USER_GEOMETRY_SUPPORTED = 100,
+    ALHAZEN_DEVICE_PROPERTY_POINT_GEOMETRY_SUPPORTED = 101,
+    ALHAZEN_DEVICE_PROPERTY_TASKING_SYSTEM = 128,
+    ALHAZEN_DEVICE_PROPERTY_JOIN_COMMIT_SUPPORTED = 129,
+    ALHAZEN_DEVICE_PROPERTY_PARALLEL_COMMIT_SUPPORTED = 130
 };
-/* 0 for a property that is not in the list. */
+/* 1 or 0; 0 for a property that is not in the list. */
 ALHAZEN_API ssize_t alhazenGetDeviceProperty(AlhazenDevice device, enum AlhazenDeviceProperty property);
 
 /* ---- geometry */
@@ -104,9 +123,27 @@ enum AlhazenFormat {
     ALHAZEN_FORMAT_DOUBLE4 = 0xA004  /* vertices of spheres */
 };
 
+enum AlhazenBuildQuality {
+    ALHAZEN_BUILD_QUALITY_LOW = 0,
+    ALHAZEN_BUILD_QUALITY_MEDIUM = 1,
+    ALHAZEN_BUILD_QUALITY_HIGH = 2,
+    ALHAZEN_BUILD_QUALITY_REFIT = 3 /* of geometries */
+};
+
 ALHAZEN_API AlhazenGeometry alhazenNewGeometry(AlhazenDevice device, enum AlhazenGeometryType type);
 ALHAZEN_API void alhazenRetainGeometry(AlhazenGeometry geometry);
 ALHAZEN_API void alhazenReleaseGeometry(AlhazenGeometry geometry);
+/* Memory that several buffers of geometries may share; a geometry holds it. */
+ALHAZEN_API AlhazenBuffer alhazenNewBuffer(AlhazenDevice device, size_t byteSize);
+/* The caller's memory, which must live as long. */
+ALHAZEN_API AlhazenBuffer alhazenNewSharedBuffer(AlhazenDevice device, void* ptr, size_t byteSize);
+ALHAZEN_API void* alhazenGetBufferData(AlhazenBuffer buffer);
+ALHAZEN_API void alhazenRetainBuffer(AlhazenBuffer buffer);
+ALHAZEN_API void alhazenReleaseBuffer(AlhazenBuffer buffer);
+/* Items within the buffer; else ALHAZEN_ERROR_INVALID_ARGUMENT. Otherwise as alhazenSetSharedGeometryBuffer. */
+ALHAZEN_API void alhazenSetGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type, unsigned int slot,
+                                          enum AlhazenFormat format, AlhazenBuffer buffer, size_t byteOffset,
+                                          size_t byteStride, size_t itemCount);
 /* The items are read by alhazenCommitScene: item i is at ptr + byteOffset + i * byteStride, which need not be aligned.
  * The memory must live until then. slot is 0. */
 ALHAZEN_API void alhazenSetSharedGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type,
@@ -121,11 +158,17 @@ ALHAZEN_API void alhazenUpdateGeometryBuffer(AlhazenGeometry geometry, enum Alha
 ALHAZEN_API void alhazenSetGeometryMask(AlhazenGeometry geometry, unsigned int mask);
 ALHAZEN_API void alhazenSetGeometryUserData(AlhazenGeometry geometry, void* userPtr);
 ALHAZEN_API void* alhazenGetGeometryUserData(AlhazenGeometry geometry);
-/* The scene must be committed before the scene of the instance is. */
+/* Taken and not needed. */
+ALHAZEN_API void alhazenSetGeometryBuildQuality(AlhazenGeometry geometry, enum AlhazenBuildQuality quality);
+/* 1 is the one that is taken. */
+ALHAZEN_API void alhazenSetGeometryTimeStepCount(AlhazenGeometry geometry, unsigned int timeStepCount);
+/* The scene must be committed before the scene of the instance is. A scene that would hold itself, through others too,
+ * is ALHAZEN_ERROR_INVALID_OPERATION, here and in alhazenAttachGeometry. */
 ALHAZEN_API void alhazenSetGeometryInstancedScene(AlhazenGeometry geometry, AlhazenScene scene);
 /* timeStep is 0. */
 ALHAZEN_API void alhazenSetGeometryTransform(AlhazenGeometry geometry, unsigned int timeStep,
                                              enum AlhazenFormat format, const void* xfm);
+ALHAZEN_API void alhazenGetGeometryTransform(AlhazenGeometry geometry, float time, enum AlhazenFormat format, void* xfm);
 ALHAZEN_API void alhazenEnableGeometry(AlhazenGeometry geometry);
 ALHAZEN_API void alhazenDisableGeometry(AlhazenGeometry geometry);
 /* A geometry is part of the next commit of a scene only when it is committed. */
@@ -133,11 +176,6 @@ ALHAZEN_API void alhazenCommitGeometry(AlhazenGeometry geometry);
 
 /* ---- scenes */
 
-enum AlhazenBuildQuality {
-    ALHAZEN_BUILD_QUALITY_LOW = 0,
-    ALHAZEN_BUILD_QUALITY_MEDIUM = 1,
-    ALHAZEN_BUILD_QUALITY_HIGH = 2
-};
 /* Taken and not needed: hits are robust, trees compact, in any case. */
 enum AlhazenSceneFlags {
     ALHAZEN_SCENE_FLAG_NONE = 0,
@@ -151,19 +189,27 @@ struct AlhazenBounds {
 } ALHAZEN_ALIGN(16);
 
 ALHAZEN_API AlhazenScene alhazenNewScene(AlhazenDevice device);
+/* With a reference, which the caller releases. */
+ALHAZEN_API AlhazenDevice alhazenGetSceneDevice(AlhazenScene scene);
 ALHAZEN_API void alhazenRetainScene(AlhazenScene scene);
 ALHAZEN_API void alhazenReleaseScene(AlhazenScene scene);
 ALHAZEN_API void alhazenSetSceneBuildQuality(AlhazenScene scene, enum AlhazenBuildQuality quality);
 ALHAZEN_API void alhazenSetSceneFlags(AlhazenScene scene, enum AlhazenSceneFlags flags);
+ALHAZEN_API enum AlhazenSceneFlags alhazenGetSceneFlags(AlhazenScene scene);
 ALHAZEN_API void alhazenSetSceneProgressMonitorFunction(AlhazenScene scene, AlhazenProgressMonitorFunction progress,
                                                         void* userPtr);
 /* Returns the smallest free id; ALHAZEN_INVALID_ID after an error. */
 ALHAZEN_API unsigned int alhazenAttachGeometry(AlhazenScene scene, AlhazenGeometry geometry);
 ALHAZEN_API void alhazenAttachGeometryByID(AlhazenScene scene, AlhazenGeometry geometry, unsigned int geomID);
 ALHAZEN_API void alhazenDetachGeometry(AlhazenScene scene, unsigned int geomID);
+/* Without a reference. Both are safe beside calls that attach and detach. */
 ALHAZEN_API AlhazenGeometry alhazenGetGeometry(AlhazenScene scene, unsigned int geomID);
-/* Builds, or after an error leaves what was committed before. */
+ALHAZEN_API AlhazenGeometry alhazenGetGeometryThreadSafe(AlhazenScene scene, unsigned int geomID);
+/* Builds, or after an error leaves what was committed before. While another thread commits, it is
+ * ALHAZEN_ERROR_INVALID_OPERATION. */
 ALHAZEN_API void alhazenCommitScene(AlhazenScene scene);
+/* The same, but waits for a commit of another thread and takes its result; threads do not share the work. */
+ALHAZEN_API void alhazenJoinCommitScene(AlhazenScene scene);
 /* Rounded outward; empty (lower above upper) without geometry. */
 ALHAZEN_API void alhazenGetSceneBounds(AlhazenScene scene, struct AlhazenBounds* bounds_o);
 
@@ -222,6 +268,26 @@ ALHAZEN_RAY_PACKET(4)
 ALHAZEN_RAY_PACKET(8)
 ALHAZEN_RAY_PACKET(16)
 
+/* An array for each member, of one length. time, id and flags of rays are not read and may be NULL. */
+struct AlhazenRayNp {
+    float *org_x, *org_y, *org_z, *tnear;
+    float *dir_x, *dir_y, *dir_z, *time, *tfar;
+    unsigned int *mask, *id, *flags;
+};
+struct AlhazenHitNp {
+    float *Ng_x, *Ng_y, *Ng_z, *u, *v;
+    unsigned int *primID, *geomID;
+    unsigned int* instID[ALHAZEN_MAX_INSTANCE_LEVEL_COUNT];
+};
+struct AlhazenRayHitNp {
+    struct AlhazenRayNp ray;
+    struct AlhazenHitNp hit;
+};
+/* N rays, laid out as in struct AlhazenRay16 where N is 16. */
+struct AlhazenRayN;
+struct AlhazenHitN;
+struct AlhazenRayHitN;
+
 /* Rays in double. */
 struct AlhazenRayHitd {
     double org[3], tnear, dir[3], tfar;
@@ -242,6 +308,13 @@ ALHAZEN_API void alhazenIntersect16(const int* valid, AlhazenScene scene, struct
                                     struct AlhazenRayHit16* rayhit);
 ALHAZEN_API void alhazenIntersect1M(AlhazenScene scene, struct AlhazenIntersectContext* context,
                                     struct AlhazenRayHit* rayhit, unsigned int M, size_t byteStride);
+/* Rays at M addresses; M packets of N rays; N rays in arrays. */
+ALHAZEN_API void alhazenIntersect1Mp(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                     struct AlhazenRayHit** rayhit, unsigned int M);
+ALHAZEN_API void alhazenIntersectNM(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                    struct AlhazenRayHitN* rayhit, unsigned int N, unsigned int M, size_t byteStride);
+ALHAZEN_API void alhazenIntersectNp(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                    const struct AlhazenRayHitNp* rayhit, unsigned int N);
 ALHAZEN_API void alhazenIntersect1Md(AlhazenScene scene, struct AlhazenIntersectContext* context,
                                      struct AlhazenRayHitd* rayhit, size_t M, size_t byteStride);
 ALHAZEN_API void alhazenOccluded1(AlhazenScene scene, struct AlhazenIntersectContext* context, struct AlhazenRay* ray);
@@ -253,6 +326,12 @@ ALHAZEN_API void alhazenOccluded16(const int* valid, AlhazenScene scene, struct 
                                    struct AlhazenRay16* ray);
 ALHAZEN_API void alhazenOccluded1M(AlhazenScene scene, struct AlhazenIntersectContext* context, struct AlhazenRay* ray,
                                    unsigned int M, size_t byteStride);
+ALHAZEN_API void alhazenOccluded1Mp(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                    struct AlhazenRay** ray, unsigned int M);
+ALHAZEN_API void alhazenOccludedNM(AlhazenScene scene, struct AlhazenIntersectContext* context, struct AlhazenRayN* ray,
+                                   unsigned int N, unsigned int M, size_t byteStride);
+ALHAZEN_API void alhazenOccludedNp(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                   const struct AlhazenRayNp* ray, unsigned int N);
 
 #ifdef __cplusplus
 }
