@@ -52,11 +52,10 @@ class Direct {
             tracer_.intersect(std::span<const alhazen::Ray>(rays_).subspan(begin, end - begin),
                               std::span(hits_).subspan(begin, end - begin));
             if (!normals) return;
-            alhazen::Surface surface;
+            alhazen::Surface scratch;
             for (std::size_t i = begin; i < end; ++i) {
                 if (!hits_[i].found()) continue;
-                tracer_.surface(rays_[i], hits_[i], surface);
-                normals_[i] = surface.normal;
+                normals_[i] = tracer_.normal(rays_[i], hits_[i], scratch);
             }
         };
         if (threads == 1) {

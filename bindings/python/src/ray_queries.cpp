@@ -45,7 +45,11 @@ class HitArrays {
             uvs_.set(2 * i + 1, found ? hit.v : 0.0);
         }
         if (wants_ids_) set_ids(tracer, hit, i);
-        if (wants_surface_) set_surface_of(tracer, ray, hit, i, scratch);
+        if (wants_surface_) {
+            set_surface_of(tracer, ray, hit, i, scratch);
+        } else if (normals_) {
+            normals_.set(i, found ? tracer.normal(ray, hit, scratch) : Vec3{});
+        }
     }
 
     [[nodiscard]] py::dict take() const {
@@ -71,8 +75,8 @@ class HitArrays {
         if (field == "geometry_ids") return ids(geometry_);
         if (field == "primitive_ids") return ids(primitive_);
         if (field == "instance_ids") return ids(instance_);
-        wants_surface_ = true;
         if (field == "normals") return real(normals_, 3);
+        wants_surface_ = true;
         if (field == "shading_normals") return real(shading_normals_, 3);
         if (field == "points") return real(points_, 3);
         if (field == "material_ids") return ids(material_);
@@ -104,7 +108,8 @@ class HitArrays {
     RealArray t_, uvs_, normals_, shading_normals_, points_;
     PlainArray<std::uint32_t> geometry_, primitive_, instance_, material_;
     std::vector<std::pair<std::string, py::array>> named_;
-    bool wants_ids_ = false, wants_surface_ = false;
+    bool wants_ids_ = false;
+    bool wants_surface_ = false;  ///< more than the normal
 };
 
 /// Memory of one thread for its ranges of rays.

@@ -8,6 +8,7 @@
 #include "alhazen/geometry/ray_scale.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shapes/meshes/triangle_normal.h"
 
 namespace alhazen {
 namespace {
@@ -182,6 +183,22 @@ void Tracer::surface(const Ray& ray, const Hit& hit, Surface& surface) const {
     Hit usual = hit;
     usual.t = std::ldexp(hit.t, exponent);
     set_surface(*aggregate_, rescaled(ray, exponent), usual, false, surface);
+}
+
+Vec3 Tracer::normal(const Ray& ray, const Hit& hit, Surface& scratch) const {
+    const PrimitiveTable& table = aggregate_->primitives();
+    if (hit.path.empty() && table.kind(hit.primitive) == kTriangleKind) {
+        const std::uint32_t index = table.index(hit.primitive);
+        const PlacedMesh& placed = table.mesh_of(index);
+        if (!placed.motion) {
+            const Vec3 normal = triangle_normal(*placed.mesh, index - placed.first_triangle);
+            scratch.normal = placed.mirrored ? -normal : normal;
+            aggregate_->complete(ray, hit.t, hit.primitive, scratch);
+            return scratch.normal;
+        }
+    }
+    surface(ray, hit, scratch);
+    return scratch.normal;
 }
 
 HitDetails Tracer::details(const Ray& ray, const Hit& hit) const {

@@ -109,6 +109,10 @@ class Tracer {
     /// coordinates. Precondition: a hit of this tracer.
     void surface(const Ray& ray, const Hit& hit, Surface& surface) const;
 
+    /// The normal of the surface alone, the same bits as `surface` gives; cheap for triangles that
+    /// lie in no instance. Precondition: a hit of this tracer. `scratch` is left unspecified.
+    [[nodiscard]] Vec3 normal(const Ray& ray, const Hit& hit, Surface& scratch) const;
+
     /// Spans, thickness and containment queries for geometry that bounds volumes. Creation tests
     /// which geometry does (a sort of the edges of every mesh): create once. Shares the geometry
     /// with the tracer.

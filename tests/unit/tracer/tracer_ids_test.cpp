@@ -17,7 +17,7 @@ TEST(TracerIds, AreThoseOfTheDetails) {
     std::vector<Hit> hits(rays.size());
     tracer.intersect(rays, hits);
     std::size_t in_instances = 0;
-    Surface surface;
+    Surface surface, scratch;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].found()) continue;
         const HitDetails details = tracer.details(rays[i], hits[i]);
@@ -29,10 +29,26 @@ TEST(TracerIds, AreThoseOfTheDetails) {
         in_instances += !details.instances.empty();
         tracer.surface(rays[i], hits[i], surface);
         EXPECT_EQ(surface.normal, details.normal);
+        EXPECT_EQ(tracer.normal(rays[i], hits[i], scratch), details.normal);
         EXPECT_EQ(surface.point, details.point);
     }
     EXPECT_GT(in_instances, 10u);
     EXPECT_THROW((void)tracer.ids(Hit()), Error);
+}
+
+TEST(TracerNormal, OfAMirroredMeshIsThatOfTheSurface) {
+    const std::vector<Vec3> positions{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}};
+    const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}};
+    TracerScene scene;
+    scene.add_mesh(positions, triangles, {.world_from_geometry = Affine::scale({-1, 1, 1})});
+    const Tracer tracer(std::move(scene));
+    const Ray ray{{-0.25, 0.25, 9}, {0, 0, -1}};
+    Hit hit;
+    ASSERT_TRUE(tracer.intersect(ray, hit));
+    Surface surface, scratch;
+    tracer.surface(ray, hit, surface);
+    EXPECT_NE(surface.normal, Vec3{});
+    EXPECT_EQ(tracer.normal(ray, hit, scratch), surface.normal);
 }
 
 TEST(TracerIds, OfACompiledSceneAreThePartsOfItsDescription) {
@@ -55,6 +71,8 @@ TEST(TracerIds, OfACompiledSceneAreThePartsOfItsDescription) {
         Hit hit;
         ASSERT_TRUE(tracer.intersect(ray, hit));
         const Surface surface = surface_at(tracer.aggregate(), ray, hit);
+        Surface scratch;
+        EXPECT_EQ(tracer.normal(ray, hit, scratch), surface.normal);
         const HitIds ids = tracer.ids(hit);
         EXPECT_EQ(ids.geometry, GeometryId{surface.part});
         EXPECT_EQ(ids.outermost, GeometryId{surface.instance});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/meshes/triangle_normal.h"
 
 namespace alhazen {
 
@@ -104,7 +105,7 @@ ShapeSurface TriangleMesh::surface(std::size_t triangle, const ShapeHit& hit) co
     surface.error = gamma_bound(7) * (std::abs(w) * abs(p0) + std::abs(hit.u) * abs(p1) +
                                       std::abs(hit.v) * abs(p2)) +
                     gamma_bound(2) * std::abs(rest) * abs(p0);
-    surface.normal = unit_or(accurate_cross(p1 - p0, p2 - p0), {0, 0, 1});
+    surface.normal = triangle_normal(*this, triangle);
     surface.shading_normal = surface.normal;
     if (!normals.empty()) {
         surface.shading_normal =
