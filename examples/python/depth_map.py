@@ -13,7 +13,8 @@ scene = alhazen.Scene().add(
                        alhazen.sphere(center=(1, 0, 1), radius=0.7)),
     alhazen.plane(normal=(0, 0, 1)))
 
-rays = RaycastingScene.create_rays_pinhole(fov_deg=45, center=[0, 0, 0.3], eye=[1, -5, 5], up=[0, 0, 1],
+# Rows count towards `up`: from the top, since that is -z.
+rays = RaycastingScene.create_rays_pinhole(fov_deg=45, center=[0, 0, 0.3], eye=[1, -5, 5], up=[0, 0, -1],
                                            width_px=320, height_px=240)
 hits = scene.intersect(rays, fields=("t_hit", "points", "normals"), coherent=True)
 depth = hits["t_hit"]

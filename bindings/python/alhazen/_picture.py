@@ -1,6 +1,7 @@
 """Pictures as numpy arrays that notebooks show."""
 from __future__ import annotations
 
+import copy
 import os
 from typing import Any, Dict, Optional
 
@@ -34,9 +35,30 @@ class Picture(np.ndarray):
     def of(cls, result: Dict[str, Any]) -> "Picture":
         """From the dict of the compiled part."""
         picture = result["image"].view(cls)
-        for name in ("layers", "notes", "complete", "seconds", "rays"):
-            setattr(picture, name, result[name])
+        picture._keep(result)
         return picture
+
+    def _keep(self, values: Dict[str, Any]) -> None:
+        for name in ("layers", "notes", "complete", "seconds", "rays"):
+            setattr(self, name, values[name])
+
+    def __copy__(self) -> "Picture":
+        other = self.copy()
+        other._keep(vars(self))
+        return other
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> "Picture":
+        other = self.copy()
+        other._keep(copy.deepcopy(vars(self), memo))
+        return other
+
+    def __reduce__(self) -> Any:
+        make, arguments, state = super().__reduce__()
+        return make, arguments, (state, vars(self))
+
+    def __setstate__(self, state: Any) -> None:
+        super().__setstate__(state[0])
+        self._keep(state[1])
 
     def save(self, path: "str | os.PathLike[str]") -> None:
         """Writes the picture by the suffix of the path: png, jpg (sRGB), exr, hdr, pfm (linear)."""

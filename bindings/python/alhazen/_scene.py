@@ -1,11 +1,13 @@
 """The class Scene."""
 from __future__ import annotations
 
+import copy
 import json
 import os
+import tempfile
 import threading
 import warnings
-from typing import Any, Callable, Dict, List, Optional, Sequence, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -40,6 +42,9 @@ class Scene:
     folder : where names of files in blocks begin; the current one if not given
     allowed_folders : others that such files may lie in
     strict : warnings are errors
+
+    Copies (``copy.copy``, ``copy.deepcopy``) share what is built. A pickle holds the scene itself, files that it was
+    loaded from too; what it is loaded into builds it again.
 
     Conventions
     -----------
@@ -92,7 +97,7 @@ class Scene:
                  **keys: Any) -> "Scene":
         """Adds a triangle mesh, copied, and returns the scene.
 
-        ``normals`` (n, 3) and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``,
+        ``vertices`` (n, 3), real, scene units; ``faces`` (m, 3), whole numbers. ``normals`` (n, 3) and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``,
         ``transform``, ``visible_to``, ``motion``.
         """
         taken = {mesh.name for mesh in self._meshes}
@@ -167,11 +172,33 @@ class Scene:
         state = "built" if self._built is not None else "not built"
         return f"<alhazen.Scene: {parts} added block{'' if parts == 1 else 's'}, {state}>"
 
+    def __copy__(self) -> "Scene":
+        other = type(self).__new__(type(self))
+        vars(other).update(vars(self), _lock=threading.Lock(), _meshes=list(self._meshes), _blocks=list(self._blocks))
+        return other
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> "Scene":
+        other = copy.copy(self)
+        shared = ("_base", "_built", "_lock", "_meshes")  # they never change
+        vars(other).update({k: copy.deepcopy(v, memo) for k, v in vars(self).items() if k not in shared})
+        return other
+
+    def __getstate__(self) -> Dict[str, Any]:
+        state = {k: v for k, v in vars(self).items() if k not in ("_built", "_lock")}
+        state["_base"] = None if self._base is None else _packed(self._base)
+        return state
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        vars(self).update(state, _built=None, _lock=threading.Lock())
+        if state["_base"] is not None:
+            self._base = _unpacked(state["_base"], self._settings)
+            self._built = None if self._blocks else self._base
+
     # ---- rays
 
-    def intersect(self, rays: Any, *, fields: Sequence[str] = _DEFAULT_FIELDS, mask: int = 0xFFFFFFFF,
+    def intersect(self, rays: Any, *, fields: Union[str, Sequence[str]] = _DEFAULT_FIELDS, mask: int = 0xFFFFFFFF,
                   coherent: bool = False, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """The nearest hit of each ray: a dict of arrays shaped like the rays.
+        """The nearest hit of each ray (..., 6) or (..., 8): a dict of arrays shaped like the rays.
 
         ===================  ==============  ==============================================================
         t_hit                (...) real      in lengths of the direction; infinite without a hit
@@ -186,39 +213,42 @@ class Scene:
         material_ids         (...) uint32    ``material_names``
         ===================  ==============  ==============================================================
 
-        Without a hit ids are INVALID_ID and the others 0. ``fields`` chooses the arrays; the first four cost least.
+        Without a hit ids are INVALID_ID and the others 0. ``fields`` chooses the arrays, by one name or several; the
+        first four cost least.
         ``mask``: the kinds of rays that these are (``visible_to``): 1 eye, 2 shadow, 4 reflection, 8 refraction.
         ``coherent`` says that neighbours go nearly the same way and begin or end near a common point, which is
         faster for rays of a camera; it never changes a hit.
         """
-        return self._scene().intersect(rays, list(fields), mask, coherent, self._at_most(threads))
+        names = [fields] if isinstance(fields, str) else list(fields)
+        return self._scene().intersect(rays, names, mask, coherent, self._at_most(threads))
 
     def occluded(self, rays: Any, *, mask: int = 0xFFFFFFFF, coherent: bool = False,
                  threads: Optional[int] = None) -> np.ndarray:
-        """Whether each ray hits anything: bool, shaped like the rays. Cheaper than ``intersect``."""
+        """Whether each ray (..., 6) or (..., 8) hits anything: bool, shaped like the rays. Cheaper than ``intersect``."""
         return self._scene().occluded(rays, mask, coherent, self._at_most(threads))
 
     def all_hits(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """Every hit of each ray, the nearest first: flat arrays t_hit, geometry_ids, primitive_ids and uvs of all hits,
-        ray_ids (the ray of each, in C order), and ray_splits (rays + 1): hits of ray i are
-        [ray_splits[i], ray_splits[i + 1])."""
+        """Every hit of each ray (..., 6) or (..., 8), the nearest first: flat arrays t_hit, geometry_ids, primitive_ids
+        and uvs of all hits, ray_ids (int64, the ray of each, in C order), and ray_splits (int64, rays + 1): hits of
+        ray i are [ray_splits[i], ray_splits[i + 1])."""
         return self._scene().all_hits(rays, mask, self._at_most(threads))
 
     list_intersections = all_hits
 
     def count_intersections(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> np.ndarray:
-        """How many hits each ray has: int64, shaped like the rays."""
+        """How many hits each ray (..., 6) or (..., 8) has: int64, shaped like the rays."""
         return self._scene().count_intersections(rays, mask, self._at_most(threads))
 
     # ---- solids
 
     def spans(self, rays: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """The parts of each ray inside solids, by entry: flat arrays solid_ids (uint64), t_enter, t_exit, ray_ids, and
-        ray_splits as in ``all_hits``. A span that holds an end of the ray is cut there."""
+        """The parts of each ray (..., 6) or (..., 8) inside solids, by entry: flat arrays solid_ids (uint64), t_enter,
+        t_exit, ray_ids, and ray_splits as in ``all_hits``. A span that holds an end of the ray is cut there."""
         return self._scene().spans(rays, self._at_most(threads))
 
     def thickness(self, rays: Any, *, threads: Optional[int] = None) -> np.ndarray:
-        """Length of each ray inside any solid, overlaps counted once: real, shaped like the rays, scene units."""
+        """Length of each ray (..., 6) or (..., 8) inside any solid, overlaps counted once: real, shaped like the rays,
+        scene units."""
         return self._scene().thickness(rays, self._at_most(threads))
 
     def inside(self, points: Any, *, threads: Optional[int] = None) -> np.ndarray:
@@ -226,7 +256,7 @@ class Scene:
         return self._scene().inside(points, self._at_most(threads))
 
     def solids_at(self, points: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """The solids that hold each point: flat arrays solid_ids, on_surface (bool), point_ids, and point_splits."""
+        """The solids that hold each point (..., 3), scene units: flat arrays solid_ids, on_surface (bool), point_ids, and point_splits."""
         return self._scene().solids_at(points, self._at_most(threads))
 
     def measure(self, *solids: Union[str, int], error: float = 1e-4, seconds: float = 2.0, seed: int = 1,
@@ -298,6 +328,29 @@ class Scene:
         return self._threads if threads is None else int(threads)
 
 
+def _packed(built: _alhazen.BuiltScene) -> Tuple[str, Dict[str, bytes]]:
+    """Its path, and the files of the native format by name."""
+    files = {}
+    with tempfile.TemporaryDirectory() as top:
+        built.save(os.path.join(top, "scene.alhazen"))
+        for folder, _, names in os.walk(top):
+            for path in (os.path.join(folder, name) for name in names):
+                with open(path, "rb") as file:
+                    files[os.path.relpath(path, top)] = file.read()
+    return built.path(), files
+
+
+def _unpacked(packed: Tuple[str, Dict[str, bytes]], settings: Dict[str, Any]) -> _alhazen.BuiltScene:
+    path, files = packed
+    with tempfile.TemporaryDirectory() as top:
+        for name, data in files.items():
+            target = os.path.join(top, name)
+            os.makedirs(os.path.dirname(target), exist_ok=True)
+            with open(target, "wb") as file:
+                file.write(data)
+        return _alhazen.BuiltScene.load(os.path.join(top, "scene.alhazen"), settings, path)
+
+
 def _warn(built: _alhazen.BuiltScene) -> None:
     for line in built.warnings():
         warnings.warn(line, SceneWarning, stacklevel=4)
@@ -311,7 +364,7 @@ def load(path: "str | os.PathLike[str]", *, accelerator: str = "wide_bvh", quali
     scene = Scene(accelerator=accelerator, quality=quality, csg=csg, threads=threads,
                   folder=os.path.dirname(os.path.abspath(os.fspath(path))), allowed_folders=allowed_folders,
                   strict=strict)
-    scene._base = _alhazen.BuiltScene.load(os.fspath(path), {**scene._settings, "time": time})
+    scene._base = _alhazen.BuiltScene.load(os.fspath(path), {**scene._settings, "time": time}, "")
     scene._built = scene._base
     _warn(scene._base)
     return scene

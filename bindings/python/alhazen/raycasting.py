@@ -6,7 +6,7 @@ question: compute_closest_points, compute_distance, compute_signed_distance.
 """
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Tuple, overload
 
 import numpy as np
 
@@ -66,34 +66,105 @@ class RaycastingScene:
         return self._scene.occluded(limited, threads=nthreads)
 
     def count_intersections(self, rays: Any, nthreads: int = 0) -> np.ndarray:
-        """The number of hits of each ray: int32 (...)."""
+        """The number of hits of each ray (..., 6): int32 (...)."""
         return self._scene.count_intersections(rays, threads=nthreads).astype(np.int32)
 
     def list_intersections(self, rays: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
-        """All hits: ray_splits (rays + 1), ray_ids, t_hit, geometry_ids, primitive_ids, primitive_uvs."""
+        """All hits of rays (..., 6), flat: ray_splits (rays + 1), ray_ids (both int64), t_hit (h,), geometry_ids,
+        primitive_ids (uint32), primitive_uvs (h, 2)."""
         hits = self._scene.all_hits(rays, threads=nthreads)
         hits["primitive_uvs"] = hits.pop("uvs")
         return hits
 
-    def compute_occupancy(self, query_points: Any, nthreads: int = 0) -> np.ndarray:
-        """1 for points (..., 3) inside of a closed mesh, else 0: float32 (...)."""
-        return self._scene.inside(query_points, threads=nthreads).astype(np.float32)
+    def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
+        """1 for points (..., 3) inside of a mesh, else 0: float32 (...). Meshes that are closed are asked whether they
+        hold the point; where one is open, ``nsamples`` (odd) rays vote, inside where they cross an odd number of
+        triangles."""
+        return self._inside(query_points, nthreads, nsamples).astype(np.float32)
 
+    def _inside(self, query_points: Any, nthreads: int, nsamples: int) -> np.ndarray:
+        if nsamples < 1 or nsamples % 2 != 1:
+            raise UsageError(f"nsamples: expected an odd number from 1, found {nsamples}")
+        if len(self._scene.solid_names) == self._count:
+            return self._scene.inside(query_points, threads=nthreads)
+        points = np.asarray(query_points, dtype=np.float64)
+        if points.shape[-1:] != (3,):
+            raise UsageError(f"query_points: expected the shape (..., 3), found {points.shape}")
+        votes = np.zeros(points.shape[:-1], dtype=np.int64)
+        # About the direction (1, 1, 1), the same for each call.
+        for direction in 1 + np.random.default_rng(42).uniform(-0.001, 0.001, (nsamples, 3)):
+            rays = np.concatenate([points, np.broadcast_to(direction, points.shape)], axis=-1)
+            votes += self._scene.count_intersections(rays, threads=nthreads) % 2
+        return votes > nsamples // 2
+
+    @overload
     @staticmethod
     def create_rays_pinhole(fov_deg: float, center: Any, eye: Any, up: Any, width_px: int,
-                            height_px: int) -> np.ndarray:
-        """The rays (height, width, 6), float32, of a camera at ``eye`` that looks at ``center``; ``fov_deg`` is the
-        horizontal field of view. Rays go through the middles of the pixels; along the view directions have length 1."""
-        eye, center, up = (np.asarray(v, dtype=np.float64) for v in (eye, center, up))
-        view = center - eye
-        view = view / np.linalg.norm(view)
-        right = np.cross(view, up)
-        right /= np.linalg.norm(right)
-        down = np.cross(view, right)
-        half = np.tan(np.radians(fov_deg) / 2) / (width_px / 2)
-        x = (np.arange(width_px) + 0.5 - width_px / 2) * half
-        y = (np.arange(height_px) + 0.5 - height_px / 2) * half
-        rays = np.empty((height_px, width_px, 6), dtype=np.float32)
-        rays[..., :3] = eye
-        rays[..., 3:] = view + x[None, :, None] * right + y[:, None, None] * down
+                            height_px: int) -> np.ndarray: ...
+
+    @overload
+    @staticmethod
+    def create_rays_pinhole(intrinsic_matrix: Any, extrinsic_matrix: Any, width_px: int,
+                            height_px: int) -> np.ndarray: ...
+
+    @staticmethod
+    def create_rays_pinhole(*arguments: Any, **named: Any) -> np.ndarray:
+        """The rays (height, width, 6), float32, of a camera, through the middles of its pixels.
+
+        Either ``fov_deg, center, eye, up, width_px, height_px``: from ``eye`` to ``center``, scene units; ``fov_deg``
+        is the horizontal field of view. Rows count towards ``up`` and columns to the left, as in Open3D: pass -up for
+        a picture whose row 0 is the top. Along the view directions have length 1.
+
+        Or ``intrinsic_matrix, extrinsic_matrix, width_px, height_px``: a matrix (3, 3) that takes points of the camera
+        to pixels, and one (4, 4) that takes points of the world to the camera, which looks along its z axis.
+        """
+        names = next((names for names in _PINHOLE_ARGUMENTS if len(arguments) <= len(names)
+                      and set(names[len(arguments):]) == set(named)), None)
+        if names is None:
+            given = f"found {len(arguments)} by position" + (f" and {', '.join(named)}" if named else "")
+            raise UsageError("create_rays_pinhole: expected " + ", or ".join(map(", ".join, _PINHOLE_ARGUMENTS))
+                             + "; " + given)
+        values = {**dict(zip(names, arguments)), **named}
+        width, height = (int(values.pop(name)) for name in ("width_px", "height_px"))
+        if width < 1 or height < 1:
+            raise UsageError(f"create_rays_pinhole: {width} x {height} pixels; expected 1 x 1 or more")
+        if "fov_deg" in values:
+            intrinsic, extrinsic = _camera_at(width=width, height=height, **values)
+        else:
+            intrinsic = _matrix(values["intrinsic_matrix"], 3, "intrinsic_matrix")
+            extrinsic = _matrix(values["extrinsic_matrix"], 4, "extrinsic_matrix")
+        world_from_camera = extrinsic[:3, :3].T
+        world_from_pixel = world_from_camera @ np.linalg.inv(intrinsic)
+        rays = np.empty((height, width, 6), dtype=np.float32)
+        rays[..., :3] = -world_from_camera @ extrinsic[:3, 3]
+        x, y = np.arange(width) + 0.5, np.arange(height) + 0.5
+        rays[..., 3:] = (x[None, :, None] * world_from_pixel[:, 0] + y[:, None, None] * world_from_pixel[:, 1]
+                         + world_from_pixel[:, 2])
         return rays
+
+
+_PINHOLE_ARGUMENTS = (("fov_deg", "center", "eye", "up", "width_px", "height_px"),
+                      ("intrinsic_matrix", "extrinsic_matrix", "width_px", "height_px"))
+
+
+def _matrix(numbers: Any, size: int, name: str) -> np.ndarray:
+    matrix = np.asarray(numbers, dtype=np.float64)
+    if matrix.shape != (size, size):
+        raise UsageError(f"{name}: expected the shape ({size}, {size}), found {matrix.shape}")
+    return matrix
+
+
+def _camera_at(fov_deg: float, center: Any, eye: Any, up: Any, width: int, height: int
+               ) -> Tuple[np.ndarray, np.ndarray]:
+    """The intrinsic and the extrinsic matrix; the rows of the rotation are the camera's axes."""
+    eye, center, up = (np.asarray(v, dtype=np.float64) for v in (eye, center, up))
+    z = (center - eye) / np.linalg.norm(center - eye)
+    x = np.cross(up, z)
+    if not np.linalg.norm(x) > 0:
+        raise UsageError("create_rays_pinhole: up is parallel to the view")
+    x /= np.linalg.norm(x)
+    focal = 0.5 * width / np.tan(0.5 * np.radians(fov_deg))
+    extrinsic = np.eye(4)
+    extrinsic[:3, :3] = x, np.cross(z, x), z
+    extrinsic[:3, 3] = -extrinsic[:3, :3] @ eye
+    return np.array([[focal, 0, 0.5 * width], [0, focal, 0.5 * height], [0, 0, 1]]), extrinsic

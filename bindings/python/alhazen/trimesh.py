@@ -2,7 +2,8 @@
 
 Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector``. Differs: hits are exact in
 float64 and come in the order of the rays, the nearest first; ``contains_points`` takes points on the surface as inside.
-trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``.
+trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``. Queries follow the mesh: arrays that
+have a hash, as trimesh's have, are known by it; other arrays are compared with a copy, which takes their size in memory.
 
     mesh.ray = alhazen.trimesh.RayMeshIntersector(mesh)
 """
@@ -26,6 +27,12 @@ def _rays(origins: Any, directions: Any) -> np.ndarray:
     return np.concatenate([origins, directions], axis=1).astype(np.float64, copy=False)
 
 
+def _known_by(array: Any) -> Union[int, np.ndarray]:
+    """What tells whether an array has changed."""
+    hashed = isinstance(array, np.ndarray) and type(array).__hash__ is not None
+    return hash(array) if hashed else np.array(array)
+
+
 class RayMeshIntersector:
     """Ray queries of one mesh. ``geometry``: an object with ``vertices`` (n, 3) and ``faces`` (m, 3).
 
@@ -39,8 +46,22 @@ class RayMeshIntersector:
 
     def __init__(self, geometry: Any, **kwargs: Any) -> None:
         self.mesh = geometry
-        self._scene = Scene(geometry.vertices, geometry.faces, **kwargs)
-        self._closed = len(self._scene.solid_names) > 0
+        self._settings = kwargs
+        self._built: Tuple[Tuple[Any, Any], Scene] = self._build()
+
+    def _build(self) -> Tuple[Tuple[Any, Any], Scene]:
+        vertices, faces = self.mesh.vertices, self.mesh.faces
+        return (_known_by(vertices), _known_by(faces)), Scene(vertices, faces, **self._settings).build()
+
+    @property
+    def _scene(self) -> Scene:
+        """The scene of the mesh as it is now."""
+        known, scene = self._built
+        if not all(np.array_equal(old, _known_by(new) if isinstance(old, int) else np.asarray(new))
+                   for old, new in zip(known, (self.mesh.vertices, self.mesh.faces))):
+            self._built = self._build()
+            scene = self._built[1]
+        return scene
 
     def intersects_id(self, ray_origins: Any, ray_directions: Any, return_locations: bool = False,
                       multiple_hits: bool = True, **kwargs: Any
@@ -82,10 +103,11 @@ class RayMeshIntersector:
         """Whether each point (n, 3) is inside of the mesh: (n,) bool. In a mesh with open edges, whether a line
         through the point crosses it an odd number of times on both sides."""
         points = np.asarray(points, dtype=np.float64)
-        if self._closed:
-            return self._scene.inside(points)
+        scene = self._scene
+        if scene.solid_names:
+            return scene.inside(points)
         # A direction of no axis and no diagonal.
         direction = np.broadcast_to([0.4395064455, 0.617598629942, 0.652231566745], points.shape)
-        ahead, behind = (self._scene.count_intersections(np.concatenate([points, d], axis=-1)) % 2 == 1
+        ahead, behind = (scene.count_intersections(np.concatenate([points, d], axis=-1)) % 2 == 1
                          for d in (direction, -direction))
         return ahead & behind

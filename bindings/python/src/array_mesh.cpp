@@ -1,5 +1,9 @@
-#include "alhazen/base/error.h"
-#include "built_scene.h"
+#include "array_mesh.h"
+
+#include <cstring>
+#include <vector>
+
+#include "errors.h"
 #include "ray_array.h"
 
 namespace py = pybind11;
@@ -44,11 +48,20 @@ NumberArray per_vertex(const py::object& numbers, py::ssize_t columns, std::size
     return array;
 }
 
-}  // namespace
+/// The numbers of `values`, so many in each row.
+template <class Number, class Value>
+py::array_t<Number> array_of(const std::vector<Value>& values) {
+    constexpr std::size_t kColumns = sizeof(Value) / sizeof(Number);
+    py::array_t<Number> array({values.size(), kColumns});
+    if (!values.empty()) {
+        std::memcpy(array.mutable_data(), values.data(), values.size() * sizeof(Value));
+    }
+    return array;
+}
 
 std::shared_ptr<TriangleMesh> mesh_of_arrays(const py::object& vertices, const py::object& faces,
                                              const py::object& normals, const py::object& uvs,
-                                             const FileLocation& where) {
+                                             const FileLocation& where, bool unit) {
     const NumberArray points(vertices, {3}, "vertices");
     if (points.shape().size() != 1) fail("vertices: expected the shape (n, 3)", where);
     auto mesh = std::make_shared<TriangleMesh>();
@@ -70,7 +83,7 @@ std::shared_ptr<TriangleMesh> mesh_of_arrays(const py::object& vertices, const p
     if (!normals.is_none()) {
         const NumberArray array = per_vertex(normals, 3, points.count(), "normals", where);
         for (std::size_t i = 0; i < array.count(); ++i) {
-            mesh->normals.push_back(normalize(array.vector(i, 0)));
+            mesh->normals.push_back(unit ? array.vector(i, 0) : normalize(array.vector(i, 0)));
         }
     }
     if (!uvs.is_none()) {
@@ -83,6 +96,35 @@ std::shared_ptr<TriangleMesh> mesh_of_arrays(const py::object& vertices, const p
     mesh->validate(where, found);
     throw_found(found);
     return mesh;
+}
+
+}  // namespace
+
+FileLocation location_of(const py::tuple& origin) {
+    return {origin[0].cast<std::string>(), origin[1].cast<int>(), 0};
+}
+
+ArrayMesh make_mesh(const std::string& name, const py::object& vertices, const py::object& faces,
+                    const py::object& normals, const py::object& uvs, const py::tuple& origin) {
+    const FileLocation where = location_of(origin);
+    return {name, mesh_of_arrays(vertices, faces, normals, uvs, where, false), where};
+}
+
+py::tuple state_of_mesh(const ArrayMesh& array_mesh) {
+    const TriangleMesh& mesh = *array_mesh.mesh;
+    const FileLocation& where = array_mesh.location;
+    py::object normals = py::none(), uvs = py::none();
+    if (!mesh.normals.empty()) normals = array_of<double>(mesh.normals);
+    if (!mesh.uvs.empty()) uvs = array_of<double>(mesh.uvs);
+    return py::make_tuple(array_mesh.name, array_of<double>(mesh.positions),
+                          array_of<std::uint32_t>(mesh.triangles), normals, uvs,
+                          py::make_tuple(where.file, where.line));
+}
+
+ArrayMesh mesh_of_state(const py::tuple& state) {
+    const FileLocation where = location_of(state[5].cast<py::tuple>());
+    return {state[0].cast<std::string>(),
+            mesh_of_arrays(state[1], state[2], state[3], state[4], where, true), where};
 }
 
 }  // namespace alhazen::python

@@ -60,8 +60,8 @@ std::shared_ptr<BuiltScene> BuiltScene::build(const BuiltScene* base,
     return std::make_shared<BuiltScene>(std::move(scene), std::move(loaded));
 }
 
-std::shared_ptr<BuiltScene> BuiltScene::load(const std::string& path,
-                                             const BuildSettings& settings) {
+std::shared_ptr<BuiltScene> BuiltScene::load(const std::string& path, const BuildSettings& settings,
+                                             const std::string& called) {
     const LoadOptions options = load_options(settings);
     Diagnostics diagnostics;
     SceneDescription scene;
@@ -71,6 +71,7 @@ std::shared_ptr<BuiltScene> BuiltScene::load(const std::string& path,
         if (error.location().file.empty()) throw_found(diagnostics);
         throw;
     }
+    if (!called.empty()) scene.path = called;
     LoadedScene loaded = alhazen::load(scene, std::move(diagnostics), options);
     return std::make_shared<BuiltScene>(std::move(scene), std::move(loaded));
 }

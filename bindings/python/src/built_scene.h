@@ -15,6 +15,7 @@
 #include "alhazen/session/load.h"
 #include "alhazen/solids/solid_scene.h"
 #include "alhazen/tracer/tracer.h"
+#include "array_mesh.h"
 #include "errors.h"
 
 namespace alhazen::python {
@@ -30,13 +31,6 @@ struct BuildSettings {
     std::optional<double> time = {};
 };
 
-/// A mesh of arrays; a `mesh` block of the text places it by its name.
-struct ArrayMesh {
-    std::string name;
-    std::shared_ptr<TriangleMesh> mesh;
-    FileLocation location;
-};
-
 class BuiltScene {
   public:
     BuiltScene(SceneDescription source, LoadedScene loaded);
@@ -46,9 +40,11 @@ class BuiltScene {
     [[nodiscard]] static std::shared_ptr<BuiltScene> build(
         const BuiltScene* base, const std::vector<ArrayMesh>& meshes, const std::string& text,
         const Origins& origins, const std::string& folder, const BuildSettings& settings);
-    /// Loads a file of any format. Throws Error.
+    /// Loads a file of any format. Files that are named later lie relative to the path `called`; ""
+    /// for its own. Throws Error.
     [[nodiscard]] static std::shared_ptr<BuiltScene> load(const std::string& path,
-                                                          const BuildSettings& settings);
+                                                          const BuildSettings& settings,
+                                                          const std::string& called);
 
     /// As it was given, without what rendering adds.
     [[nodiscard]] const SceneDescription& source() const { return source_; }
@@ -64,13 +60,5 @@ class BuiltScene {
     mutable std::once_flag solids_made_;
     mutable std::optional<SolidScene> solids_;
 };
-
-/// The mesh of vertices (n, 3) and faces (m, 3), with normals (n, 3) and uvs (n, 2) or None.
-/// Throws Error.
-[[nodiscard]] std::shared_ptr<TriangleMesh> mesh_of_arrays(const pybind11::object& vertices,
-                                                           const pybind11::object& faces,
-                                                           const pybind11::object& normals,
-                                                           const pybind11::object& uvs,
-                                                           const FileLocation& where);
 
 }  // namespace alhazen::python

@@ -6,6 +6,7 @@
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/conversion/convert.h"
+#include "array_mesh.h"
 #include "built_scene.h"
 #include "ray_queries.h"
 #include "rendering.h"
@@ -34,17 +35,6 @@ BuildSettings settings_of(const py::dict& given) {
     return settings;
 }
 
-FileLocation location_of(const py::tuple& origin) {
-    return {origin[0].cast<std::string>(), origin[1].cast<int>(), 0};
-}
-
-/// The mesh called `name`, checked and copied.
-ArrayMesh make_mesh(const std::string& name, const py::object& vertices, const py::object& faces,
-                    const py::object& normals, const py::object& uvs, const py::tuple& origin) {
-    const FileLocation where = location_of(origin);
-    return {name, mesh_of_arrays(vertices, faces, normals, uvs, where), where};
-}
-
 std::shared_ptr<BuiltScene> build(const py::object& base, const std::vector<ArrayMesh>& meshes,
                                   const std::string& text, const py::list& origins,
                                   const std::string& folder, const py::dict& given) {
@@ -56,10 +46,11 @@ std::shared_ptr<BuiltScene> build(const py::object& base, const std::vector<Arra
     return BuiltScene::build(below, meshes, text, places, folder, settings);
 }
 
-std::shared_ptr<BuiltScene> load_file(const std::string& path, const py::dict& given) {
+std::shared_ptr<BuiltScene> load_file(const std::string& path, const py::dict& given,
+                                      const std::string& called) {
     const BuildSettings settings = settings_of(given);
     const py::gil_scoped_release released;
-    return BuiltScene::load(path, settings);
+    return BuiltScene::load(path, settings, called);
 }
 
 std::vector<std::string> save(const BuiltScene& scene, const std::string& path) {
@@ -191,11 +182,13 @@ BatchOptions batch(RayMask mask, bool coherent, int threads) {
 void add_scene(py::module_& module) {
     py::class_<ArrayMesh>(module, "ArrayMesh")
         .def(py::init(&make_mesh))
+        .def(py::pickle(&state_of_mesh, &mesh_of_state))
         .def_readonly("name", &ArrayMesh::name);
     py::class_<BuiltScene, std::shared_ptr<BuiltScene>>(module, "BuiltScene")
         .def_static("build", &build)
         .def_static("load", &load_file)
         .def("save", &save)
+        .def("path", [](const BuiltScene& scene) { return scene.source().path.string(); })
         .def("warnings", &warnings_of)
         .def("mesh_names", &mesh_names)
         .def("geometry_names", &geometry_names)

@@ -48,6 +48,11 @@ class Hits(unittest.TestCase):
         np.testing.assert_allclose(lists["t_hit"][0::2], self.enter[self.hit], rtol=1e-12)
         np.testing.assert_allclose(lists["t_hit"][1::2], self.leave[self.hit], rtol=1e-12)
 
+    def test_fields_may_be_one_name(self):
+        self.assertEqual(list(self.scene.intersect(self.rays, fields="normals")), ["normals"])
+        np.testing.assert_array_equal(self.scene.intersect(self.rays, fields="normals")["normals"],
+                                      self.scene.intersect(self.rays, fields=("points", "normals"))["normals"])
+
     def test_limits_cut_off_hits(self):
         limited = np.concatenate([self.rays, np.zeros((len(self.rays), 2))], axis=1)
         limited[:, 6] = (self.enter + self.leave) / 2

@@ -1,5 +1,9 @@
 """Scenes of blocks: vocabulary, errors at their places, files, pictures."""
+import copy
 import os
+import pickle
+import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -121,6 +125,60 @@ class Files(unittest.TestCase):
             alhazen.load("/nowhere/scene.alhazen")
         self.assertIsInstance(caught.exception, OSError)
         self.assertIn("/nowhere/scene.alhazen", str(caught.exception))
+
+
+class Copies(unittest.TestCase):
+    def both_kinds(self, folder):
+        """A scene of blocks and arrays, and one that was loaded and extended."""
+        path = os.path.join(folder, "scene.alhazen")
+        small_scene().save(path)
+        vertices, faces = cube(1, 2)
+        loaded = alhazen.load(path).add(alhazen.sphere(center=(0, 0, 3), radius=0.5, material="stone"))
+        return small_scene(), loaded.add_mesh(vertices, faces, normals=vertices, uvs=vertices[:, :2], material="stone")
+
+    def test_copies_are_the_same_and_independent(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for scene in self.both_kinds(folder):
+                expected = scene.render()
+                for make in (copy.copy, copy.deepcopy, lambda scene: pickle.loads(pickle.dumps(scene))):
+                    other = make(scene)
+                    np.testing.assert_array_equal(other.render(), expected)
+                    self.assertEqual(other.geometry_names, scene.geometry_names)
+                    other.add(alhazen.sphere(radius=9))
+                    self.assertNotEqual(other.geometry_names, scene.geometry_names)
+
+    def test_pickles_need_no_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scenes = self.both_kinds(folder)
+            expected = [scene.render() for scene in scenes]
+            data = pickle.dumps([*scenes, alhazen.load(os.path.join(folder, "scene.alhazen"))])
+        program = "import pickle, sys; pickle.dump([s.render() for s in pickle.load(sys.stdin.buffer)], sys.stdout.buffer)"
+        result = subprocess.run([sys.executable, "-c", program], input=data, check=True, capture_output=True)
+        one, two, loaded = pickle.loads(result.stdout)
+        np.testing.assert_array_equal(one, expected[0])
+        np.testing.assert_array_equal(two, expected[1])
+        np.testing.assert_array_equal(loaded, expected[0])
+
+    def test_files_that_a_copy_names_lie_where_they_lay(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.both_kinds(folder)
+            alhazen.Scene(*cube()).save(os.path.join(folder, "cube.ply"))
+            scene = pickle.loads(pickle.dumps(alhazen.load(os.path.join(folder, "scene.alhazen"))))
+            before = len(scene.geometry_names)
+            scene.add(alhazen.mesh(file="cube.ply"))
+            self.assertEqual(len(scene.geometry_names), before + 1)
+
+    def test_pictures_keep_their_layers_and_errors_their_places(self):
+        picture = small_scene().render(layers="depth")
+        for other in (pickle.loads(pickle.dumps(picture)), copy.copy(picture), copy.deepcopy(picture)):
+            np.testing.assert_array_equal(other, picture)
+            np.testing.assert_array_equal(other.layers["depth.Z"], picture.layers["depth.Z"])
+            self.assertEqual((other.notes, other.rays), (picture.notes, picture.rays))
+        for kind in (alhazen.SceneError, alhazen.FileError, alhazen.UsageError):
+            error = pickle.loads(pickle.dumps(kind("what is wrong", "scene.alhazen", 3, 4)))
+            self.assertIs(type(error), kind)
+            self.assertEqual((str(error), error.file, error.line, error.column),
+                             ("what is wrong", "scene.alhazen", 3, 4))
 
 
 class Pictures(unittest.TestCase):

@@ -1,7 +1,8 @@
 """Builds a wheel of the package with CMake: the build backend that pyproject.toml names (PEP 517, PEP 427).
 
 It needs no other packages than those of scripts/setup --python. The wheel is for the Python that runs pip, and links
-the libraries of this machine. An existing build/release is used.
+the libraries of this machine. An existing build/release is used, or the build folder that pip is told by
+--config-settings=build=FOLDER.
 """
 import base64
 import hashlib
@@ -55,13 +56,15 @@ def pack(package, folder):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    build = os.path.join(ROOT, "build", "release")
+    given = (config_settings or {}).get("build")
+    build = os.path.abspath(given) if given else os.path.join(ROOT, "build", "release")
     # pip hides the packages of the system, numpy among them, from its builds.
     env = {key: value for key, value in os.environ.items() if not key.startswith(("PYTHON", "PIP_"))}
 
     def run(*command):
         subprocess.run(command, check=True, cwd=ROOT, env=env)
 
-    run("cmake", "--preset", "release", "-DALHAZEN_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}")
+    run("cmake", *([build] if given else ["--preset", "release"]), "-DALHAZEN_PYTHON=ON",
+        f"-DPython3_EXECUTABLE={sys.executable}")
     run("cmake", "--build", build, "--parallel", "--target", "alhazen_python_package")
     return pack(os.path.join(build, "python", "alhazen"), wheel_directory)
