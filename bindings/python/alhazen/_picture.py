@@ -47,14 +47,14 @@ class Picture(np.ndarray):
         other._keep(vars(self))
         return other
 
-    def __deepcopy__(self, memo: Dict[int, Any]) -> "Picture":
+    def __deepcopy__(self, memo: Optional[Dict[int, Any]] = None) -> "Picture":
         other = self.copy()
         other._keep(copy.deepcopy(vars(self), memo))
         return other
 
     def __reduce__(self) -> Any:
-        make, arguments, state = super().__reduce__()
-        return make, arguments, (state, vars(self))
+        reduced: Any = super().__reduce__()
+        return reduced[0], reduced[1], (reduced[2], vars(self))
 
     def __setstate__(self, state: Any) -> None:
         super().__setstate__(state[0])
