@@ -97,8 +97,8 @@ class Scene:
                  **keys: Any) -> "Scene":
         """Adds a triangle mesh, copied, and returns the scene.
 
-        ``vertices`` (n, 3), real, scene units; ``faces`` (m, 3), whole numbers. ``normals`` (n, 3) and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``,
-        ``transform``, ``visible_to``, ``motion``.
+        ``vertices`` (n, 3), real, scene units; ``faces`` (m, 3), whole numbers. ``normals`` (n, 3)
+        and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``, ``transform``, ``visible_to``, ``motion``.
         """
         taken = {mesh.name for mesh in self._meshes}
         if self._base is not None:
@@ -220,24 +220,25 @@ class Scene:
         faster for rays of a camera; it never changes a hit.
         """
         names = [fields] if isinstance(fields, str) else list(fields)
-        return self._scene().intersect(rays, names, mask, coherent, self._at_most(threads))
+        return self._scene().intersect(rays, names, _checked_mask(mask), coherent, self._at_most(threads))
 
     def occluded(self, rays: Any, *, mask: int = 0xFFFFFFFF, coherent: bool = False,
                  threads: Optional[int] = None) -> np.ndarray:
-        """Whether each ray (..., 6) or (..., 8) hits anything: bool, shaped like the rays. Cheaper than ``intersect``."""
-        return self._scene().occluded(rays, mask, coherent, self._at_most(threads))
+        """Whether each ray (..., 6) or (..., 8) hits anything: bool, shaped like the rays. Cheaper than
+        ``intersect``."""
+        return self._scene().occluded(rays, _checked_mask(mask), coherent, self._at_most(threads))
 
     def all_hits(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
         """Every hit of each ray (..., 6) or (..., 8), the nearest first: flat arrays t_hit, geometry_ids, primitive_ids
         and uvs of all hits, ray_ids (int64, the ray of each, in C order), and ray_splits (int64, rays + 1): hits of
         ray i are [ray_splits[i], ray_splits[i + 1])."""
-        return self._scene().all_hits(rays, mask, self._at_most(threads))
+        return self._scene().all_hits(rays, _checked_mask(mask), self._at_most(threads))
 
     list_intersections = all_hits
 
     def count_intersections(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> np.ndarray:
         """How many hits each ray (..., 6) or (..., 8) has: int64, shaped like the rays."""
-        return self._scene().count_intersections(rays, mask, self._at_most(threads))
+        return self._scene().count_intersections(rays, _checked_mask(mask), self._at_most(threads))
 
     # ---- solids
 
@@ -256,7 +257,8 @@ class Scene:
         return self._scene().inside(points, self._at_most(threads))
 
     def solids_at(self, points: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """The solids that hold each point (..., 3), scene units: flat arrays solid_ids, on_surface (bool), point_ids, and point_splits."""
+        """The solids that hold each point (..., 3), scene units: flat arrays solid_ids, on_surface (bool),
+        point_ids, and point_splits."""
         return self._scene().solids_at(points, self._at_most(threads))
 
     def measure(self, *solids: Union[str, int], error: float = 1e-4, seconds: float = 2.0, seed: int = 1,
@@ -326,6 +328,12 @@ class Scene:
 
     def _at_most(self, threads: Optional[int]) -> int:
         return self._threads if threads is None else int(threads)
+
+
+def _checked_mask(mask: int) -> int:
+    if not 0 <= mask <= 0xFFFFFFFF:
+        raise UsageError(f"mask: expected 0 to 0xFFFFFFFF, found {mask}")
+    return mask
 
 
 def _packed(built: _alhazen.BuiltScene) -> Tuple[str, Dict[str, bytes]]:

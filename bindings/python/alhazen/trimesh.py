@@ -3,7 +3,7 @@
 Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector``. Differs: hits are exact in
 float64 and come in the order of the rays, the nearest first; ``contains_points`` takes points on the surface as inside.
 trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``. Queries follow the mesh: arrays that
-have a hash, as trimesh's have, are known by it; other arrays are compared with a copy, which takes their size in memory.
+have a hash, as trimesh's have, are known by it; others are compared with a copy, which takes their size in memory.
 
     mesh.ray = alhazen.trimesh.RayMeshIntersector(mesh)
 """

@@ -118,13 +118,25 @@ py::tuple bounds(const BuiltScene& scene) {
                           py::make_tuple(box.hi.x, box.hi.y, box.hi.z));
 }
 
+/// The value of a key. Throws Error (Usage) where it has another type.
+template <class T>
+T value_of(const py::dict& given, const char* key) {
+    try {
+        return given[key].cast<T>();
+    } catch (const py::cast_error&) {
+        throw Error(ErrorKind::Usage, std::string("render: ") + key + " is " +
+                                          py::repr(given[key]).cast<std::string>() +
+                                          ", which has the wrong type");
+    }
+}
+
 template <class T>
 void take(const py::dict& given, const char* key, T& out) {
-    if (given.contains(key) && !given[key].is_none()) out = given[key].cast<T>();
+    if (given.contains(key) && !given[key].is_none()) out = value_of<T>(given, key);
 }
 template <class T>
 void take(const py::dict& given, const char* key, std::optional<T>& out) {
-    if (given.contains(key) && !given[key].is_none()) out = given[key].cast<T>();
+    if (given.contains(key) && !given[key].is_none()) out = value_of<T>(given, key);
 }
 
 py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::object& progress) {
@@ -149,7 +161,7 @@ py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::o
     take(given, "seconds", wishes.sampling.seconds);
     take(given, "spp", wishes.spp);
     if (given.contains("crop") && !given["crop"].is_none()) {
-        const auto [x0, y0, x1, y1] = given["crop"].cast<std::tuple<int, int, int, int>>();
+        const auto [x0, y0, x1, y1] = value_of<std::tuple<int, int, int, int>>(given, "crop");
         wishes.render.crop = PixelBox{x0, y0, x1, y1};
     }
     return render_picture(scene, std::move(wishes), progress);

@@ -41,8 +41,8 @@ def parameters_of(function):
 class Package(unittest.TestCase):
     def test_the_examples_of_the_docstrings_hold(self):
         tried = 0
-        for name in ("alhazen", "alhazen._picture", "alhazen._scene", "alhazen.trimesh", "alhazen.raycasting", "alhazen.blocks"):
-            result = doctest.testmod(importlib.import_module(name))
+        for name in ("", "._picture", "._scene", ".trimesh", ".raycasting", ".blocks"):
+            result = doctest.testmod(importlib.import_module("alhazen" + name))
             self.assertEqual(result.failed, 0)
             tried += result.attempted
         self.assertGreater(tried, 8)

@@ -177,6 +177,9 @@ class Arrays(unittest.TestCase):
                 self.scene.intersect(rays)
         with self.assertRaisesRegex(alhazen.UsageError, "unknown field 'normal'; known are t_hit"):
             self.scene.intersect(np.zeros((1, 6)), fields=("normal",))
+        for query in (self.scene.intersect, self.scene.occluded, self.scene.all_hits, self.scene.count_intersections):
+            with self.assertRaisesRegex(alhazen.UsageError, "mask: expected 0 to 0xFFFFFFFF, found -1"):
+                query(np.zeros((1, 6)), mask=-1)
         with self.assertRaisesRegex(alhazen.SceneError, r"faces\[0\]\[2\] is 3; expected 0 to 3 - 1"):
             alhazen.Scene(np.eye(3), [[0, 1, 3]])
         with self.assertRaisesRegex(alhazen.SceneError, r"faces\[0\]\[0\] is -1"):

@@ -152,7 +152,8 @@ class Copies(unittest.TestCase):
             scenes = self.both_kinds(folder)
             expected = [scene.render() for scene in scenes]
             data = pickle.dumps([*scenes, alhazen.load(os.path.join(folder, "scene.alhazen"))])
-        program = "import pickle, sys; pickle.dump([s.render() for s in pickle.load(sys.stdin.buffer)], sys.stdout.buffer)"
+        program = ("import pickle, sys\n"
+                   "pickle.dump([s.render() for s in pickle.load(sys.stdin.buffer)], sys.stdout.buffer)")
         result = subprocess.run([sys.executable, "-c", program], input=data, check=True, capture_output=True)
         one, two, loaded = pickle.loads(result.stdout)
         np.testing.assert_array_equal(one, expected[0])
@@ -235,6 +236,13 @@ class Pictures(unittest.TestCase):
         self.assertFalse(np.array_equal(smooth, scene.render()))
         with self.assertRaisesRegex(alhazen.UsageError, "environment"):
             scene.render(environment="night", renderer="path_tracing")
+
+    def test_values_of_the_wrong_type_are_usage_errors(self):
+        scene = small_scene()
+        with self.assertRaisesRegex(alhazen.UsageError, r"render: crop is \(1, 2\), which has the wrong type"):
+            scene.render(8, 8, crop=(1, 2))
+        with self.assertRaisesRegex(alhazen.UsageError, "render: width is 'a'"):
+            scene.render("a", 8)
 
     def test_crops_and_files(self):
         scene = small_scene()
