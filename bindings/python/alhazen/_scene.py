@@ -98,7 +98,8 @@ class Scene:
         """Adds a triangle mesh, copied, and returns the scene.
 
         ``vertices`` (n, 3), real, scene units; ``faces`` (m, 3), whole numbers. ``normals`` (n, 3)
-        and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``, ``transform``, ``visible_to``, ``motion``.
+        and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``, ``transform``,
+        ``visible_to``, ``motion``.
         """
         taken = {mesh.name for mesh in self._meshes}
         if self._base is not None:
