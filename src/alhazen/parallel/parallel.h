@@ -4,7 +4,7 @@
 ///
 /// Conventions: results never depend on the number of threads or the order of execution; floating
 /// point is never reduced in completion order. An exception thrown by a task is rethrown to the
-/// caller once.
+/// caller once. Tasks inherit the caller's Interruptible, and are not begun once it is requested.
 
 #include <cstddef>
 #include <functional>

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 
 namespace alhazen {
@@ -80,7 +81,8 @@ void run_with_helpers(Pool& pool, int helpers, const Work& work) {
         try {
             threads.reserve(static_cast<std::size_t>(taken));
             for (int i = 0; i < taken; ++i) {
-                threads.emplace_back([&pool, &work] {
+                threads.emplace_back([&pool, &work, flag = Interruptible::current()] {
+                    const Interruptible inherited(flag);
                     Pool::local() = &pool;
                     work();
                 });
@@ -119,6 +121,7 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
+    interruption_point();
     if (count <= grain) return body(0, count);
     const std::size_t chunks = (count - 1) / grain + 1;
     std::atomic<std::size_t> next{0};
@@ -126,6 +129,7 @@ void parallel_for(std::size_t count, std::size_t grain,
     const auto work = [&] {
         error.guard([&] {
             for (std::size_t i = next++; i < chunks && !error.failed(); i = next++) {
+                interruption_point();
                 body(i * grain, std::min(count, (i + 1) * grain));
             }
         });

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 
 namespace alhazen {
@@ -29,19 +30,25 @@ ThreadLimit::~ThreadLimit() {
 }
 
 void ThreadLimit::run(const std::function<void()>& work) {
-    impl_->arena.execute(work);
+    impl_->arena.execute([flag = Interruptible::current(), &work] {
+        const Interruptible inherited(flag);
+        work();
+    });
 }
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
+    interruption_point();
     if (count <= grain) return body(0, count);
     // Tasks are whole chunks, so the ranges are the same for every thread count and backend.
     const std::size_t chunks = (count - 1) / grain + 1;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks),
-        [&](const tbb::blocked_range<std::size_t>& range) {
+        [&, flag = Interruptible::current()](const tbb::blocked_range<std::size_t>& range) {
+            const Interruptible inherited(flag);
+            interruption_point();
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
                 body(i * grain, std::min(count, (i + 1) * grain));
             }
@@ -50,7 +57,14 @@ void parallel_for(std::size_t count, std::size_t grain,
 }
 
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) {
-    tbb::parallel_invoke(a, b);
+    const auto inheriting = [flag = Interruptible::current()](const std::function<void()>& work) {
+        return [flag, &work] {
+            const Interruptible inherited(flag);
+            interruption_point();
+            work();
+        };
+    };
+    tbb::parallel_invoke(inheriting(a), inheriting(b));
 }
 
 }  // namespace alhazen

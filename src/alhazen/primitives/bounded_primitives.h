@@ -1,11 +1,12 @@
 #pragma once
 /// Splits the primitives of a table into those an accelerator can be built over and the unbounded
 /// ones: planes and other shapes without a finite box. The latter are few, and tested for every
-/// ray.
+/// ray. Every question is an interruption point of the builder that asks.
 
 #include <cstdint>
 #include <vector>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/geometry/bounds_source.h"
 #include "alhazen/primitives/primitive_table.h"
 
@@ -22,20 +23,28 @@ class BoundedPrimitives final : public BoundsSource {
     [[nodiscard]] std::size_t size() const override {
         return identity_ ? table_.size() : bounded_.size();
     }
-    [[nodiscard]] Box3 box(std::size_t i) const override { return table_.box(id(i)); }
+    [[nodiscard]] Box3 box(std::size_t i) const override {
+        interruption_point();
+        return table_.box(id(i));
+    }
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override {
+        interruption_point();
         return table_.extent(id(i), axis);
     }
     [[nodiscard]] BoundingSphere sphere(std::size_t i) const override {
+        interruption_point();
         return table_.sphere(id(i));
     }
     [[nodiscard]] bool overlaps(std::size_t i, const Box3& cell) const override {
+        interruption_point();
         return table_.overlaps(id(i), cell);
     }
     [[nodiscard]] Box3 clipped_box(std::size_t i, const Box3& cell) const override {
+        interruption_point();
         return table_.clipped_box(id(i), cell);
     }
     [[nodiscard]] std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const override {
+        interruption_point();
         return table_.triangle(id(i));
     }
     [[nodiscard]] bool blocks_light(std::size_t i) const override {

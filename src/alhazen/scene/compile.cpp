@@ -8,6 +8,7 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/aggregates/motion/motion_aggregate.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/scene/compile_materials.h"
@@ -253,6 +254,7 @@ class Compiler {
                                 d_.objects[object].cut_material == CutMaterial::Minuend;
         std::uint32_t number = first_part_[object];
         for (const Part& part : d_.objects[object].parts) {
+            interruption_point();
             const PlacedPart placed{part, all.outer_from_object * part.object_from_part, number++,
                                     all.visible_to & without_unused_bits(part.visible_to)};
             has_masks_ = has_masks_ || placed.visible_to != kAllRays;
@@ -290,6 +292,7 @@ class Compiler {
                    Draft& draft) {
         std::uint32_t number = first_part_[object];
         for (const Part& part : d_.objects[object].parts) {
+            interruption_point();
             const PlacedPart placed{part, outer_from_object * part.object_from_part, number++,
                                     visible_to & without_unused_bits(part.visible_to)};
             has_masks_ = has_masks_ || placed.visible_to != kAllRays;

@@ -5,6 +5,7 @@
 
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 #include "alhazen/base/overloaded.h"
 #include "alhazen/imaging/image/image.h"
 #include "alhazen/scene_model/scene_description.h"
@@ -183,6 +184,7 @@ class Validator {
     }
 
     void check_mesh(const MeshDescription& description) {
+        interruption_point();
         if (!description.mesh) {
             error(description.location, fmt::format("{} is missing", in_words(description)));
             return;
@@ -226,6 +228,7 @@ class Validator {
     }
 
     void check_part(const Part& part) {
+        interruption_point();
         check_mask(part);
         check_motion(part);
         if (!is_invertible(part.object_from_part)) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "alhazen/accel/bounds/bounds.h"
+#include "alhazen/base/interruption.h"
 
 namespace alhazen {
 
@@ -56,6 +57,7 @@ class MedianSplit {
 
   private:
     void build(std::size_t node, std::size_t begin, std::size_t end, int axis) {
+        interruption_point();
         if (end - begin == 1) {
             tree_.nodes[node] = {bounds_[order_[begin]], order_[begin], 0};
             return;

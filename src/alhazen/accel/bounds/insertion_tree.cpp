@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "alhazen/base/interruption.h"
+
 namespace alhazen {
 namespace {
 
@@ -81,6 +83,7 @@ InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) {
 }
 
 double InsertionTree::insert(std::uint32_t primitive, const BoxBound& bound) {
+    interruption_point();
     const std::uint32_t leaf = new_node();
     nodes_[leaf].bound = bound;
     nodes_[leaf].primitive = primitive;

@@ -8,6 +8,7 @@
 #include "alhazen/accel/cells/convex_cell.h"
 #include "alhazen/accel/core/bounding_proxies.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 
 namespace alhazen {
 namespace {
@@ -112,6 +113,7 @@ class BspBuilder {
     /// Adds planes beside the bounds of pieces, by rank, and planes that cut off empty space.
     void add_candidates_across(std::uint32_t k, const std::vector<Piece>& pieces,
                                const ConvexCell& cell, std::vector<Candidate>& candidates) const {
+        interruption_point();
         const Vec3& normal = tree_.normals_[k];
         std::vector<Interval> extents;
         extents.reserve(pieces.size());
@@ -287,6 +289,7 @@ class BspBuilder {
     }
 
     void build(std::vector<Piece> pieces, ConvexCell cell, int depth, int forgiven) {
+        interruption_point();
         const std::size_t index = tree_.nodes_.size();
         tree_.nodes_.emplace_back();
         const double as_leaf = config_.test_cost * static_cast<double>(pieces.size());

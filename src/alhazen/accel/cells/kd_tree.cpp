@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 
 namespace alhazen {
 namespace {
@@ -77,9 +78,24 @@ class KdTreeBuilder {
         return s.x * s.y + s.y * s.z + s.z * s.x;
     }
     [[nodiscard]] Box3 widened(const Box3& b) const { return tree_.space_.widened(b); }
+    /// In parts that are merged, for interruptions: no two events are equal, so the order is that
+    /// of one sort.
     static void sort(std::vector<Event>& events) {
-        std::sort(events.begin(), events.end(),
-                  [](const Event& a, const Event& b) { return a.before(b); });
+        constexpr std::size_t kPart = 1 << 16;
+        const auto before = [](const Event& a, const Event& b) { return a.before(b); };
+        const auto at = [&](std::size_t i) {
+            return events.begin() + static_cast<std::ptrdiff_t>(std::min(i, events.size()));
+        };
+        for (std::size_t i = 0; i < events.size(); i += kPart) {
+            interruption_point();
+            std::sort(at(i), at(i + kPart), before);
+        }
+        for (std::size_t part = kPart; part < events.size(); part *= 2) {
+            for (std::size_t i = 0; i < events.size(); i += 2 * part) {
+                interruption_point();
+                std::inplace_merge(at(i), at(i + part), at(i + 2 * part), before);
+            }
+        }
     }
     static void add_events(const Box3& box, std::uint32_t piece, std::vector<Event>& events) {
         for (std::uint8_t axis = 0; axis < 3; ++axis) {
@@ -141,6 +157,7 @@ class KdTreeBuilder {
         sort(candidates);
         Split best;
         for (std::size_t c = 0; c < candidates.size(); ++c) {
+            interruption_point();
             const Event& e = candidates[c];
             if (c > 0 && candidates[c - 1].position == e.position &&
                 candidates[c - 1].axis == e.axis)
@@ -237,6 +254,7 @@ class KdTreeBuilder {
 
     void build(std::vector<ClippedPrimitive> pieces, std::vector<Event> events, const Box3& box,
                int depth, int forgiven) {
+        interruption_point();
         const std::size_t index = tree_.nodes_.size();
         tree_.nodes_.emplace_back();
         const double as_leaf = config_.test_cost * static_cast<double>(pieces.size());

@@ -6,6 +6,7 @@
 
 #include "alhazen/accel/cells/cell_limits.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 
 namespace alhazen {
 namespace {
@@ -89,6 +90,7 @@ class NestedGridBuilder {
     };
 
     Cell make_cell(const std::vector<std::uint32_t>& inside, const Box3& box, int depth) {
+        interruption_point();
         const bool divides = depth < config_.max_depth &&
                              inside.size() > static_cast<std::size_t>(config_.leaf_size);
         // The outermost grid is always made: otherwise the structure would be a plain list.

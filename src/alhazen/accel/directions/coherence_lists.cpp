@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "alhazen/base/interruption.h"
+
 namespace alhazen {
 namespace {
 
@@ -70,6 +72,7 @@ void CoherenceLists::sort_into_cells() {
     });
     std::vector<std::vector<std::uint32_t>> lists(grid_.size());
     for (const std::uint32_t i : by_radius) {
+        interruption_point();
         const BoundingSphere& s = spheres_[i];
         const Vec3 half{s.radius, s.radius, s.radius};
         const auto [first, last] = grid_.range({s.center - half, s.center + half});

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 
 namespace alhazen {
 std::uint32_t& LastOccluders::of(std::uint64_t buffer, std::size_t light) {
@@ -145,6 +146,7 @@ class LightBufferBuilder {
     }
 
     void add_body(std::uint32_t i) {
+        interruption_point();
         const Box3 box = box_from_light(i);
         const double begin = begin_of(box, i);
         const bool may_fill = made_.config_.full_cells && source_.blocks_light(i);

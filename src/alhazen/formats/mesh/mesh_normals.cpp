@@ -1,5 +1,6 @@
 #include "alhazen/formats/mesh/mesh_normals.h"
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/formats/mesh/vertex_welder.h"
 
 namespace alhazen {
@@ -22,6 +23,7 @@ std::vector<Vec3> weighted_normals(const TriangleMesh& mesh,
                                    const std::vector<std::uint32_t>& place_of, std::size_t places) {
     std::vector<Vec3> sums(places);
     for (const auto& [a, b, c] : mesh.triangles) {
+        interruption_point();
         const Vec3 weighted =
             cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
         for (const std::uint32_t i : {a, b, c}) sums[place_of[i]] += weighted;
@@ -37,6 +39,7 @@ void make_smooth_normals(TriangleMesh& mesh) {
     VertexWelder welder(places, count);
     std::vector<std::uint32_t> place_of(count), itself(count);
     for (std::size_t i = 0; i < count; ++i) {
+        interruption_point();
         place_of[i] = welder.find_or_add(mesh.positions[i]);
         itself[i] = std::uint32_t(i);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/formats/ply/ply_header.h"
 #include "alhazen/formats/ply/ply_values.h"
@@ -84,6 +85,7 @@ class BodyReader {
         }
         layout.reserve(mesh_, element.count);
         for (std::uint64_t i = 0; i < element.count; ++i) {
+            interruption_point();
             if (!read_vertex(element, i, layout) && !recover()) return false;
             layout.append(mesh_);
         }
@@ -126,6 +128,7 @@ class BodyReader {
         const bool strips = element.name == "tristrips";
         if (!strips) mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
         for (std::uint64_t i = 0; i < element.count; ++i) {
+            interruption_point();
             if (!read_face(element, i, list, strips) && !recover()) return false;
         }
         free_diagonals(mesh_.positions, polygons_, mesh_.triangles);
@@ -211,6 +214,7 @@ class BodyReader {
         if (element.properties.empty() || values_.skip(element)) return true;
         double unused = 0.0;
         for (std::uint64_t i = 0; i < element.count; ++i) {
+            interruption_point();
             for (const PlyProperty& property : element.properties) {
                 if (!read_property(element, property, i, unused)) return false;
             }

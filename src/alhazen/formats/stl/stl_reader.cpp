@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/formats/mesh/vertex_welder.h"
 #include "alhazen/formats/text/text_cursor.h"
 
@@ -124,6 +125,7 @@ class StlReader {
         solid.mesh.triangles.reserve(count);
         const char* at = bytes_.data() + kHeaderBytes;
         for (std::uint32_t i = 0; i < count && errors_ < kMaxErrors; ++i, at += kFacetBytes) {
+            interruption_point();
             std::array<Vec3, 4> v;
             for (std::size_t k = 0; k < 12; ++k) {
                 v[k / 3][int(k % 3)] = double(std::bit_cast<float>(u32(at + 4 * k)));

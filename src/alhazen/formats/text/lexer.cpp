@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "alhazen/base/interruption.h"
+
 namespace alhazen {
 
 namespace {
@@ -236,6 +238,7 @@ Token Lexer::number() {
 }
 
 Token Lexer::next() {
+    interruption_point();
     skip_blanks_and_comments();
     if (at_ >= text_.size()) {
         return {.kind = TokenKind::End, .offset = static_cast<std::uint32_t>(text_.size())};

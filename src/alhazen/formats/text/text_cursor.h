@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 
 namespace alhazen {
 
@@ -60,6 +61,7 @@ class TextCursor {
     /// Moves to the next word, across lines and comments (from one of `comment_marks` to the end of
     /// the line); false at the end of the text.
     bool skip_to_word(std::string_view comment_marks = {}) {
+        interruption_point();
         while (next_ != end_) {
             if (is_newline(*next_)) {
                 step_over_newline();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
 namespace alhazen::gltf {
@@ -53,6 +54,7 @@ void copy_as(const Document& document, const Accessor& accessor, std::vector<Out
         if (run.data == nullptr) return;
         Out* to = out.data() + run.first * n;
         for (std::uint64_t i = 0; i < run.count; ++i) {
+            interruption_point();
             const char* element = run.data + i * run.stride;
             for (std::size_t column = 0; column < layout.columns; ++column) {
                 const char* from = element + column * layout.column_stride;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/base/interruption.h"
+
 namespace alhazen::gltf {
 
 namespace {
@@ -361,6 +363,7 @@ class Watch final : public nlohmann::json_sax<json> {
         return open();
     }
     bool key(string_t& name) override {
+        interruption_point();
         if (keys_.back().insert(name).second) return count(kStringCost);
         throw Refused{"the key " + in_quotes(name) + " occurs twice in one object"};
     }
@@ -377,6 +380,7 @@ class Watch final : public nlohmann::json_sax<json> {
 
   private:
     bool open() {
+        interruption_point();
         if (depth_++ < kMaxDepth) return count(kContainerCost);
         throw Refused{"the JSON text is nested deeper than " + std::to_string(kMaxDepth)};
     }
