@@ -1,13 +1,17 @@
 # Writes text files into a C++ source as a std::string_view.
 #   alhazen_embed_text(OUTPUT file.cpp HEADER header VARIABLE name FILES file...)
 # adds the command that makes the source; run as a script (cmake -P) with the same names, it makes it. The files are
-# joined in their order. Each file is a literal of its own, below 64 KiB.
+# joined in their order, as literals below 16 KiB. Files that are longer must be ASCII.
 if(CMAKE_SCRIPT_MODE_FILE)
     set(text "// Generated from ${FILES}: do not edit.\n#include \"${HEADER}\"\n\nnamespace alhazen {\n\n")
     string(APPEND text "const std::string_view ${VARIABLE} =")
     foreach(file IN LISTS FILES)
         file(READ "${file}" content)
-        string(APPEND text "\n    R\"embedded(${content})embedded\"")
+        string(LENGTH "${content}" length)
+        foreach(begin RANGE 0 ${length} 16000)
+            string(SUBSTRING "${content}" ${begin} 16000 part)
+            string(APPEND text "\n    R\"embedded(${part})embedded\"")
+        endforeach()
     endforeach()
     string(APPEND text ";\n\n}  // namespace alhazen\n")
     file(WRITE "${OUTPUT}" "${text}")

@@ -62,8 +62,13 @@ def anchors(text):
 def documents(root):
     found = sorted(root.glob("*.md"))
     for folder in DOCUMENTS:
-        found += sorted((root / folder).rglob("*.md"))
+        found += sorted(path for path in (root / folder).rglob("*.md") if not is_installed(path))
     return found
+
+
+def is_installed(path):
+    """Whether it came with tools from elsewhere: it is not of the repository."""
+    return "node_modules" in path.parts
 
 
 def check_link(root, path, target):
@@ -123,7 +128,8 @@ def check(root):
         findings += check_document(root, path)
     for folder in NAMING:
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix in NAMING_SUFFIXES and path.is_file() and "corpus" not in path.parts:
+            if path.suffix in NAMING_SUFFIXES and path.is_file() and "corpus" not in path.parts \
+                    and not is_installed(path):
                 findings += check_named(root, path)
     for path in sorted((root / "src").rglob("*")):
         if path.suffix in (".h", ".cpp"):
@@ -135,6 +141,7 @@ GOOD = {
     "README.md": "# Read\n[page](docs/page.md), [place](docs/page.md#the-first-place) and [web](https://example.org/x)\n",
     "docs/page.md": "# Page\n## The first `place`\n[up](../README.md)\n| " + "x" * 130 + " |\n```\n" + "y" * 130
                     + "\n[none](none.md)\n```\n`[none](none.md)`\n",
+    "tools/page/node_modules/x/README.md": "[none](none.md)\n" + "y " * 70 + "\n",
     "src/alhazen/base/a.h": "/// Formats: docs/page.md.\n/// Source: Author, \"Title\", 1999.\n",
 }
 

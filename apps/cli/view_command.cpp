@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <spawn.h>
 
+#include <chrono>
+#include <exception>
 #include <filesystem>
 #include <optional>
 
@@ -20,6 +22,9 @@ extern char** environ;
 namespace alhazen::cli {
 
 namespace {
+
+/// For pages to show why there is no scene, before the server ends.
+constexpr auto kLastWords = std::chrono::milliseconds(500);
 
 struct ViewArguments {
     SceneArguments scene;
@@ -45,6 +50,8 @@ int run_view(ViewArguments& args) {
     }
     check_accelerator(args.scene.accelerator);
     viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
+    // What is wrong is mostly found at once: then no page is opened.
+    session.scenes().wait_for_first(std::chrono::milliseconds(300));
     std::optional<viewer::RedirectFile> redirect;
     viewer::HttpServer server({.address = args.address,
                                .port = static_cast<std::uint16_t>(args.port),
@@ -61,7 +68,18 @@ int run_view(ViewArguments& args) {
         redirect.emplace(server.url());
         open_in_browser(redirect->path());
     }
-    server.run(stop_on_signals());
+    const StopFlag& stop = stop_on_signals();
+    std::exception_ptr failure;
+    std::chrono::steady_clock::time_point failed;
+    server.run([&] {
+        const auto now = std::chrono::steady_clock::now();
+        if (!failure) {
+            failure = session.scenes().failure();
+            failed = now;
+        }
+        return stop.requested() || (failure && now - failed > kLastWords);
+    });
+    if (failure && !stop.requested()) std::rethrow_exception(failure);
     return kDone;
 }
 

@@ -1,23 +1,26 @@
 #pragma once
-/// Frames over a WebSocket (RFC 6455): the newest wish of a client, and at most one picture on its
-/// way.
+/// Frames and states over a WebSocket (RFC 6455): the newest wish of a client, at most one picture
+/// on its way, and what changes from moment to moment.
 ///
-/// Conventions: the first message is {"token": ...}, within 5 s; a wrong one is closed by 1008. A
-/// wish is JSON with `id`, and `moving` where the next of its kind is to be shown only after it. A
-/// wish takes the place of one that waits, and ends one in hand that is not `moving`. The answer is
-/// binary: four bytes, the length of a JSON text (least byte first), that text (`id`, `status`,
-/// `type`, `facts`), the body. {"shown": id} says that it has arrived: the next is sent then, while
-/// another may be made. A picture that waits gives its place to a newer one. Messages to the server
-/// have 1 MiB at most (1009), what is no JSON object is closed by 1007. Threads: all of it in the
-/// strand of the stream, the handler beside it. Included by http_server.cpp alone.
+/// Conventions: messages are those of frame_protocol.h. The token comes first, within 5 s and 1
+/// KiB; a wrong one is closed by 1008. A wish takes the place of one that waits, and ends one in
+/// hand that is not `moving`. Once a picture has arrived ("shown") the next is sent; another may be
+/// made meanwhile, and gives its place to a newer one. States are sent when they change, looked at
+/// ten times a second while none waits, and each second as a sign of life. So what a client that
+/// does not read holds in memory is bounded: a state, and three pictures. Messages to the server
+/// have 1 MiB at most (1009), what is no message is closed by 1007; a client that answers no ping
+/// for 5 s is let go. Threads: all of it in the strand of the stream, the handler beside it.
+/// Included by http_server.cpp alone.
 
+#include <array>
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <nlohmann/json.hpp>
+#include <chrono>
 #include <optional>
 
+#include "frame_protocol.h"
 #include "http_server.h"
 
 namespace alhazen::viewer {
@@ -30,7 +33,10 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
     /// `workers` runs the handler; the handler must outlive the socket.
     FrameSocket(boost::beast::tcp_stream stream, boost::asio::io_context& workers,
                 const Handler& handler)
-        : socket_(std::move(stream)), workers_(workers), handler_(handler) {}
+        : socket_(std::move(stream)),
+          looks_(socket_.get_executor()),
+          workers_(workers),
+          handler_(handler) {}
 
     /// Until the client is gone.
     boost::asio::awaitable<void> serve(const HttpRequest& request, const std::string& token) {
@@ -38,17 +44,18 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         websocket::stream_base::timeout patience{std::chrono::seconds(5), std::chrono::seconds(5),
                                                  false};
         socket_.set_option(patience);
-        socket_.read_message_max(kMostMessage);
+        socket_.read_message_max(kMostFirst);
         socket_.auto_fragment(false);
-        socket_.binary(true);
         co_await socket_.async_accept(request, boost::asio::use_awaitable);
         if (!co_await knows(token)) co_return;
         patience.keep_alive_pings = true;  // a quiet page stays
         socket_.set_option(patience);
+        socket_.read_message_max(kMostMessage);
+        look();
         try {
             for (;;) {
-                const Json message = co_await next();
-                if (!message.is_object()) break;
+                const ClientMessage message = co_await next();
+                if (message.kind == ClientMessage::Kind::Bad) break;
                 take(message);
             }
         } catch (...) {
@@ -61,8 +68,10 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
     }
 
   private:
-    using Json = nlohmann::ordered_json;
-    static constexpr std::size_t kMostMessage = 1024 * 1024;
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::size_t kMostFirst = 1024, kMostMessage = 1024 * 1024;
+    static constexpr auto kLook = std::chrono::milliseconds(100);
+    static constexpr auto kSignOfLife = std::chrono::seconds(1);
     struct Wish {
         std::int64_t id = 0;
         bool moving = false;
@@ -78,11 +87,9 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         timer.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
             if (!error) boost::beast::get_lowest_layer(self->socket_).close();
         });
-        const Json first = co_await next();
+        const ClientMessage first = co_await next();
         timer.cancel();
-        const auto given = first.is_object() ? first.find("token") : first.end();
-        if (first.is_object() && given != first.end() && given->is_string() &&
-            same_secret(given->get_ref<const std::string&>(), token)) {
+        if (first.kind == ClientMessage::Kind::Token && same_secret(first.token, token)) {
             co_return true;
         }
         co_await socket_.async_close(boost::beast::websocket::close_code::policy_error,
@@ -90,28 +97,54 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         co_return false;
     }
 
-    boost::asio::awaitable<Json> next() {
+    boost::asio::awaitable<ClientMessage> next() {
         boost::beast::flat_buffer buffer;
         (void)co_await socket_.async_read(buffer, boost::asio::use_awaitable);
         text_ = boost::beast::buffers_to_string(buffer.data());
-        co_return Json::parse(text_, nullptr, false);
+        co_return client_message(text_);
     }
 
-    void take(const Json& message) {
-        const auto id = message.find("id"), moving = message.find("moving");
-        if (message.contains("shown")) {
-            on_way_ = false;
-        } else {
-            pending_ = Wish{id != message.end() && id->is_number_integer() ? id->get<std::int64_t>()
-                                                                           : 0,
-                            moving != message.end() && *moving == true, text_};
+    void take(const ClientMessage& message) {
+        if (message.kind == ClientMessage::Kind::Shown) on_way_ = false;
+        if (message.kind == ClientMessage::Kind::Wish) {
+            pending_ = Wish{message.id, message.moving, std::move(text_)};
             if (stop_ && !working_.moving) stop_->request();
         }
         step();
     }
 
+    /// Now, and again.
+    void look() {
+        if (gone_) return;
+        if (!state_) say_state();
+        looks_.expires_after(kLook);
+        looks_.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
+            if (!error) self->look();
+        });
+    }
+
+    void say_state() {
+        Response state = handler_({"/state", {}, nullptr, known_});
+        if (state.body == last_state_ && Clock::now() - said_ < kSignOfLife) return;
+        last_state_ = state.body;
+        known_ = std::move(state.tag);
+        said_ = Clock::now();
+        state_ = std::move(state.body);
+        step();
+    }
+
     void step() {
-        if (ready_ && !on_way_ && !writing_) send();
+        if (!writing_ && state_) {
+            sent_ = {std::move(*state_), {}};
+            state_.reset();
+            send(false);
+        }
+        if (!writing_ && ready_ && !on_way_) {
+            sent_ = std::move(*ready_);
+            ready_.reset();
+            on_way_ = true;
+            send(true);
+        }
         if (pending_ && !stop_) work();
     }
 
@@ -120,7 +153,7 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         pending_.reset();
         stop_ = std::make_shared<StopFlag>();
         boost::asio::post(workers_, [self = shared_from_this()] {
-            Response made = self->handler_({"/frame", self->working_.body, self->stop_});
+            Response made = self->handler_({"/frame", self->working_.body, self->stop_, {}});
             boost::asio::post(self->socket_.get_executor(),
                               [self, made = std::move(made)]() mutable { self->made(made); });
         });
@@ -129,20 +162,13 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
     void made(Response& made) {
         stop_.reset();
         if (gone_) return;
-        const std::string text = "{\"id\":" + std::to_string(working_.id) +
-                                 ",\"status\":" + std::to_string(made.status) + ",\"type\":\"" +
-                                 made.type + "\",\"facts\":" +
-                                 (made.facts.empty() ? "null" : made.facts) + "}";
-        std::string head;
-        for (int i = 0; i < 4; ++i) head += static_cast<char>(text.size() >> (8 * i) & 255U);
-        ready_ = Picture{head + text, std::move(made.body)};
+        ready_ = Picture{picture_head(working_.id, made), std::move(made.body)};
         step();
     }
 
-    void send() {
-        sent_ = std::move(*ready_);
-        ready_.reset();
-        on_way_ = writing_ = true;
+    void send(bool binary) {
+        writing_ = true;
+        socket_.binary(binary);
         const std::array<boost::asio::const_buffer, 2> parts{boost::asio::buffer(sent_.head),
                                                              boost::asio::buffer(sent_.body)};
         socket_.async_write(parts, [self = shared_from_this()](
@@ -155,17 +181,22 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
     void leave() {
         gone_ = true;
         pending_.reset();
+        looks_.cancel();
         if (stop_) stop_->request();
     }
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+    boost::asio::steady_timer looks_;
     boost::asio::io_context& workers_;
     const Handler& handler_;
-    std::string text_;               ///< of the last message
-    std::optional<Wish> pending_;    ///< the newest that nobody works at
-    Wish working_;                   ///< in hand while there is `stop_`
-    std::shared_ptr<StopFlag> stop_; ///< of the work in hand
-    std::optional<Picture> ready_;   ///< made, and not sent
+    std::string text_;                  ///< of the last message
+    std::optional<Wish> pending_;       ///< the newest that nobody works at
+    Wish working_;                      ///< in hand while there is `stop_`
+    std::shared_ptr<StopFlag> stop_;    ///< of the work in hand
+    std::optional<Picture> ready_;      ///< made, and not sent
+    std::optional<std::string> state_;  ///< not sent
+    std::string last_state_, known_;    ///< the last, and what the client knows of it
+    Clock::time_point said_{};          ///< the last state
     Picture sent_;
     bool on_way_ = false, writing_ = false, gone_ = false;
 };

@@ -88,6 +88,9 @@ struct HttpServer::State {
         };
         (void)acceptor.open(end.protocol(), error);
         check();
+        // A port that was given is free again as soon as the server before has ended.
+        (void)acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+        check();
         (void)acceptor.bind(end, error);
         check();
         (void)acceptor.listen(kMostClients, error);
@@ -154,7 +157,7 @@ struct HttpServer::State {
         if (!post) return file(path);
         const std::string_view given = view_of(request[http::field::authorization]);
         if (!same_secret(given, "Bearer " + token)) return plain(401, "wrong token\n");
-        const Response made = options.handler({path, request.body(), nullptr});
+        const Response made = options.handler({path, request.body(), nullptr, {}});
         HttpResponse response;
         response.result(static_cast<unsigned>(made.status));
         response.set(http::field::content_type, made.type);
@@ -174,20 +177,26 @@ struct HttpServer::State {
         return plain(404, "there is no such file\n");
     }
 
-    static void protect(HttpResponse& response) {
+    /// `host`: by which the page calls this server; empty: it is refused.
+    static void protect(HttpResponse& response, const std::string& host) {
+        // Exact: 'self' would allow a WebSocket to any path.
+        const std::string ways =
+            host.empty() ? "'none'" : "http://" + host + " ws://" + host + "/frames";
         response.set("Content-Security-Policy",
-                     "default-src 'self'; img-src 'self' blob: data:; base-uri 'none'; "
-                     "form-action 'none'; frame-ancestors 'none'");
+                     "default-src 'self'; connect-src " + ways +
+                         "; img-src 'self' blob: data:; base-uri 'none'; form-action 'none'; "
+                         "frame-ancestors 'none'");
         response.set("X-Content-Type-Options", "nosniff");
         response.set("Cross-Origin-Resource-Policy", "same-origin");
         response.set("Referrer-Policy", "no-referrer");
         response.set(http::field::cache_control, "no-store");
     }
 
-    asio::awaitable<void> send(beast::tcp_stream& stream, HttpResponse response, bool keep) {
+    asio::awaitable<void> send(beast::tcp_stream& stream, HttpResponse response, bool keep,
+                               std::string host = {}) {
         response.version(11);
         response.keep_alive(keep);
-        protect(response);
+        protect(response, host);
         response.prepare_payload();
         stream.expires_after(kPatience);
         co_await http::async_write(stream, response, asio::use_awaitable);
@@ -230,9 +239,13 @@ struct HttpServer::State {
                 co_return;
             }
             // Named: with a choice inside co_await every answer crashed, as GCC 12 builds it.
-            if (!refused) refused = answer(request);
+            std::string host;
+            if (!refused) {
+                host = view_of(request[http::field::host]);
+                refused = answer(request);
+            }
             HttpResponse response = std::move(*refused);
-            co_await send(stream, std::move(response), keep);
+            co_await send(stream, std::move(response), keep, std::move(host));
         }
         boost::system::error_code ignored;
         (void)stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -287,12 +300,12 @@ std::string HttpServer::url() const {
     return fmt::format("http://{}/#{}", state_->hosts.front(), state_->token);
 }
 
-void HttpServer::run(const StopFlag& stop) {
+void HttpServer::run(const std::function<bool()>& ended) {
     asio::co_spawn(state_->io, state_->accept(), asio::detached);
     std::vector<std::jthread> threads;
     // One more than clients: while all of them work, somebody says so to the next.
     for (int i = 0; i < kMostClients + 1; ++i) threads.emplace_back([this] { state_->io.run(); });
-    while (!stop.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    while (!ended()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (state_->options.close) state_->options.close();
     state_->io.stop();
 }

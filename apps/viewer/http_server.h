@@ -7,7 +7,8 @@
 /// always for POST, is this server (403); method (405); for all but the files of the page the token
 /// in Authorization (401). At most 8 clients (503); 5 s for a request to arrive, and between
 /// requests. GET /frames is the way to a WebSocket (frame_socket.h), after the same checks with its
-/// Origin. Nothing is read from the file system.
+/// Origin; the policy of the page allows connections to that, and to this server, alone. Nothing is
+/// read from the file system.
 /// Threads: `run` serves every client by a thread; the handler is called from them.
 
 #include <cstdint>
@@ -30,12 +31,14 @@ struct Request {
     std::string path;
     std::string_view body;
     std::shared_ptr<StopFlag> stop = nullptr;  ///< ends the work; null: a new request alone does
+    std::string known;                         ///< Response::tag of what the client has of it
 };
 struct Response {
     int status = 200;
     std::string type = "application/json";
     std::string body;
     std::string facts;  ///< header X-Alhazen, JSON in one line; empty: none
+    std::string tag;    ///< of what a later answer may leave out
 };
 
 struct ServerOptions {
@@ -59,8 +62,8 @@ class HttpServer {
     [[nodiscard]] const std::string& token() const;
     /// The address of the page; the token is behind #, which browsers do not send.
     [[nodiscard]] std::string url() const;
-    /// Serves until `stop` is requested.
-    void run(const StopFlag& stop);
+    /// Serves until `ended` says so.
+    void run(const std::function<bool()>& ended);
 
   private:
     struct State;

@@ -77,7 +77,7 @@ json menu_of(const Table& table) {
 
 }  // namespace
 
-json view_menus(const LoadedScene& loaded, const std::string& accelerator) {
+json view_menus(const LoadedScene& loaded) {
     static const json kRenderers = renderer_menu();
     const Scene& scene = loaded.scene;
     const FrameSize frame =
@@ -91,7 +91,6 @@ json view_menus(const LoadedScene& loaded, const std::string& accelerator) {
             {"height", frame.height},
             {"up", loaded.description.up_axis == UpAxis::Z ? "z" : "y"},
             {"depth", scene.conventions.shading.max_depth},
-            {"accelerator", accelerator},
             {"cameras", std::move(cameras)},
             {"renderers", kRenderers},
             {"accelerators", menu_of(accelerator_table())},

@@ -6,8 +6,7 @@ namespace alhazen::viewer {
 
 std::vector<Asset> view_page() {
     return {{"/", "text/html; charset=utf-8", std::string(kViewPage)},
-            {"/view.js", "text/javascript; charset=utf-8",
-             std::string(kExplanationScript) + std::string(kViewScript)},
+            {"/view.js", "text/javascript; charset=utf-8", std::string(kViewScript)},
             {"/view.css", "text/css; charset=utf-8",
              std::string(kExplanationStyle) + std::string(kViewStyle)}};
 }

@@ -7,6 +7,7 @@ Skipped, with a message, without a browser: `scripts/setup --browser` installs o
 """
 
 import pathlib
+import signal
 import sys
 import tempfile
 import time
@@ -17,9 +18,10 @@ from view_server import SCENE, Server
 
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
-READY = "globalThis.viewer?.frames > 0 && viewer.image.complete && viewer.image.naturalWidth > 0"
+READY = "globalThis.viewer?.frames > 0 && viewer.image.width > 0"
 # The last frame of the view is shown: all levels are done.
 FINE = f"({READY}) && viewer.done() && viewer.shownGeneration === viewer.generation"
+MESSAGE = "(document.getElementById('message')?.textContent ?? '')"
 
 
 @unittest.skipIf(browser() is None, "no chromium here: scripts/setup --browser installs it")
@@ -67,10 +69,14 @@ class ViewPage(unittest.TestCase):
         self.page.wait(FINE)
         self.assertNotEqual(self.picture(), before)
 
+    def choose(self, key, value):
+        self.page.value(f"viewer.controls.choose('{key}', '{value}')")
+
     def check_quiet(self):
         self.assertEqual(self.page.console, [])
+        own = (f"http://{self.server.host}/", f"ws://{self.server.host}/frames", "blob:", "data:", "about:")
         for url in self.page.requests:
-            self.assertTrue(url.startswith((f"http://{self.server.host}/", "blob:", "data:", "about:")), url)
+            self.assertTrue(url.startswith(own), url)
 
     def test_it_moves_explains_switches_and_follows_the_file(self):
         page = None
@@ -93,17 +99,16 @@ class ViewPage(unittest.TestCase):
         page.value("viewer.image.focus()")
         for key in ("ArrowLeft", "+", "w"):
             self.changes(lambda: page.key(key))
-        self.changes(lambda: page.value(
-            "viewer.renderer.value = 'ray_casting'; viewer.renderer.dispatchEvent(new Event('change'))"))
-        self.changes(lambda: page.value("viewer.cameraMenu.value = '1'; viewer.cameraMenu.dispatchEvent(new Event('change'))"))
-        page.value("viewer.accelerator.value = 'octree'; viewer.accelerator.dispatchEvent(new Event('change'))")
+        self.changes(lambda: self.choose("renderer", "ray_casting"))
+        self.changes(lambda: self.choose("camera", "1"))
+        self.choose("accelerator", "octree")
         page.wait(FINE)
         # A layer has its scale, in words too.
-        self.changes(lambda: page.value("viewer.layer.value = 'depth'; viewer.layer.dispatchEvent(new Event('change'))"))
+        self.changes(lambda: self.choose("layer", "depth"))
         self.assertRegex(page.value("viewer.scale.textContent"), r"^depth\d")
         self.assertIn("linear-gradient", page.value("document.querySelector('.bar-of-scale').style.background"))
         self.shoot("view_layer")
-        self.changes(lambda: page.value("viewer.layer.value = ''; viewer.layer.dispatchEvent(new Event('change'))"))
+        self.changes(lambda: self.choose("layer", ""))
         self.assertTrue(page.value("viewer.scale.hidden"))
         # A click explains: the ball is in the middle.
         x, y = self.place(0.5, 0.5)
@@ -118,7 +123,7 @@ class ViewPage(unittest.TestCase):
         # The file: an error at its line, the last good picture, then the new one.
         shown = self.picture()
         self.scene.write_text(SCENE.replace("radius = 1;", "radius = = 1;"), encoding="utf-8")
-        page.wait("document.getElementById('message').textContent.includes('scene.alhazen:9:')")
+        page.wait("" + MESSAGE + ".includes('scene.alhazen:9:')")
         self.assertEqual(self.picture(), shown)
         self.shoot("view_error")
         # The menus follow, and what was chosen stays.
@@ -126,39 +131,108 @@ class ViewPage(unittest.TestCase):
             'perspective_camera "top" { eye = (0, 7, 1); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }\npoint_light')
         self.changes(lambda: (self.scene.write_text(better, encoding="utf-8"),
                               page.wait("viewer.scene.version > 1 && document.getElementById('message').hidden")))
-        self.assertEqual(page.value("[...viewer.cameraMenu.options].map(o => o.text).join()"), "front,side,top")
-        self.assertEqual(page.value("viewer.cameraMenu.value + viewer.renderer.value"), "1ray_casting")
+        self.assertEqual(page.value("viewer.controls.options('camera').join()"), "front,side,top")
+        self.assertEqual(page.value("viewer.controls.get('camera') + viewer.controls.get('renderer')"), "1ray_casting")
         self.check_quiet()
         # Without a server it says so, and keeps the picture.
         self.server.process.kill()
-        page.wait("document.getElementById('message').textContent.includes('does not answer')")
+        page.wait(MESSAGE + ".includes('does not answer')")
         self.assertTrue(page.value(READY))
+        self.shoot("view_lost")
 
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
         self.open("900,700")
         page = self.page
-        slow = "viewer.samples.value = '400'; viewer.samples.dispatchEvent(new Event('change'))"
-        page.value(slow)
-        page.wait("viewer.level === 3")
+
+        def begin_long():
+            self.choose("samples", "400")
+            page.wait("viewer.level === 4")
+
+        begin_long()
         page.value("viewer.explain(0.5, 0.5)")
         page.wait("document.querySelectorAll('#explanation .ray').length > 0")
-        page.value("viewer.samples.value = '30'")
+        page.value("viewer.controls.set('samples', '30')")
         page.wait(FINE)
         # Ended by nobody that the page knows of.
-        page.value(slow)
-        page.wait("viewer.level === 3")
+        begin_long()
         self.assertEqual(self.server.ask("/stop", {"client": page.value("viewer.client")})[0], 200)
-        page.value("viewer.samples.value = '20'")
+        page.value("viewer.controls.set('samples', '20')")
         page.wait(FINE)
         # Stop leaves it as it is; a change goes on.
-        page.value(slow)
-        page.wait("viewer.level === 3")
+        begin_long()
+        page.wait("document.getElementById('work').textContent.startsWith('drawing')")
+        self.shoot("view_work")
         page.key("Escape") if page.value("viewer.image.focus() || true") else None
-        page.value("viewer.samples.value = '2'")
+        page.value("viewer.controls.set('samples', '2')")
+        page.wait("document.getElementById('work').textContent === ''")
         time.sleep(0.5)
-        self.assertEqual(page.value("viewer.level"), 3)
+        self.assertEqual(page.value("viewer.level"), 4)
         page.value("viewer.changed()")
         page.wait(FINE)
+        self.check_quiet()
+
+    def test_it_waits_for_a_server_that_is_away_and_goes_on(self):
+        self.open("900,700")
+        page = self.page
+        shown = self.picture()
+        # Nothing comes over the way that is there.
+        self.server.process.send_signal(signal.SIGSTOP)
+        page.wait(MESSAGE + ".includes('does not answer')")
+        self.assertEqual(self.picture(), shown)
+        page.value("viewer.image.focus()")
+        page.key("ArrowLeft")
+        self.server.process.send_signal(signal.SIGCONT)
+        page.wait(f"document.getElementById('message').hidden && {FINE}")
+        self.assertNotEqual(self.picture(), shown)
+        # The way breaks.
+        page.value("viewer.link.socket.close()")
+        page.wait(MESSAGE + ".includes('does not answer')")
+        self.changes(lambda: (page.key("ArrowLeft"), page.wait("document.getElementById('message').hidden")))
+        # Another server in its place has another key.
+        self.server.process.kill()
+        self.server.process.wait()
+        again = Server(ALHAZEN, self.scene, "--port", str(self.server.port))
+        self.addCleanup(again.close)
+        page.wait(MESSAGE + ".includes('no key')")
+
+    def test_the_policy_allows_this_server_alone(self):
+        self.open("900,700")
+        other = Server(ALHAZEN, self.scene)
+        self.addCleanup(other.close)
+        blocked = self.page.value("""(async () => {
+            const seen = [];
+            addEventListener("securitypolicyviolation", e => seen.push(e.effectiveDirective + " " + e.blockedURI));
+            for (const address of ["ws://%s/frames", "ws://%s/other"]) try { new WebSocket(address); } catch { }
+            await fetch("http://%s/").catch(() => {});
+            await new Promise(go => setTimeout(go, 300));
+            return seen;
+        })()""" % (other.host, self.server.host, other.host))
+        self.assertEqual(len(blocked), 3, blocked)
+        self.assertEqual({b.split()[0] for b in blocked}, {"connect-src"})
+
+    def test_reading_and_building_are_ended_from_the_page(self):
+        many = "".join(f'sphere {{ center = ({i % 700}, -500, {i // 700}); radius = 0.4; material = "red" }}\n'
+                       for i in range(400000))
+        self.server.close()
+        self.scene.write_text(SCENE + many, encoding="utf-8")
+        self.server = Server(ALHAZEN, self.scene)
+        self.page = page = BrowserSession(self.folder / "profile", "900,700")
+        stop = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Stop').click()"
+        page.call("Page.navigate", url=self.server.url)
+        page.wait("globalThis.viewer && document.getElementById('work')?.textContent.startsWith('reading scene.alhazen')")
+        self.shoot("view_reading")
+        page.value(stop)
+        page.wait(MESSAGE + ".includes('was ended')")
+        self.shoot("view_reading_ended")
+        page.value("[...document.querySelectorAll('button')].find(b => b.textContent === 'Read again').click()")
+        page.wait(f"document.getElementById('message').hidden && {FINE}", 60)
+        self.choose("accelerator", "kd_tree")
+        page.wait("document.getElementById('work').textContent.startsWith('building kd_tree')")
+        self.shoot("view_building")
+        page.value(stop)
+        page.wait("document.getElementById('work').textContent === ''", 2)
+        self.assertEqual(page.value("viewer.controls.get('accelerator')"), "wide_bvh")
+        self.changes(lambda: page.value("viewer.image.focus()") or page.key("ArrowLeft"))
         self.check_quiet()
 
     def test_methods_are_explained_by_their_cones_and_beams(self):
@@ -168,7 +242,7 @@ class ViewPage(unittest.TestCase):
         self.open("1300,1000")
         page = self.page
         for renderer, place in (("cone_tracing", "#cones .cone"), ("beam_tracing", "#beams tbody tr")):
-            page.value(f"viewer.renderer.value = '{renderer}'; viewer.renderer.dispatchEvent(new Event('change'))")
+            self.choose("renderer", renderer)
             page.wait(FINE)
             page.value("viewer.explain(0.26, 0.8)")
             page.wait(f"document.querySelectorAll('{place}').length > 0")
@@ -181,7 +255,7 @@ class ViewPage(unittest.TestCase):
         self.open("480,1000")
         self.shoot("view_phone")
         self.assertLessEqual(self.page.value("document.documentElement.scrollWidth - innerWidth"), 0)
-        self.assertEqual(self.page.value("""[...document.querySelectorAll("img,input,select,textarea,button")].filter(e =>
+        self.assertEqual(self.page.value("""[...document.querySelectorAll("img,canvas,progress,input,select,textarea,button")].filter(e =>
             !e.alt && !e.getAttribute("aria-label") && !e.textContent.trim() && !e.closest("label")).length"""), 0)
         self.page.value("viewer.image.focus()")
         self.page.key("Enter")
@@ -191,7 +265,7 @@ class ViewPage(unittest.TestCase):
     def test_without_its_key_the_page_shows_nothing(self):
         self.page = BrowserSession(self.folder / "profile", "800,600")
         self.page.call("Page.navigate", url=f"http://{self.server.host}/")
-        self.page.wait("document.getElementById('message')?.textContent.includes('no key')")
+        self.page.wait(MESSAGE + ".includes('no key')")
         self.assertFalse(self.page.value("viewer.frames > 0"))
         self.shoot("view_without_key")
 

@@ -7,6 +7,7 @@ import re
 import socket
 import struct
 import subprocess
+import threading
 import time
 
 SCENE = """alhazen 1
@@ -21,6 +22,14 @@ sphere "ball" { center = (0, 1, 0); radius = 1; material = "mirror" }
 box "block" { lo = (-2, 0, 0); hi = (-1.2, 0.8, 0.8); material = "red" }
 plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 """
+
+WISH = {"width": 80, "height": 60, "renderer": "whitted", "accelerator": "wide_bvh",
+        "camera": {"eye": [0, 1, 6], "look": [0, 0, -1], "right": [0.9, 0, 0], "up": [0, 0.7, 0]}}
+
+# Every ray splits at every surface: 2^100 rays.
+DEEP = SCENE.replace("max_depth = 4", "max_depth = 4; min_contribution = 0") + '''
+material "glass" { transmissive = 0.9; reflective = 0.5; index = 1.3 }
+''' + "".join(f'sphere {{ center = (0, 1, 0); radius = {1.2 + 0.2 * i}; material = "glass" }}\n' for i in range(8))
 
 
 class Server:
@@ -82,13 +91,41 @@ class Server:
             time.sleep(0.05)
         return state
 
-    def state(self):
+    def in_hand(self, path, wish):
+        """Asks beside this thread; returns a function that waits for the status."""
+        results = []
+        thread = threading.Thread(target=lambda: results.append(self.ask(path, wish)[0]))
+        thread.start()
+        time.sleep(0.5)
+
+        def status():
+            thread.join(30)
+            return results[0]
+        return status
+
+    def moment(self):
+        """The state as it is, without a scene, too."""
         status, _, body = self.ask("/state", {})
         assert status == 200, body
         return json.loads(body)
 
+    def state(self):
+        """The state, once there is a scene."""
+        begin = time.monotonic()
+        while not (state := self.moment())["version"]:
+            assert time.monotonic() - begin < 60, state
+            time.sleep(0.02)
+        return state
+
     def frames(self, **change):
         return FrameSocket(self, change)
+
+    def open_frames(self):
+        """A socket whose client has the token."""
+        frames = self.frames()
+        assert frames.status == 101, frames.status
+        frames.send({"token": self.token})
+        return frames
 
 
 class FrameSocket:
@@ -130,14 +167,38 @@ class FrameSocket:
             return 8, 0
         return (8, int.from_bytes(body[:2], "big")) if first & 15 == 8 else (first & 15, body)
 
-    def picture(self):
-        """Head and body of the next picture; pings are answered."""
+    def message(self):
+        """The next message; pings are answered."""
         while (message := self.receive())[0] == 9:
             self.send(message[1], 10)
-        opcode, data = message
-        assert opcode == 2, message
+        return message
+
+    def end(self):
+        """The code of the close that comes."""
+        while (message := self.message())[0] != 8:
+            pass
+        return message[1]
+
+    def state(self):
+        """The next state; pictures before it are dropped."""
+        while (message := self.message())[0] != 1:
+            assert message[0] == 2, message
+        return json.loads(message[1])
+
+    def picture(self):
+        """Head and body of the next picture; states before it are dropped."""
+        while (message := self.message())[0] != 2:
+            assert message[0] == 1, message
+        data = message[1]
         size, = struct.unpack("<I", data[:4])
         return json.loads(data[4:4 + size]), data[4 + size:]
+
+    def listen(self, seconds):
+        """Messages of so long a time; each second has one of the server's."""
+        begin, messages = time.monotonic(), []
+        while time.monotonic() - begin < seconds and (not messages or messages[-1][0] != 8):
+            messages.append(self.message())
+        return messages
 
     def close(self):
         self.stream.close()

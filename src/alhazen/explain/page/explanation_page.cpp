@@ -42,10 +42,7 @@ std::string explanation_page(const Explanation& e) {
     page += e.preview.samples.empty() ? "null" : fmt::format("\"{}\"", png_data_uri(e.preview));
     page += "</script>\n<script type=\"module\">";
     page += kExplanationScript;
-    page +=
-        "const read = id => JSON.parse(document.getElementById(id).textContent);\n"
-        "showExplanation(document.getElementById(\"explanation\"), read(\"data\"), "
-        "read(\"preview\"));\n</script>\n</body>\n</html>\n";
+    page += "</script>\n</body>\n</html>\n";
     return page;
 }
 

@@ -14,7 +14,8 @@ namespace alhazen {
 
 [[nodiscard]] std::string explanation_page(const Explanation& explanation);
 
-/// The files of the page, joined (generated from page/*.js and page/*.css by the build).
+/// The bundle of page/*.ts (scripts/page), which shows the data that are in the page, and its
+/// style.
 extern const std::string_view kExplanationStyle;
 extern const std::string_view kExplanationScript;
 

@@ -1,17 +1,21 @@
 // The spans of the solids along the ray as bars, and how the operators of a constructive solid combine them: the table
 // of Roth, stretch by stretch.
 
+import {element, headRow, number, scrolling} from "./basics";
+import type {Pair} from "./basics";
+import type {Combination, Explanation, Span} from "./explanation_data";
+
 const SIGNS = {union: "\u222a", intersection: "\u2229", difference: "\u2212"};
 
-function spanBars(root, data) {
+export function spanBars(root: HTMLElement, data: Explanation) {
   const solids = data.solids;
   if (!solids.length) {
     root.append(element("p", {}, "The eye ray enters no solid."));
     return;
   }
-  const ends = solids.flatMap(s => allEnds(s.combination ?? s)).filter(t => t !== null);
+  const ends = solids.flatMap(s => allEnds(s.combination ?? s)).filter(isFinite);
   const lo = Math.min(...ends), hi = Math.max(...ends), room = 0.06 * (hi - lo || 1);
-  const range = [Math.max(0, lo - room), hi + room];
+  const range: Pair = [Math.max(0, lo - room), hi + room];
   const rows = element("div", {class: "spans"});
   for (const solid of solids) {
     const block = element("div", {class: "solid"});
@@ -26,18 +30,21 @@ function spanBars(root, data) {
   rows.append(axis(range));
   root.append(rows);
 }
-function allEnds(node) {
+function isFinite(t: number | null): t is number {
+  return t !== null;
+}
+function allEnds(node: Combination): (number | null)[] {
   return [...node.spans.flat(), ...(node.operands ?? []).flatMap(allEnds)];
 }
-const labelOf = node => node.operator ? `${SIGNS[node.operator]} ${node.operator}` : node.name;
+const labelOf = (node: Combination) => node.operator ? `${SIGNS[node.operator]} ${node.operator}` : node.name ?? "";
 
-function nodeBars(root, node, range, depth) {
+function nodeBars(root: HTMLElement, node: Combination, range: Pair, depth: number) {
   root.append(bar(labelOf(node), node.spans, range, depth, !!node.operator));
   for (const operand of node.operands ?? []) nodeBars(root, operand, range, depth + 1);
-  if (node.operands?.length > 1) root.append(rothTable(node));
+  if (node.operator && node.operands && node.operands.length > 1) root.append(rothTable(node, node.operator, node.operands));
 }
-function bar(label, spans, range, depth, strong) {
-  const at = t => 100 * ((t ?? range[1]) - range[0]) / (range[1] - range[0]);
+function bar(label: string, spans: Span[], range: Pair, depth: number, strong: boolean) {
+  const at = (t: number | null) => 100 * ((t ?? range[1]) - range[0]) / (range[1] - range[0]);
   const text = spans.length ? spans.map(([a, b]) => `${number(a)} to ${number(b)}`).join(", ") : "nowhere";
   const track = element("svg:svg", {class: "track", viewBox: "0 0 100 10", preserveAspectRatio: "none", role: "img",
                                     "aria-label": `${label}: inside from ${text}`});
@@ -50,7 +57,7 @@ function bar(label, spans, range, depth, strong) {
   name.style.paddingLeft = `${depth}rem`;
   return element("div", {class: spans.length ? "bar" : "bar none"}, name, track, element("span", {class: "soft number"}, text));
 }
-function axis(range) {
+function axis(range: Pair) {
   const marks = [0, 0.25, 0.5, 0.75, 1].map(u => {
     const mark = element("span", {}, `${u === 0 ? "t = " : ""}${number(range[0] + u * (range[1] - range[0]))}`);
     return mark;
@@ -59,17 +66,16 @@ function axis(range) {
 }
 
 // Each stretch between two changes: inside or outside of each operand, and of the result.
-function rothTable(node) {
-  const changes = [...new Set([...node.operands.flatMap(o => o.spans.flat())].filter(t => t !== null))].sort((a, b) => a - b);
-  const inside = (spans, a, b) => spans.some(([from, to]) => from <= a && b <= (to ?? Infinity));
-  const cell = yes => element("td", {class: yes ? "yes" : "no"}, yes ? "in" : "out");
+function rothTable(node: Combination, operator: keyof typeof SIGNS, operands: Combination[]) {
+  const changes = [...new Set(operands.flatMap(o => o.spans.flat()).filter(isFinite))].sort((a, b) => a - b);
+  const inside = (spans: Span[], a: number, b: number) =>
+    spans.some(([from, to]) => (from ?? -Infinity) <= a && b <= (to ?? Infinity));
+  const cell = (yes: boolean) => element("td", {class: yes ? "yes" : "no"}, yes ? "in" : "out");
   const rows = changes.slice(0, -1).map((a, i) => [a, changes[i + 1]]).map(([a, b]) => element("tr", {},
     element("th", {scope: "row"}, `${number(a)} \u2013 ${number(b)}`),
-    ...node.operands.map(o => cell(inside(o.spans, a, b))), cell(inside(node.spans, a, b))));
+    ...operands.map(o => cell(inside(o.spans, a, b))), cell(inside(node.spans, a, b))));
   if (!rows.length) return "";
-  const heads = ["stretch of t", ...node.operands.map((o, i) => (i ? `${SIGNS[node.operator]} ` : "") + labelOf(o)), "result"];
-  return element("details", {class: "roth"}, element("summary", {}, `table of the ${node.operator}`),
-    element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `Table of the ${node.operator}`}, element("table", {},
-      element("thead", {}, element("tr", {}, ...heads.map(h => element("th", {scope: "col"}, h)))),
-      element("tbody", {}, ...rows))));
+  const heads = ["stretch of t", ...operands.map((o, i) => (i ? `${SIGNS[operator]} ` : "") + labelOf(o)), "result"];
+  return element("details", {class: "roth"}, element("summary", {}, `table of the ${operator}`),
+    scrolling(`Table of the ${operator}`, element("table", {}, headRow(heads), element("tbody", {}, ...rows))));
 }

@@ -1,25 +1,40 @@
 // The tree of rays as an outline that folds: each ray, each surface that it meets, and the shading equation there, term
 // by term.
 
-const REASONS = {
+import {KINDS, element, headRow, number, scrolling, swatch, triple} from "./basics";
+import type {Vec3} from "./basics";
+import type {Explanation, LightTerm, OnwardTerm, SurfacePoint, TreeRay} from "./explanation_data";
+
+// A line of the equation: its value, and the light that it is of.
+type Row = (name: string, how: string, value: Vec3 | null | undefined, light?: LightTerm) => void;
+
+const REASONS: Record<string, string> = {
   no_coefficient: "the material has none", deepest: "the tree ends at this depth",
   too_weak: "its share of the pixel would be below the least contribution",
   total_reflection: "total internal reflection: Snell\u2019s law has no solution",
   not_traced: "this scene\u2019s conventions trace none"};
 
-// All rays of the tree, shadow rays included, outermost first; each gets the fields that drawing needs.
-function raysOf(tree) {
-  const list = [];
-  const visit = ray => {
+// A light's term as a ray to draw: where it is blocked it ends there, and `distance` is that of the light.
+export interface ShadowRay extends LightTerm {
+  kind: "shadow";
+  blocked: boolean;
+  distance: number | null;
+}
+export type AnyRay = TreeRay | ShadowRay;
+type Select = (ray: AnyRay, reveal?: boolean) => void;
+
+// All rays of the tree, shadow rays included, outermost first; each light gets the fields that drawing needs.
+export function raysOf(tree: TreeRay) {
+  const list: AnyRay[] = [];
+  const visit = (ray: TreeRay) => {
     list.push(ray);
     for (const surface of ray.surfaces) {
       for (const light of surface.lights ?? []) {
         if (!light.cast) continue;
-        light.kind = "shadow";
-        light.blocked = light.through.every(c => c === 0);
-        light.distance = light.t;
-        if (light.blocked && light.crossings.length) light.t = light.crossings.at(-1).t;
-        list.push(light);
+        const blocked = light.through.every(c => c === 0);
+        const shadow: ShadowRay = Object.assign(light, {kind: "shadow" as const, blocked, distance: light.t});
+        if (blocked) shadow.t = light.crossings.at(-1)?.t ?? light.t;
+        list.push(shadow);
       }
       for (const term of [surface.reflected, surface.refracted]) if (term?.ray) visit(term.ray);
     }
@@ -28,26 +43,30 @@ function raysOf(tree) {
   return list;
 }
 
-class RayOutline {
-  constructor(root, data, onSelect) {
-    this.onSelect = onSelect;
-    this.places = new Map();
+function isShadow(light: LightTerm | undefined): light is ShadowRay {
+  return light !== undefined && (light as ShadowRay).kind === "shadow";
+}
+
+export class RayOutline {
+  private readonly places = new Map<AnyRay, HTMLElement>();
+
+  constructor(root: HTMLElement, data: Explanation, private readonly onSelect: Select) {
     root.append(this.ray(data.tree));
   }
-  select(ray, reveal) {
+  select(ray: AnyRay, reveal: boolean) {
     for (const [other, place] of this.places) place.classList.toggle("selected", other === ray);
     const place = this.places.get(ray);
     if (!place || !reveal) return;
-    for (let at = place.parentElement; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
+    for (let at = place.parentElement; at; at = at.parentElement) if (at instanceof HTMLDetailsElement) at.open = true;
     place.scrollIntoView({block: "nearest", behavior: "smooth"});
   }
 
-  ray(ray) {
+  private ray(ray: TreeRay) {
     const met = ray.surfaces.map(s => `\u2018${s.object}\u2019`).join(", then ");
-    const first = ray.surfaces[0];
+    const first = ray.surfaces.at(0);
     const summary = element("summary", {class: ray.kind},
       element("b", {class: "badge"}, `${ray.id}`), ` ${KINDS[ray.kind]} `,
-      met ? `meets ${met} at t = ${number(first.t)}` : "meets nothing", " ", swatch(ray.radiance));
+      first ? `meets ${met} at t = ${number(first.t)}` : "meets nothing", " ", swatch(ray.radiance));
     const body = element("details", {open: ray.depth < 3, class: "ray"}, summary,
       element("p", {class: "soft"}, `radiance (${triple(ray.radiance)}) \u00d7 weight (${triple(ray.weight)}) = ` +
               `(${triple(ray.in_pixel)}) of the pixel`),
@@ -58,11 +77,11 @@ class RayOutline {
     summary.addEventListener("focus", () => this.onSelect(ray, false));
     this.places.set(ray, summary);
     ray.surfaces.forEach(s => body.append(this.surface(s)));
-    if (ray.escaped) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
+    if (ray.left) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
 
-  surface(s) {
+  private surface(s: SurfacePoint) {
     const box = element("div", {class: "surface"});
     box.append(element("p", {}, element("b", {}, `\u2018${s.object}\u2019`),
       s.material ? `, material \u2018${s.material}\u2019` : "", `, t = ${number(s.t)}, `,
@@ -73,16 +92,16 @@ class RayOutline {
     return box;
   }
 
-  equation(s) {
-    const rows = [];
-    const row = (name, how, value, ray) => {
-      const line = element("tr", {}, element("th", {scope: "row"}, name), element("td", {class: "how"}, ...[how].flat()),
+  private equation(s: SurfacePoint) {
+    const rows: HTMLElement[] = [];
+    const row: Row = (name, how, value, light) => {
+      const head = element("th", {scope: "row"}, name);
+      const line = element("tr", {}, head, element("td", {class: "how"}, how),
         ...(value ?? [null, null, null]).map(c => element("td", {title: String(c)}, value ? number(c) : "\u2013")),
         element("td", {}, value ? swatch(value) : ""));
-      if (ray?.kind === "shadow") {
-        const button = element("button", {type: "button", class: "link shadow", click: () => this.onSelect(ray)}, name);
-        line.firstChild.replaceChildren(button);
-        this.places.set(ray, line);
+      if (isShadow(light)) {
+        head.replaceChildren(element("button", {type: "button", class: "link shadow", click: () => this.onSelect(light)}, name));
+        this.places.set(light, line);
       }
       rows.push(line);
     };
@@ -96,26 +115,23 @@ class RayOutline {
       this.onward("refracted", "kt", s.refracted, row);
       if (s.filter) row("medium", `all of it \u00d7 (${triple(s.filter)}): what the medium lets through`, null);
     }
-    return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `Shading of ${s.object}`},
-      element("table", {class: "equation"},
-        element("thead", {}, element("tr", {}, ...["term", "factors", "red", "green", "blue", ""].map(
-          t => element("th", {scope: "col"}, t)))),
-        element("tbody", {}, ...rows),
-        element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 2}, "sum"),
-          ...s.color.map(c => element("td", {title: String(c)}, number(c))), element("td", {}, swatch(s.color))))));
+    return scrolling(`Shading of ${s.object}`, element("table", {class: "equation"},
+      headRow(["term", "factors", "red", "green", "blue", ""]), element("tbody", {}, ...rows),
+      element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 2}, "sum"),
+        ...s.color.map(c => element("td", {title: String(c)}, number(c))), element("td", {}, swatch(s.color))))));
   }
-  lightText(light) {
+  private lightText(light: LightTerm) {
     const names = light.crossings.map(c => `\u2018${c.object}\u2019`);
     if (light.intensity.every(c => c === 0)) return `shines elsewhere: I (0, 0, 0), N\u00b7L = ${number(light.cosine)}`;
     const through = !light.cast ? "no shadow rays are cast"
-      : light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}`
+      : isShadow(light) && light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}`
       : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";
     return `${through}; I (${triple(light.intensity)}) \u00d7 [kd (N\u00b7L) (${triple(light.diffuse)}) + ` +
            `ks highlight (${triple(light.highlight)})], N\u00b7L = ${number(light.cosine)}`;
   }
-  onward(name, factor, term, row) {
+  private onward(name: string, factor: string, term: OnwardTerm | undefined, row: Row) {
     if (!term) return;
-    if (term.ray) row(name, `${factor} (${triple(term.factor)}) \u00d7 ray ${term.ray.id} (${triple(term.ray.radiance)})`,
+    if (term.ray && term.factor) row(name, `${factor} (${triple(term.factor)}) \u00d7 ray ${term.ray.id} (${triple(term.ray.radiance)})`,
                       term.value);
     else if (term.reason !== "no_coefficient") row(name, `not sent: ${REASONS[term.reason]}`, null);
   }

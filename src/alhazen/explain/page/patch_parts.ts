@@ -1,9 +1,12 @@
 // How patches are subdivided for the eye ray: the parts of the unit square, level by level.
 
-function patchParts(root, data) {
+import {element, number} from "./basics";
+import type {Explanation, PatchSubdivision} from "./explanation_data";
+
+export function patchParts(root: HTMLElement, data: Explanation) {
   for (const p of data.patches) root.append(patchFigure(p));
 }
-function patchFigure(p) {
+function patchFigure(p: PatchSubdivision) {
   const deepest = Math.max(...p.parts.map(q => q.level)), svg = element("svg:svg", {class: "pixel patch", viewBox: "-0.02 -0.02 1.04 1.04"});
   const text = element("p", {class: "soft", "aria-live": "polite"});
   const level = element("input", {type: "range", min: 0, max: deepest, value: Math.min(5, deepest), "aria-label": "Level", input: () => draw()});

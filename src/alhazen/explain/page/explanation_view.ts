@@ -1,15 +1,28 @@
 // The whole explanation of a pixel: showExplanation(root, data, picture).
 
-function showExplanation(root, data, picture) {
+import {KINDS, css, element, headRow, number, scrolling, swatch, triple} from "./basics";
+import type {Child} from "./basics";
+import {beamPieces} from "./beam_pieces";
+import {ConeTree} from "./cone_tree";
+import type {Explanation, RayKind} from "./explanation_data";
+import {patchParts} from "./patch_parts";
+import {polynomialPlots} from "./polynomial_plot";
+import {RayOutline, raysOf} from "./ray_outline";
+import type {AnyRay} from "./ray_outline";
+import {SceneView} from "./scene_view";
+import {spanBars} from "./span_bars";
+import {TraversalSteps} from "./traversal_steps";
+
+export function showExplanation(root: HTMLElement, data: Explanation, picture: string | null) {
   const rays = raysOf(data.tree);
-  let view, outline;
-  const select = (ray, reveal = true) => {
+  let view: SceneView, outline: RayOutline;
+  const select = (ray: AnyRay, reveal = true) => {
     view.select(ray);
     outline.select(ray, reveal);
   };
   const canvas = element("canvas", {class: "space", tabindex: "0", role: "img", "aria-label":
     `${rays.length} rays in space. Arrow keys turn the view, plus and minus come nearer, 0 goes back.`});
-  const section = (id, title, ...children) => element("section", {id, "aria-labelledby": `${id}-title`},
+  const section = (id: string, title: string, ...children: Child[]) => element("section", {id, "aria-labelledby": `${id}-title`},
     element("h2", {id: `${id}-title`}, title), ...children);
   const tree = element("div", {class: "outline"});
   const cones = element("div"), beams = element("div"), patches = element("div", {class: "plots"});
@@ -35,15 +48,15 @@ function showExplanation(root, data, picture) {
   spanBars(spans, data);
   polynomialPlots(plots, data);
   patchParts(patches, data);
-  if (data.cones) new ConeTree(cones, data, view);
-  if (data.beams) new BeamPieces(beams, data);
-  if (data.traversal) new TraversalSteps(steps, data, view);
+  if (data.cones) new ConeTree(cones, data.cones, view);
+  if (data.beams) beamPieces(beams, data, data.beams);
+  if (data.traversal) new TraversalSteps(steps, data.traversal, view);
   select(rays[0], false);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());
   return {view, outline, select};
 }
 
-function header(data, picture) {
+function header(data: Explanation, picture: string | null) {
   const facts = [`(${triple(data.pixel)})`, `${data.width} \u00d7 ${data.height}`, `depth ${data.max_depth}`,
     `${data.samples.length} sample${data.samples.length > 1 ? `s, number ${data.sample} shown` : ""}`,
     ...Object.entries(data.rays).filter(([, n]) => n).map(([kind, n]) => `${n} ${kind}`)];
@@ -59,18 +72,18 @@ function header(data, picture) {
   }
   return head;
 }
-function legend(data, view) {
-  const shadows = element("input", {type: "checkbox", checked: true, change: e => {
-    view().showShadows = e.target.checked;
+function legend(data: Explanation, view: () => SceneView) {
+  const shadows = element("input", {type: "checkbox", checked: true, change: () => {
+    view().showShadows = shadows.checked;
     view().draw();
   }});
-  const kinds = Object.entries(KINDS).filter(([kind]) => data.rays[kind]);
+  const kinds = Object.entries(KINDS).filter(([kind]) => data.rays[kind as RayKind]);
   return element("div", {class: "legend"},
     ...kinds.map(([kind, text]) => element("span", {class: kind}, element("i", {class: "key", "aria-hidden": "true"}), text)),
     element("label", {}, shadows, " show shadow rays"),
     element("button", {type: "button", click: () => view().home()}, "Home view"));
 }
-function sampleTable(data) {
+function sampleTable(data: Explanation) {
   const plot = element("svg:svg", {class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel"},
     element("svg:rect", {class: "frame", x: 0, y: 0, width: 100, height: 100}));
   data.samples.forEach((s, i) => {
@@ -81,7 +94,6 @@ function sampleTable(data) {
   });
   const rows = data.samples.map((s, i) => element("tr", {}, element("th", {scope: "row"}, String(i)),
     ...s.radiance.map(c => element("td", {}, number(c))), element("td", {}, swatch(s.radiance))));
-  return element("div", {class: "samples"}, plot, element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Samples"},
-    element("table", {}, element("thead", {}, element("tr", {}, ...["sample", "red", "green", "blue", ""].map(
-      h => element("th", {scope: "col"}, h)))), element("tbody", {}, ...rows))));
+  return element("div", {class: "samples"}, plot, scrolling("Samples", element("table", {},
+    headRow(["sample", "red", "green", "blue", ""]), element("tbody", {}, ...rows))));
 }

@@ -1,11 +1,52 @@
 // The rays of a pixel in space: points of the scene, the frame of the picture, the tree of rays, and the steps of an
 // accelerator. Drag, wheel and keys turn it; a click selects a ray.
 
-class SceneView {
-  constructor(canvas, data, rays, onSelect) {
-    Object.assign(this, {canvas, data, rays, onSelect, selected: null, step: -1, showSteps: true, showShadows: true});
+import {add, along, cross, dot, norm, scaled, sub, unit} from "./basics";
+import type {Pair, Vec3} from "./basics";
+import type {Cone, Explanation, ScenePoint} from "./explanation_data";
+import type {AnyRay} from "./ray_outline";
+
+type Spot = [x: number, y: number, depth: number];
+type Segment = [Spot, Spot];
+interface Stroke {
+  color: string;
+  width?: number;
+  dash?: number[];
+  arrow?: boolean;
+  alpha?: number;
+}
+
+export class SceneView {
+  selected: AnyRay | null = null;
+  step = -1;
+  showSteps = true;
+  showShadows = true;
+  cones: Cone[] = [];
+  private readonly eye: Vec3;
+  private readonly axes: {right: Vec3; up: Vec3};
+  private readonly up: Vec3;
+  private center: Vec3 = [0, 0, 0];
+  private radius = 1;
+  // Where the view is: a turn and a rise around the target.
+  private front: Vec3 = [0, 0, 1];
+  private side: Vec3 = [1, 0, 0];
+  private turn = 0;
+  private rise = 0;
+  private distance = 1;
+  private target: Vec3 = [0, 0, 0];
+  // Of the drawing in hand.
+  private width = 0;
+  private height = 0;
+  private near = 0;
+  private f!: ReturnType<SceneView["frame"]>;
+  private g: CanvasRenderingContext2D;
+  private hot: [Segment, AnyRay][] = [];
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly data: Explanation,
+              private readonly rays: AnyRay[], private readonly onSelect: (ray: AnyRay) => void) {
+    this.g = canvas.getContext("2d")!;
     this.eye = data.tree.origin;
-    const [a, b, c, d] = data.picture;
+    const [a, b, , d] = data.picture;
     this.axes = {right: unit(sub(b, a)), up: unit(sub(a, d))};
     this.up = Math.abs(this.axes.up[2]) >= Math.abs(this.axes.up[1]) ? [0, 0, 1] : [0, 1, 0];
     if (dot(this.up, this.axes.up) < 0) this.up = scaled(-1, this.up);
@@ -17,10 +58,10 @@ class SceneView {
 
   // The ball that is looked at: around the first surface, as large as what the camera sees near it. What lies far
   // behind, such as an endless ground, does not count.
-  measure() {
+  private measure() {
     const first = this.data.tree.surfaces[0];
-    const points = this.data.points.map(p => p.slice(0, 3));
-    const mean = points.length ? scaled(1 / points.length, points.reduce(add, [0, 0, 0])) : along(this.data.tree, 1);
+    const points = this.data.points.map((p): Vec3 => [p[0], p[1], p[2]]);
+    const mean = points.length ? scaled(1 / points.length, points.reduce(add)) : along(this.data.tree, 1);
     this.center = first ? first.point : mean;
     const distances = points.map(p => norm(sub(p, this.center))).sort((x, y) => x - y);
     const common = distances.length ? 1.4 * distances[Math.floor(0.45 * distances.length)] : 0;
@@ -38,7 +79,7 @@ class SceneView {
     this.draw();
   }
 
-  frame() {
+  private frame() {
     const c = Math.cos(this.rise), s = Math.sin(this.rise);
     const flat = add(scaled(Math.cos(this.turn), this.front), scaled(Math.sin(this.turn), this.side));
     const back = add(scaled(c, flat), scaled(s, this.up));
@@ -46,7 +87,7 @@ class SceneView {
     return {back, right, up: cross(back, right), eye: add(this.target, scaled(this.distance, back))};
   }
   // [x, y, depth] on the canvas.
-  project(p, f) {
+  private project(p: Vec3, f = this.f): Spot {
     const v = sub(p, f.eye), depth = -dot(v, f.back);
     const scale = 0.9 * Math.min(this.width, this.height) / Math.max(depth, 1e-6 * this.distance);
     return [this.width / 2 + scale * dot(v, f.right), this.height / 2 - scale * dot(v, f.up), depth];
@@ -59,25 +100,27 @@ class SceneView {
     this.height = box.height;
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
-    const g = this.g = this.canvas.getContext("2d");
+    const g = this.g;
     g.setTransform(ratio, 0, 0, ratio, 0, 0);
     g.lineCap = "round";
-    const style = getComputedStyle(this.canvas);
-    this.color = name => style.getPropertyValue(`--${name}`).trim() || "#888";
     this.f = this.frame();
     this.near = 0.02 * this.distance;
     this.hot = [];
     this.drawPoints();
     this.drawPicture();
     if (this.showSteps) this.drawSteps();
-    for (const cone of this.cones ?? []) this.drawCone(cone);
+    for (const cone of this.cones) this.drawCone(cone);
     for (const ray of this.rays) if (ray !== this.selected) this.drawRay(ray);
     if (this.selected) this.drawRay(this.selected);
     this.drawLabels();
   }
-  drawPoints() {
-    const seen = this.data.points.filter(p => norm(sub(p, this.center)) < 8 * this.radius)
-      .map(p => [this.project(p, this.f), p]).filter(([q]) => q[2] > this.near);
+  private color(name: string) {
+    return getComputedStyle(this.canvas).getPropertyValue(`--${name}`).trim() || "#888";
+  }
+  private drawPoints() {
+    const seen = this.data.points.map((p): [Vec3, ScenePoint] => [[p[0], p[1], p[2]], p])
+      .filter(([at]) => norm(sub(at, this.center)) < 8 * this.radius)
+      .map(([at, p]): [Spot, ScenePoint] => [this.project(at), p]).filter(([q]) => q[2] > this.near);
     seen.sort((a, b) => b[0][2] - a[0][2]);
     for (const [q, p] of seen) {
       const size = Math.min(14, Math.max(2, 0.011 * this.height * this.radius / q[2] * 2.6));
@@ -88,15 +131,15 @@ class SceneView {
     this.g.globalAlpha = 1;
   }
   // A line cut at the near plane; returns its ends on the canvas, or null.
-  segment(a, b) {
-    let p = this.project(a, this.f), q = this.project(b, this.f);
+  private segment(a: Vec3, b: Vec3): Segment | null {
+    let p = this.project(a), q = this.project(b);
     if (p[2] < this.near && q[2] < this.near) return null;
-    const cut = (from, to, df, dt) => add(from, scaled((this.near - df) / (dt - df), sub(to, from)));
-    if (p[2] < this.near) p = this.project(cut(a, b, p[2], q[2]), this.f);
-    else if (q[2] < this.near) q = this.project(cut(a, b, p[2], q[2]), this.f);
+    const cut = (from: Vec3, to: Vec3, df: number, dt: number) => add(from, scaled((this.near - df) / (dt - df), sub(to, from)));
+    if (p[2] < this.near) p = this.project(cut(a, b, p[2], q[2]));
+    else if (q[2] < this.near) q = this.project(cut(a, b, p[2], q[2]));
     return [p, q];
   }
-  line(a, b, {color, width = 1.5, dash = [], arrow = false, alpha = 1}) {
+  private line(a: Vec3, b: Vec3, {color, width = 1.5, dash = [], arrow = false, alpha = 1}: Stroke) {
     const s = this.segment(a, b);
     if (!s) return null;
     const g = this.g, [p, q] = s;
@@ -121,9 +164,10 @@ class SceneView {
     g.globalAlpha = 1;
     return s;
   }
-  drawPicture() {
+  private drawPicture() {
     const reach = 0.35 * norm(sub(this.center, this.eye));
-    const at = this.data.parallel ? this.data.picture : this.data.picture.map(p => add(this.eye, scaled(reach, unit(sub(p, this.eye)))));
+    const at: Vec3[] = this.data.parallel ? this.data.picture
+      : this.data.picture.map(p => add(this.eye, scaled(reach, unit(sub(p, this.eye)))));
     const color = this.color("soft");
     at.forEach((p, i) => {
       this.line(p, at[(i + 1) % 4], {color, width: 1, alpha: 0.8});
@@ -131,15 +175,12 @@ class SceneView {
     });
   }
   // Where a ray ends: at its last surface, or in the open.
-  end(ray) {
-    if (ray.kind === "shadow") {
-      const last = ray.t ?? 0.8 * this.radius;
-      return along(ray, last);
-    }
+  private end(ray: AnyRay) {
+    if (ray.kind === "shadow") return along(ray, ray.t ?? 0.8 * this.radius);
     const met = ray.surfaces.at(-1);
     return ray.escaped || !met ? along(ray, 1.1 * this.radius + (met ? met.t : 0)) : met.point;
   }
-  drawRay(ray) {
+  private drawRay(ray: AnyRay) {
     if (ray.kind === "shadow" && !this.showShadows && ray !== this.selected) return;
     const chosen = ray === this.selected;
     const blocked = ray.kind === "shadow" && ray.blocked;
@@ -170,17 +211,17 @@ class SceneView {
       g.arc(q[0], q[1], chosen ? 6 : 4, 0, 7);
       g.fill();
     }
-    for (const surface of chosen ? ray.surfaces ?? [] : []) {
+    for (const surface of chosen && ray.kind !== "shadow" ? ray.surfaces : []) {
       this.line(surface.point, add(surface.point, scaled(0.14 * this.radius, surface.normal)),
                 {color: this.color("ink"), width: 2, arrow: true});
     }
   }
-  drawLabels() {
+  private drawLabels() {
     const g = this.g;
     g.font = "600 12px system-ui, sans-serif";
     g.textAlign = "center";
     g.textBaseline = "middle";
-    const taken = [];
+    const taken: Pair[] = [];
     for (const [[p, q], ray] of this.hot) {
       if (ray.kind === "shadow" && ray !== this.selected) continue;
       const x = p[0] + 0.38 * (q[0] - p[0]), y = p[1] + 0.38 * (q[1] - p[1]) - 12;
@@ -197,13 +238,13 @@ class SceneView {
       g.fillText(text, x, y + 0.5);
     }
   }
-  drawSteps() {
+  private drawSteps() {
     const steps = this.data.traversal?.steps ?? [];
     const last = this.step < 0 ? -1 : this.step;
     for (let i = 0; i <= last && i < steps.length; ++i) {
       const step = steps[i], current = i === last;
       if (!step.corners.length || (i < last - 60)) continue;
-      const p = step.corners.map(c => this.project(c, this.f));
+      const p = step.corners.map(c => this.project(c));
       if (p.some(q => q[2] < this.near)) continue;
       const g = this.g, color = this.color(step.kind === "bound" && !step.met ? "missed" : "cell");
       g.beginPath();
@@ -222,21 +263,22 @@ class SceneView {
   }
 
   // A cone up to its end: its sides as seen from here, and circles; then those that leave it.
-  drawCone(c) {
-    const color = this.color(c.kind), e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);
-    const length = c.length ?? 1.1 * this.radius + (c.parts?.length ? c.parts.at(-1).t : 0);
-    const ring = t => Array.from({length: 24}, (_, i) => {
+  private drawCone(c: Cone) {
+    const color = this.color(c.kind), parts = c.kind === "shadow" ? [] : c.parts;
+    const e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);
+    const length = c.length ?? 1.1 * this.radius + (parts.at(-1)?.t ?? 0);
+    const ring = (t: number) => Array.from({length: 24}, (_, i) => {
       const a = 2 * Math.PI * i / 24, r = c.radius + c.spread * t;
       return add(add(c.origin, scaled(t, c.axis)), add(scaled(r * Math.cos(a), e1), scaled(r * Math.sin(a), e2)));
     });
-    const stops = [0, ...(c.parts ?? []).map(p => p.t), length].map(ring);
+    const stops = [0, ...parts.map(p => p.t), length].map(ring);
     stops.forEach(points => points.forEach((p, i) => this.line(p, points[(i + 1) % 24], {color, width: 1, alpha: 0.7})));
-    for (let i = 0; i < 24; i += 4) this.line(stops[0][i], stops.at(-1)[i], {color, width: 1, alpha: 0.45});
-    for (const part of c.parts ?? []) for (const k of part.cones) this.drawCone(k);
+    for (let i = 0; i < 24; i += 4) this.line(stops[0][i], stops[stops.length - 1][i], {color, width: 1, alpha: 0.45});
+    for (const part of parts) for (const k of part.cones) this.drawCone(k);
   }
 
-  listen() {
-    const c = this.canvas, touches = new Map();
+  private listen() {
+    const c = this.canvas, touches = new Map<number, Pair>();
     let moved = 0, spread = 0;
     c.addEventListener("pointerdown", e => {
       c.setPointerCapture(e.pointerId);
@@ -259,7 +301,7 @@ class SceneView {
       else this.orbit(-0.008 * dx, 0.008 * dy);
       this.draw();
     });
-    const up = e => {
+    const up = (e: PointerEvent) => {
       if (touches.delete(e.pointerId) && moved < 4 && e.type === "pointerup") this.pick(e);
     };
     c.addEventListener("pointerup", up);
@@ -270,7 +312,7 @@ class SceneView {
       this.distance *= Math.exp(0.0012 * e.deltaY);
       this.draw();
     }, {passive: false});
-    const keys = {
+    const keys: Record<string, () => void> = {
       ArrowLeft: () => this.orbit(-0.1, 0), ArrowRight: () => this.orbit(0.1, 0), ArrowUp: () => this.orbit(0, 0.1),
       ArrowDown: () => this.orbit(0, -0.1), "+": () => { this.distance *= 0.87; }, "-": () => { this.distance /= 0.87; },
       "0": () => this.home()};
@@ -281,17 +323,17 @@ class SceneView {
       this.draw();
     });
   }
-  orbit(turn, rise) {
+  private orbit(turn: number, rise: number) {
     this.turn += turn;
     this.rise = Math.min(1.55, Math.max(-1.55, this.rise + rise));
   }
-  pan(dx, dy) {
+  private pan(dx: number, dy: number) {
     const f = this.frame(), scale = this.distance / (0.9 * Math.min(this.width, this.height));
     this.target = add(this.target, add(scaled(-scale * dx, f.right), scaled(scale * dy, f.up)));
   }
-  pick(e) {
+  private pick(e: PointerEvent) {
     const box = this.canvas.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
-    let best = null, least = 9;
+    let best: AnyRay | null = null, least = 9;
     for (const [[p, q], ray] of this.hot) {
       const dx = q[0] - p[0], dy = q[1] - p[1];
       const u = Math.min(1, Math.max(0, ((x - p[0]) * dx + (y - p[1]) * dy) / (dx * dx + dy * dy || 1)));
@@ -300,20 +342,20 @@ class SceneView {
     }
     if (best) this.onSelect(best);
   }
-  select(ray) {
+  select(ray: AnyRay) {
     this.selected = ray;
     this.draw();
   }
 }
 
 // The convex hull of points of the canvas (Andrew's monotone chain).
-function hull(points) {
+function hull(points: Spot[]) {
   const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
-  const turn = (o, a, b) => (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-  const chain = list => {
-    const made = [];
+  const turn = (o: Spot, a: Spot, b: Spot) => (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  const chain = (list: Spot[]) => {
+    const made: Spot[] = [];
     for (const p of list) {
-      while (made.length > 1 && turn(made.at(-2), made.at(-1), p) <= 0) made.pop();
+      while (made.length > 1 && turn(made[made.length - 2], made[made.length - 1], p) <= 0) made.pop();
       made.push(p);
     }
     return made.slice(0, -1);
@@ -321,8 +363,8 @@ function hull(points) {
   return [...chain(sorted), ...chain(sorted.reverse())];
 }
 // The edges of a box: pairs of corners that differ along one axis.
-function boxEdges(corners) {
-  const edges = [];
+function boxEdges(corners: Vec3[]) {
+  const edges: [Vec3, Vec3][] = [];
   corners.forEach((a, i) => corners.slice(i + 1).forEach(b => {
     if ([0, 1, 2].filter(k => a[k] !== b[k]).length === 1) edges.push([a, b]);
   }));

@@ -1,12 +1,14 @@
 // The cones behind a pixel: what each covers, as a disc, a table and in space.
 
+import {css, element, headRow, number, scrolling, swatch, triple} from "./basics";
+import type {Cone, Cones, SeeingCone, Unavailable} from "./explanation_data";
+import type {SceneView} from "./scene_view";
+
 const CONE_NAMES = {eye: "cone of the pixel", shadow: "cone to a light", reflection: "reflected cone", refraction: "refracted cone"};
 
-class ConeTree {
-  constructor(root, data, view) {
-    Object.assign(this, {view, count: 0});
-    const {cones} = data;
-    if (cones.unavailable) {
+export class ConeTree {
+  constructor(root: HTMLElement, cones: Cones | Unavailable, private readonly view: SceneView) {
+    if ("unavailable" in cones) {
       root.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
@@ -17,11 +19,10 @@ class ConeTree {
     view.cones = [cones.tree];
     view.draw();
   }
-  cone(c) {
-    ++this.count;
-    const shadow = c.kind === "shadow";
-    const value = shadow ? `(${triple(c.through)}) of the light comes through` : `radiance (${triple(c.radiance)})`;
-    const summary = element("summary", {class: c.kind}, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(shadow ? c.through : c.radiance));
+  private cone(c: Cone): HTMLElement {
+    const shadow = c.kind === "shadow", color = shadow ? c.through : c.radiance;
+    const value = shadow ? `(${triple(color)}) of the light comes through` : `radiance (${triple(color)})`;
+    const summary = element("summary", {class: c.kind}, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(color));
     const show = () => { this.view.cones = [c]; this.view.draw(); };
     summary.addEventListener("click", show);
     summary.addEventListener("focus", show);
@@ -33,19 +34,19 @@ class ConeTree {
     if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap(p => p.cones.map(k => this.cone(k))));
     return body;
   }
-  pieces(c) {
+  private pieces(c: SeeingCone) {
     const rows = c.parts.map(p => element("tr", {}, element("th", {scope: "row"}, `\u2018${p.object}\u2019`),
       ...[p.t, p.share, p.weight].map(x => element("td", {}, number(x))), element("td", {}, `(${triple(p.color)})`),
       element("td", {}, swatch(p.color))));
     const heads = ["piece", "t", "share", "weight", "colour", ""];
-    return element("div", {class: "disc"}, coneDisc(c), element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Pieces of a cone"},
-      element("table", {}, element("thead", {}, element("tr", {}, ...heads.map(h => element("th", {scope: "col"}, h)))),
+    return element("div", {class: "disc"}, coneDisc(c), scrolling("Pieces of a cone",
+      element("table", {}, headRow(heads),
         element("tbody", {}, ...rows), element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 3}, "left of the cone"),
           element("td", {}, number(c.left)), element("td"), element("td"))))));
   }
 }
 // The disc of a cone; each piece as a disc of its size around its middle.
-function coneDisc(c) {
+function coneDisc(c: SeeingCone) {
   const svg = element("svg:svg", {class: "pixel", viewBox: "-1.15 -1.15 2.3 2.3", role: "img",
     "aria-label": `A cone with ${c.parts.length} pieces`}, element("svg:circle", {class: "frame", cx: 0, cy: 0, r: 1}));
   for (const p of c.parts) {

@@ -1,12 +1,23 @@
 // The steps of an accelerator, one by one, and its work beside that of others.
 
-class TraversalSteps {
-  constructor(root, data, view) {
-    const {steps, accelerator, work} = data.traversal;
-    Object.assign(this, {steps, view});
+import {element, headRow, number, scrolling} from "./basics";
+import type {AcceleratorWork, Traversal, TraversalStep} from "./explanation_data";
+import type {SceneView} from "./scene_view";
+
+export class TraversalSteps {
+  private readonly steps: TraversalStep[];
+  private readonly range: HTMLInputElement;
+  private readonly text: HTMLOutputElement;
+  private readonly playButton: HTMLButtonElement;
+  private readonly items: HTMLElement[];
+  private timer: number | undefined;
+
+  constructor(root: HTMLElement, traversal: Traversal, private readonly view: SceneView) {
+    const {steps, accelerator, work} = traversal;
+    this.steps = steps;
     this.range = element("input", {type: "range", min: 0, max: steps.length, value: 0, "aria-label": "Step", input: () => this.show()});
     this.text = element("output", {class: "step", "aria-live": "polite"});
-    const move = by => () => { this.range.value = String(Number(this.range.value) + by); this.show(); };
+    const move = (by: number) => () => { this.range.value = String(Number(this.range.value) + by); this.show(); };
     const play = element("button", {type: "button", click: () => this.play()}, "Play");
     this.playButton = play;
     root.append(
@@ -20,25 +31,25 @@ class TraversalSteps {
       click: () => { this.range.value = String(i + 1); this.show(); }}, this.describe(s))));
     tested.append(...this.items);
     root.append(element("details", {}, element("summary", {}, `all ${steps.length} steps`), tested),
-      data.traversal.left_out ? element("p", {class: "cut"}, `The steps are cut: ${data.traversal.left_out} more are not shown.`) : "", this.table(work));
+      traversal.left_out ? element("p", {class: "cut"}, `The steps are cut: ${traversal.left_out} more are not shown.`) : "", this.table(work));
     this.show();
   }
-  describe(s) {
+  private describe(s: TraversalStep) {
     if (s.kind === "cell") return `cell ${s.number} entered`;
     if (s.kind === "bound") return `bound of node ${s.number}: ${s.met ? "met" : "missed"}`;
     if (s.kind === "beam") return "region swept by the class of the ray";
     return `\u2018${s.object}\u2019 tested: ${s.met ? "hit" : "no hit"}`;
   }
-  show() {
+  private show() {
     const at = Number(this.range.value);
-    const step = this.steps[at - 1];
-    this.text.textContent = `Step ${at} of ${this.steps.length}${step ? `: ${this.describe(step)}` : ""}`;
+    const step = this.steps.at(at - 1);
+    this.text.textContent = `Step ${at} of ${this.steps.length}${at > 0 && step ? `: ${this.describe(step)}` : ""}`;
     this.items.forEach((item, i) => item.classList.toggle("current", i === at - 1));
     this.view.step = at - 1;
     this.view.draw();
   }
-  play() {
-    if (this.timer) return this.stop();
+  private play() {
+    if (this.timer !== undefined) return this.stop();
     if (Number(this.range.value) >= this.steps.length) this.range.value = "0";
     this.playButton.textContent = "Stop";
     this.timer = setInterval(() => {
@@ -47,17 +58,16 @@ class TraversalSteps {
       if (Number(this.range.value) >= this.steps.length) this.stop();
     }, Math.max(40, Math.min(600, 8000 / (this.steps.length || 1))));
   }
-  stop() {
+  private stop() {
     clearInterval(this.timer);
-    this.timer = null;
+    this.timer = undefined;
     this.playButton.textContent = "Play";
   }
-  table(work) {
-    const columns = ["node_visits", "empty_cells", "box_tests", "primitive_tests", "mailbox_saved"];
+  private table(work: AcceleratorWork[]) {
+    const columns = ["node_visits", "empty_cells", "box_tests", "primitive_tests", "mailbox_saved"] as const;
     const heads = ["accelerator", "nodes or cells", "empty cells", "bounds tested", "primitives tested", "saved by mailbox", "t of the hit"];
-    return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Work of accelerators"}, element("table", {},
-      element("caption", {}, "Work for this ray"),
-      element("thead", {}, element("tr", {}, ...heads.map(h => element("th", {scope: "col"}, h)))),
+    return scrolling("Work of accelerators", element("table", {},
+      element("caption", {}, "Work for this ray"), headRow(heads),
       element("tbody", {}, ...work.map(w => element("tr", {}, element("th", {scope: "row"}, w.accelerator),
         ...(w.unavailable ? [element("td", {colspan: 6}, w.unavailable)]
                           : [...columns.map(c => element("td", {}, String(w[c]))), element("td", {}, number(w.t))]))))));

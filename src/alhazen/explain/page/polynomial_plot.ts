@@ -1,22 +1,25 @@
 // The polynomial that the ray makes of an algebraic surface, with its Bernstein coefficients as a control polygon and
 // its roots.
 
-function polynomialPlots(root, data) {
+import {element, number} from "./basics";
+import type {Explanation, PolynomialOnRay} from "./explanation_data";
+
+export function polynomialPlots(root: HTMLElement, data: Explanation) {
   for (const p of data.polynomials) root.append(polynomialPlot(p));
 }
-function bernsteinValue(b, u) {
+function bernsteinValue(b: number[], u: number) {
   const row = [...b];
   for (let n = row.length - 1; n > 0; --n) for (let i = 0; i < n; ++i) row[i] = (1 - u) * row[i] + u * row[i + 1];
   return row[0];
 }
-function polynomialPlot(p) {
+function polynomialPlot(p: PolynomialOnRay) {
   const w = 360, h = 170, n = p.degree, count = 160;
   const values = Array.from({length: count + 1}, (_, i) => bernsteinValue(p.bernstein, i / count));
   const size = Math.max(...p.bernstein.map(Math.abs)) || 1;
   // Of high degrees the coefficients are far larger than what lies between the roots: asinh shows both.
-  const bent = v => n > 2 ? Math.asinh(50 * v / size) / Math.asinh(50) : v / size;
-  const y = v => h / 2 - (h / 2 - 8) * bent(v);
-  const x = u => 8 + (w - 16) * u;
+  const bent = (v: number) => n > 2 ? Math.asinh(50 * v / size) / Math.asinh(50) : v / size;
+  const y = (v: number) => h / 2 - (h / 2 - 8) * bent(v);
+  const x = (u: number) => 8 + (w - 16) * u;
   const path = values.map((v, i) => `${i ? "L" : "M"}${x(i / count).toFixed(1)} ${y(v).toFixed(1)}`).join("");
   const polygon = p.bernstein.map((b, i) => `${x(i / n).toFixed(1)},${y(b).toFixed(1)}`).join(" ");
   const title = `${p.shape} \u2018${p.object}\u2019: degree ${n}, ` +

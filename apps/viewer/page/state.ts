@@ -1,0 +1,92 @@
+// What the server says (view_menus.cpp, scene_store.cpp), as types.
+
+import type {Vec3} from "../../../src/alhazen/explain/page/basics";
+
+export interface CameraData {
+  name: string;
+  eye: Vec3;
+  look: Vec3;
+  right: Vec3;
+  up: Vec3;
+  aspect: number;
+  parallel: boolean;
+  distance: number;
+}
+export interface Choice {
+  name: string;
+  value?: string;
+  what?: string;
+}
+export interface RendererChoice extends Choice {
+  selects: boolean;
+}
+/** What changes with the file only. */
+export interface Menus {
+  scene: string;
+  width: number;
+  height: number;
+  up: "y" | "z";
+  depth: number;
+  cameras: CameraData[];
+  renderers: RendererChoice[];
+  accelerators: Choice[];
+  layers: Choice[];
+  scales: Record<"heat" | "grey", string[]>;
+  curves: string[];
+  steps: string;
+}
+/** What is in hand; `client` where it is of one page, `part` (0 to 1) where that is known. */
+export interface Work {
+  what: string;
+  seconds: number;
+  client?: string;
+  part?: number;
+}
+/** What changes from moment to moment. */
+export interface Moment {
+  version: number;
+  accelerator: string;
+  error: string;
+  memory: number;
+  stopped: boolean;  // reading was ended, and begins again when it is asked for
+  work: Work[];
+}
+export type State = Moment & Partial<Menus>;
+export type Scene = Moment & Menus;
+
+export interface LayerFacts {
+  name: string;
+  meaning: string;
+  low?: number;
+  high?: number;
+  colors?: "heat" | "grey";
+}
+export interface FrameFacts {
+  seconds: number;
+  rays: number;
+  threads: number;
+  version: number;
+  width: number;
+  height: number;
+  layer?: LayerFacts;
+}
+/** The head of a picture. */
+export interface FrameHead {
+  id: number;
+  status: number;
+  type: string;
+  facts: FrameFacts | null;
+}
+export interface Wish {
+  camera: Pick<CameraData, "eye" | "look" | "right" | "up" | "parallel">;
+  width: number;
+  height: number;
+  renderer: string;
+  accelerator: string;
+  layer: string;
+  depth: number;
+  exposure: number;
+  curve: string;
+  samples: number;
+  selected?: boolean;
+}

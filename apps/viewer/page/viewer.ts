@@ -1,0 +1,324 @@
+// The viewer: a picture that follows the view at once and refines while nothing moves.
+
+import {element} from "../../../src/alhazen/explain/page/basics";
+import type {Explanation} from "../../../src/alhazen/explain/page/explanation_data";
+import {showExplanation} from "../../../src/alhazen/explain/page/explanation_view";
+import {ViewCamera} from "./camera";
+import {Controls} from "./controls";
+import {listen} from "./input";
+import {FrameLink} from "./link";
+import {Messages, WorkLine, drawScale, statusText} from "./notices";
+import {Pace} from "./pace";
+import type {CameraData, FrameFacts, FrameHead, Scene, State, Wish} from "./state";
+
+const WIDEST = 4096;          // that the server draws
+const MOST_RAW = 1.5e6;       // pixels that come as they are; more as JPEG
+const STOPPED = "Reading the file was ended.";
+const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
+
+interface Asked {
+  id: number;
+  generation: number;
+  level: number;
+  wish: Wish;
+  begin: number;
+}
+
+export class Viewer {
+  // What tests look at, too.
+  readonly client = Math.random().toString(36).slice(2);
+  readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "The scene",
+                                      "aria-describedby": "help"});
+  readonly scale = element("div", {class: "scale", hidden: true});
+  readonly controls = new Controls(key => this.chosen(key));
+  scene: Scene | undefined;
+  camera: ViewCamera | undefined;
+  frames = 0;
+  level = 0;       // of `levels`, that is asked for
+  generation = 0;  // of the view
+  shownGeneration = 0;
+  firstPicture: number | undefined;  // milliseconds since the page was asked for
+
+  private readonly token: string;
+  private readonly messages = new Messages(document.getElementById("message")!);
+  private readonly work = new WorkLine();
+  private readonly status = element("p", {id: "status"});
+  private readonly readAgain = element("button", {type: "button", hidden: true, click: () => void this.ask("/read")}, "Read again");
+  private readonly g = this.image.getContext("2d")!;
+  private readonly pace = new Pace();
+  private readonly link: FrameLink;
+  private readonly undone: ViewCamera[] = [];
+  private readonly asked = new Map<number, Asked>();
+  private lastId = 0;
+  private held: object | undefined;       // nothing is asked for while this work lasts
+  private explaining: object | undefined;
+  private halted = false;                 // by Stop, until something changes
+  private shownAt = 0;
+  private movingShown: number[] = [];     // times
+
+  constructor() {
+    this.token = location.hash.slice(1) || sessionStorage.getItem("token") || "";
+    if (location.hash) {
+      sessionStorage.setItem("token", this.token);
+      history.replaceState(null, "", location.pathname);
+    }
+    this.build();
+    this.link = new FrameLink(this.token, {
+      opened: () => {
+        this.messages.say("server", "");
+        if (this.scene) this.changed();
+      },
+      state: state => this.take(state),
+      picture: (head, body) => void this.received(head, body),
+      lost: () => {
+        this.asked.clear();
+        this.work.show(undefined);
+        this.messages.say("server", "The server does not answer: waiting for it.");
+      },
+      refused: () => this.messages.say("server", NO_KEY)});
+  }
+
+  private build() {
+    const block = element("textarea", {id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true});
+    const button = (text: string, click: () => void) => element("button", {type: "button", click}, text);
+    const camera = element("button", {type: "button", "aria-expanded": "false", "aria-controls": "block", click: () => {
+      block.value = this.camera?.block() ?? "";
+      block.hidden = !block.hidden;
+      camera.setAttribute("aria-expanded", String(!block.hidden));
+    }}, "Camera block");
+    const buttons = element("div", {class: "row"},
+      button("Undo", () => this.undo()), button("Home", () => this.goHome()), button("Stop", () => this.stop()), camera,
+      button("Save picture", () => void this.save()), this.readAgain);
+    const help = element("p", {id: "help"}, "Drag or arrow keys turn, with shift they move; wheel, two fingers, + and \u2212 " +
+      "zoom; W A S D walk. Click or Enter: why a pixel has its colour. Escape ends what is computed.");
+    document.getElementById("viewer")!.append(
+      element("div", {}, this.image, this.scale, this.status, this.work.line, help),
+      element("section", {"aria-label": "Settings and actions"}, this.controls.form, buttons, block));
+    listen(this.image, this);
+  }
+  // Null where the server does not answer, which the link says.
+  private ask(path: string, wish: object = {}) {
+    return fetch(path, {method: "POST", body: JSON.stringify({...wish, client: this.client}),
+                        headers: {Authorization: `Bearer ${this.token}`}}).catch(() => null);
+  }
+
+  // ---- the scene
+  private take(state: State) {
+    const known = this.scene;
+    this.messages.say("file", state.error || (state.stopped ? STOPPED : ""));
+    this.work.show(state.work.find(w => w.seconds > 0.3 && (w.client ?? this.client) === this.client));
+    this.readAgain.hidden = !state.stopped;
+    if (state.version === 0 || !(state.scene || known)) return;
+    const scene = this.scene = {...known, ...state} as Scene;
+    if (!known) {
+      document.title = `${scene.scene} \u2013 Alhazen`;
+      this.controls.fill(scene);
+      this.see(scene.cameras[0]);
+    } else if (known.version !== scene.version) {
+      this.refill(known, scene);
+      this.changed();
+    }
+  }
+  // The file has changed: the chosen camera by its name, and the view where it still was that camera's.
+  private refill(before: Scene, scene: Scene) {
+    const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
+    const same = scene.cameras.findIndex(c => c.name === old.name);
+    const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
+    const follows = this.controls.number("depth") === before.depth;
+    this.controls.fill(scene);
+    if (follows) this.controls.set("depth", String(scene.depth));
+    this.controls.set("camera", String(index));
+    if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
+  }
+  private see(camera: CameraData) {
+    this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
+    this.changed();
+  }
+  private chosen(key: string) {
+    if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "camera") this.goHome();
+    else if (key !== "steps") this.changed();
+  }
+
+  // ---- what is asked for
+  private full() {
+    return Math.max(64, Math.min(this.scene?.width ?? 0, WIDEST));
+  }
+  private renders(name: string) {
+    return this.scene?.renderers.find(r => r.name === name);
+  }
+  private wish(camera: ViewCamera, width: number): Wish {
+    const {eye, look, right, up, parallel} = camera, controls = this.controls;
+    return {camera: {eye, look, right, up, parallel}, width, height: Math.max(1, Math.round(width / camera.aspect)),
+            renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
+            depth: controls.number("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1};
+  }
+  // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
+  private selects() {
+    return this.controls.get("moving") === "steady" && !this.controls.get("layer") &&
+      !!this.renders(this.controls.get("renderer"))?.selects;
+  }
+  private limits() {
+    return {full: this.full(), depth: this.controls.number("depth"), deepens: this.selects()};
+  }
+  private movingWish(camera: ViewCamera): Wish {
+    const {width, depth} = this.pace.next(this.limits()), wish = {...this.wish(camera, width), depth};
+    if (this.selects()) return {...wish, selected: true};
+    if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
+    return {...wish, renderer: "ray_casting"};
+  }
+  // [width as a part of the whole, samples] of what follows the moving picture
+  levels(): [number, number][] {
+    const samples = this.controls.number("samples");
+    return [[0, 1], [1 / 4, 1], [1 / 2, 1], [1, 1], ...(samples > 1 ? [[1, samples] as [number, number]] : [])];
+  }
+  done() {
+    return this.level >= this.levels().length;
+  }
+  // The view is another one: coarse at first, and finer with each picture.
+  changed() {
+    if (!this.camera || !this.scene) return;
+    ++this.generation;
+    this.level = 0;
+    this.halted = false;
+    if (this.explaining) this.explaining = this.held = undefined;  // the server ends it
+    this.request();
+  }
+  private request() {
+    if (!this.camera || this.held || this.halted || this.done()) return;
+    const [part, samples] = this.levels()[this.level], moving = this.level === 0;
+    const wish = moving ? this.movingWish(this.camera) : {...this.wish(this.camera, Math.round(this.full() * part)), samples};
+    const id = ++this.lastId;
+    this.asked.set(id, {id, generation: this.generation, level: this.level, wish, begin: performance.now()});
+    this.link.send({...wish, id, moving, client: this.client, raw: wish.width * wish.height <= MOST_RAW});
+  }
+
+  // ---- what comes
+  private async received(head: FrameHead, body: Uint8Array) {
+    const asked = this.asked.get(head.id);
+    for (const id of this.asked.keys()) if (id <= head.id) this.asked.delete(id);
+    if (!asked) return;
+    const newest = asked.id === this.lastId;
+    if (head.status === 204) {  // ended, by an explanation, say: once more
+      setTimeout(() => { if (newest && asked.id === this.lastId) this.request(); }, 50);
+      return;
+    }
+    if (head.status !== 200 || !head.facts) {
+      this.messages.say("frame", (JSON.parse(new TextDecoder().decode(body)) as {error: string}).error);
+      if (newest) this.level = this.levels().length;
+      return;
+    }
+    this.messages.say("frame", "");
+    if (asked.generation < this.shownGeneration) return;
+    this.shownGeneration = asked.generation;
+    await this.draw(head, head.facts, body);
+    this.describe(asked, head.facts);
+    if (!newest || asked.id !== this.lastId) return;
+    // What would not be larger than what is there is left out.
+    do ++this.level; while (this.level < 3 && this.levels()[this.level][0] * this.full() <= head.facts.width);
+    this.request();
+  }
+  private async draw(head: FrameHead, facts: FrameFacts, body: Uint8Array) {
+    const {width, height} = facts, raw = head.type === "application/octet-stream";
+    const picture = raw ? new ImageData(new Uint8ClampedArray(body.buffer, body.byteOffset, body.length), width, height)
+      : await createImageBitmap(new Blob([body], {type: head.type}));
+    this.image.width = width;
+    this.image.height = height;
+    if (picture instanceof ImageData) this.g.putImageData(picture, 0, 0);
+    else this.g.drawImage(picture, 0, 0);
+    const aspect = this.camera?.aspect ?? width / height;
+    this.image.style.aspectRatio = String(aspect);
+    this.image.style.maxWidth = `calc(82vh * ${aspect})`;
+    this.firstPicture ??= performance.now();
+    ++this.frames;
+  }
+  private describe(asked: Asked, facts: FrameFacts) {
+    const now = performance.now(), scene = this.scene!, moving = asked.level === 0;
+    if (moving) {
+      // Where the server was never idle: from picture to picture.
+      const busy = asked.begin < this.shownAt;
+      this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, this.limits());
+      this.movingShown = [...this.movingShown.filter(t => t > now - 1000), now];
+    }
+    this.shownAt = now;
+    const span = now - this.movingShown[0], rate = span > 0 ? 1000 * (this.movingShown.length - 1) / span : 0;
+    drawScale(this.scale, facts.layer, scene.scales);
+    this.status.textContent = statusText(
+      {facts, samples: asked.wish.samples, selected: !!asked.wish.selected, way: now - asked.begin,
+       moving: moving ? {depth: asked.wish.depth, rate} : null}, this.full(), this.controls.number("depth"), scene.memory);
+  }
+
+  // ---- what is done with it
+  move(change: (camera: ViewCamera) => void, mark: boolean) {
+    if (!this.camera) return;
+    if (mark) this.remember();
+    change(this.camera);
+    this.changed();
+  }
+  private goHome() {
+    this.remember();
+    if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
+  }
+  private remember() {
+    if (this.camera) this.undone.push(this.camera.copy());
+    if (this.undone.length > 100) this.undone.shift();
+  }
+  undo() {
+    const camera = this.undone.pop();
+    if (!camera) return;
+    this.camera = camera;
+    this.changed();
+  }
+  // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.
+  stop() {
+    this.explaining = this.held = undefined;
+    this.halted = true;
+    this.asked.clear();
+    if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
+    void this.ask("/stop");
+    this.messages.say("explain", "");
+  }
+  // Nothing is asked for until the work is done.
+  private async hold(work: () => Promise<void>) {
+    const own = this.held = {};
+    try {
+      await work();
+    } finally {
+      if (this.held === own) {
+        this.held = undefined;
+        this.request();
+      }
+    }
+  }
+  private save() {
+    return this.hold(async () => {
+      if (!this.camera) return;
+      const wish = {...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), png: true};
+      const answer = await this.ask("/frame", wish);
+      if (answer?.status !== 200) return;
+      const link = element("a", {href: URL.createObjectURL(await answer.blob()), download: "view.png"});
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    });
+  }
+  explain(u: number, v: number) {
+    const camera = this.camera;
+    if (!camera) return;
+    const wish = this.wish(camera, this.full()), own = this.explaining = {};
+    const at = (w: number, n: number) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
+    this.status.textContent = "Explaining \u2026 (Escape ends it)";
+    void this.hold(async () => {
+      const answer = await this.ask("/explain", {...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps")});
+      if (this.explaining !== own) return;
+      this.explaining = undefined;
+      if (!answer || answer.status === 204) return;
+      const data = await answer.json() as Explanation & {error?: string};
+      this.messages.say("explain", answer.ok ? "" : data.error ?? "");
+      if (!answer.ok) return;
+      const root = document.getElementById("explanation")!;
+      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9));
+      root.scrollIntoView({behavior: "smooth"});
+      root.focus({preventScroll: true});
+    });
+  }
+}

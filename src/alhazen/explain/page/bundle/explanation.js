@@ -1,0 +1,1134 @@
+// Made from src/alhazen/explain/page/explanation.ts by scripts/page: do not edit.
+
+// src/alhazen/explain/page/basics.ts
+var add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+var sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+var scaled = (s, a) => [s * a[0], s * a[1], s * a[2]];
+var dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+var cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+var norm = (a) => Math.hypot(a[0], a[1], a[2]);
+var unit = (a) => scaled(1 / (norm(a) || 1), a);
+var along = (ray, t) => add(ray.origin, scaled(t, ray.direction));
+function number(x) {
+  if (x === null || x === void 0) return "\u221E";
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  if (size >= 1e5 || size < 1e-4) return x.toExponential(2).replace("e+", "e");
+  return String(Number(x.toPrecision(4)));
+}
+var triple = (c) => c.map(number).join(", ");
+function css(color) {
+  const code = (c) => Math.round(255 * Math.min(1, Math.max(0, c <= 31308e-7 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055)));
+  return `rgb(${color.map((c) => code(c ?? 0)).join(" ")})`;
+}
+function element(name, attributes = {}, ...children) {
+  const made = name.startsWith("svg:") ? document.createElementNS("http://www.w3.org/2000/svg", name.slice(4)) : document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === false || value === void 0) continue;
+    if (typeof value === "function") made.addEventListener(key, value);
+    else made.setAttribute(key, value === true ? "" : String(value));
+  }
+  made.append(...children.filter((c) => c !== null && c !== void 0));
+  return made;
+}
+function swatch(color) {
+  const made = element("span", { class: "swatch", "aria-hidden": "true" });
+  made.style.background = css(color);
+  return made;
+}
+function scrolling(name, table) {
+  return element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": name }, table);
+}
+function headRow(heads) {
+  return element("thead", {}, element("tr", {}, ...heads.map((h) => element("th", { scope: "col" }, h))));
+}
+var KINDS = { eye: "eye ray", shadow: "shadow ray", reflection: "reflected ray", refraction: "refracted ray" };
+
+// src/alhazen/explain/page/beam_pieces.ts
+function beamPieces(root2, data, beams) {
+  if ("unavailable" in beams) root2.append(element("p", {}, `beam_tracing does not take this scene: ${beams.unavailable}`));
+  else new BeamPieces(root2, data, beams);
+}
+var BeamPieces = class {
+  constructor(root2, data, beams) {
+    this.beams = beams;
+    this.pixel = [data.x, data.y];
+    const of_pixel = beams.pieces.filter((p) => p.share > 0);
+    this.chosen = of_pixel.find((p) => p.here) ?? of_pixel.at(0) ?? beams.pieces.at(0);
+    this.svg = element("svg:svg", { class: "beams", role: "img", "aria-label": `${beams.pieces.length} pieces of the picture; ${of_pixel.length} of them in the pixel` });
+    const zoom = element("button", { type: "button", click: () => {
+      this.near = !this.near;
+      zoom.textContent = this.near ? "Show more" : "Show the pixel";
+      this.draw();
+    } }, "Show more");
+    const facts = `${beams.polygons} polygons, ${beams.beams} beams for ` + (beams.to[0] - beams.from[0] < data.width ? "the pixels around" : "the whole picture") + (beams.left_out ? `; ${beams.left_out} pieces are not listed` : "");
+    root2.append(
+      element("p", { class: "soft" }, `By beam_tracing: the pieces that the beams of this pixel see, each the visible part of a polygon. ${facts}.`),
+      element("div", { class: "disc" }, element("div", {}, this.svg, zoom), this.table(of_pixel))
+    );
+    this.draw();
+  }
+  pixel;
+  svg;
+  rows = /* @__PURE__ */ new Map();
+  near = true;
+  chosen;
+  // The pieces from the eye to a piece.
+  chain(piece) {
+    const list = [piece];
+    for (let at = piece; at.from !== at.id; ) {
+      const before = this.beams.pieces.find((p) => p.id === at.from);
+      if (!before) break;
+      list.unshift(at = before);
+    }
+    return list;
+  }
+  table(pieces) {
+    const rows = pieces.map((p) => {
+      const what = p.background ? "background" : `\u2018${p.object}\u2019`;
+      const behind = this.chain(p).slice(0, -1).map((q) => `\u2018${q.object}\u2019`);
+      const lights = p.lights.flatMap((l) => !l.color ? [] : element(
+        "div",
+        { class: "soft" },
+        `${l.light}${l.through.length ? ` through ${l.through.join(", ")}` : ""}: (${triple(l.color)})`
+      ));
+      const button = element("button", { type: "button", class: `link ${p.kind}`, click: () => this.choose(p) }, what);
+      const row = element(
+        "tr",
+        {},
+        element(
+          "th",
+          { scope: "row" },
+          button,
+          behind.length ? element("div", { class: "soft" }, `${p.kind === "reflection" ? "mirrored in" : "seen through"} ${behind.join(", ")}`) : null
+        ),
+        element("td", {}, `${number(100 * p.share)} %`),
+        element("td", { class: "how" }, p.own ? element("div", {}, `own light: (${triple(p.own)})`) : "does not hold the sample point", ...lights)
+      );
+      this.rows.set(p, row);
+      return row;
+    });
+    const heads = ["piece", "of the pixel", "adds to the sample point"];
+    return scrolling("Pieces of the pixel", element(
+      "table",
+      {},
+      headRow(heads),
+      element("tbody", {}, ...rows),
+      element("tfoot", {}, element(
+        "tr",
+        {},
+        element("th", { scope: "row", colspan: 2 }, "sum"),
+        element("td", {}, `(${triple(this.beams.color)}) `, swatch(this.beams.color))
+      ))
+    ));
+  }
+  choose(piece) {
+    this.chosen = piece;
+    this.draw();
+  }
+  draw() {
+    const { beams, svg, pixel: [x, y] } = this;
+    const ring = this.near ? 5 : Infinity;
+    const lo = [Math.max(beams.from[0], x - ring), Math.max(beams.from[1], y - ring)];
+    const hi = [Math.min(beams.to[0], x + 1 + ring), Math.min(beams.to[1], y + 1 + ring)];
+    svg.setAttribute("viewBox", `${lo[0]} ${lo[1]} ${hi[0] - lo[0]} ${hi[1] - lo[1]}`);
+    const path = (outline, type) => element("svg:path", {
+      class: type,
+      "fill-rule": "evenodd",
+      d: outline.map((loop) => `M${loop.map((p) => p.join(" ")).join("L")}Z`).join("")
+    });
+    svg.replaceChildren();
+    for (const p of beams.pieces) if (p.depth === 0) svg.append(path(p.outline, "piece"));
+    const chain = this.chosen ? this.chain(this.chosen) : [];
+    chain.forEach((p) => svg.append(path(p.outline, `chosen ${p.kind}`)));
+    for (const light of this.chosen?.lights ?? []) if (light.outline) svg.append(path(light.outline, "lit"));
+    svg.append(element("svg:rect", { class: "here", x, y, width: 1, height: 1 }));
+    for (const [p, row] of this.rows) row.classList.toggle("selected", p === this.chosen);
+  }
+};
+
+// src/alhazen/explain/page/cone_tree.ts
+var CONE_NAMES = { eye: "cone of the pixel", shadow: "cone to a light", reflection: "reflected cone", refraction: "refracted cone" };
+var ConeTree = class {
+  constructor(root2, cones, view) {
+    this.view = view;
+    if ("unavailable" in cones) {
+      root2.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
+      return;
+    }
+    root2.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. A cone\u2019s radiance is the sum of weight \xD7 colour, and what is left of it times the background."));
+    if (cones.cut) root2.append(element("p", { class: "cut" }, "The tree is cut: it has more than 2000 cones."));
+    root2.append(element("div", { class: "outline" }, this.cone(cones.tree)));
+    view.cones = [cones.tree];
+    view.draw();
+  }
+  cone(c) {
+    const shadow = c.kind === "shadow", color = shadow ? c.through : c.radiance;
+    const value = shadow ? `(${triple(color)}) of the light comes through` : `radiance (${triple(color)})`;
+    const summary = element("summary", { class: c.kind }, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(color));
+    const show = () => {
+      this.view.cones = [c];
+      this.view.draw();
+    };
+    summary.addEventListener("click", show);
+    summary.addEventListener("focus", show);
+    const angle = number(2 * Math.atan(Math.abs(c.spread)) * 180 / Math.PI);
+    const body = element(
+      "details",
+      { class: "ray cone", open: c.depth < 2 && !shadow },
+      summary,
+      element("p", { class: "soft" }, `radius ${number(c.radius)} where it starts, ` + (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\xB0)`) + (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : ""))
+    );
+    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap((p) => p.cones.map((k) => this.cone(k))));
+    return body;
+  }
+  pieces(c) {
+    const rows = c.parts.map((p) => element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, `\u2018${p.object}\u2019`),
+      ...[p.t, p.share, p.weight].map((x) => element("td", {}, number(x))),
+      element("td", {}, `(${triple(p.color)})`),
+      element("td", {}, swatch(p.color))
+    ));
+    const heads = ["piece", "t", "share", "weight", "colour", ""];
+    return element("div", { class: "disc" }, coneDisc(c), scrolling(
+      "Pieces of a cone",
+      element(
+        "table",
+        {},
+        headRow(heads),
+        element("tbody", {}, ...rows),
+        element("tfoot", {}, element(
+          "tr",
+          {},
+          element("th", { scope: "row", colspan: 3 }, "left of the cone"),
+          element("td", {}, number(c.left)),
+          element("td"),
+          element("td")
+        ))
+      )
+    ));
+  }
+};
+function coneDisc(c) {
+  const svg = element("svg:svg", {
+    class: "pixel",
+    viewBox: "-1.15 -1.15 2.3 2.3",
+    role: "img",
+    "aria-label": `A cone with ${c.parts.length} pieces`
+  }, element("svg:circle", { class: "frame", cx: 0, cy: 0, r: 1 }));
+  for (const p of c.parts) {
+    const mark = element("svg:circle", {
+      cx: p.at[0],
+      cy: -p.at[1],
+      r: Math.max(0.04, Math.sqrt(Math.min(1, p.share)) * 0.98),
+      class: "piece"
+    });
+    mark.style.fill = css(p.color);
+    svg.append(mark);
+  }
+  return svg;
+}
+
+// src/alhazen/explain/page/patch_parts.ts
+function patchParts(root2, data) {
+  for (const p of data.patches) root2.append(patchFigure(p));
+}
+function patchFigure(p) {
+  const deepest = Math.max(...p.parts.map((q) => q.level)), svg = element("svg:svg", { class: "pixel patch", viewBox: "-0.02 -0.02 1.04 1.04" });
+  const text = element("p", { class: "soft", "aria-live": "polite" });
+  const level = element("input", { type: "range", min: 0, max: deepest, value: Math.min(5, deepest), "aria-label": "Level", input: () => draw() });
+  const draw = () => {
+    const most = Number(level.value), shown = p.parts.filter((q) => q.level <= most), last = p.parts.filter((q) => q.level === most);
+    svg.replaceChildren(...shown.map((q) => {
+      const size = 2 ** -q.level;
+      return element("svg:rect", {
+        class: q.met ? q.level === most ? "met" : "divided" : "dropped",
+        x: q.u * size,
+        y: 1 - (q.v + 1) * size,
+        width: size,
+        height: size
+      });
+    }), ...p.crossings.map((c) => element("svg:circle", { class: "root", cx: c.u, cy: 1 - c.v, r: 0.012 })));
+    text.textContent = `Level ${most} of ${deepest}: ${last.length} parts tested, ${last.filter((q) => q.met).length} met`;
+    svg.setAttribute("aria-label", text.textContent);
+  };
+  svg.setAttribute("role", "img");
+  draw();
+  const roots = p.crossings.length ? `crossed at ${p.crossings.map((c) => `t = ${number(c.t)} (u ${number(c.u)}, v ${number(c.v)})`).join(", ")}` : "not crossed";
+  return element("figure", { class: "plot" }, svg, level, text, element(
+    "figcaption",
+    {},
+    element("b", {}, `${p.shape} \u2018${p.object}\u2019, patch ${p.piece}, degrees ${p.degree[0]} and ${p.degree[1]}: ${roots}`),
+    p.cut ? element("p", { class: "cut" }, "The subdivision is cut: there are more than 4000 parts.") : null
+  ));
+}
+
+// src/alhazen/explain/page/polynomial_plot.ts
+function polynomialPlots(root2, data) {
+  for (const p of data.polynomials) root2.append(polynomialPlot(p));
+}
+function bernsteinValue(b, u) {
+  const row = [...b];
+  for (let n = row.length - 1; n > 0; --n) for (let i = 0; i < n; ++i) row[i] = (1 - u) * row[i] + u * row[i + 1];
+  return row[0];
+}
+function polynomialPlot(p) {
+  const w = 360, h = 170, n = p.degree, count = 160;
+  const values = Array.from({ length: count + 1 }, (_, i) => bernsteinValue(p.bernstein, i / count));
+  const size = Math.max(...p.bernstein.map(Math.abs)) || 1;
+  const bent = (v) => n > 2 ? Math.asinh(50 * v / size) / Math.asinh(50) : v / size;
+  const y = (v) => h / 2 - (h / 2 - 8) * bent(v);
+  const x = (u) => 8 + (w - 16) * u;
+  const path = values.map((v, i) => `${i ? "L" : "M"}${x(i / count).toFixed(1)} ${y(v).toFixed(1)}`).join("");
+  const polygon = p.bernstein.map((b, i) => `${x(i / n).toFixed(1)},${y(b).toFixed(1)}`).join(" ");
+  const title = `${p.shape} \u2018${p.object}\u2019: degree ${n}, ` + (p.roots.length ? `roots at t = ${p.roots.map(number).join(", ")}` : "no real root on the ray");
+  const svg = element(
+    "svg:svg",
+    { viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": title },
+    element("svg:line", { class: "zero", x1: 8, x2: w - 8, y1: h / 2, y2: h / 2 }),
+    element("svg:polyline", { class: "polygon", points: polygon }),
+    element("svg:path", { class: "curve", d: path })
+  );
+  p.bernstein.forEach((b, i) => svg.append(element("svg:circle", { class: "control", cx: x(i / n), cy: y(b), r: 3 })));
+  p.roots.forEach((t, i) => {
+    const u = (t - p.from) / (p.to - p.from);
+    svg.append(element("svg:circle", { class: "root", cx: x(u), cy: h / 2, r: 5 }));
+    svg.append(element("svg:text", { x: x(u), y: i % 2 ? h / 2 + 20 : h / 2 - 10 }, number(t)));
+  });
+  return element("figure", { class: "plot" }, svg, element(
+    "figcaption",
+    {},
+    element("b", {}, title),
+    element("br"),
+    element("code", {}, p.expression.length > 120 ? `${p.expression.slice(0, 117)}...` : p.expression),
+    element("details", {}, element("summary", { class: "soft" }, "Bernstein coefficients"), element(
+      "p",
+      { class: "mono" },
+      `t from ${number(p.from)} to ${number(p.to)}: ${p.bernstein.map((b) => number(b)).join(", ")}`
+    ))
+  ));
+}
+
+// src/alhazen/explain/page/ray_outline.ts
+var REASONS = {
+  no_coefficient: "the material has none",
+  deepest: "the tree ends at this depth",
+  too_weak: "its share of the pixel would be below the least contribution",
+  total_reflection: "total internal reflection: Snell\u2019s law has no solution",
+  not_traced: "this scene\u2019s conventions trace none"
+};
+function raysOf(tree) {
+  const list = [];
+  const visit = (ray) => {
+    list.push(ray);
+    for (const surface of ray.surfaces) {
+      for (const light of surface.lights ?? []) {
+        if (!light.cast) continue;
+        const blocked = light.through.every((c) => c === 0);
+        const shadow = Object.assign(light, { kind: "shadow", blocked, distance: light.t });
+        if (blocked) shadow.t = light.crossings.at(-1)?.t ?? light.t;
+        list.push(shadow);
+      }
+      for (const term of [surface.reflected, surface.refracted]) if (term?.ray) visit(term.ray);
+    }
+  };
+  visit(tree);
+  return list;
+}
+function isShadow(light) {
+  return light !== void 0 && light.kind === "shadow";
+}
+var RayOutline = class {
+  constructor(root2, data, onSelect) {
+    this.onSelect = onSelect;
+    root2.append(this.ray(data.tree));
+  }
+  places = /* @__PURE__ */ new Map();
+  select(ray, reveal) {
+    for (const [other, place2] of this.places) place2.classList.toggle("selected", other === ray);
+    const place = this.places.get(ray);
+    if (!place || !reveal) return;
+    for (let at = place.parentElement; at; at = at.parentElement) if (at instanceof HTMLDetailsElement) at.open = true;
+    place.scrollIntoView({ block: "nearest", behavior: "smooth" });
+  }
+  ray(ray) {
+    const met = ray.surfaces.map((s) => `\u2018${s.object}\u2019`).join(", then ");
+    const first = ray.surfaces.at(0);
+    const summary = element(
+      "summary",
+      { class: ray.kind },
+      element("b", { class: "badge" }, `${ray.id}`),
+      ` ${KINDS[ray.kind]} `,
+      first ? `meets ${met} at t = ${number(first.t)}` : "meets nothing",
+      " ",
+      swatch(ray.radiance)
+    );
+    const body = element(
+      "details",
+      { open: ray.depth < 3, class: "ray" },
+      summary,
+      element("p", { class: "soft" }, `radiance (${triple(ray.radiance)}) \xD7 weight (${triple(ray.weight)}) = (${triple(ray.in_pixel)}) of the pixel`),
+      element("details", {}, element("summary", { class: "soft" }, "where it runs"), element(
+        "p",
+        { class: "mono" },
+        `origin (${triple(ray.origin)}), direction (${triple(ray.direction)})`,
+        ray.inside ? "; it starts inside something transparent" : ""
+      ))
+    );
+    summary.addEventListener("click", () => this.onSelect(ray));
+    summary.addEventListener("focus", () => this.onSelect(ray, false));
+    this.places.set(ray, summary);
+    ray.surfaces.forEach((s) => body.append(this.surface(s)));
+    if (ray.left) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
+    return body;
+  }
+  surface(s) {
+    const box = element("div", { class: "surface" });
+    box.append(element(
+      "p",
+      {},
+      element("b", {}, `\u2018${s.object}\u2019`),
+      s.material ? `, material \u2018${s.material}\u2019` : "",
+      `, t = ${number(s.t)}, `,
+      s.entering ? "from outside" : "from inside",
+      s.share.some((c) => c !== 1) ? `, share of the ray (${triple(s.share)})` : ""
+    ));
+    box.append(this.equation(s));
+    for (const term of [s.reflected, s.refracted]) if (term?.ray) box.append(this.ray(term.ray));
+    return box;
+  }
+  equation(s) {
+    const rows = [];
+    const row = (name, how, value, light) => {
+      const head = element("th", { scope: "row" }, name);
+      const line = element(
+        "tr",
+        {},
+        head,
+        element("td", { class: "how" }, how),
+        ...(value ?? [null, null, null]).map((c) => element("td", { title: String(c) }, value ? number(c) : "\u2013")),
+        element("td", {}, value ? swatch(value) : "")
+      );
+      if (isShadow(light)) {
+        head.replaceChildren(element("button", { type: "button", class: "link shadow", click: () => this.onSelect(light) }, name));
+        this.places.set(light, line);
+      }
+      rows.push(line);
+    };
+    row("emission", "ke", s.emission);
+    if (!s.unlit) {
+      for (const a of s.ambient) {
+        row(`ambient, ${a.light}`, `ka (${triple(s.ambient_factor)}) \xD7 Ia (${triple(a.intensity)})`, a.value);
+      }
+      for (const light of s.lights) row(light.light, this.lightText(light), light.value, light);
+      this.onward("reflected", "kr", s.reflected, row);
+      this.onward("refracted", "kt", s.refracted, row);
+      if (s.filter) row("medium", `all of it \xD7 (${triple(s.filter)}): what the medium lets through`, null);
+    }
+    return scrolling(`Shading of ${s.object}`, element(
+      "table",
+      { class: "equation" },
+      headRow(["term", "factors", "red", "green", "blue", ""]),
+      element("tbody", {}, ...rows),
+      element("tfoot", {}, element(
+        "tr",
+        {},
+        element("th", { scope: "row", colspan: 2 }, "sum"),
+        ...s.color.map((c) => element("td", { title: String(c) }, number(c))),
+        element("td", {}, swatch(s.color))
+      ))
+    ));
+  }
+  lightText(light) {
+    const names = light.crossings.map((c) => `\u2018${c.object}\u2019`);
+    if (light.intensity.every((c) => c === 0)) return `shines elsewhere: I (0, 0, 0), N\xB7L = ${number(light.cosine)}`;
+    const through = !light.cast ? "no shadow rays are cast" : isShadow(light) && light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}` : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";
+    return `${through}; I (${triple(light.intensity)}) \xD7 [kd (N\xB7L) (${triple(light.diffuse)}) + ks highlight (${triple(light.highlight)})], N\xB7L = ${number(light.cosine)}`;
+  }
+  onward(name, factor, term, row) {
+    if (!term) return;
+    if (term.ray && term.factor) row(
+      name,
+      `${factor} (${triple(term.factor)}) \xD7 ray ${term.ray.id} (${triple(term.ray.radiance)})`,
+      term.value
+    );
+    else if (term.reason !== "no_coefficient") row(name, `not sent: ${REASONS[term.reason]}`, null);
+  }
+};
+
+// src/alhazen/explain/page/scene_view.ts
+var SceneView = class {
+  constructor(canvas, data, rays, onSelect) {
+    this.canvas = canvas;
+    this.data = data;
+    this.rays = rays;
+    this.onSelect = onSelect;
+    this.g = canvas.getContext("2d");
+    this.eye = data.tree.origin;
+    const [a, b, , d] = data.picture;
+    this.axes = { right: unit(sub(b, a)), up: unit(sub(a, d)) };
+    this.up = Math.abs(this.axes.up[2]) >= Math.abs(this.axes.up[1]) ? [0, 0, 1] : [0, 1, 0];
+    if (dot(this.up, this.axes.up) < 0) this.up = scaled(-1, this.up);
+    this.measure();
+    this.home();
+    this.listen();
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+  selected = null;
+  step = -1;
+  showSteps = true;
+  showShadows = true;
+  cones = [];
+  eye;
+  axes;
+  up;
+  center = [0, 0, 0];
+  radius = 1;
+  // Where the view is: a turn and a rise around the target.
+  front = [0, 0, 1];
+  side = [1, 0, 0];
+  turn = 0;
+  rise = 0;
+  distance = 1;
+  target = [0, 0, 0];
+  // Of the drawing in hand.
+  width = 0;
+  height = 0;
+  near = 0;
+  f;
+  g;
+  hot = [];
+  // The ball that is looked at: around the first surface, as large as what the camera sees near it. What lies far
+  // behind, such as an endless ground, does not count.
+  measure() {
+    const first = this.data.tree.surfaces[0];
+    const points = this.data.points.map((p) => [p[0], p[1], p[2]]);
+    const mean = points.length ? scaled(1 / points.length, points.reduce(add)) : along(this.data.tree, 1);
+    this.center = first ? first.point : mean;
+    const distances = points.map((p) => norm(sub(p, this.center))).sort((x, y) => x - y);
+    const common = distances.length ? 1.4 * distances[Math.floor(0.45 * distances.length)] : 0;
+    this.radius = common || 0.3 * norm(sub(this.eye, this.center)) || 1;
+  }
+  home() {
+    const back = sub(this.eye, this.center);
+    const height = dot(back, this.up), flat = sub(back, scaled(height, this.up));
+    this.front = norm(flat) > 1e-9 ? unit(flat) : unit(cross(this.axes.right, this.up));
+    this.side = cross(this.up, this.front);
+    this.turn = 0.7;
+    this.rise = Math.min(1.2, Math.atan2(height, norm(flat)) + 0.25);
+    this.distance = 2.6 * this.radius;
+    this.target = this.center;
+    this.draw();
+  }
+  frame() {
+    const c = Math.cos(this.rise), s = Math.sin(this.rise);
+    const flat = add(scaled(Math.cos(this.turn), this.front), scaled(Math.sin(this.turn), this.side));
+    const back = add(scaled(c, flat), scaled(s, this.up));
+    const right = unit(cross(this.up, back));
+    return { back, right, up: cross(back, right), eye: add(this.target, scaled(this.distance, back)) };
+  }
+  // [x, y, depth] on the canvas.
+  project(p, f = this.f) {
+    const v = sub(p, f.eye), depth = -dot(v, f.back);
+    const scale = 0.9 * Math.min(this.width, this.height) / Math.max(depth, 1e-6 * this.distance);
+    return [this.width / 2 + scale * dot(v, f.right), this.height / 2 - scale * dot(v, f.up), depth];
+  }
+  draw() {
+    const ratio = devicePixelRatio || 1, box = this.canvas.getBoundingClientRect();
+    if (!box.width) return;
+    this.width = box.width;
+    this.height = box.height;
+    this.canvas.width = Math.round(box.width * ratio);
+    this.canvas.height = Math.round(box.height * ratio);
+    const g = this.g;
+    g.setTransform(ratio, 0, 0, ratio, 0, 0);
+    g.lineCap = "round";
+    this.f = this.frame();
+    this.near = 0.02 * this.distance;
+    this.hot = [];
+    this.drawPoints();
+    this.drawPicture();
+    if (this.showSteps) this.drawSteps();
+    for (const cone of this.cones) this.drawCone(cone);
+    for (const ray of this.rays) if (ray !== this.selected) this.drawRay(ray);
+    if (this.selected) this.drawRay(this.selected);
+    this.drawLabels();
+  }
+  color(name) {
+    return getComputedStyle(this.canvas).getPropertyValue(`--${name}`).trim() || "#888";
+  }
+  drawPoints() {
+    const seen = this.data.points.map((p) => [[p[0], p[1], p[2]], p]).filter(([at]) => norm(sub(at, this.center)) < 8 * this.radius).map(([at, p]) => [this.project(at), p]).filter(([q]) => q[2] > this.near);
+    seen.sort((a, b) => b[0][2] - a[0][2]);
+    for (const [q, p] of seen) {
+      const size = Math.min(14, Math.max(2, 0.011 * this.height * this.radius / q[2] * 2.6));
+      this.g.globalAlpha = 0.75;
+      this.g.fillStyle = `rgb(${p[3]} ${p[4]} ${p[5]})`;
+      this.g.fillRect(q[0] - size / 2, q[1] - size / 2, size, size);
+    }
+    this.g.globalAlpha = 1;
+  }
+  // A line cut at the near plane; returns its ends on the canvas, or null.
+  segment(a, b) {
+    let p = this.project(a), q = this.project(b);
+    if (p[2] < this.near && q[2] < this.near) return null;
+    const cut = (from, to, df, dt) => add(from, scaled((this.near - df) / (dt - df), sub(to, from)));
+    if (p[2] < this.near) p = this.project(cut(a, b, p[2], q[2]));
+    else if (q[2] < this.near) q = this.project(cut(a, b, p[2], q[2]));
+    return [p, q];
+  }
+  line(a, b, { color, width = 1.5, dash = [], arrow = false, alpha = 1 }) {
+    const s = this.segment(a, b);
+    if (!s) return null;
+    const g = this.g, [p, q] = s;
+    g.globalAlpha = alpha;
+    g.strokeStyle = g.fillStyle = color;
+    g.lineWidth = width;
+    g.setLineDash(dash);
+    g.beginPath();
+    g.moveTo(p[0], p[1]);
+    g.lineTo(q[0], q[1]);
+    g.stroke();
+    g.setLineDash([]);
+    const dx = q[0] - p[0], dy = q[1] - p[1], long = Math.hypot(dx, dy);
+    if (arrow && long > 18) {
+      const x = p[0] + 0.6 * dx, y = p[1] + 0.6 * dy, u = dx / long, v = dy / long, size = 4 + 1.6 * width;
+      g.beginPath();
+      g.moveTo(x + size * u, y + size * v);
+      g.lineTo(x - size * u - 0.7 * size * v, y - size * v + 0.7 * size * u);
+      g.lineTo(x - size * u + 0.7 * size * v, y - size * v - 0.7 * size * u);
+      g.fill();
+    }
+    g.globalAlpha = 1;
+    return s;
+  }
+  drawPicture() {
+    const reach = 0.35 * norm(sub(this.center, this.eye));
+    const at = this.data.parallel ? this.data.picture : this.data.picture.map((p) => add(this.eye, scaled(reach, unit(sub(p, this.eye)))));
+    const color = this.color("soft");
+    at.forEach((p, i) => {
+      this.line(p, at[(i + 1) % 4], { color, width: 1, alpha: 0.8 });
+      if (!this.data.parallel) this.line(this.eye, p, { color, width: 1, alpha: 0.35 });
+    });
+  }
+  // Where a ray ends: at its last surface, or in the open.
+  end(ray) {
+    if (ray.kind === "shadow") return along(ray, ray.t ?? 0.8 * this.radius);
+    const met = ray.surfaces.at(-1);
+    return ray.escaped || !met ? along(ray, 1.1 * this.radius + (met ? met.t : 0)) : met.point;
+  }
+  drawRay(ray) {
+    if (ray.kind === "shadow" && !this.showShadows && ray !== this.selected) return;
+    const chosen = ray === this.selected;
+    const blocked = ray.kind === "shadow" && ray.blocked;
+    const s = this.line(ray.origin, this.end(ray), {
+      color: this.color(ray.kind),
+      width: chosen ? 4.5 : ray.kind === "shadow" ? 1.3 : 2.4,
+      dash: ray.kind === "shadow" ? [5, 4] : ray.escaped ? [10, 5] : [],
+      arrow: true,
+      alpha: blocked && !chosen ? 0.55 : 1
+    });
+    if (!s) return;
+    this.hot.push([s, ray]);
+    const g = this.g, q = s[1];
+    g.strokeStyle = g.fillStyle = this.color(ray.kind);
+    g.lineWidth = 2;
+    if (blocked) {
+      g.beginPath();
+      for (const k of [-1, 1]) {
+        g.moveTo(q[0] - 4, q[1] - 4 * k);
+        g.lineTo(q[0] + 4, q[1] + 4 * k);
+      }
+      g.stroke();
+    } else if (ray.kind === "shadow" && ray.t !== null) {
+      g.beginPath();
+      g.arc(q[0], q[1], 5, 0, 7);
+      g.fillStyle = "#ffd34d";
+      g.fill();
+      g.stroke();
+    } else if (ray.kind !== "shadow" && ray.surfaces.length) {
+      g.beginPath();
+      g.arc(q[0], q[1], chosen ? 6 : 4, 0, 7);
+      g.fill();
+    }
+    for (const surface of chosen && ray.kind !== "shadow" ? ray.surfaces : []) {
+      this.line(
+        surface.point,
+        add(surface.point, scaled(0.14 * this.radius, surface.normal)),
+        { color: this.color("ink"), width: 2, arrow: true }
+      );
+    }
+  }
+  drawLabels() {
+    const g = this.g;
+    g.font = "600 12px system-ui, sans-serif";
+    g.textAlign = "center";
+    g.textBaseline = "middle";
+    const taken = [];
+    for (const [[p, q], ray] of this.hot) {
+      if (ray.kind === "shadow" && ray !== this.selected) continue;
+      const x = p[0] + 0.38 * (q[0] - p[0]), y = p[1] + 0.38 * (q[1] - p[1]) - 12;
+      if (taken.some((t) => Math.hypot(t[0] - x, t[1] - y) < 16) && ray !== this.selected) continue;
+      taken.push([x, y]);
+      const text = ray.kind === "shadow" ? ray.light : String(ray.id), w = g.measureText(text).width / 2 + 5;
+      g.fillStyle = this.color("card");
+      g.globalAlpha = 0.9;
+      g.beginPath();
+      g.roundRect(x - w, y - 9, 2 * w, 18, 9);
+      g.fill();
+      g.globalAlpha = 1;
+      g.fillStyle = this.color(ray.kind);
+      g.fillText(text, x, y + 0.5);
+    }
+  }
+  drawSteps() {
+    const steps = this.data.traversal?.steps ?? [];
+    const last = this.step < 0 ? -1 : this.step;
+    for (let i = 0; i <= last && i < steps.length; ++i) {
+      const step = steps[i], current = i === last;
+      if (!step.corners.length || i < last - 60) continue;
+      const p = step.corners.map((c) => this.project(c));
+      if (p.some((q) => q[2] < this.near)) continue;
+      const g = this.g, color = this.color(step.kind === "bound" && !step.met ? "missed" : "cell");
+      g.beginPath();
+      hull(p).forEach((q, k) => k ? g.lineTo(q[0], q[1]) : g.moveTo(q[0], q[1]));
+      g.closePath();
+      g.fillStyle = g.strokeStyle = color;
+      g.globalAlpha = current ? 0.22 : 0.05;
+      g.fill();
+      g.globalAlpha = current ? 1 : 0.35;
+      g.lineWidth = current ? 2.5 : 1;
+      g.stroke();
+      if (step.corners.length === 8 && step.kind !== "beam" && current) boxEdges(step.corners).forEach(([a, b]) => this.line(a, b, { color, width: 1, alpha: 0.8 }));
+      g.globalAlpha = 1;
+    }
+  }
+  // A cone up to its end: its sides as seen from here, and circles; then those that leave it.
+  drawCone(c) {
+    const color = this.color(c.kind), parts = c.kind === "shadow" ? [] : c.parts;
+    const e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);
+    const length = c.length ?? 1.1 * this.radius + (parts.at(-1)?.t ?? 0);
+    const ring = (t) => Array.from({ length: 24 }, (_, i) => {
+      const a = 2 * Math.PI * i / 24, r = c.radius + c.spread * t;
+      return add(add(c.origin, scaled(t, c.axis)), add(scaled(r * Math.cos(a), e1), scaled(r * Math.sin(a), e2)));
+    });
+    const stops = [0, ...parts.map((p) => p.t), length].map(ring);
+    stops.forEach((points) => points.forEach((p, i) => this.line(p, points[(i + 1) % 24], { color, width: 1, alpha: 0.7 })));
+    for (let i = 0; i < 24; i += 4) this.line(stops[0][i], stops[stops.length - 1][i], { color, width: 1, alpha: 0.45 });
+    for (const part of parts) for (const k of part.cones) this.drawCone(k);
+  }
+  listen() {
+    const c = this.canvas, touches = /* @__PURE__ */ new Map();
+    let moved = 0, spread = 0;
+    c.addEventListener("pointerdown", (e) => {
+      c.setPointerCapture(e.pointerId);
+      touches.set(e.pointerId, [e.clientX, e.clientY]);
+      moved = 0;
+      spread = 0;
+    });
+    c.addEventListener("pointermove", (e) => {
+      const before = touches.get(e.pointerId);
+      if (!before) return;
+      const dx = e.clientX - before[0], dy = e.clientY - before[1];
+      moved += Math.abs(dx) + Math.abs(dy);
+      touches.set(e.pointerId, [e.clientX, e.clientY]);
+      if (touches.size === 2) {
+        const [a, b] = [...touches.values()], now = Math.hypot(a[0] - b[0], a[1] - b[1]);
+        if (spread) this.distance *= spread / now;
+        spread = now;
+        this.pan(dx / 2, dy / 2);
+      } else if (e.shiftKey || e.buttons & 2) this.pan(dx, dy);
+      else this.orbit(-8e-3 * dx, 8e-3 * dy);
+      this.draw();
+    });
+    const up = (e) => {
+      if (touches.delete(e.pointerId) && moved < 4 && e.type === "pointerup") this.pick(e);
+    };
+    c.addEventListener("pointerup", up);
+    c.addEventListener("pointercancel", up);
+    c.addEventListener("contextmenu", (e) => e.preventDefault());
+    c.addEventListener("wheel", (e) => {
+      e.preventDefault();
+      this.distance *= Math.exp(12e-4 * e.deltaY);
+      this.draw();
+    }, { passive: false });
+    const keys = {
+      ArrowLeft: () => this.orbit(-0.1, 0),
+      ArrowRight: () => this.orbit(0.1, 0),
+      ArrowUp: () => this.orbit(0, 0.1),
+      ArrowDown: () => this.orbit(0, -0.1),
+      "+": () => {
+        this.distance *= 0.87;
+      },
+      "-": () => {
+        this.distance /= 0.87;
+      },
+      "0": () => this.home()
+    };
+    c.addEventListener("keydown", (e) => {
+      if (!keys[e.key] || e.ctrlKey || e.metaKey) return;
+      e.preventDefault();
+      keys[e.key]();
+      this.draw();
+    });
+  }
+  orbit(turn, rise) {
+    this.turn += turn;
+    this.rise = Math.min(1.55, Math.max(-1.55, this.rise + rise));
+  }
+  pan(dx, dy) {
+    const f = this.frame(), scale = this.distance / (0.9 * Math.min(this.width, this.height));
+    this.target = add(this.target, add(scaled(-scale * dx, f.right), scaled(scale * dy, f.up)));
+  }
+  pick(e) {
+    const box = this.canvas.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
+    let best = null, least = 9;
+    for (const [[p, q], ray] of this.hot) {
+      const dx = q[0] - p[0], dy = q[1] - p[1];
+      const u = Math.min(1, Math.max(0, ((x - p[0]) * dx + (y - p[1]) * dy) / (dx * dx + dy * dy || 1)));
+      const d = Math.hypot(x - p[0] - u * dx, y - p[1] - u * dy);
+      if (d < least) [best, least] = [ray, d];
+    }
+    if (best) this.onSelect(best);
+  }
+  select(ray) {
+    this.selected = ray;
+    this.draw();
+  }
+};
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const turn = (o, a, b) => (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  const chain = (list) => {
+    const made = [];
+    for (const p of list) {
+      while (made.length > 1 && turn(made[made.length - 2], made[made.length - 1], p) <= 0) made.pop();
+      made.push(p);
+    }
+    return made.slice(0, -1);
+  };
+  return [...chain(sorted), ...chain(sorted.reverse())];
+}
+function boxEdges(corners) {
+  const edges = [];
+  corners.forEach((a, i) => corners.slice(i + 1).forEach((b) => {
+    if ([0, 1, 2].filter((k) => a[k] !== b[k]).length === 1) edges.push([a, b]);
+  }));
+  return edges;
+}
+
+// src/alhazen/explain/page/span_bars.ts
+var SIGNS = { union: "\u222A", intersection: "\u2229", difference: "\u2212" };
+function spanBars(root2, data) {
+  const solids = data.solids;
+  if (!solids.length) {
+    root2.append(element("p", {}, "The eye ray enters no solid."));
+    return;
+  }
+  const ends = solids.flatMap((s) => allEnds(s.combination ?? s)).filter(isFinite);
+  const lo = Math.min(...ends), hi = Math.max(...ends), room = 0.06 * (hi - lo || 1);
+  const range = [Math.max(0, lo - room), hi + room];
+  const rows = element("div", { class: "spans" });
+  for (const solid of solids) {
+    const block = element("div", { class: "solid" });
+    block.append(bar(solid.name, solid.spans, range, 0, true));
+    if (solid.combination) {
+      const more = element("details", { open: solids.length < 4 }, element("summary", {}, "how its leaves combine"));
+      nodeBars(more, solid.combination, range, 0);
+      block.append(more);
+    }
+    rows.append(block);
+  }
+  rows.append(axis(range));
+  root2.append(rows);
+}
+function isFinite(t) {
+  return t !== null;
+}
+function allEnds(node) {
+  return [...node.spans.flat(), ...(node.operands ?? []).flatMap(allEnds)];
+}
+var labelOf = (node) => node.operator ? `${SIGNS[node.operator]} ${node.operator}` : node.name ?? "";
+function nodeBars(root2, node, range, depth) {
+  root2.append(bar(labelOf(node), node.spans, range, depth, !!node.operator));
+  for (const operand of node.operands ?? []) nodeBars(root2, operand, range, depth + 1);
+  if (node.operator && node.operands && node.operands.length > 1) root2.append(rothTable(node, node.operator, node.operands));
+}
+function bar(label, spans, range, depth, strong) {
+  const at = (t) => 100 * ((t ?? range[1]) - range[0]) / (range[1] - range[0]);
+  const text = spans.length ? spans.map(([a, b]) => `${number(a)} to ${number(b)}`).join(", ") : "nowhere";
+  const track = element("svg:svg", {
+    class: "track",
+    viewBox: "0 0 100 10",
+    preserveAspectRatio: "none",
+    role: "img",
+    "aria-label": `${label}: inside from ${text}`
+  });
+  track.append(element("svg:rect", { class: "line", x: 0, y: 4.7, width: 100, height: 0.6 }));
+  for (const [a, b] of spans) {
+    track.append(element("svg:rect", {
+      class: strong ? "in strong" : "in",
+      x: at(a),
+      y: 1,
+      height: 8,
+      width: Math.max(0.3, Math.min(100, at(b)) - at(a))
+    }));
+  }
+  const name = element("span", { class: "name" }, label);
+  name.style.paddingLeft = `${depth}rem`;
+  return element("div", { class: spans.length ? "bar" : "bar none" }, name, track, element("span", { class: "soft number" }, text));
+}
+function axis(range) {
+  const marks = [0, 0.25, 0.5, 0.75, 1].map((u) => {
+    const mark = element("span", {}, `${u === 0 ? "t = " : ""}${number(range[0] + u * (range[1] - range[0]))}`);
+    return mark;
+  });
+  return element("div", { class: "bar axis" }, element("span"), element("div", { class: "marks soft" }, ...marks), element("span"));
+}
+function rothTable(node, operator, operands) {
+  const changes = [...new Set(operands.flatMap((o) => o.spans.flat()).filter(isFinite))].sort((a, b) => a - b);
+  const inside = (spans, a, b) => spans.some(([from, to]) => (from ?? -Infinity) <= a && b <= (to ?? Infinity));
+  const cell = (yes) => element("td", { class: yes ? "yes" : "no" }, yes ? "in" : "out");
+  const rows = changes.slice(0, -1).map((a, i) => [a, changes[i + 1]]).map(([a, b]) => element(
+    "tr",
+    {},
+    element("th", { scope: "row" }, `${number(a)} \u2013 ${number(b)}`),
+    ...operands.map((o) => cell(inside(o.spans, a, b))),
+    cell(inside(node.spans, a, b))
+  ));
+  if (!rows.length) return "";
+  const heads = ["stretch of t", ...operands.map((o, i) => (i ? `${SIGNS[operator]} ` : "") + labelOf(o)), "result"];
+  return element(
+    "details",
+    { class: "roth" },
+    element("summary", {}, `table of the ${operator}`),
+    scrolling(`Table of the ${operator}`, element("table", {}, headRow(heads), element("tbody", {}, ...rows)))
+  );
+}
+
+// src/alhazen/explain/page/traversal_steps.ts
+var TraversalSteps = class {
+  constructor(root2, traversal, view) {
+    this.view = view;
+    const { steps, accelerator, work } = traversal;
+    this.steps = steps;
+    this.range = element("input", { type: "range", min: 0, max: steps.length, value: 0, "aria-label": "Step", input: () => this.show() });
+    this.text = element("output", { class: "step", "aria-live": "polite" });
+    const move = (by) => () => {
+      this.range.value = String(Number(this.range.value) + by);
+      this.show();
+    };
+    const play = element("button", { type: "button", click: () => this.play() }, "Play");
+    this.playButton = play;
+    root2.append(
+      element("p", {}, `Steps of `, element("b", {}, accelerator), ` for the eye ray, in their order; drawn in space above.`),
+      element(
+        "div",
+        { class: "stepper" },
+        element("button", { type: "button", "aria-label": "One step back", click: move(-1) }, "\u25C0"),
+        element("button", { type: "button", "aria-label": "One step on", click: move(1) }, "\u25B6"),
+        play,
+        this.range
+      ),
+      this.text
+    );
+    const tested = element("ol", { class: "candidates" });
+    this.items = steps.map((s, i) => element("li", { class: s.kind }, element("button", {
+      type: "button",
+      class: "link",
+      click: () => {
+        this.range.value = String(i + 1);
+        this.show();
+      }
+    }, this.describe(s))));
+    tested.append(...this.items);
+    root2.append(
+      element("details", {}, element("summary", {}, `all ${steps.length} steps`), tested),
+      traversal.left_out ? element("p", { class: "cut" }, `The steps are cut: ${traversal.left_out} more are not shown.`) : "",
+      this.table(work)
+    );
+    this.show();
+  }
+  steps;
+  range;
+  text;
+  playButton;
+  items;
+  timer;
+  describe(s) {
+    if (s.kind === "cell") return `cell ${s.number} entered`;
+    if (s.kind === "bound") return `bound of node ${s.number}: ${s.met ? "met" : "missed"}`;
+    if (s.kind === "beam") return "region swept by the class of the ray";
+    return `\u2018${s.object}\u2019 tested: ${s.met ? "hit" : "no hit"}`;
+  }
+  show() {
+    const at = Number(this.range.value);
+    const step = this.steps.at(at - 1);
+    this.text.textContent = `Step ${at} of ${this.steps.length}${at > 0 && step ? `: ${this.describe(step)}` : ""}`;
+    this.items.forEach((item, i) => item.classList.toggle("current", i === at - 1));
+    this.view.step = at - 1;
+    this.view.draw();
+  }
+  play() {
+    if (this.timer !== void 0) return this.stop();
+    if (Number(this.range.value) >= this.steps.length) this.range.value = "0";
+    this.playButton.textContent = "Stop";
+    this.timer = setInterval(() => {
+      this.range.value = String(Number(this.range.value) + 1);
+      this.show();
+      if (Number(this.range.value) >= this.steps.length) this.stop();
+    }, Math.max(40, Math.min(600, 8e3 / (this.steps.length || 1))));
+  }
+  stop() {
+    clearInterval(this.timer);
+    this.timer = void 0;
+    this.playButton.textContent = "Play";
+  }
+  table(work) {
+    const columns = ["node_visits", "empty_cells", "box_tests", "primitive_tests", "mailbox_saved"];
+    const heads = ["accelerator", "nodes or cells", "empty cells", "bounds tested", "primitives tested", "saved by mailbox", "t of the hit"];
+    return scrolling("Work of accelerators", element(
+      "table",
+      {},
+      element("caption", {}, "Work for this ray"),
+      headRow(heads),
+      element("tbody", {}, ...work.map((w) => element(
+        "tr",
+        {},
+        element("th", { scope: "row" }, w.accelerator),
+        ...w.unavailable ? [element("td", { colspan: 6 }, w.unavailable)] : [...columns.map((c) => element("td", {}, String(w[c]))), element("td", {}, number(w.t))]
+      )))
+    ));
+  }
+};
+
+// src/alhazen/explain/page/explanation_view.ts
+function showExplanation(root2, data, picture) {
+  const rays = raysOf(data.tree);
+  let view, outline;
+  const select = (ray, reveal = true) => {
+    view.select(ray);
+    outline.select(ray, reveal);
+  };
+  const canvas = element("canvas", { class: "space", tabindex: "0", role: "img", "aria-label": `${rays.length} rays in space. Arrow keys turn the view, plus and minus come nearer, 0 goes back.` });
+  const section = (id, title, ...children) => element(
+    "section",
+    { id, "aria-labelledby": `${id}-title` },
+    element("h2", { id: `${id}-title` }, title),
+    ...children
+  );
+  const tree = element("div", { class: "outline" });
+  const cones = element("div"), beams = element("div"), patches = element("div", { class: "plots" });
+  const spans = element("div"), plots = element("div", { class: "plots" }), steps = element("div");
+  root2.replaceChildren(
+    header(data, picture),
+    element(
+      "div",
+      { class: "top" },
+      section("space", "The rays in space", canvas, legend(data, () => view)),
+      section(
+        "tree",
+        "The tree of rays",
+        element(
+          "p",
+          { class: "soft" },
+          "I = ke + \u03A3 ka Ia + \u03A3 S I [kd (N\xB7L) + ks highlight] + kr I(reflected) + kt I(refracted). The numbers are those of the renderer; each table adds up to the colour of its ray."
+        ),
+        data.cut === false ? null : element("p", { class: "cut" }, `The tree is cut at depth ${data.cut}: deeper ones have too many rays to be shown. All colours here are those of a picture of that depth.`),
+        tree
+      )
+    ),
+    data.cones ? section("cones", "Cones and what covers them", cones) : "",
+    data.beams ? section("beams", "Pieces of the beams", beams) : "",
+    section("spans", "Inside which solids the eye ray is", spans),
+    data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
+    data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
+    data.traversal ? section("steps", "How the first surface is found", steps) : "",
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : ""
+  );
+  view = new SceneView(canvas, data, rays, select);
+  outline = new RayOutline(tree, data, select);
+  spanBars(spans, data);
+  polynomialPlots(plots, data);
+  patchParts(patches, data);
+  if (data.cones) new ConeTree(cones, data.cones, view);
+  if (data.beams) beamPieces(beams, data, data.beams);
+  if (data.traversal) new TraversalSteps(steps, data.traversal, view);
+  select(rays[0], false);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());
+  return { view, outline, select };
+}
+function header(data, picture) {
+  const facts = [
+    `(${triple(data.pixel)})`,
+    `${data.width} \xD7 ${data.height}`,
+    `depth ${data.max_depth}`,
+    `${data.samples.length} sample${data.samples.length > 1 ? `s, number ${data.sample} shown` : ""}`,
+    ...Object.entries(data.rays).filter(([, n]) => n).map(([kind, n]) => `${n} ${kind}`)
+  ];
+  const head = element("header", {}, element(
+    "div",
+    {},
+    element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
+    element("p", { class: "soft" }, facts.join(" \xB7 "))
+  ));
+  if (picture) {
+    const image = element("img", { src: picture, alt: `The scene; the pixel is marked` });
+    const mark = element("span", { class: "mark", "aria-hidden": "true" });
+    mark.style.left = `${100 * (data.x + 0.5) / data.width}%`;
+    mark.style.top = `${100 * (data.y + 0.5) / data.height}%`;
+    head.append(element("div", { class: "preview" }, image, mark));
+  }
+  return head;
+}
+function legend(data, view) {
+  const shadows = element("input", { type: "checkbox", checked: true, change: () => {
+    view().showShadows = shadows.checked;
+    view().draw();
+  } });
+  const kinds = Object.entries(KINDS).filter(([kind]) => data.rays[kind]);
+  return element(
+    "div",
+    { class: "legend" },
+    ...kinds.map(([kind, text]) => element("span", { class: kind }, element("i", { class: "key", "aria-hidden": "true" }), text)),
+    element("label", {}, shadows, " show shadow rays"),
+    element("button", { type: "button", click: () => view().home() }, "Home view")
+  );
+}
+function sampleTable(data) {
+  const plot = element(
+    "svg:svg",
+    { class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel" },
+    element("svg:rect", { class: "frame", x: 0, y: 0, width: 100, height: 100 })
+  );
+  data.samples.forEach((s, i) => {
+    const dot2 = element("svg:circle", {
+      cx: 100 * s.place[0],
+      cy: 100 * s.place[1],
+      r: i === data.sample ? 5 : 3.5,
+      class: i === data.sample ? "chosen" : ""
+    });
+    dot2.style.fill = css(s.radiance);
+    plot.append(dot2);
+  });
+  const rows = data.samples.map((s, i) => element(
+    "tr",
+    {},
+    element("th", { scope: "row" }, String(i)),
+    ...s.radiance.map((c) => element("td", {}, number(c))),
+    element("td", {}, swatch(s.radiance))
+  ));
+  return element("div", { class: "samples" }, plot, scrolling("Samples", element(
+    "table",
+    {},
+    headRow(["sample", "red", "green", "blue", ""]),
+    element("tbody", {}, ...rows)
+  )));
+}
+
+// src/alhazen/explain/page/explanation.ts
+var textOf = (id) => document.getElementById(id)?.textContent ?? "null";
+var root = document.getElementById("explanation");
+if (root) showExplanation(root, JSON.parse(textOf("data")), JSON.parse(textOf("preview")));

@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+"""The WebSocket of `alhazen view`: who may open it, what it refuses, and what comes over it when.
+
+Usage: view_socket_test.py ALHAZEN
+"""
+
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+from view_server import SCENE, WISH, Server
+
+ALHAZEN = sys.argv[1]
+# Processor time is shared with a sanitizer, say.
+SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
+# Minutes of work.
+LONG = {**WISH, "width": 2000, "height": 1500, "samples": 1024, "raw": True}
+
+
+class ViewSocket(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.scene = pathlib.Path(cls.temporary.name) / "scene.alhazen"
+        cls.scene.write_text(SCENE, encoding="utf-8")
+        cls.server = Server(ALHAZEN, cls.scene)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.close()
+        cls.temporary.cleanup()
+
+    def socket_of(self, **change):
+        frames = self.server.frames(**change)
+        self.addCleanup(frames.close)
+        return frames
+
+    def open(self):
+        frames = self.server.open_frames()
+        self.addCleanup(frames.close)
+        return frames
+
+    # ---- who may open it, and what it refuses
+    def test_a_socket_is_for_the_page_of_this_server(self):
+        for origin in (None, "null", "http://evil.com", f"https://{self.server.host}"):
+            self.assertEqual(self.socket_of(Origin=origin).status, 403, origin)
+        self.assertEqual(self.socket_of(Host="evil.com", Origin="http://evil.com").status, 403)
+
+    def test_a_socket_needs_the_token_first(self):
+        for first in ({"token": "0" * 32}, {"token": 1}, {**WISH, "id": 1}, [], b"{"):
+            frames = self.socket_of()
+            frames.send(first)
+            self.assertEqual(frames.end(), 1008, first)
+
+    def test_a_socket_without_a_token_is_let_go(self):
+        frames = self.socket_of()
+        begin = time.monotonic()
+        self.assertEqual(frames.receive()[0], 8)
+        self.assertLess(time.monotonic() - begin, 8)
+
+    def test_before_the_token_a_socket_takes_little(self):
+        frames = self.socket_of()
+        frames.send(b'{"token": "' + b"0" * 2000 + b'"}')
+        self.assertIn(frames.end(), (1009, 0))
+
+    def test_a_socket_refuses_what_breaks_the_protocol(self):
+        for send, codes in ((lambda f: f.send(WISH, masked=False), (1002, 0)), (lambda f: f.send(b"x" * (1 << 20 | 1)), (1009, 0)),
+                            (lambda f: f.send(b"x", 3), (1002, 0)), (lambda f: f.send(b"{"), (1007,)),
+                            (lambda f: f.send(b"\xff\xff"), (1007, 0)), (lambda f: f.send(b"x", 0), (1002, 0))):
+            frames = self.open()
+            send(frames)
+            self.assertIn(frames.end(), codes)
+        self.assertEqual(self.server.ask("/state", {})[0], 200)
+
+    # ---- pictures
+    def test_a_socket_takes_fragments_and_sends_pixels(self):
+        frames = self.open()
+        text = json.dumps({**WISH, "id": 7, "raw": True}).encode()
+        frames.send(text[:50], 1, last=False)
+        frames.send(text[50:], 0)
+        head, body = frames.picture()
+        self.assertEqual((head["id"], head["status"]), (7, 200))
+        self.assertEqual(len(body), 4 * head["facts"]["width"] * head["facts"]["height"])
+        self.assertEqual(body[3::4], b"\xff" * (80 * 60))
+
+    def test_of_many_wishes_the_newest_is_shown_and_none_waits(self):
+        frames = self.open()
+        for i in range(200):
+            frames.send({**WISH, "id": i, "raw": True, "moving": True})
+        ids = []
+        while not ids or ids[-1] < 199:
+            ids.append(frames.picture()[0]["id"])
+            frames.send({"shown": ids[-1]})
+        self.assertEqual(ids, sorted(ids))
+        self.assertLess(len(ids), 200)
+
+    def test_a_slow_client_has_one_picture_on_its_way(self):
+        frames = self.open()
+        for i in range(3):
+            frames.send({**WISH, "id": i, "raw": True, "moving": True})
+            time.sleep(0.3)
+        self.assertEqual(frames.picture()[0]["id"], 0)
+        frames.send({"shown": 0})
+        self.assertEqual(frames.picture()[0]["id"], 2)
+
+    def test_a_frame_is_ended_within_100_ms_of_a_newer_wish(self):
+        frames = self.open()
+        alone, after, most = [], [], 0.1 * SLOWDOWN
+        # Other programs run beside this one: one of twenty is enough.
+        for i in range(20):
+            if after and min(after) - min(alone) < most:
+                break
+            begin = time.monotonic()
+            frames.send({**WISH, "id": 2 * i, "raw": True})
+            self.assertEqual(frames.picture()[0]["id"], 2 * i)
+            alone.append(time.monotonic() - begin)
+            frames.send({"shown": 2 * i})
+            frames.send({**LONG, "id": 1000})
+            time.sleep(0.3)
+            begin = time.monotonic()
+            frames.send({**WISH, "id": 2 * i + 1, "raw": True})
+            # The one that was ended says so, or its answer gave way to the newer one's.
+            while (head := frames.picture()[0])["id"] == 1000:
+                self.assertEqual(head["status"], 204)
+                frames.send({"shown": 1000})
+            self.assertEqual((head["id"], head["status"]), (2 * i + 1, 200))
+            after.append(time.monotonic() - begin)
+            frames.send({"shown": 2 * i + 1})
+        self.assertLess(min(after) - min(alone), most, after)
+
+    def test_who_does_not_read_holds_little_memory(self):
+        frames = self.open()
+        wish = {**WISH, "width": 640, "height": 480, "raw": True, "moving": True}  # 1.2 MB
+        # Every thread of the server has drawn: what the system's allocator keeps is there.
+        for i in range(50):
+            frames.send({**wish, "id": i})
+            frames.picture()
+            frames.send({"shown": i})
+        before = self.server.state()["memory"]
+        for i in range(50, 150):
+            frames.send({**wish, "id": i})
+            frames.send({"shown": i - 1})  # a lie
+            time.sleep(0.03)
+        self.assertLess(self.server.state()["memory"] - before, 32 << 20)
+        ids = [frames.picture()[0]["id"]]
+        while ids[-1] != 149:
+            frames.send({"shown": ids[-1]})
+            ids.append(frames.picture()[0]["id"])
+        self.assertLess(len(ids), 50)
+
+    def test_eight_clients_have_their_frames_and_a_ninth_is_refused(self):
+        # Connections of other tests may still be there for a moment.
+        clients, begin = [], time.monotonic()
+        while len(clients) < 8:
+            frames = self.server.frames()
+            if frames.status == 101:
+                frames.send({"token": self.server.token})
+                clients.append(frames)
+                self.addCleanup(frames.close)
+            else:
+                frames.close()
+                self.assertLess(time.monotonic() - begin, 10)
+                time.sleep(0.1)
+        self.assertEqual(self.socket_of().status, 503)
+        self.assertEqual(self.server.ask("/state", {})[0], 503)
+        heads = [None] * 8
+
+        def use(k):
+            for i in range(5):
+                clients[k].send({**WISH, "id": i, "client": str(k), "raw": True})
+                heads[k] = clients[k].picture()[0]
+                clients[k].send({"shown": i})
+        threads = [threading.Thread(target=use, args=(k,)) for k in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60)
+        self.assertEqual([(h["id"], h["status"]) for h in heads], [(4, 200)] * 8)
+        clients[0].close()
+        begin = time.monotonic()
+        while self.server.ask("/state", {})[0] != 200:
+            self.assertLess(time.monotonic() - begin, 5)
+            time.sleep(0.05)
+
+    # ---- states, and signs of life
+    def test_menus_come_at_first_and_moments_as_they_change(self):
+        scene = self.scene.with_name("changing.alhazen")
+        scene.write_text(SCENE, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        self.addCleanup(server.close)
+        frames = server.open_frames()
+        self.addCleanup(frames.close)
+        state = frames.state()
+        while not state["version"]:
+            state = frames.state()
+        self.assertEqual([c["name"] for c in state["cameras"]], ["front", "side"])
+        begin = time.monotonic()
+        moment = frames.state()
+        self.assertLess(time.monotonic() - begin, 3 * SLOWDOWN)
+        self.assertNotIn("cameras", moment)
+        self.assertEqual((moment["version"], moment["error"]), (state["version"], ""))
+        scene.write_text(SCENE.replace('"side"', '"left"'), encoding="utf-8")
+        while "cameras" not in (state := frames.state()):
+            self.assertLess(time.monotonic() - begin, 20)
+        self.assertEqual([c["name"] for c in state["cameras"]], ["front", "left"])
+
+    def test_work_is_told_while_it_lasts(self):
+        frames = self.open()
+        frames.send({**WISH, "id": 1, "width": 400, "height": 300, "samples": 64, "raw": True, "client": "worker"})
+        seen = []
+        while (message := frames.message())[0] == 1:
+            seen += [w for w in json.loads(message[1])["work"] if w.get("client") == "worker"]
+        self.assertEqual(message[0], 2)
+        self.assertTrue(seen)
+        self.assertEqual({w["what"] for w in seen}, {"drawing"})
+        parts = [w.get("part", 0) for w in seen]
+        self.assertEqual(parts, sorted(parts))
+        self.assertGreater(parts[-1], 0)
+        frames.send({"shown": 1})
+        while any(w.get("client") == "worker" for w in frames.state()["work"]):
+            pass
+
+    def test_pings_are_answered_and_sent(self):
+        frames = self.open()
+        frames.state()
+        frames.send(b"here?", 9)
+        while (message := frames.receive())[0] != 10:
+            self.assertEqual(message[0], 1)
+        self.assertEqual(message[1], b"here?")
+
+    def test_a_quiet_page_stays_and_one_that_is_gone_does_not(self):
+        quiet, gone = self.open(), self.open()
+        end = []
+        thread = threading.Thread(target=lambda: end.append(self.until_closed(gone)))
+        thread.start()
+        messages = quiet.listen(8)
+        self.assertNotIn(8, [opcode for opcode, _ in messages])
+        self.assertGreaterEqual(len(messages), 7)
+        thread.join(20)
+        self.assertLess(end[0], 9)
+
+    @staticmethod
+    def until_closed(frames):
+        """Reads, and answers no ping."""
+        begin = time.monotonic()
+        while frames.receive()[0] != 8 and time.monotonic() - begin < 20:
+            pass
+        return time.monotonic() - begin
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
