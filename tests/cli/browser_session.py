@@ -11,6 +11,9 @@ import subprocess
 import time
 import urllib.request
 
+# Processor time is shared with a sanitizer, say.
+SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
+
 
 def browser():
     for name in ("chromium", "chromium-browser", "google-chrome"):
@@ -92,6 +95,7 @@ class BrowserSession:
 
     def wait(self, expression, seconds=20):
         """Until the expression is true; the seconds that took."""
+        seconds *= SLOWDOWN
         begin = time.monotonic()
         while not self.value(expression):
             assert time.monotonic() - begin < seconds, f"not true in {seconds} s: {expression}"
