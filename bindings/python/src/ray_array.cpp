@@ -15,6 +15,20 @@ namespace {
 template <class Real>
 using Plain = py::array_t<Real, py::array::c_style>;
 
+/// A copy, of any layout and byte order.
+template <class Real>
+py::array copy_of(const py::object& numbers, const char* what) {
+    try {
+        return py::array_t<Real, py::array::c_style | py::array::forcecast>(numbers);
+    } catch (const py::error_already_set& error) {
+        if (error.matches(PyExc_MemoryError)) {
+            throw Error(ErrorKind::Resource,
+                        std::string(what) + ": no memory for a contiguous copy of the array");
+        }
+        throw Error(ErrorKind::Usage, std::string(what) + ": expected an array of numbers");
+    }
+}
+
 /// The array itself where it is contiguous and float32 or float64, else a copy as float64.
 py::array as_plain(const py::object& numbers, const char* what) {
     if (py::isinstance<py::array>(numbers)) {
@@ -24,17 +38,11 @@ py::array as_plain(const py::object& numbers, const char* what) {
         if (array.dtype().kind() == 'c') {
             throw Error(ErrorKind::Usage, std::string(what) + ": expected real numbers");
         }
-        // Of any layout and byte order.
         if (array.dtype().kind() == 'f' && array.itemsize() == sizeof(float)) {
-            return py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(array);
+            return copy_of<float>(array, what);
         }
     }
-    auto copy = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(numbers);
-    if (!copy) {
-        PyErr_Clear();
-        throw Error(ErrorKind::Usage, std::string(what) + ": expected an array of numbers");
-    }
-    return copy;
+    return copy_of<double>(numbers, what);
 }
 
 std::string shape_text(const py::array& array) {

@@ -189,6 +189,12 @@ class Arrays(unittest.TestCase):
         with self.assertRaises(alhazen.SceneError):
             alhazen.Scene(np.full((3, 3), np.nan), [[0, 1, 2]])
 
+    def test_arrays_too_large_to_copy_are_errors(self):
+        for dtype in (np.float32, np.float64, np.int64):
+            rays = np.broadcast_to(np.zeros(6, dtype), (10**11, 6))
+            with self.assertRaisesRegex(alhazen.ResourceError, "no memory"):
+                self.scene.intersect(rays)
+
     def test_all_types_of_faces_are_taken(self):
         vertices, faces = cube()
         for dtype in (np.int32, np.int64, np.uint32, np.uint8, ">i4"):

@@ -61,8 +61,7 @@ struct Ggx {
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
         const Vec3 h = Vec3{radius * std::cos(angle), radius * std::sin(angle), z} + s;
         // A view along the surface may see the facet that leans away from it edge-on.
-        return h == Vec3{} ? Vec3{0, 0, 1}
-                           : normalize(Vec3{x * h.x, y * h.y, std::max(h.z, 0.0)});
+        return h == Vec3{} ? Vec3{0, 0, 1} : normalize(Vec3{x * h.x, y * h.y, std::max(h.z, 0.0)});
     }
 };
 
