@@ -45,7 +45,7 @@ Polygon triangle_at(const Vec3& p) {
     return polygon({p, p + Vec3{1, 0, 0}, p + Vec3{0, 1, 0}});
 }
 
-TEST(SceneObjects, PolygonsThatShareCornersAreOneObject) {
+TEST(SceneObjects, PolygonsThatShareSidesAreOneObject) {
     SceneMaker maker;
     const MaterialId light = bright(maker);
     maker.add(Sphere{{-1, 1, 0}, 0.2}, light);
@@ -71,10 +71,26 @@ TEST(SceneObjects, PolygonsApartAndOfOtherMaterialsStayObjects) {
     maker.add(triangle_at({0, 0, 1e-9}), light);
     EXPECT_EQ(SceneObjects(*maker.compile().aggregate).objects().size(), 2U);
     maker.add(triangle_at({1, 0, 0}), light);  // shares a corner with the first
+    EXPECT_EQ(SceneObjects(*maker.compile().aggregate).objects().size(), 3U);
+    maker.add(polygon({{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), light);  // sides with both
     maker.add(triangle_at({0, 1, 0}), other);
     maker.add(triangle_at({0, 1, 0}), light);
     maker.description().objects[0].parts.back().visible_to = mask_of(RayKind::Shadow);
     EXPECT_EQ(SceneObjects(*maker.compile().aggregate).objects().size(), 4U);
+}
+
+TEST(SceneObjects, TouchingSolidsStayTwo) {
+    SceneMaker maker;
+    const MaterialId light = bright(maker);
+    const std::vector<Polygon> box = faces({0, 0, 0}, 0.5);
+    // A corner of one is the opposite corner of the other, to the last bit.
+    const Vec3 step = box[1].vertices[2] - box[0].vertices[0];
+    for (Polygon face : box) {
+        maker.add(face, light);
+        for (Vec3& v : face.vertices) v = v == box[0].vertices[0] ? box[1].vertices[2] : v + step;
+        maker.add(face, light);
+    }
+    EXPECT_EQ(SceneObjects(*maker.compile().aggregate).objects().size(), 2U);
 }
 
 TEST(SceneObjects, JoinedPolygonsOfAnInstanceMoveWithIt) {
@@ -140,7 +156,7 @@ TEST(ObjectSearch, WhatStaysHiddenCostsEyeRaysAlone) {
     EXPECT_EQ(p.counts().below_depth, 1U);
     EXPECT_GT(p.counts().searching, 100U);
     const RayCounters& with = p.report.counters;
-    EXPECT_EQ(with[RayKind::Eye].cast, p.counts().total_points() + p.counts().searching);
+    EXPECT_EQ(with[RayKind::Eye].cast, p.counts().eye_rays());
     const auto total = [&](const char* channel) {
         const LayerChannel* found = aovs.layers().find(channel);
         return std::accumulate(found->values.begin(), found->values.end(), 0.0) +

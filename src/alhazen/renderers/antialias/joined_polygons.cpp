@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "alhazen/primitives/primitive_columns.h"
+#include "alhazen/renderers/antialias/disjoint_sets.h"
 #include "alhazen/renderers/antialias/mesh_pieces.h"
 
 namespace alhazen {
@@ -13,28 +17,46 @@ namespace {
 
 constexpr std::uint32_t kNoObject = ~0u;
 
-/// Polygons that may be joined, as fans of triangles: vertices are those of the polygons.
+/// Polygons that may be joined.
 struct PolygonGroup {
-    TriangleMesh fans;
-    std::vector<std::uint32_t> shapes;          ///< [polygon]
-    std::vector<std::uint32_t> first_vertices;  ///< [polygon]
-    double off_plane = 0;                       ///< how far surfaces lie from their corners at most
+    std::vector<Vec3> positions;                  ///< of their corners, polygon by polygon
+    std::vector<std::uint32_t> shapes;            ///< [polygon]
+    std::vector<std::uint32_t> first_corners{0};  ///< [polygon], and the number of corners
+    double off_plane = 0;  ///< how far surfaces lie from their corners at most
 
     void add(std::uint32_t shape, const Polygon& polygon, const Affine& outer_from_inner,
              double stretch) {
-        const auto first = static_cast<std::uint32_t>(fans.positions.size());
         shapes.push_back(shape);
-        first_vertices.push_back(first);
-        for (const Vec3& v : polygon.vertices) {
-            fans.positions.push_back(outer_from_inner.point(v));
-        }
-        const auto end = static_cast<std::uint32_t>(fans.positions.size());
-        for (std::uint32_t v = first + 1; v + 1 < end; ++v) {
-            fans.triangles.push_back({first, v, v + 1});
-        }
+        for (const Vec3& v : polygon.vertices) positions.push_back(outer_from_inner.point(v));
+        first_corners.push_back(static_cast<std::uint32_t>(positions.size()));
         off_plane = std::max(off_plane, stretch * polygon.off_plane);
     }
+    [[nodiscard]] std::span<const Vec3> corners(std::size_t polygon) const {
+        return std::span(positions).subspan(first_corners[polygon],
+                                            first_corners[polygon + 1] - first_corners[polygon]);
+    }
 };
+
+/// The polygons that are connected by common sides.
+DisjointSets connected(const PolygonGroup& group) {
+    const std::vector<std::uint32_t> places = first_of_position(group.positions);
+    std::vector<std::uint32_t> alone(group.shapes.size());
+    std::iota(alone.begin(), alone.end(), 0u);
+    DisjointSets sets(std::move(alone));
+    std::unordered_map<std::uint64_t, std::uint32_t> of_side;
+    for (std::uint32_t p = 0; p < group.shapes.size(); ++p) {
+        const std::uint32_t end = group.first_corners[p + 1];
+        std::uint32_t from = places[end - 1];
+        for (std::uint32_t v = group.first_corners[p]; v < end; ++v) {
+            const std::uint32_t to = places[v];
+            const std::uint64_t side = std::uint64_t{std::min(from, to)} << 32 | std::max(from, to);
+            const auto [first, is_new] = of_side.try_emplace(side, p);
+            if (!is_new) sets.unite(first->second, p);
+            from = to;
+        }
+    }
+    return sets;
+}
 
 }  // namespace
 
@@ -61,16 +83,22 @@ JoinedPolygons::JoinedPolygons(const PrimitiveTable& table) {
     std::vector<std::uint32_t> first(shapes, kNoObject);
     std::vector<BoundingSphere> around(shapes);
     for (auto& [key, group] : groups) {
-        const MeshPieces pieces(group.fans);
-        std::vector<std::uint32_t> first_of_piece(pieces.pieces.size(), kNoObject);
-        for (std::size_t p = 0; p < group.shapes.size(); ++p) {
-            const std::uint32_t shape = group.shapes[p];
-            const std::uint32_t piece = pieces.of_vertex[group.first_vertices[p]];
-            std::uint32_t& of_piece = first_of_piece[piece];
-            if (of_piece == kNoObject) of_piece = shape;
-            first[shape] = of_piece;
-            around[shape] = pieces.pieces[piece].sphere;
-            around[shape].radius += group.off_plane;
+        DisjointSets sets = connected(group);
+        const auto count = static_cast<std::uint32_t>(group.shapes.size());
+        std::vector<Box3> boxes(count);
+        for (std::uint32_t p = 0; p < count; ++p) {
+            for (const Vec3& v : group.corners(p)) boxes[sets.find(p)].include(v);
+        }
+        for (std::uint32_t p = 0; p < count; ++p) {
+            const std::uint32_t root = sets.find(p);
+            const std::uint32_t shape = group.shapes[root];
+            first[group.shapes[p]] = shape;
+            BoundingSphere& sphere = around[shape];
+            sphere.center = boxes[root].center();
+            for (const Vec3& v : group.corners(p)) {
+                sphere.radius = std::max(
+                    sphere.radius, (1.0 + 1e-15) * length(v - sphere.center) + group.off_plane);
+            }
         }
     }
     of_shape.resize(shapes);

@@ -1,9 +1,9 @@
 #pragma once
-/// The polygons of a table that share corners, as single objects: the faces of a solid, the tiles
-/// of a surface.
+/// The polygons of a table that share sides, as single objects: the faces of a solid, the tiles of
+/// a surface.
 ///
-/// Polygons of one material, seen by the same rays, are joined where they have a corner of the same
-/// position (mesh_pieces.h).
+/// Polygons of one material, seen by the same rays, are joined where the ends of two sides have the
+/// same positions. Solids that touch in a corner stay two.
 /// Complexity: almost linear in the corners.
 
 #include <cstdint>

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+
+#include "alhazen/renderers/antialias/disjoint_sets.h"
 
 namespace alhazen {
 
@@ -21,7 +22,8 @@ std::uint64_t position_hash(const Vec3& p) {
     return hash;
 }
 
-/// [vertex] the first vertex of the same position.
+}  // namespace
+
 std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& positions) {
     const std::size_t slots = std::bit_ceil(2 * positions.size() + 1);
     std::vector<std::uint32_t> table(slots, kNoPiece), first(positions.size());
@@ -36,27 +38,6 @@ std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& positions)
     return first;
 }
 
-/// Sets of vertices, each named by its least vertex.
-class VertexSets {
-  public:
-    explicit VertexSets(std::vector<std::uint32_t> parents) : parents_(std::move(parents)) {}
-
-    std::uint32_t find(std::uint32_t v) {
-        while (parents_[v] != v) v = parents_[v] = parents_[parents_[v]];
-        return v;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parents_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parents_;
-};
-
-}  // namespace
-
 double stretch_bound(const Mat3& m) {
     const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
     double most = 0;
@@ -69,7 +50,7 @@ double stretch_bound(const Mat3& m) {
 }
 
 MeshPieces::MeshPieces(const TriangleMesh& mesh) : of_vertex(mesh.positions.size(), kNoPiece) {
-    VertexSets sets(first_of_position(mesh.positions));
+    DisjointSets sets(first_of_position(mesh.positions));
     for (const auto& corners : mesh.triangles) {
         sets.unite(corners[0], corners[1]);
         sets.unite(corners[0], corners[2]);

@@ -2,7 +2,6 @@
 /// The connected pieces of a triangle mesh: triangles that share a vertex, or vertices of one
 /// position, belong to one piece.
 ///
-/// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", J. ACM 22(2), 1975.
 /// Conventions: pieces are numbered in the order of their first triangles.
 /// Complexity: almost linear in vertices and triangles; 12 bytes per vertex while it works.
 
@@ -17,6 +16,9 @@ namespace alhazen {
 
 /// Upper bound of the stretch of a map; see most_stretch in primitive_bounds.cpp.
 [[nodiscard]] double stretch_bound(const Mat3& m);
+
+/// [vertex] the first vertex of the same position.
+[[nodiscard]] std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& positions);
 
 struct MeshPieces {
     struct Piece {
