@@ -60,7 +60,7 @@ nlohmann::ordered_json antialias_json(const SceneDescription& description,
     json whole{
         {"rays_by_level", r.points},
         {"divided_by_level", r.divided},
-        {"rays_per_pixel", static_cast<double>(r.total_points()) / static_cast<double>(r.pixels)}};
+        {"rays_per_pixel", static_cast<double>(r.eye_rays()) / static_cast<double>(r.pixels)}};
     if (!r.guarantee) return whole;
     json named = json::array();
     for (const UnmetObject& unmet : r.unmet) {

@@ -296,8 +296,7 @@ TEST(Antialias, ThreadsChangeNoBitAndNoCount) {
             for (int x = 0; x < kSide; ++x) EXPECT_EQ(one.film.at(x, y), four.film.at(x, y));
         }
         EXPECT_EQ(one.report.counters.total_cast(), four.report.counters.total_cast());
-        EXPECT_EQ(one.report.counters[RayKind::Eye].cast,
-                  one.counts().total_points() + one.counts().searching);
+        EXPECT_EQ(one.report.counters[RayKind::Eye].cast, one.counts().eye_rays());
         EXPECT_EQ(one.counts().searching, four.counts().searching);
         EXPECT_EQ(one.counts().met, four.counts().met);
     };

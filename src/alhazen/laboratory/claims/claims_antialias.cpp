@@ -178,7 +178,7 @@ void claim_f2(ClaimRun& run) {
         const SampledPicture p = sampled(f.scene, renderer, kFilmSide, 1, {.antialias = &with});
         spheres += f.places.size();
         met += p.report.antialias->met;
-        rays += p.report.antialias->total_points();
+        rays += p.report.antialias->eye_rays();
         guaranteed.add(p.film, f.places);
         unguaranteed.add(sampled(f.scene, renderer, kFilmSide, 1, {.antialias = &without}).film,
                          f.places);

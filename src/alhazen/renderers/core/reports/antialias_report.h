@@ -33,11 +33,13 @@ struct AntialiasReport {
     std::vector<UnmetObject> unmet;        ///< the first of these
     double seconds = 0;                    ///< for the spheres: collecting, and asking the tree
 
+    /// Rays with a shade; those of the search are besides.
     [[nodiscard]] std::uint64_t total_points() const {
         std::uint64_t total = 0;
         for (const std::uint64_t n : points) total += n;
         return total;
     }
+    [[nodiscard]] std::uint64_t eye_rays() const { return total_points() + searching; }
 };
 
 }  // namespace alhazen
