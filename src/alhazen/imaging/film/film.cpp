@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "alhazen/base/error.h"
-#include "alhazen/base/huge_pages.h"
 
 namespace alhazen {
 
@@ -15,9 +14,6 @@ Film::Film(int frame_width, int frame_height, const PixelBox& crop)
                     fmt::format("crop {},{},{},{} is empty or leaves the {}x{} picture", crop.x0,
                                 crop.y0, crop.x1, crop.y1, frame_width, frame_height));
     }
-    // Zeroed in huge pages: a fault for each small one costs more than many a picture.
-    samples_.reserve(crop.area());
-    prefer_huge_pages(samples_.data(), crop.area() * sizeof(Rgb));
     samples_.resize(crop.area());
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "alhazen/base/huge_pages.h"
 #include "alhazen/imaging/image/image.h"
 
 namespace alhazen {
@@ -48,7 +49,7 @@ class Film {
 
     int frame_width_, frame_height_;
     PixelBox crop_;
-    std::vector<Rgb> samples_;
+    HugeVector<Rgb> samples_;  // 4 KiB pages of a large film cost thousands of faults
 };
 
 /// The tiles of the crop, of at most `tile_size` squared pixels, row by row.
