@@ -3,12 +3,16 @@
 import base64
 import json
 import os
+import pathlib
 import re
 import socket
 import struct
 import subprocess
+import sys
+import tempfile
 import threading
 import time
+import unittest
 
 SCENE = """alhazen 1
 picture { width = 160; height = 120; background = (0.1, 0.15, 0.3) }
@@ -203,3 +207,19 @@ class FrameSocket:
     def close(self):
         self.stream.close()
         self.socket.close()
+
+
+class ServerTest(unittest.TestCase):
+    """Tests of one server of `SCENE`; the program is the first argument."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.scene = pathlib.Path(cls.temporary.name) / "scene.alhazen"
+        cls.scene.write_text(SCENE, encoding="utf-8")
+        cls.server = Server(sys.argv[1], cls.scene)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.close()
+        cls.temporary.cleanup()

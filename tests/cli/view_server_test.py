@@ -11,29 +11,15 @@ import socket
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-from view_server import DEEP, SCENE, WISH, Server
+from view_server import DEEP, SCENE, WISH, Server, ServerTest
 
 ALHAZEN = sys.argv[1]
 
 
-
-class ViewServer(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.scene = pathlib.Path(cls.temporary.name) / "scene.alhazen"
-        cls.scene.write_text(SCENE, encoding="utf-8")
-        cls.server = Server(ALHAZEN, cls.scene)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.server.close()
-        cls.temporary.cleanup()
-
+class ViewServer(ServerTest):
     def status(self, path="/state", body=None, method="POST", **change):
         return self.server.ask(path, {} if body is None else body, method, **change)[0]
 

@@ -6,14 +6,12 @@ Usage: view_socket_test.py ALHAZEN
 
 import json
 import os
-import pathlib
 import sys
-import tempfile
 import threading
 import time
 import unittest
 
-from view_server import SCENE, WISH, Server
+from view_server import SCENE, WISH, Server, ServerTest
 
 ALHAZEN = sys.argv[1]
 # Processor time is shared with a sanitizer, say.
@@ -22,19 +20,7 @@ SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
 LONG = {**WISH, "width": 2000, "height": 1500, "samples": 1024, "raw": True}
 
 
-class ViewSocket(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.scene = pathlib.Path(cls.temporary.name) / "scene.alhazen"
-        cls.scene.write_text(SCENE, encoding="utf-8")
-        cls.server = Server(ALHAZEN, cls.scene)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.server.close()
-        cls.temporary.cleanup()
-
+class ViewSocket(ServerTest):
     def socket_of(self, **change):
         frames = self.server.frames(**change)
         self.addCleanup(frames.close)
