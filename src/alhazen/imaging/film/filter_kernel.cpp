@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double box_kernel(double /*x*/, double /*radius*/) {
     return 1.0;
@@ -96,33 +95,40 @@ const FilterEntry* find_filter(const std::string& name) {
 FilterKernel::FilterKernel(const FilterEntry& entry, double radius) : radius_(radius) {
     const auto place = [&](double node) { return radius * (2.0 * node / kCells - 1.0); };
     for (int node = 0; node <= kCells; ++node) {
-        values_.push_back(std::abs(entry.value(place(node), radius)));
+        const double middle = place(std::min(node + 0.5, double{kCells}));
+        const double sign = entry.value(middle, radius) < 0.0 ? -1.0 : 1.0;
+        nodes_.push_back({0.0, std::abs(entry.value(place(node), radius)), sign});
     }
     double sum = 0.0, signed_sum = 0.0;
-    shares_.push_back(0.0);
-    for (int cell = 0; cell < kCells; ++cell) {
-        const auto k = static_cast<std::size_t>(cell);
-        signs_.push_back(entry.value(place(cell + 0.5), radius) < 0.0 ? -1.0 : 1.0);
-        const double area = 0.5 * (values_[k] + values_[k + 1]);
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+        const double area = 0.5 * (nodes_[cell].magnitude + nodes_[cell + 1].magnitude);
         sum += area;
-        signed_sum += signs_[k] * area;
-        shares_.push_back(sum);
+        signed_sum += nodes_[cell].sign * area;
+        nodes_[cell + 1].share = sum;
     }
-    for (double& share : shares_) share /= sum;
-    shares_.back() = 1.0;
+    for (Node& node : nodes_) node.share /= sum;
+    nodes_.back().share = 1.0;
     if (signed_sum < sum) mean_sign_ = signed_sum / sum;
+
+    std::uint32_t cell = 0;
+    for (int k = 0; k < kCells; ++k) {
+        while (nodes_[cell + 1].share <= static_cast<double>(k) / kCells) ++cell;
+        guide_.push_back(cell);
+    }
 }
 
 FilterKernel::OneDrawn FilterKernel::draw_one(double u) const {
-    const auto above = std::upper_bound(shares_.begin(), shares_.end() - 1, u);
-    const auto cell = static_cast<std::size_t>(above - shares_.begin()) - 1;
-    const double a = values_[cell], b = values_[cell + 1];
-    const double width = shares_[cell + 1] - shares_[cell];
-    const double v = width > 0.0 ? (u - shares_[cell]) / width : 0.5;
+    std::size_t cell =
+        guide_[std::min<std::size_t>(static_cast<std::size_t>(u * kCells), kCells - 1)];
+    while (cell + 1 < kCells && nodes_[cell + 1].share <= u) ++cell;
+    const Node &from = nodes_[cell], &to = nodes_[cell + 1];
+    const double a = from.magnitude, b = to.magnitude;
+    const double width = to.share - from.share;
+    const double v = width > 0.0 ? (u - from.share) / width : 0.5;
     // The root of a t + (b - a) t^2 / 2 = v (a + b) / 2, without cancellation.
     const double root = std::sqrt(a * a + v * (b * b - a * a));
     const double t = a + root > 0.0 ? std::min(1.0, v * (a + b) / (a + root)) : v;
-    return {radius_ * (2.0 * (static_cast<double>(cell) + t) / kCells - 1.0), signs_[cell]};
+    return {radius_ * (2.0 * (static_cast<double>(cell) + t) / kCells - 1.0), from.sign};
 }
 
 }  // namespace alhazen

@@ -11,6 +11,7 @@
 /// Conventions: kernels are products of one function of x and of y, in pixels from the centre of
 /// the pixel; 0 beyond the radius. Their scale has no meaning.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,10 +65,17 @@ class FilterKernel {
     };
     [[nodiscard]] OneDrawn draw_one(double u) const;
 
+    struct Node {
+        double share;  ///< of the magnitude's integral, from the left
+        double magnitude;
+        double sign;  ///< in the cell to the right
+    };
+
     double radius_;
-    std::vector<double> values_;  ///< [node] magnitudes
-    std::vector<double> shares_;  ///< [node] of the magnitude's integral, from the left
-    std::vector<double> signs_;   ///< [cell]
+    std::vector<Node> nodes_;  ///< one more than cells
+    /// [floor(u kCells)]: a cell at or before that of u (Chen and Asau, "On Generating Random
+    /// Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974).
+    std::vector<std::uint32_t> guide_;
     double mean_sign_ = 1.0;
 };
 
