@@ -41,7 +41,7 @@ struct Split {
     [[nodiscard]] bool found() const { return axis < 3; }
 };
 
-enum class Side : std::uint8_t { Low, High, Both };
+enum class CellSide : std::uint8_t { Low, High, Both };
 
 }  // namespace
 
@@ -177,11 +177,12 @@ class KdTreeBuilder {
         return best;
     }
 
-    [[nodiscard]] static Side side_of(const Box3& b, const Split& split) {
+    [[nodiscard]] static CellSide side_of(const Box3& b, const Split& split) {
         const double lo = b.lo[split.axis], hi = b.hi[split.axis];
-        if (lo == hi && lo == split.position) return split.planar_low ? Side::Low : Side::High;
-        if (hi <= split.position) return Side::Low;
-        return lo >= split.position ? Side::High : Side::Both;
+        if (lo == hi && lo == split.position)
+            return split.planar_low ? CellSide::Low : CellSide::High;
+        if (hi <= split.position) return CellSide::Low;
+        return lo >= split.position ? CellSide::High : CellSide::Both;
     }
 
     /// The part of a piece in the box of a child; empty parts are left out there.
@@ -219,13 +220,13 @@ class KdTreeBuilder {
         };
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             switch (side_of(pieces[i].box, split)) {
-                case Side::Low:
+                case CellSide::Low:
                     place_low[i] = take(pieces[i], pieces[i].box, low);
                     break;
-                case Side::High:
+                case CellSide::High:
                     place_high[i] = take(pieces[i], pieces[i].box, high);
                     break;
-                case Side::Both:
+                case CellSide::Both:
                     take_clipped(pieces[i], low_box, low, new_low);
                     take_clipped(pieces[i], high_box, high, new_high);
             }

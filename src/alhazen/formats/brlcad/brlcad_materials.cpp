@@ -44,10 +44,6 @@ void apply(const BrlcadShader& text, Phong& phong) {
     if (!(phong.index > 0.0)) phong.index = 1.0;
 }
 
-Rgb grey(double value) {
-    return {value, value, value};
-}
-
 }  // namespace
 
 BrlcadState BrlcadState::below(const BrlcadCombination& comb) const {

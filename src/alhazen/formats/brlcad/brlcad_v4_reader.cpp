@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-std::string trimmed(std::string_view text) {
+std::string without_spaces(std::string_view text) {
     while (!text.empty() && TextCursor::is_space(text.back())) text.remove_suffix(1);
     while (!text.empty() && TextCursor::is_space(text.front())) text.remove_prefix(1);
     return std::string(text);
@@ -159,7 +159,7 @@ void BrlcadV4Reader::read_ident() {
                              "a database of version '" + version + "', read as one of version v4");
     }
     cursor_.skip_line();
-    database_.title = trimmed(cursor_.rest_of_line());
+    database_.title = without_spaces(cursor_.rest_of_line());
 }
 
 void BrlcadV4Reader::read_solid() {
@@ -200,7 +200,7 @@ void BrlcadV4Reader::read_combination() {
         if (!present) continue;
         cursor_.skip_line();
         if (!comb.shader.empty()) comb.shader += ' ';
-        comb.shader += trimmed(cursor_.rest_of_line());
+        comb.shader += without_spaces(cursor_.rest_of_line());
     }
     check_room(1);
     combination_ = {std::move(comb_name), std::move(comb), record_};

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::uint64_t kMaxIndex = 0xFFFFFFFFu;
+constexpr std::uint64_t kMaxFileElements = 0xFFFFFFFFu;
 
 bool mirrors(const Affine& placement) {
     return determinant(placement.linear) < 0.0;
@@ -171,7 +171,7 @@ std::string ply_bytes(std::span<const NamedMesh> meshes) {
         vertices += split ? 3 * from.mesh->triangles.size() : from.mesh->positions.size();
         triangles += from.mesh->triangles.size();
     }
-    if (vertices > kMaxIndex || triangles > kMaxIndex) {
+    if (vertices > kMaxFileElements || triangles > kMaxFileElements) {
         throw Error(ErrorKind::Resource, "more than 4294967295 vertices for one PLY file");
     }
     TriangleMesh whole;
@@ -192,7 +192,7 @@ std::string obj_text(std::span<const NamedMesh> meshes, const std::string& mtlli
 std::string stl_bytes(std::span<const NamedMesh> meshes) {
     std::uint64_t count = 0;
     for (const NamedMesh& from : meshes) count += from.mesh->triangles.size();
-    if (count > kMaxIndex) {
+    if (count > kMaxFileElements) {
         throw Error(ErrorKind::Resource, "more than 4294967295 triangles for one STL file");
     }
     std::string out = "binary STL by Alhazen";

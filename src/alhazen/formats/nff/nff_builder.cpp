@@ -24,10 +24,6 @@ bool is_planar(const std::vector<Vec3>& vertices, const Vec3& unit_normal) {
     return off <= 1e-4 * reach;
 }
 
-Rgb grey(double value) {
-    return {value, value, value};
-}
-
 }  // namespace
 
 NffBuilder::NffBuilder(SceneDescription& scene, const ImportOptions& options,

@@ -7,7 +7,7 @@ namespace alhazen {
 namespace {
 
 constexpr std::string_view kComments = "#%";
-constexpr int kMaxErrors = 50;
+constexpr int kMaxNffErrors = 50;
 
 struct Refusal {
     std::string_view name;
@@ -60,8 +60,8 @@ NffReader::NffReader(const ImportSource& source, SceneDescription& scene, Diagno
 }
 
 void NffReader::read() {
-    while (errors_ < kMaxErrors && cursor_.skip_to_word(kComments)) read_word();
-    if (errors_ == kMaxErrors) {
+    while (errors_ < kMaxNffErrors && cursor_.skip_to_word(kComments)) read_word();
+    if (errors_ == kMaxNffErrors) {
         diagnostics_.error(cursor_.location(file_),
                            "too many errors; the rest of the file is not read");
     }

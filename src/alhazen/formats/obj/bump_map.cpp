@@ -36,7 +36,7 @@ std::vector<double> row_of(const StoredImage& picture, int y, Channel channel) {
     return row;
 }
 
-std::uint8_t code_of(double component) {
+std::uint8_t normal_code(double component) {
     return static_cast<std::uint8_t>(std::lround(127.5 * (component + 1.0)));
 }
 
@@ -77,7 +77,7 @@ StoredImage normals_from_heights(const StoredImage& heights, const HeightMap& ma
                 const Vec3 n =
                     normalize(Vec3{-slope(here[left], here[right]),
                                    -slope(below[std::size_t(x)], above[std::size_t(x)]), 1.0});
-                codes.insert(codes.end(), {code_of(n.x), code_of(n.y), code_of(n.z)});
+                codes.insert(codes.end(), {normal_code(n.x), normal_code(n.y), normal_code(n.z)});
             }
             above = std::move(here);
             here = std::move(below);

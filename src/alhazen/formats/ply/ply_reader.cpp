@@ -16,7 +16,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kMaxErrors = 20;
+constexpr int kMaxPlyErrors = 20;
 
 template <class Values>
 class BodyReader {
@@ -99,7 +99,7 @@ class BodyReader {
         return fail(element, i, "a position that is not finite", values_);
     }
     /// Recovers after an error where possible, to report more than one.
-    bool recover() { return errors_ < kMaxErrors && values_.recover(); }
+    bool recover() { return errors_ < kMaxPlyErrors && values_.recover(); }
 
     /// Index of the list of vertices among the properties of a face or strip.
     [[nodiscard]] static std::size_t find_list(const PlyElement& element) {
@@ -188,7 +188,7 @@ class BodyReader {
         // The item is read completely; the next one can be read.
         if (!in_range) {
             bad_index(element, item, start);
-            return errors_ < kMaxErrors;
+            return errors_ < kMaxPlyErrors;
         }
         if (count < 3) {
             ++small_faces_;

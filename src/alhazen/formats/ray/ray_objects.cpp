@@ -42,7 +42,7 @@ AnyShape read_cone(BlockReader& reader) {
 }
 
 using ReadShape = AnyShape (*)(BlockReader&);
-constexpr std::pair<std::string_view, ReadShape> kShapes[] = {
+constexpr std::pair<std::string_view, ReadShape> kShapeObjects[] = {
     {"sphere", read_sphere},     {"box", read_box},   {"square", read_square},
     {"cylinder", read_cylinder}, {"cone", read_cone},
 };
@@ -121,7 +121,7 @@ std::optional<Affine> read_affine(std::string_view name, TextNode list, const Ar
 
 std::string RayObjects::known() {
     std::vector<std::string_view> names;
-    for (const auto& [name, read] : kShapes) names.push_back(name);
+    for (const auto& [name, read] : kShapeObjects) names.push_back(name);
     names.insert(names.end(), {"trimesh", "polymesh"});
     names.insert(names.end(), kTransforms.begin(), kTransforms.end());
     return joined(names);
@@ -151,7 +151,7 @@ void RayObjects::read_untransformed(TextNode item, const Affine& object_from_par
         return;
     }
     if (name == "material") return materials_.define(item, material);
-    const bool shape = std::any_of(std::begin(kShapes), std::end(kShapes),
+    const bool shape = std::any_of(std::begin(kShapeObjects), std::end(kShapeObjects),
                                    [&](const auto& entry) { return entry.first == name; });
     if (shape || is_mesh(name)) return read_shape(item, object_from_part, material);
     refuse(item);
@@ -217,7 +217,7 @@ void RayObjects::read_shape(TextNode entry, const Affine& object_from_part,
         if (!mesh) return;
         part.what = *mesh;
     } else {
-        for (const auto& [known_name, read] : kShapes) {
+        for (const auto& [known_name, read] : kShapeObjects) {
             if (known_name == name) part.what = read(reader);
         }
         reader.finish();

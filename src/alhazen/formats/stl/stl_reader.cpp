@@ -15,7 +15,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kMaxErrors = 20;
+constexpr int kMaxStlErrors = 20;
 constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kFacetBytes = 50;
 
@@ -124,7 +124,7 @@ class StlReader {
         StlSolid& solid = solids_.back();
         solid.mesh.triangles.reserve(count);
         const char* at = bytes_.data() + kHeaderBytes;
-        for (std::uint32_t i = 0; i < count && errors_ < kMaxErrors; ++i, at += kFacetBytes) {
+        for (std::uint32_t i = 0; i < count && errors_ < kMaxStlErrors; ++i, at += kFacetBytes) {
             interruption_point();
             std::array<Vec3, 4> v;
             for (std::size_t k = 0; k < 12; ++k) {
@@ -151,7 +151,7 @@ class StlReader {
 
     void read_ascii() {
         TextCursor cursor(bytes_);
-        while (errors_ < kMaxErrors && cursor.skip_to_word()) {
+        while (errors_ < kMaxStlErrors && cursor.skip_to_word()) {
             const TextCursor start = cursor;
             const std::string_view word = cursor.word();
             if (is_word(word, "solid")) {

@@ -11,14 +11,14 @@ namespace alhazen {
 
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using CornerTriple = std::array<std::uint32_t, 3>;
 /// An edge between merged vertices, the lower one in the upper bits.
 using EdgeKey = std::uint64_t;
 
 class DiagonalTurner {
   public:
     DiagonalTurner(std::span<const Vec3> positions, std::span<const PolygonTriangles> polygons,
-                   std::vector<Triangle>& triangles)
+                   std::vector<CornerTriple>& triangles)
         : positions_(positions),
           polygons_(polygons),
           triangles_(triangles),
@@ -46,7 +46,7 @@ class DiagonalTurner {
         const auto [lo, hi] = std::minmax(merged_[from], merged_[to]);
         return EdgeKey{lo} << 32 | hi;
     }
-    [[nodiscard]] EdgeKey edge(const Triangle& triangle, std::size_t k) const {
+    [[nodiscard]] EdgeKey edge(const CornerTriple& triangle, std::size_t k) const {
         return key(triangle[k], triangle[(k + 1) % 3]);
     }
 
@@ -87,7 +87,7 @@ class DiagonalTurner {
         std::vector<bool> filter(bits, false);
         for (const EdgeKey diagonal : diagonals_) filter[slot(diagonal)] = true;
         std::vector<std::uint8_t> counts(diagonals_.size(), 0);
-        for (const Triangle& triangle : triangles_) {
+        for (const CornerTriple& triangle : triangles_) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const EdgeKey e = edge(triangle, k);
                 if (!filter[slot(e)]) continue;
@@ -106,7 +106,7 @@ class DiagonalTurner {
     [[nodiscard]] std::ptrdiff_t count(EdgeKey e) {
         if (all_edges_.empty()) {
             all_edges_.reserve(3 * triangles_.size());
-            for (const Triangle& triangle : triangles_) {
+            for (const CornerTriple& triangle : triangles_) {
                 for (std::size_t k = 0; k < 3; ++k) all_edges_.push_back(edge(triangle, k));
             }
             std::sort(all_edges_.begin(), all_edges_.end());
@@ -119,9 +119,9 @@ class DiagonalTurner {
     /// The triangle after `from` with the edge, turned so that the edge is its first.
     [[nodiscard]] std::optional<std::size_t> turned_to(const PolygonTriangles& polygon,
                                                        std::size_t from, EdgeKey diagonal,
-                                                       Triangle& out) const {
+                                                       CornerTriple& out) const {
         for (std::size_t i = from; i < polygon.end; ++i) {
-            const Triangle& t = triangles_[i];
+            const CornerTriple& t = triangles_[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 if (edge(t, k) != diagonal) continue;
                 out = {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
@@ -131,13 +131,13 @@ class DiagonalTurner {
         return std::nullopt;
     }
 
-    [[nodiscard]] Vec3 area(const Triangle& t) const {
+    [[nodiscard]] Vec3 area(const CornerTriple& t) const {
         return cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
     }
 
     bool turn(const PolygonTriangles& polygon, EdgeKey diagonal) {
         if (count(diagonal) <= 2) return false;  // freed by another polygon
-        Triangle left{}, right{};
+        CornerTriple left{}, right{};
         const auto i = turned_to(polygon, polygon.begin, diagonal, left);
         if (!i) return false;
         const auto j = turned_to(polygon, *i + 1, diagonal, right);
@@ -145,7 +145,7 @@ class DiagonalTurner {
         // The quadrilateral is p, s, q, r in turn.
         const std::uint32_t p = left[0], q = left[1], r = left[2], s = right[2];
         if (merged_[r] == merged_[s] || count(key(r, s)) != 0) return false;
-        const Triangle first{r, p, s}, second{s, q, r};
+        const CornerTriple first{r, p, s}, second{s, q, r};
         const Vec3 whole = area(left) + area(right);
         constexpr double kLeastShare = 1e-9;
         const double least = kLeastShare * dot(whole, whole);
@@ -159,7 +159,7 @@ class DiagonalTurner {
 
     std::span<const Vec3> positions_;
     std::span<const PolygonTriangles> polygons_;
-    std::vector<Triangle>& triangles_;
+    std::vector<CornerTriple>& triangles_;
     std::vector<std::uint32_t> merged_;
     std::vector<EdgeKey> diagonals_, crowded_;  ///< sorted
     std::vector<EdgeKey> edges_;                ///< of one polygon
@@ -171,7 +171,7 @@ class DiagonalTurner {
 
 std::size_t free_diagonals(std::span<const Vec3> positions,
                            std::span<const PolygonTriangles> polygons,
-                           std::vector<Triangle>& triangles) {
+                           std::vector<CornerTriple>& triangles) {
     if (polygons.empty()) return 0;
     return DiagonalTurner(positions, polygons, triangles).run();
 }

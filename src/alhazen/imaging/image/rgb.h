@@ -20,6 +20,11 @@ struct Rgb {
     }
 };
 
+/// The same value in all channels.
+inline Rgb grey(double value) {
+    return {value, value, value};
+}
+
 inline Rgb operator+(const Rgb& a, const Rgb& b) {
     return {a.r + b.r, a.g + b.g, a.b + b.b};
 }

@@ -17,7 +17,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kSamplesAtOnce = 1024;
+constexpr std::size_t kPointsAtOnce = 1024;
 
 /// Where nothing is said: far enough for rooms to be dark in their corners.
 constexpr double kShareOfDiagonal = 0.25;
@@ -104,7 +104,7 @@ class OcclusionTiles final : public TiledRenderer {
     explicit OcclusionTiles(const OcclusionSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
-        return std::make_unique<RoundRenderer<OcclusionEstimator>>(job, kSamplesAtOnce, settings_);
+        return std::make_unique<RoundRenderer<OcclusionEstimator>>(job, kPointsAtOnce, settings_);
     }
 
   private:

@@ -11,7 +11,7 @@ namespace alhazen {
 namespace {
 
 /// A rest of more corners is divided.
-constexpr std::size_t kManyCorners = 120;
+constexpr std::size_t kManyRegionCorners = 120;
 /// A beam has a side for each edge of its convex hull, up to this many; beyond, those of its box.
 constexpr std::size_t kHullSides = 8;
 /// Nearer than this times the rounding of the tree, things touch.
@@ -225,7 +225,7 @@ void BeamCaster::see_rest(const BeamView& view, Rest& rest, std::vector<Rest>& w
             if (rest.region.empty()) return;
             set_sides(view.projection, rest.region);
         }
-        if (rest.region.vertex_count() > kManyCorners) {
+        if (rest.region.vertex_count() > kManyRegionCorners) {
             divide(rest, waiting);
             set_sides(view.projection, rest.region);
         }

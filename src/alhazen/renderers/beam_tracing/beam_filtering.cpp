@@ -28,7 +28,7 @@ Camera widened(Camera camera, double across, double up) {
     return camera;
 }
 
-constexpr double kLeastShare = 1e-12;
+constexpr double kLeastBeamShare = 1e-12;
 constexpr double kWholeShare = 1.0 - 1e-9;
 
 class BeamFilterRenderer final : public TileRenderer {
@@ -106,7 +106,7 @@ class BeamFilterRenderer final : public TileRenderer {
             if (left >= strip_.right()) break;
             strip_.cut(left, right, part_);
             const double share = rule_of(part_).area;
-            if (!(share > kLeastShare)) continue;
+            if (!(share > kLeastBeamShare)) continue;
             const int column = tile_.x0 + static_cast<int>(c);
             const Rgb color = quadrature_.mean(part_, [&](const Vec2& at) {
                 shading_.go(piece,

@@ -134,7 +134,7 @@ class BeamTileRenderer final : public TileRenderer {
     std::vector<double> errors_;  ///< of refraction
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
+double elapsed_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -186,7 +186,7 @@ RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
     check_job(job);
     const auto start = std::chrono::steady_clock::now();
     const BeamScene scene = beam_scene(*job.description, job.scene);
-    const double gathered = seconds_since(start);
+    const double gathered = elapsed_since(start);
     const bool filtered = job.antialias != nullptr && job.antialias->filter != nullptr;
     // The film reaches as far beyond the frame as the filters of its pixels.
     const WiderFrame wider(job, film, filtered);
@@ -195,7 +195,7 @@ RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
     BeamTree tree;
     ThreadLimit limit(job.control.threads);
     limit.run([&] { tree = beam_tree(wider.job(), scene, window, options_); });
-    const double beams = seconds_since(start) - gathered;
+    const double beams = elapsed_since(start) - gathered;
     const BeamBands bands(tree, pixels, wider.crop());
     RenderReport report = render_tiles(job, film, [&]() -> std::unique_ptr<TileRenderer> {
         if (filtered) return beam_filter_renderer(wider, scene, tree, pixels, bands);

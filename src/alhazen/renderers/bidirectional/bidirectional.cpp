@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kSamplesAtOnce = 256;
+constexpr std::size_t kPathPairsAtOnce = 256;
 
 class BidirectionalTiles final : public TiledRenderer {
   public:
@@ -17,7 +17,7 @@ class BidirectionalTiles final : public TiledRenderer {
         : lights_(lights), settings_(settings), lens_light_(&lens_light) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
-        return std::make_unique<RoundRenderer<BidirectionalTracer>>(job, kSamplesAtOnce, lights_,
+        return std::make_unique<RoundRenderer<BidirectionalTracer>>(job, kPathPairsAtOnce, lights_,
                                                                     settings_, lens_light_);
     }
 

@@ -12,8 +12,6 @@ namespace {
 /// the lens for each of its vertices, of the lights drawn for the eye's.
 constexpr std::uint32_t kLightPairs = 1u << 12, kLightWalk = 2u << 12, kLensPairs = 3u << 12,
                         kDrawPairs = 4u << 12;
-/// The light itself does not block a ray to it.
-constexpr double kBeforeLight = 1.0 - 1e-7;
 
 /// A density by solid angle, of a direction that arrives at a point, as one by area there.
 double by_area(double density, const Vec3& direction, const Vec3& normal, double distance) {
@@ -206,7 +204,7 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
             at_vertex_before(v.scatter.reverse_density(drawn.to_light), v, eye_[b - 2]);
     }
     light = (path_weight(path_, 1) / drawn.density) * (v.throughput * light);
-    const Ray ray = leaving_ray(v.surface, drawn.to_light, kBeforeLight * drawn.distance);
+    const Ray ray = leaving_ray(v.surface, drawn.to_light, kBeforeEnd * drawn.distance);
     sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light), waves_) * light;
 }
 
@@ -241,7 +239,7 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     // Of the hero on both sides: it counts for all four once.
     if (y.hero_only && z.hero_only) light = (1.0 / Spectrum::kCount) * light;
     if (light.is_black()) return;
-    const Ray ray = leaving_ray(z.surface, to_y, kBeforeLight * distance);
+    const Ray ray = leaving_ray(z.surface, to_y, kBeforeEnd * distance);
     sum += joins_.passing(ray, time, absorption_towards(z, to_y), waves_) * light;
 }
 

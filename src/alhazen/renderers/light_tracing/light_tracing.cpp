@@ -23,7 +23,7 @@ namespace alhazen {
 namespace {
 
 /// Pairs of dimensions: of the light, then of the lens at each vertex, then of the walk.
-constexpr std::uint32_t kLightPairs = 1u << 12, kLensPairs = 2u << 12, kWalk = 3u << 12;
+constexpr std::uint32_t kEmissionPairs = 1u << 12, kSplatPairs = 2u << 12, kWalk = 3u << 12;
 
 /// The light paths of tiles: as many for each pixel as it has samples.
 class LightTiles final : public TileRenderer {
@@ -58,16 +58,16 @@ class LightTiles final : public TileRenderer {
     void trace(const SampleId& id) {
         const Wavelengths waves = chance_.waves(id);
         const float time = camera_.time(chance_, id);
-        const Vec2 choice = chance_.draw(id, kLightPairs);
-        const LightRay light = lights_.emit(choice.x, chance_.draw(id, kLightPairs + 1),
-                                            chance_.draw(id, kLightPairs + 2), waves);
+        const Vec2 choice = chance_.draw(id, kEmissionPairs);
+        const LightRay light = lights_.emit(choice.x, chance_.draw(id, kEmissionPairs + 1),
+                                            chance_.draw(id, kEmissionPairs + 2), waves);
         const WalkStart start = start_of(light, time, media_, waves);
         if (start.throughput.is_black() || !start.throughput.is_finite()) return;
         walk_.walk(Transport::Importance, start,
                    {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
         set_falloff(lights_, light, waves, vertices_);
         for (std::uint32_t i = 0; const PathVertex& v : vertices_) {
-            join(v, id, kLensPairs + i++, time, waves);
+            join(v, id, kSplatPairs + i++, time, waves);
         }
     }
 

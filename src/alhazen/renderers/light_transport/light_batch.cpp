@@ -11,7 +11,7 @@ namespace alhazen {
 namespace {
 
 /// Rays per cast: enough to fill the stream kernel, few enough to stay in the cache.
-constexpr std::size_t kMostRays = 512;
+constexpr std::size_t kMostLightRays = 512;
 
 }  // namespace
 
@@ -21,14 +21,14 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
       stats_(stats),
       has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return !m.double_sided; })),
-      met_(std::make_unique<bool[]>(kMostRays)) {
-    rays_.reserve(kMostRays);
-    waiting_.reserve(kMostRays);
+      met_(std::make_unique<bool[]>(kMostLightRays)) {
+    rays_.reserve(kMostLightRays);
+    waiting_.reserve(kMostLightRays);
 }
 
 void LightBatch::add(const Ray& ray, float time, const Rgb& absorption, const Wavelengths& waves,
                      const Spectrum& light, Spectrum& sum) {
-    if (rays_.size() == kMostRays) finish();
+    if (rays_.size() == kMostLightRays) finish();
     const Spectrum left = absorption.is_black()
                               ? light
                               : light * transmittance(waves.absorption(absorption),

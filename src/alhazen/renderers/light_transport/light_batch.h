@@ -16,6 +16,10 @@
 
 namespace alhazen {
 
+/// Of the distance between two points: where a ray from one to the other ends, so that what holds
+/// the other does not block it.
+inline constexpr double kBeforeEnd = 1.0 - 1e-7;
+
 class LightBatch {
   public:
     LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 
@@ -48,7 +49,7 @@ inline void set_falloff(const Illumination& lights, const LightRay& light, const
     const Ray back = leaving_ray(v.surface, joined.to_lens, joined.distance);
     const Vec3 lens = back.at(joined.distance);
     Ray ray{lens, -joined.to_lens};
-    ray.t_max = (1.0 - 1e-7) * length(lens - back.origin);
+    ray.t_max = kBeforeEnd * length(lens - back.origin);
     return ray;
 }
 

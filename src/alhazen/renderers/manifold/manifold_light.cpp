@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kMostAlways = 4;
 /// Parts that are weighed one by one; of more one is chosen evenly.
 constexpr std::size_t kMostWeighed = 64;
-/// A visible ray ends before what it goes to.
-constexpr double kBefore = 1.0 - 1e-7;
 /// Share of random seeds, of refractions, that lie around the straight way, and 1 less the cosine
 /// of their largest angle to it.
 constexpr double kNearStraight = 0.75, kStraightVersine = 0.06;
@@ -303,7 +301,7 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
     const auto pass = [&](const MediumStack& in, double distance) {
         const Medium* const medium = in.here();
         const Rgb absorption = medium != nullptr ? medium->absorption : Rgb{};
-        share = share * shadows_.passing(leaving_ray(*from, direction, kBefore * distance),
+        share = share * shadows_.passing(leaving_ray(*from, direction, kBeforeEnd * distance),
                                          at_->time, absorption, at_->waves);
         return !share.is_black();
     };

@@ -10,13 +10,6 @@
 
 namespace alhazen {
 
-namespace {
-
-/// The light itself does not block its ray.
-constexpr double kBeforeLight = 1.0 - 1e-7;
-
-}  // namespace
-
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                        const Illumination& lights, const PathSettings& settings,
                        LightLayers* layers, const ManifoldScene* manifold)
@@ -233,9 +226,9 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
     Spectrum& to = place_of_joined(path, first_along(path, drawn.to_light), &drawn.to_light, sum);
-    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeLight * drawn.distance),
-                 path.time, extinction_in(medium), waves(path),
-                 limited_joined(light, path.scatterings + 1), to);
+    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
+                 extinction_in(medium), waves(path), limited_joined(light, path.scatterings + 1),
+                 to);
 }
 
 const VolumeScattering* PathTracer::scattering_in(const Medium& medium) const {
@@ -285,7 +278,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= power_heuristic(drawn.density, phase);
         Spectrum& to = place_of_joined(path, path.first, nullptr, sum);
-        const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeLight * drawn.distance};
+        const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeEnd * drawn.distance};
         shadows_.add(
             to_light, path.time, extinction_in(&medium), waves(path),
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1), to);

@@ -13,7 +13,7 @@ namespace alhazen {
 namespace {
 
 /// Enough that the batch stays worth its casts while paths end.
-constexpr std::size_t kSamplesAtOnce = 1024;
+constexpr std::size_t kPathsAtOnce = 1024;
 
 class PathTiles final : public TiledRenderer {
   public:
@@ -22,7 +22,7 @@ class PathTiles final : public TiledRenderer {
         : lights_(lights), settings_(settings), layers_(layers), manifold_(manifold) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
-        return std::make_unique<RoundRenderer<PathTracer>>(job, kSamplesAtOnce, lights_, settings_,
+        return std::make_unique<RoundRenderer<PathTracer>>(job, kPathsAtOnce, lights_, settings_,
                                                            layers_, manifold_);
     }
 

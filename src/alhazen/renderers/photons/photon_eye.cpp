@@ -119,9 +119,7 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
-    // The light itself does not block its ray.
-    constexpr double kBefore = 1.0 - 1e-7;
-    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
+    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
                  medium != nullptr ? medium->absorption : Rgb{}, *path.waves,
                  path.throughput * (weight * light), direct);
 }

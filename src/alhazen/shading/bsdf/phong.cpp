@@ -16,7 +16,7 @@ Vec3 power_direction(const Vec2& u, double power) {
     const double s = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
     return {s * std::cos(angle), s * std::sin(angle), z};
 }
-Spectrum grey(double x) {
+Spectrum grey_spectrum(double x) {
     return Spectrum::all(x);
 }
 
@@ -29,9 +29,10 @@ Phong::Phong(double exponent)
 
 Spectrum Phong::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
-    return grey(phong_lobe(view.z, direction.z, dot(mirrored(view), direction), exponent_) +
-                matt_rest(1.0 - phong_albedo(view.z, alpha_),
-                          1.0 - phong_albedo(direction.z, alpha_), mean_missing_));
+    return grey_spectrum(
+        phong_lobe(view.z, direction.z, dot(mirrored(view), direction), exponent_) +
+        matt_rest(1.0 - phong_albedo(view.z, alpha_), 1.0 - phong_albedo(direction.z, alpha_),
+                  mean_missing_));
 }
 
 double Phong::density(const Vec3& view, const Vec3& direction) const {
@@ -70,9 +71,9 @@ BlinnPhong::BlinnPhong(double exponent)
 Spectrum BlinnPhong::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
     const Vec3 h = normalize(view + direction);
-    return grey(blinn_lobe(view.z, direction.z, h.z, dot(view, h), exponent_) +
-                matt_rest(1.0 - blinn_albedo(view.z, alpha_),
-                          1.0 - blinn_albedo(direction.z, alpha_), mean_missing_));
+    return grey_spectrum(blinn_lobe(view.z, direction.z, h.z, dot(view, h), exponent_) +
+                         matt_rest(1.0 - blinn_albedo(view.z, alpha_),
+                                   1.0 - blinn_albedo(direction.z, alpha_), mean_missing_));
 }
 
 double BlinnPhong::density(const Vec3& view, const Vec3& direction) const {

@@ -73,11 +73,11 @@ class IesReader {
 };
 
 /// Where an angle lies among others: the one below, and the share of the way to the next.
-struct Between {
+struct BetweenAngles {
     std::size_t below, above;
     double share;
 };
-Between between(const std::vector<double>& angles, double angle) {
+BetweenAngles between_angles(const std::vector<double>& angles, double angle) {
     const auto after = std::upper_bound(angles.begin(), angles.end(), angle);
     if (after == angles.begin()) return {0, 0, 0.0};
     const std::size_t below = std::size_t(after - angles.begin()) - 1;
@@ -141,12 +141,12 @@ IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(t
 
 double IesProfile::candela(double vertical, double horizontal) const {
     if (vertical < verticals_.front() - kSlack || vertical > verticals_.back() + kSlack) return 0.0;
-    const Between v = between(verticals_, vertical);
-    Between h{0, 0, 0.0};
+    const BetweenAngles v = between_angles(verticals_, vertical);
+    BetweenAngles h{0, 0, 0.0};
     if (horizontals_.size() > 1) {
         const double last = horizontals_.back();
         const double angle = folded(horizontal, horizontals_.front(), last);
-        h = between(horizontals_, angle);
+        h = between_angles(horizontals_, angle);
         // From the last one round to the first, where no angle of 360 degrees is measured.
         const double gap = horizontals_.front() + 2.0 * kPi - last;
         if (angle > last && gap > kSlack) h = {h.below, 0, std::min(1.0, (angle - last) / gap)};

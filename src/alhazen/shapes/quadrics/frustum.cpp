@@ -10,7 +10,7 @@ namespace alhazen {
 namespace {
 
 /// A line in the frame of a frustum (z along the axis, 0 at the centre), with its quadratic.
-struct LocalLine {
+struct FrustumLine {
     double shift;  ///< t of the local origin
     double ox, oy, oz, dx, dy, dz;
     double radius, growth;  ///< radius at the local origin's height; its derivative along the line
@@ -18,8 +18,8 @@ struct LocalLine {
     double a, b, c, discriminant;
 };
 
-LocalLine localise(const Frustum& f, const Ray& ray) {
-    LocalLine l;
+FrustumLine localise(const Frustum& f, const Ray& ray) {
+    FrustumLine l;
     l.shift = 0.0;
     const Vec3& d = ray.direction;
     Vec3 origin = ray.origin - f.center;
@@ -53,7 +53,7 @@ LocalLine localise(const Frustum& f, const Ray& ray) {
 }
 
 /// Both roots for a != 0 in ascending order. Precondition: discriminant >= 0.
-Interval roots(const LocalLine& l) {
+Interval roots(const FrustumLine& l) {
     const double s = std::sqrt(l.discriminant);
     double t0, t1;
     if (4.0 * std::abs(l.b) < s || s == 0.0) {
@@ -71,7 +71,7 @@ Interval roots(const LocalLine& l) {
 constexpr Interval kWholeLine{-kInfinity, kInfinity};
 
 /// The part of the line inside the nappe of positive radius.
-Interval inside_side(const LocalLine& l) {
+Interval inside_side(const FrustumLine& l) {
     if (l.a > 0.0) {
         if (!(l.discriminant >= 0.0)) return {};
         // The line is flatter than the cone: it stays in the nappe that contains the middle of the
@@ -82,7 +82,7 @@ Interval inside_side(const LocalLine& l) {
     if (l.a < 0.0) {
         // Steeper: it enters or leaves the positive nappe once. The true discriminant is never
         // negative.
-        LocalLine steep = l;
+        FrustumLine steep = l;
         steep.discriminant = std::max(0.0, l.discriminant);
         const Interval both = roots(steep);
         return l.growth > 0.0 ? Interval{both.hi, kInfinity} : Interval{-kInfinity, both.lo};
@@ -95,7 +95,7 @@ Interval inside_side(const LocalLine& l) {
     return {};
 }
 
-int intersect_solid(const LocalLine& l, double half_height, const Ray& ray, ShapeHit* hits) {
+int intersect_solid(const FrustumLine& l, double half_height, const Ray& ray, ShapeHit* hits) {
     const Interval side = inside_side(l);
     if (side.empty()) return 0;
     double entry = side.lo, exit = side.hi;
@@ -119,7 +119,7 @@ int intersect_solid(const LocalLine& l, double half_height, const Ray& ray, Shap
     return report_span(ray, l.shift + entry, entry_part, l.shift + exit, exit_part, hits);
 }
 
-int intersect_side(const LocalLine& l, double half_height, const Ray& ray, ShapeHit* hits) {
+int intersect_side(const FrustumLine& l, double half_height, const Ray& ray, ShapeHit* hits) {
     Interval t;
     if (l.a == 0.0) {
         if (l.b == 0.0) return 0;
@@ -144,7 +144,7 @@ int intersect_side(const LocalLine& l, double half_height, const Ray& ray, Shape
 
 ALHAZEN_FOR_EACH_INSTRUCTION_SET
 int all_hits(const Frustum& f, const Ray& ray, bool capped, ShapeHit* hits) {
-    const LocalLine l = localise(f, ray);
+    const FrustumLine l = localise(f, ray);
     return capped ? intersect_solid(l, f.half_height, ray, hits)
                   : intersect_side(l, f.half_height, ray, hits);
 }

@@ -15,15 +15,15 @@ unsigned byte_at(std::string_view bytes, std::size_t i) {
     return static_cast<unsigned char>(bytes[i]);
 }
 
-bool begins_with(std::string_view bytes, std::string_view start) {
+bool has_signature(std::string_view bytes, std::string_view start) {
     return bytes.substr(0, start.size()) == start;
 }
 
 /// The media type, for example "image/png"; empty if the first bytes match no format of glTF.
 std::string media_type_of(std::string_view bytes) {
-    if (begins_with(bytes, "\x89PNG\r\n\x1a\n")) return "image/png";
-    if (begins_with(bytes, "\xff\xd8\xff")) return "image/jpeg";
-    if (begins_with(bytes, "RIFF") && bytes.substr(8, 4) == "WEBP") return "image/webp";
+    if (has_signature(bytes, "\x89PNG\r\n\x1a\n")) return "image/png";
+    if (has_signature(bytes, "\xff\xd8\xff")) return "image/jpeg";
+    if (has_signature(bytes, "RIFF") && bytes.substr(8, 4) == "WEBP") return "image/webp";
     return "";
 }
 
@@ -86,7 +86,7 @@ void check_bytes(const Loading& loading, const Image& image, const std::string& 
         loading.error(place, "an image of image/webp needs the extension EXT_texture_webp");
     }
     if (!image.mime_type.empty() && image.mime_type != type &&
-        begins_with(image.mime_type, "image/")) {
+        has_signature(image.mime_type, "image/")) {
         loading.error(place, "the image is " + type + ", declared as " + image.mime_type);
         return;
     }

@@ -24,13 +24,13 @@ constexpr double kLeastCut = 0.8;  // what a clip may leave before the domain is
 constexpr double kGrown = 1e-12;
 constexpr int kMostClips = 4000;
 
-struct ClipRange {
+struct ParameterRange {
     double lo = 1, hi = 0;
 };
 
 /// Where the convex hull of the points (k / degree, lo[k]) and (k / degree, hi[k]) meets zero.
-ClipRange hull_at_zero(int degree, const double* lo, const double* hi) {
-    ClipRange range;
+ParameterRange hull_at_zero(int degree, const double* lo, const double* hi) {
+    ParameterRange range;
     const auto include = [&](double x) { range = {std::min(range.lo, x), std::max(range.hi, x)}; };
     for (int a = 0; a <= degree; ++a) {
         if (lo[a] <= 0.0 && hi[a] >= 0.0) include(double(a) / degree);
@@ -49,7 +49,7 @@ ClipRange hull_at_zero(int degree, const double* lo, const double* hi) {
 
 /// The part of u (or v) in which the patch can meet the line through the origin along the mean of
 /// the two borders across.
-ClipRange clip(const PlaneNet& net, bool along_u) {
+ParameterRange clip(const PlaneNet& net, bool along_u) {
     const int n = net.degree_u, m = net.degree_v;
     const auto at = [&](int i, int j) { return net.at[static_cast<std::size_t>(i * (m + 1) + j)]; };
     PlanePoint along = along_u ? (at(0, m) - at(0, 0)) + (at(n, m) - at(n, 0))
@@ -99,7 +99,7 @@ class BezierClipping final : public EachPatchMethod {
                 if (width_u <= kConverged) along_u = false;
                 if (width_v <= kConverged) along_u = true;
                 ++clips;
-                ClipRange range = clip(part, along_u);
+                ParameterRange range = clip(part, along_u);
                 if (range.lo > range.hi) break;
                 const double width = along_u ? width_u : width_v;
                 const double from = along_u ? cell.u0 : cell.v0;
