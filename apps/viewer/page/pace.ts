@@ -19,9 +19,9 @@ export class Pace {
   forget() {
     this.width = this.depth = undefined;
   }
-  /** Width and depth of the next picture. Where nothing is known a quarter as wide, and two generations. */
+  /** Width and depth of the next picture. Where nothing is known an eighth as wide, and two generations. */
   next(limits: PaceLimits) {
-    this.width = clamped(this.width ?? limits.full / 4, 48, limits.full / 2);
+    this.width = clamped(this.width ?? limits.full / 8, 48, limits.full / 2);
     this.depth = Math.min(this.depth ?? 2, limits.depth);
     return {width: Math.round(this.width), depth: limits.deepens ? this.depth : limits.depth};
   }
