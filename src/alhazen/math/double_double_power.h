@@ -9,15 +9,18 @@
 /// power 0.
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "alhazen/math/double_double.h"
 
 namespace alhazen {
 
-/// e^a, to about 2^-98 relative; 0 where it underflows. Precondition: a.high < 700.
+/// e^a, to about 2^-98 relative for a from -700 to 700; 0 below, infinite above, NaN for NaN.
 inline DoubleDouble exponential(const DoubleDouble& a) {
     constexpr DoubleDouble kLn2(0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56);
     if (a.high < -700.0) return {};
+    if (!(a.high <= 700.0)) return DoubleDouble(a.high * std::numeric_limits<double>::infinity());
     const double k = std::nearbyint(a.high / kLn2.high);
     DoubleDouble x = a - DoubleDouble(k) * kLn2;
     x = {x.high * 0x1p-8, x.low * 0x1p-8};
@@ -36,7 +39,8 @@ inline DoubleDouble exponential(const DoubleDouble& a) {
     return {s.high * scale, s.low * scale};
 }
 
-/// ln a, to about 2^-98, absolute for arguments near 1. Precondition: a is positive and finite.
+/// ln a, to about 2^-98, absolute for arguments near 1. Precondition: a is positive, and from
+/// 1e-304 to 1e304; beyond it may be NaN.
 inline DoubleDouble logarithm(const DoubleDouble& a) {
     const double first = std::log(a.high);
     // a / e^first = 1 + rest; its logarithm is rest - rest^2 / 2 + ...
