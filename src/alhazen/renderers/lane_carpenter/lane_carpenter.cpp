@@ -5,6 +5,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/lane_carpenter/crack_count.h"
 #include "alhazen/renderers/lane_carpenter/scan_shading.h"
 
 namespace alhazen {

@@ -1,212 +1,13 @@
 #include "alhazen/renderers/lane_carpenter/scan_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <map>
 
+#include "alhazen/renderers/lane_carpenter/patch_tables.h"
+#include "alhazen/renderers/lane_carpenter/polygon_table.h"
 #include "alhazen/renderers/lane_carpenter/scan_polygon.h"
-#include "alhazen/renderers/lane_carpenter/subdivision.h"
-#include "alhazen/sampling/random.h"
 
 namespace alhazen {
-
-namespace {
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-
-/// Slots that are used again.
-template <class T>
-class Slots {
-  public:
-    [[nodiscard]] std::uint32_t take() {
-        ++live_;
-        most_ = std::max(most_, live_);
-        if (free_.empty()) {
-            items_.emplace_back();
-            return static_cast<std::uint32_t>(items_.size() - 1);
-        }
-        const std::uint32_t index = free_.back();
-        free_.pop_back();
-        return index;
-    }
-    void give_back(std::uint32_t index) {
-        free_.push_back(index);
-        --live_;
-    }
-    [[nodiscard]] T& operator[](std::uint32_t index) { return items_[index]; }
-    [[nodiscard]] std::size_t live() const { return live_; }
-    [[nodiscard]] std::size_t most() const { return most_; }
-
-  private:
-    std::vector<T> items_;
-    std::vector<std::uint32_t> free_;
-    std::size_t live_ = 0, most_ = 0;
-};
-
-/// Weights of the boundary curves that patches share; 0: a curve of one patch.
-class BoundarySeams {
-  public:
-    explicit BoundarySeams(const ScanScene& scene) {
-        for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) {
-            for (int side = 0; side < 4; ++side) add(scene.pieces[k].net, k, side);
-        }
-    }
-    [[nodiscard]] std::array<std::uint64_t, 4> of(std::uint32_t piece) const {
-        const auto found = weights_.find(piece);
-        return found == weights_.end() ? std::array<std::uint64_t, 4>{} : found->second;
-    }
-
-  private:
-    struct Side {
-        std::uint32_t piece;
-        int side;
-        bool backward;
-    };
-    using Key = std::vector<double>;
-
-    void add(const BezierNet& net, std::uint32_t piece, int side) {
-        std::array<HomogeneousPoint, kMaxPatchOrder> curve;
-        const int count = boundary_curve(net, side, curve);
-        Key forward, backward;
-        for (int k = 0; k < count; ++k) {
-            const HomogeneousPoint& a = curve[static_cast<std::size_t>(k)];
-            const HomogeneousPoint& b = curve[static_cast<std::size_t>(count - 1 - k)];
-            for (const double x : {a.x + 0.0, a.y + 0.0, a.z + 0.0, a.w}) forward.push_back(x);
-            for (const double x : {b.x + 0.0, b.y + 0.0, b.z + 0.0, b.w}) backward.push_back(x);
-        }
-        const Side own{piece, side, backward < forward};
-        const auto [waiting, is_new] = open_.try_emplace(std::min(forward, backward), own);
-        if (is_new) return;
-        const Side other = waiting->second;
-        open_.erase(waiting);
-        const std::uint64_t weight = mix64(std::uint64_t{piece} * 4 + std::uint64_t(side) + 1);
-        set(own, weight);
-        set(other, ~weight + 1);
-    }
-    void set(const Side& side, std::uint64_t weight) {
-        weights_[side.piece][static_cast<std::size_t>(side.side)] =
-            side.backward ? ~weight + 1 : weight;
-    }
-
-    std::map<Key, Side> open_;
-    std::map<std::uint32_t, std::array<std::uint64_t, 4>> weights_;
-};
-
-std::size_t largest_net(const ScanScene& scene) {
-    int most = 4;
-    for (const ScanPiece& piece : scene.pieces) most = std::max(most, piece.net.count());
-    return static_cast<std::size_t>(most);
-}
-
-/// The patch table and the active-patch table: hands out flat sub-patches.
-class PatchTables {
-  public:
-    PatchTables(const ScanScene& scene, const ScreenView& view, const SampleGrid& grid,
-                const ScanLineOptions& options, bool keeps_seams)
-        : scene_(scene),
-          view_(view),
-          grid_(grid),
-          subdivision_(view, grid, options, options.flatness, keeps_seams),
-          pool_(largest_net(scene)),
-          buckets_(static_cast<std::size_t>(grid.rows()), kNone) {
-        std::unique_ptr<BoundarySeams> seams;
-        if (keeps_seams) seams = std::make_unique<BoundarySeams>(scene);
-        for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) add_piece(k, seams.get());
-    }
-
-    [[nodiscard]] PatchDegrees degrees(const SubPatch& patch) const {
-        const BezierNet& net = scene_.pieces[patch.piece].net;
-        return {net.degree_u, net.degree_v};
-    }
-
-    /// Splits what begins at rows up to `row`; calls `draw(patch)` with what is flat.
-    template <class Draw>
-    void advance(int row, ScanLineReport& report, Draw&& draw) {
-        std::uint32_t& first = buckets_[static_cast<std::size_t>(row)];
-        while (first != kNone) {
-            active_.push_back(first);
-            first = pool_.at(first).next;
-            --waiting_;
-        }
-        most_active_ = active_.size();
-        while (!active_.empty()) {
-            const std::uint32_t index = active_.back();
-            active_.pop_back();
-            SubPatch& patch = pool_.at(index);
-            if (patch.step == PatchStep::Draw) {
-                draw(patch);
-            } else {
-                split(patch, row, report);
-            }
-            pool_.give_back(index);
-            most_active_ = std::max(most_active_, active_.size());
-        }
-    }
-
-    /// Largest size of the active-patch table at the last scan line.
-    [[nodiscard]] std::size_t most_active() const { return most_active_; }
-    [[nodiscard]] std::size_t waiting() const { return waiting_; }
-    [[nodiscard]] SubPatchPool& pool() { return pool_; }
-
-  private:
-    void add_piece(std::uint32_t piece, const BoundarySeams* seams) {
-        const BezierNet& net = scene_.pieces[piece].net;
-        const std::uint32_t index = pool_.take();
-        SubPatch& patch = pool_.at(index);
-        patch = {.piece = piece, .points = patch.points};
-        if (seams != nullptr) patch.seams = seams->of(piece);
-        for (int k = 0; k < net.count(); ++k) {
-            patch.points[k] = view_.on_screen(net.points[static_cast<std::size_t>(k)]);
-        }
-        subdivision_.judge({net.degree_u, net.degree_v}, patch);
-        place(index, -1);
-    }
-
-    void split(const SubPatch& patch, int row, ScanLineReport& report) {
-        report.split_u += patch.step != PatchStep::SplitV;
-        report.split_v += patch.step != PatchStep::SplitU;
-        std::array<std::uint32_t, 4> indices;
-        std::array<SubPatch*, 4> children;
-        const std::size_t count = patch.step == PatchStep::SplitBoth ? 4 : 2;
-        for (std::size_t k = 0; k < count; ++k) {
-            indices[k] = pool_.take();
-            children[k] = &pool_.at(indices[k]);
-        }
-        const PatchDegrees own = degrees(patch);
-        subdivision_.split(own, patch, children);
-        for (std::size_t k = 0; k < count; ++k) {
-            subdivision_.judge(own, *children[k]);
-            place(indices[k], row);
-        }
-    }
-
-    /// Into the active table where it has begun, else into its bucket.
-    void place(std::uint32_t index, int row) {
-        SubPatch& patch = pool_.at(index);
-        if (patch.step == PatchStep::None) {
-            pool_.give_back(index);
-        } else if (patch.first_row <= row) {
-            active_.push_back(index);
-        } else {
-            std::uint32_t& first = buckets_[static_cast<std::size_t>(patch.first_row)];
-            patch.next = first;
-            first = index;
-            ++waiting_;
-        }
-    }
-
-    const ScanScene& scene_;
-    ScreenView view_;
-    const SampleGrid& grid_;
-    Subdivision subdivision_;
-    SubPatchPool pool_;
-    std::vector<std::uint32_t> buckets_;  ///< [row] the patch table
-    std::vector<std::uint32_t> active_;
-    std::size_t waiting_ = 0, most_active_ = 0;
-};
-
-}  // namespace
 
 class ScanLines::Impl {
   public:
@@ -219,8 +20,8 @@ class ScanLines::Impl {
           most_nearness_(view.most_nearness()),
           with_chords_(options.cracks == Cracks::Clark),
           patches_(scene, view, grid, options, false),
-          quad_buckets_(static_cast<std::size_t>(grid.rows()), kNone),
-          outline_buckets_(static_cast<std::size_t>(grid.rows()), kNone) {
+          quads_(grid.rows()),
+          outlines_(grid.rows()) {
         report_.patches = scene.pieces.size();
         report_.flatness = options.flatness;
         report_.lines.resize(static_cast<std::size_t>(grid.rows()));
@@ -237,18 +38,18 @@ class ScanLines::Impl {
 
     void next(ScanRow& row) {
         if (!split_ahead_) split_at(row_);
-        enter(quad_buckets_, quads_, active_quads_);
-        enter(outline_buckets_, outlines_, active_outlines_);
+        quads_.enter(row_);
+        outlines_.enter(row_);
         count_tables();
         begin_row(row);
-        for (const std::uint32_t quad : active_quads_) draw_quad(quads_[quad], quad, row);
-        for (const std::uint32_t outline : active_outlines_) {
+        for (const std::uint32_t quad : quads_.active()) draw_quad(quads_[quad], quad, row);
+        for (const std::uint32_t outline : outlines_.active()) {
             draw_outline(outlines_[outline], outline, row);
         }
         resolve(row);
         ++row_;
-        leave(quads_, active_quads_);
-        leave(outlines_, active_outlines_);
+        quads_.leave(row_);
+        outlines_.leave(row_);
     }
 
     [[nodiscard]] ScanLineReport& report() {
@@ -259,7 +60,7 @@ class ScanLines::Impl {
     }
 
   private:
-    static constexpr std::uint32_t kOutline = 0x80000000u;
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu, kOutline = 0x80000000u;
 
     void add_facet(std::uint32_t index) {
         const ScanFacet& facet = scene_.facets[index];
@@ -285,16 +86,8 @@ class ScanLines::Impl {
         outline.facet = index;
         const std::uint32_t slot = outlines_.take();
         outlines_[slot] = std::move(outline);
-        put(outline_buckets_, outlines_, slot, 0);
+        outlines_.put(slot, 0);
         ++report_.facets;
-    }
-
-    template <class T>
-    void put(std::vector<std::uint32_t>& buckets, Slots<T>& slots, std::uint32_t slot, int row) {
-        T& item = slots[slot];
-        std::uint32_t& first = buckets[static_cast<std::size_t>(std::max(row, item.first_row))];
-        item.next = first;
-        first = slot;
     }
 
     void split_at(int row) {
@@ -308,7 +101,7 @@ class ScanLines::Impl {
                 return;
             }
             ++report_.quads;
-            put(quad_buckets_, quads_, slot, row);
+            quads_.put(slot, row);
             note_held();
         });
         note_held();
@@ -322,33 +115,12 @@ class ScanLines::Impl {
             most_bytes_, patches * patches_.pool().bytes_each() + quads_.live() * sizeof(ScanQuad));
     }
 
-    template <class T>
-    void enter(std::vector<std::uint32_t>& buckets, Slots<T>& slots,
-               std::vector<std::uint32_t>& active) {
-        for (std::uint32_t k = buckets[static_cast<std::size_t>(row_)]; k != kNone;
-             k = slots[k].next) {
-            active.push_back(k);
-        }
-    }
-    template <class T>
-    void leave(Slots<T>& slots, std::vector<std::uint32_t>& active) {
-        std::size_t kept = 0;
-        for (const std::uint32_t k : active) {
-            if (slots[k].end_row > row_) {
-                active[kept++] = k;
-            } else {
-                slots.give_back(k);
-            }
-        }
-        active.resize(kept);
-    }
-
     void count_tables() {
         ScanLineTables& tables = report_.lines[static_cast<std::size_t>(row_)];
         tables.waiting = static_cast<std::uint32_t>(patches_.waiting());
         tables.active = static_cast<std::uint32_t>(split_ahead_ ? 0 : patches_.most_active());
         tables.polygons =
-            static_cast<std::uint32_t>(active_quads_.size() + active_outlines_.size());
+            static_cast<std::uint32_t>(quads_.active().size() + outlines_.active().size());
         report_.most_active = std::max<std::uint64_t>(report_.most_active, patches_.most_active());
     }
 
@@ -557,10 +329,8 @@ class ScanLines::Impl {
     double most_nearness_;    ///< of what is before the eye
     bool with_chords_, split_ahead_ = false;
     PatchTables patches_;
-    Slots<ScanQuad> quads_;
-    Slots<ScanOutline> outlines_;
-    std::vector<std::uint32_t> quad_buckets_, outline_buckets_;  ///< [row]
-    std::vector<std::uint32_t> active_quads_, active_outlines_;  ///< the polygon table
+    PolygonTable<ScanQuad> quads_;
+    PolygonTable<ScanOutline> outlines_;
     int row_ = 0;
     std::int32_t y_ = 0;
     std::vector<double> nearness_;      ///< [sample] of the nearest surface so far
@@ -580,44 +350,6 @@ void ScanLines::next(ScanRow& row) {
 }
 ScanLineReport& ScanLines::report() {
     return impl_->report();
-}
-
-std::uint64_t count_crack_samples(const ScanScene& scene, const ScreenView& view,
-                                  const SampleGrid& grid, ScanLineOptions options) {
-    const auto columns = static_cast<std::size_t>(grid.columns());
-    const auto rows = static_cast<std::size_t>(grid.rows());
-    std::vector<std::uint64_t> steps(rows * (columns + 1));
-    PatchTables patches(scene, view, grid, options, true);
-    ScanLineReport ignored;
-    ScanQuad quad;
-    const bool chords = options.cracks == Cracks::Clark;
-    for (int row = 0; row < grid.rows(); ++row) {
-        patches.advance(row, ignored, [&](const SubPatch& patch) {
-            const PatchDegrees degrees = patches.degrees(patch);
-            set_quad(view, grid, degrees.u, degrees.v, patch, chords, quad);
-            for (std::size_t side = 0; side < 4; ++side) {
-                const EdgeLine& line = quad.lines[side];
-                if (quad.seams[side] == 0 || line.dy == 0) continue;
-                const std::uint64_t weight = line.turned ? ~quad.seams[side] + 1 : quad.seams[side];
-                for (int j = quad.first_row; j < quad.end_row; ++j) {
-                    if (!(line.y0 < grid.y(j) && grid.y(j) <= line.y0 + line.dy)) continue;
-                    const int column = line.first_right(grid, grid.y(j));
-                    steps[static_cast<std::size_t>(j) * (columns + 1) +
-                          static_cast<std::size_t>(column)] += weight;
-                }
-            }
-        });
-    }
-    std::uint64_t found = 0;
-    for (std::size_t j = 0; j < rows; ++j) {
-        std::uint64_t sum = 0, base = 0;
-        for (std::size_t i = 0; i < columns; ++i) {
-            sum += steps[j * (columns + 1) + i];
-            if (i == 0) base = sum;
-            found += sum != base;
-        }
-    }
-    return found;
 }
 
 }  // namespace alhazen

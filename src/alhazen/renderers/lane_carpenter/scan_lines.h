@@ -60,13 +60,4 @@ class ScanLines {
     std::unique_ptr<Impl> impl_;
 };
 
-/// The samples of the crop that lie in cracks between the polygons of patches, or in overlaps,
-/// where patches are subdivided to `flatness`.
-///
-/// Conventions: both sides of an edge cross each row of samples; where they do so at different
-/// columns, the samples between are in a crack. Each edge has its own random weight, so that gaps
-/// do not cancel.
-[[nodiscard]] std::uint64_t count_crack_samples(const ScanScene& scene, const ScreenView& view,
-                                                const SampleGrid& grid, ScanLineOptions options);
-
 }  // namespace alhazen
