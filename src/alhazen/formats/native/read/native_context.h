@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "alhazen/formats/core/importer.h"
@@ -104,5 +105,11 @@ std::optional<Id> look_up(TextNode value, const char* kind,
                           (names.size() > known.size() ? ", ..." : ""));
     return std::nullopt;
 }
+
+/// A block of the top level: a camera, a light or settings.
+struct NativeTopBlock {
+    std::string_view name;
+    void (*read)(const NativeBlock&, NativeContext&);
+};
 
 }  // namespace alhazen

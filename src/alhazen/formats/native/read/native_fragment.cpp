@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "alhazen/formats/native/read/native_cameras.h"
 #include "alhazen/formats/native/read/native_objects.h"
 #include "alhazen/formats/native/read/native_parts.h"
-#include "alhazen/formats/native/read/native_view.h"
 
 namespace alhazen {
 

@@ -1,11 +1,11 @@
 #include "alhazen/formats/native/read/native_importer.h"
 
 #include "alhazen/formats/core/default_conventions.h"
+#include "alhazen/formats/native/read/native_cameras.h"
 #include "alhazen/formats/native/read/native_include.h"
 #include "alhazen/formats/native/read/native_objects.h"
 #include "alhazen/formats/native/read/native_parts.h"
 #include "alhazen/formats/native/read/native_settings.h"
-#include "alhazen/formats/native/read/native_view.h"
 
 namespace alhazen {
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "alhazen/formats/native/read/native_cameras.h"
 #include "alhazen/formats/native/read/native_height_picture.h"
 #include "alhazen/formats/native/read/native_include.h"
+#include "alhazen/formats/native/read/native_lights.h"
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/formats/native/read/native_meshes.h"
 #include "alhazen/formats/native/read/native_objects.h"
@@ -12,7 +14,6 @@
 #include "alhazen/formats/native/read/native_settings.h"
 #include "alhazen/formats/native/read/native_shapes.h"
 #include "alhazen/formats/native/read/native_transform.h"
-#include "alhazen/formats/native/read/native_view.h"
 #include "alhazen/formats/native/read/native_visibility.h"
 
 namespace alhazen {
@@ -114,7 +115,8 @@ bool read_top_level_block(const NativeBlock& block, NativeContext& context,
         }
         return false;
     };
-    return read_one_of(kSettingsBlocks) || read_one_of(native_view_blocks());
+    return read_one_of(kSettingsBlocks) || read_one_of(native_camera_blocks()) ||
+           read_one_of(native_light_blocks());
 }
 
 void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
@@ -144,7 +146,8 @@ void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
 std::vector<std::string_view> native_block_names() {
     std::vector<std::string_view> names;
     for (const auto& [name, read] : kSettingsBlocks) names.push_back(name);
-    for (const auto& [name, read] : native_view_blocks()) names.push_back(name);
+    for (const auto& [name, read] : native_camera_blocks()) names.push_back(name);
+    for (const auto& [name, read] : native_light_blocks()) names.push_back(name);
     names.insert(names.end(), {"material", "texture", "solid_texture", "instance", "include"});
     for (const auto& [name, read] : kPartBlocks) names.push_back(name);
     for (const std::string_view name : native_shape_names()) names.push_back(name);

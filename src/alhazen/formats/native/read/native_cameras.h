@@ -1,0 +1,16 @@
+#pragma once
+/// Cameras of the native format.
+
+#include <span>
+
+#include "alhazen/formats/native/read/native_context.h"
+
+namespace alhazen {
+
+/// The blocks of all alternatives of `Camera`, in the order of the variant.
+[[nodiscard]] std::span<const NativeTopBlock> native_camera_blocks();
+
+/// Gives cameras without an aspect that of the image. Call after the last block.
+void complete_cameras(NativeContext& context);
+
+}  // namespace alhazen
