@@ -252,7 +252,7 @@ TEST(SolidLeaks, NoLineLeavesAClosedSolid) {
         EXPECT_EQ(c.odd, 0u) << kKinds[k].name;
         EXPECT_EQ(c.differing, 0u) << kKinds[k].name;
         if (lines >= 1e6) {
-            EXPECT_GT(c.hits, c.lines / 50) << kKinds[k].name;
+            EXPECT_GT(c.hits, c.lines / 10) << kKinds[k].name;
         }
     }
     std::printf("scenes %llu to %llu, %.0f s\n", static_cast<unsigned long long>(first_scene),
