@@ -86,7 +86,7 @@ SHAPE_TEST = """#include "alhazen/shapes/quadrics/extra.h"
 
 #include <gtest/gtest.h>
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 #include "support/random_shapes.h"
 #include "support/same_description.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 #include "alhazen/formats/native/read/native_shapes.h"
 #include "native_round_trip.h"
 #include "native_scene.h"

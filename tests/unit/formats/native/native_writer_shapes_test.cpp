@@ -12,7 +12,7 @@
 #include <random>
 
 #include "alhazen/base/error.h"
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 #include "alhazen/formats/text/unique_labels.h"
 #include "alhazen/imaging/image/image.h"
 #include "native_round_trip.h"

@@ -11,7 +11,7 @@
 #include "alhazen/shading/optics/metals.h"
 
 #include "alhazen/base/error.h"
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 #include "alhazen/formats/text/unique_labels.h"
 #include "alhazen/imaging/image/image.h"
 #include "alhazen/shading/spectrum/illuminant_spectrum.h"

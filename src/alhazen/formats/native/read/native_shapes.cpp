@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 
 namespace alhazen {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 
 namespace alhazen {
 

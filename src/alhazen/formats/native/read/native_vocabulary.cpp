@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 #include "alhazen/formats/native/read/native_parts.h"
-#include "alhazen/formats/native/read/native_shape_fields.h"
 #include "alhazen/formats/native/read/native_shapes.h"
 
 namespace alhazen {

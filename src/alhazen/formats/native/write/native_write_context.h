@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "alhazen/formats/core/default_conventions.h"
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 #include "alhazen/formats/native/write/native_writer.h"
 
 namespace alhazen {

@@ -1,6 +1,6 @@
 #include "alhazen/formats/native/write/native_write_shapes.h"
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 
 namespace alhazen {
 

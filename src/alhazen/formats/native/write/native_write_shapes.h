@@ -1,7 +1,7 @@
 #pragma once
 /// Writing of the fields of analytic shapes in the native format.
 
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 #include "alhazen/shapes/shape_list.h"
 
 namespace alhazen {

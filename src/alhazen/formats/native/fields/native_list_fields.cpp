@@ -1,6 +1,6 @@
 // Solids with fields that are lists: polyhedra, blobs and height fields.
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 
 #include <array>
 #include <span>

@@ -1,4 +1,4 @@
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Outlines of prisms and lathes.
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 
 namespace alhazen {
 

@@ -7,7 +7,7 @@
 /// `native_field_text` for its type. A shape whose text is not one pair per field has its own
 /// `read_native_fields` and `write_native_fields`. Internal to the native format.
 
-#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/fields/native_text.h"
 #include "alhazen/formats/text/block_reader.h"
 #include "alhazen/shapes/shape_list.h"
 

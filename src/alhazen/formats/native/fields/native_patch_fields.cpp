@@ -1,6 +1,6 @@
 // Lists and counts of patches, and the loops that trim them.
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 
 namespace alhazen {
 

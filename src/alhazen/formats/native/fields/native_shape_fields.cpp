@@ -1,7 +1,7 @@
 // Fields of basic types, clips and polygons; outlines are in native_profiles.cpp, other lists in
 // native_list_fields.cpp.
 
-#include "alhazen/formats/native/read/native_shape_fields.h"
+#include "alhazen/formats/native/fields/native_shape_fields.h"
 
 #include <span>
 
