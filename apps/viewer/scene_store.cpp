@@ -140,20 +140,16 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::with(const std::string& ac
     std::shared_ptr<const Loaded> here;
     {
         std::unique_lock lock(mutex_);
-        while (!changed_.wait_for(lock, kPause, [&] { return loaded_ != nullptr; })) {
+        const auto is_there = [&] {
+            return loaded_ && (accelerator.empty() || loaded_->accelerator == accelerator);
+        };
+        // One build at a time.
+        const auto ready = [&] { return is_there() || (loaded_ && !building_); };
+        while (!changed_.wait_for(lock, kPause, ready)) {
             if (stop.requested()) throw Interrupted();
         }
         here = loaded_;
-    }
-    if (accelerator.empty() || here->accelerator == accelerator) return here;
-    std::unique_lock building(build_mutex_, std::defer_lock);
-    while (!building.try_lock_for(kPause)) {
-        if (stop.requested()) throw Interrupted();
-    }
-    {
-        const std::lock_guard lock(mutex_);
-        here = loaded_;
-        if (here->accelerator == accelerator) return here;
+        if (is_there()) return here;
         building_ = InHand{"building " + accelerator, Clock::now(), nullptr};
     }
     struct Ended {
@@ -161,6 +157,7 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::with(const std::string& ac
         ~Ended() {
             const std::lock_guard lock(store.mutex_);
             store.building_.reset();
+            store.changed_.notify_all();
         }
     } const ended{*this};
     std::shared_ptr<const Loaded> next = built(*here, accelerator, stop);

@@ -91,9 +91,8 @@ class SceneStore {
     bool stopped_ = false;         ///< the last reading, on request
     bool wanted_ = true;           ///< reading is to begin
 
-    std::timed_mutex build_mutex_;  ///< held while an accelerator is built
-    std::jthread reader_;           ///< of the watcher
-    std::jthread watcher_;          ///< the last member: it ends first
+    std::jthread reader_;   ///< of the watcher
+    std::jthread watcher_;  ///< the last member: it ends first
 };
 
 }  // namespace alhazen::viewer

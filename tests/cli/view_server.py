@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import socket
 import struct
 import subprocess
@@ -50,10 +51,15 @@ class Server:
         self.host = f"{self.address}:{self.port}"
 
     def close(self):
+        """Ends it; fails where it had ended with a status or a signal that no test asks for, a sanitizer's say."""
+        status = self.process.poll()
         self.process.terminate()
         self.process.wait(10)
+        said = "" if self.process.stderr.closed else self.process.stderr.read()
         self.process.stdout.close()
         self.process.stderr.close()
+        if status not in (None, 0, 3, 75, -signal.SIGKILL):
+            raise RuntimeError(f"the server had ended with {status}: {said}")
 
     def connect(self):
         return socket.create_connection((self.address.strip("[]"), self.port), timeout=20)
