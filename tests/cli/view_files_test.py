@@ -13,11 +13,9 @@ import tempfile
 import time
 import unittest
 
-from view_server import SCENE, WISH, Server
+from view_server import SCENE, SLOWDOWN, WISH, Server
 
 ALHAZEN = sys.argv[1]
-# Processor time is shared with a sanitizer, say.
-SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
 
 
 def many_spheres(count):

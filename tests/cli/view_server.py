@@ -15,6 +15,9 @@ import threading
 import time
 import unittest
 
+# Processor time is shared with a sanitizer, say.
+SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
+
 SCENE = """alhazen 1
 picture { width = 160; height = 120; background = (0.1, 0.15, 0.3) }
 conventions { max_depth = 4 }
@@ -54,7 +57,7 @@ class Server:
         """Ends it; fails where it had ended with a status or a signal that no test asks for, a sanitizer's say."""
         status = self.process.poll()
         self.process.terminate()
-        self.process.wait(10)
+        self.process.wait(10 * SLOWDOWN)
         said = "" if self.process.stderr.closed else self.process.stderr.read()
         self.process.stdout.close()
         self.process.stderr.close()
@@ -62,7 +65,7 @@ class Server:
             raise RuntimeError(f"the server had ended with {status}: {said}")
 
     def connect(self):
-        return socket.create_connection((self.address.strip("[]"), self.port), timeout=20)
+        return socket.create_connection((self.address.strip("[]"), self.port), timeout=20 * SLOWDOWN)
 
     def raw(self, data):
         """Sends bytes; returns all that comes back."""
@@ -97,7 +100,7 @@ class Server:
         """The first state of which `holds` is true."""
         begin = time.monotonic()
         while not holds(state := self.state()):
-            assert time.monotonic() - begin < seconds, state
+            assert time.monotonic() - begin < seconds * SLOWDOWN, state
             time.sleep(0.05)
         return state
 
@@ -109,7 +112,7 @@ class Server:
         time.sleep(0.5)
 
         def status():
-            thread.join(30)
+            thread.join(30 * SLOWDOWN)
             return results[0]
         return status
 
@@ -123,7 +126,7 @@ class Server:
         """The state, once there is a scene."""
         begin = time.monotonic()
         while not (state := self.moment())["version"]:
-            assert time.monotonic() - begin < 60, state
+            assert time.monotonic() - begin < 60 * SLOWDOWN, state
             time.sleep(0.02)
         return state
 

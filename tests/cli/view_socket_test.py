@@ -5,17 +5,14 @@ Usage: view_socket_test.py ALHAZEN
 """
 
 import json
-import os
 import sys
 import threading
 import time
 import unittest
 
-from view_server import SCENE, WISH, Server, ServerTest
+from view_server import SCENE, SLOWDOWN, WISH, Server, ServerTest
 
 ALHAZEN = sys.argv[1]
-# Processor time is shared with a sanitizer, say.
-SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
 # Minutes of work.
 LONG = {**WISH, "width": 2000, "height": 1500, "samples": 1024, "raw": True}
 
