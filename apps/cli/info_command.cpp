@@ -10,6 +10,12 @@
 
 namespace alhazen::cli {
 
+namespace {
+
+using json = nlohmann::ordered_json;
+
+}  // namespace
+
 void add_info(CLI::App& app, int& exit_status) {
     struct Arguments {
         SceneArguments scene;
@@ -24,7 +30,6 @@ void add_info(CLI::App& app, int& exit_status) {
                       "triangles are closed");
     command->callback([args, &exit_status] {
         const LoadedScene loaded = load(args->scene.scene, args->scene.load_options());
-        using json = nlohmann::ordered_json;
         const json info = scene_info(args->scene.scene, loaded, {args->all});
         // Names come from the file: invalid UTF-8 is replaced, and non-ASCII characters (some
         // control terminals) are escaped.

@@ -28,6 +28,8 @@ std::uint64_t peak_rss_bytes() {
 
 namespace {
 
+using json = nlohmann::ordered_json;
+
 /// Null: the renderer has none.
 nlohmann::ordered_json beams_json(const RenderResult& result) {
     if (!result.beams) return nullptr;
@@ -54,7 +56,6 @@ nlohmann::ordered_json beams_json(const RenderResult& result) {
 /// null: without adaptive supersampling.
 nlohmann::ordered_json antialias_json(const SceneDescription& description,
                                       const RenderResult& result) {
-    using json = nlohmann::ordered_json;
     if (!result.antialias) return nullptr;
     const AntialiasReport& r = *result.antialias;
     json whole{
@@ -83,7 +84,6 @@ nlohmann::ordered_json antialias_json(const SceneDescription& description,
 
 /// null: without a sampler, a filter or a stop rule by name.
 nlohmann::ordered_json sampling_json(const RenderOptions& options, const RenderResult& result) {
-    using json = nlohmann::ordered_json;
     if (!result.sampling || !options.sampling) return nullptr;
     const SamplingReport& r = *result.sampling;
     json rounds = json::array();
@@ -107,7 +107,6 @@ nlohmann::ordered_json sampling_json(const RenderOptions& options, const RenderR
 nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedScene& loaded,
                                   const RenderOptions& options, const RenderResult& result,
                                   double write_seconds) {
-    using json = nlohmann::ordered_json;
     const RayCounters& counters = result.counters;
     json rays;
     for (std::size_t i = 0; i < kRayKindNames.size(); ++i) {

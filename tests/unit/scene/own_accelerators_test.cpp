@@ -54,7 +54,7 @@ TEST(OwnAccelerators, OneStandsInsideAnotherAndTheHitsStay) {
             }
             Hit expected, found;
             hits += list.aggregate->closest(ray, expected, nullptr);
-            scene.aggregate->closest(ray, found, nullptr);
+            (void)scene.aggregate->closest(ray, found, nullptr);
             EXPECT_EQ(std::memcmp(&expected.t, &found.t, sizeof(double)), 0) << outer << ", " << i;
             EXPECT_EQ(expected.primitive, found.primitive) << outer << ", " << i;
             EXPECT_EQ(expected.path, found.path) << outer << ", " << i;

@@ -157,7 +157,7 @@ TEST(SmoothDielectric, ReflectionAtFourIndicesIsThatOfEachInTheMean) {
     const Spectrum all{1 / 1.5, 1 / 1.6, 1 / 1.7, 1 / 1.8};
     const Vec3 view = normalize(Vec3{0.8, 0, 0.6});
     constexpr int kChoices = 20000;
-    Spectrum sum, expected;
+    Spectrum sum;
     for (int first = 0; first < 4; ++first) {
         // Turned, so that wavelength (first + i) mod 4 is at place i.
         Spectrum turned;

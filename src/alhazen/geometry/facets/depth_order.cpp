@@ -1,8 +1,9 @@
 #include "alhazen/geometry/facets/depth_order.h"
 
 #include <algorithm>
-#include <limits>
 #include <list>
+
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
@@ -36,7 +37,6 @@ class DepthSorter {
 
   private:
     [[nodiscard]] DepthItem item_of(const FacetPiece& piece) const {
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
         DepthItem item{piece, kInfinity, -kInfinity, kInfinity, -kInfinity, kInfinity, -kInfinity};
         for (const Vec3& p : pool_.corners(piece)) {
             const Vec3 w = projection_(p);

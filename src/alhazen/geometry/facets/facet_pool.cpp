@@ -1,13 +1,13 @@
 #include "alhazen/geometry/facets/facet_pool.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
+
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
 SideRange side_range(const FacetPlane& plane, std::span<const Vec3> points) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     SideRange range{kInfinity, -kInfinity};
     for (const Vec3& p : points) {
         const double at = plane.at(p);

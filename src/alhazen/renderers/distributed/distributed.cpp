@@ -17,7 +17,7 @@ namespace alhazen {
 
 namespace {
 
-enum Pair : std::uint32_t { kLensPair = 1, kTimePair = 2, kFirstBounce = 3 };
+enum Pair : std::uint32_t { kLensPair = 1, kTimePair = 2, kFirstBouncePair = 3 };
 enum BouncePair : std::uint32_t { kReflectedLobe = 0, kRefractedLobe = 1, kFirstLight = 2 };
 
 /// Draws from the sampler of the round.
@@ -26,7 +26,7 @@ class SamplerChance {
     explicit SamplerChance(const RenderJob& job)
         : moves_(job.scene.has_motion || job.camera_motion != nullptr),
           bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight),
-          draws_(job.round->sampler, std::min(kFirstBounce + bounce_, kMostTogether)) {}
+          draws_(job.round->sampler, std::min(kFirstBouncePair + bounce_, kMostTogether)) {}
 
     /// `ids`: of the eye rays from now on.
     void begin(std::span<const SampleId> ids) { draws_.begin(ids); }
@@ -35,7 +35,8 @@ class SamplerChance {
         return draws_.at(sample, pair);
     }
     [[nodiscard]] Vec2 draw(const Path& path, int depth, std::uint32_t pair) {
-        return draw(path.sample, kFirstBounce + static_cast<std::uint32_t>(depth) * bounce_ + pair);
+        return draw(path.sample,
+                    kFirstBouncePair + static_cast<std::uint32_t>(depth) * bounce_ + pair);
     }
 
     /// Drawn where something moves.

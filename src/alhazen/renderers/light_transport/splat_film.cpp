@@ -36,9 +36,9 @@ bool SplatFilm::add(const Vec2& place, const Rgb& light) {
             const double share = kernel(x - i - 0.5) * kernel(y - j - 0.5);
             Sum& sum = sums_[std::size_t(j - crop_.y0) * std::size_t(crop_.width()) +
                              std::size_t(i - crop_.x0)];
-            const bool all = sum.r.add(share * light.r) & sum.g.add(share * light.g) &
-                             sum.b.add(share * light.b);
-            finite = finite && all;
+            const bool r = sum.r.add(share * light.r), g = sum.g.add(share * light.g),
+                       b = sum.b.add(share * light.b);
+            finite = finite && r && g && b;
         }
     }
     return finite;

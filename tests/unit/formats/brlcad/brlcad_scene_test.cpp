@@ -243,10 +243,8 @@ TEST(BrlcadScene, OnePartThatCannotBeReadLeavesTheOthers) {
         "put a comb region yes tree {l ball {0 0 0 9 0 0 0 0 0 0 0 0 0 0 0 1}}\n",
         "put a comb region yes tree {l ball {1 0 0}}\n",
         "put a comb region yes tree {u {l ball} {! {l ball}}}\n",
-        "put s ell V {9 0 0} A {2 0 0} B {0 2 0} C {0 0 nan}\n"
-        "put a comb region yes tree {u {l s} {l ball" /* moved */
-        " {1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 "
-        "1}}}\n",
+        ("put s ell V {9 0 0} A {2 0 0} B {0 2 0} C {0 0 nan}\n"
+         "put a comb region yes tree {u {l s} {l ball {1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 1}}}\n"),
         "put c comb tree {u {l a} {l ball {1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 1}}}\n"
         "put a comb region yes tree {l c}\nput t comb tree {l a}\n",
     };
