@@ -54,11 +54,11 @@ class Server:
         self.host = f"{self.address}:{self.port}"
 
     def close(self):
-        """Ends it; fails where it had ended with a status or a signal that no test asks for, a sanitizer's say."""
+        """Ends it; fails where it had ended with a status or a signal that no test asks for, such as a sanitizer's."""
         status = self.process.poll()
         self.process.terminate()
         self.process.wait(10 * SLOWDOWN)
-        said = "" if self.process.stderr.closed else self.process.stderr.read()
+        said = self.process.stderr.read()
         self.process.stdout.close()
         self.process.stderr.close()
         if status not in (None, 0, 3, 75, -signal.SIGKILL):
