@@ -57,7 +57,6 @@ namespace alhazen {
 HWY_EXPORT(ranges_kernel);
 
 CsgBvh::RangesKernel csg_ranges_kernel() {
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     return HWY_DYNAMIC_DISPATCH(ranges_kernel)();
 }
 

@@ -44,12 +44,21 @@ void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
         surface.error = (surface.error + terms) + terms;
         return;
     }
-    const Vec3 rounded_terms = times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
-    const Vec3 outer_point = outer.point(surface.point);
-    const Vec3 inner_terms = times_abs(inner.linear, abs(outer_point)) + abs(inner.translation);
-    surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
-                    4 * kEpsilon * rounded_terms;
-    surface.point = outer_point;
+    if (outer.linear == Mat3{} && inner.linear == Mat3{}) {
+        // The terms below without products with 0 and 1, for what slides.
+        const Vec3 rounded_terms = abs(surface.point) + abs(outer.translation);
+        surface.point = surface.point + outer.translation;
+        const Vec3 inner_terms = abs(surface.point) + abs(inner.translation);
+        surface.error = (surface.error + 4 * kEpsilon * inner_terms) + 4 * kEpsilon * rounded_terms;
+    } else {
+        const Vec3 rounded_terms =
+            times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
+        surface.point = outer.point(surface.point);
+        const Vec3 inner_terms =
+            times_abs(inner.linear, abs(surface.point)) + abs(inner.translation);
+        surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
+                        4 * kEpsilon * rounded_terms;
+    }
     if (!with_uv) return;
     surface.dpdu = outer.linear * surface.dpdu;
     surface.dpdv = outer.linear * surface.dpdv;

@@ -147,10 +147,12 @@ class Compiler {
         draft.moving.clear();
         draft.table.finish();  // for its size
         if (draft.table.size() > 0) {
+            const bool alone = draft.table.size() == 1 && draft.table.first(kTriangleKind) == 1;
             const Built rest = seal(std::move(draft), accelerator);
             all.built = rest;
             ++all.built.instance_depth;
-            all.table.instances.push_back({.aggregate = rest.aggregate, .holds_rest = true});
+            all.table.instances.push_back(
+                {.aggregate = rest.aggregate, .holds_one_shape = alone, .holds_rest = true});
             resting = 0;
         }
         for (Instance& instance : moving) all.table.instances.push_back(std::move(instance));

@@ -65,10 +65,7 @@ HWY_EXPORT(met_boxes_kernel);
 
 std::size_t met_boxes(const BoxList& boxes, const BoxLine& line, std::size_t begin, std::size_t end,
                       std::uint32_t* met) {
-    static const auto kernel = [] {
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        return HWY_DYNAMIC_DISPATCH(met_boxes_kernel)();
-    }();
+    static const auto kernel = HWY_DYNAMIC_DISPATCH(met_boxes_kernel)();
     return kernel(boxes, line, begin, end, met);
 }
 

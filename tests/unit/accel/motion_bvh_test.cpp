@@ -58,14 +58,22 @@ TEST(MotionBvh, VisitsAllThatARayMeetsAtItsTime) {
                 Ray ray{center + 2 * size * Vec3{number(random), number(random), number(random)},
                         {number(random), number(random), i % 5 == 0 ? 0.0 : number(random)}};
                 if (i % 4 == 0) ray.t_max = size;
-                std::multiset<std::uint32_t> visited;
-                tree.traverse(
+                std::multiset<std::uint32_t> visited, in_any_order;
+                tree.traverse<MotionBvh::Order::NearFirst>(
                     ray, time, [&] { return ray.t_max; },
                     [&](std::uint32_t thing) {
                         visited.insert(thing);
                         return false;
                     },
                     NoStats{});
+                tree.traverse<MotionBvh::Order::Any>(
+                    ray, time, [&] { return ray.t_max; },
+                    [&](std::uint32_t thing) {
+                        in_any_order.insert(thing);
+                        return false;
+                    },
+                    NoStats{});
+                EXPECT_EQ(visited, in_any_order);
                 for (std::uint32_t thing = 0; thing < boxes.size(); ++thing) {
                     EXPECT_LE(visited.count(thing), 1u);
                     if (boxes[thing].empty()) {
@@ -86,7 +94,7 @@ TEST(MotionBvh, SkipsMostOfWhatARayMisses) {
     TraversalStats stats;
     for (int i = 0; i < 100; ++i) {
         const Ray ray{{-3, 0.01 * i - 0.5, 0}, {1, 0, 0}};
-        tree.traverse(
+        tree.traverse<MotionBvh::Order::NearFirst>(
             ray, 0.01 * i, [&] { return ray.t_max; }, [&](std::uint32_t) { return false; },
             CountingStats{&stats});
     }
@@ -97,7 +105,7 @@ TEST(MotionBvh, EndsWhereTheVisitorSays) {
     std::mt19937_64 random(5);
     const MotionBvh tree(random_boxes(random, 500, 1, {}));
     int visits = 0;
-    tree.traverse(
+    tree.traverse<MotionBvh::Order::Any>(
         Ray{{-3, 0, 0}, {1, 0, 0}}, 0.5, [] { return 100.0; },
         [&](std::uint32_t) {
             ++visits;

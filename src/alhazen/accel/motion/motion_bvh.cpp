@@ -166,7 +166,7 @@ MotionBvh::MotionBvh(std::span<const MovingBox> boxes) {
         }
     }
     if (all.empty()) return;
-    traversal_ = motion_bvh_traversal();
+    traversals_ = motion_bvh_traversals();
     frame_ = LocalFrame(all);
     std::vector<EndBoxes> things(boxes.size());
     std::vector<BuildReference> references;

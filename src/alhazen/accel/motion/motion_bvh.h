@@ -51,20 +51,24 @@ class MotionBvh {
         }
         static constexpr double kFar = 1e30;
     };
-    /// `visit(context, thing, reach)` for all that the ray may hit, near ones first, until it
-    /// returns true. `reach`: how far the ray goes, in distances of the slabs; `visit` may shrink
-    /// it.
+    /// Which of the things that a ray may hit come first.
+    enum class Order { NearFirst, Any };
+    /// `visit(context, thing, reach)` for all that the ray may hit until it returns true. `reach`:
+    /// how far the ray goes, in distances of the slabs; `visit` may shrink it.
     using Visit = bool (*)(void* context, std::uint32_t thing, float& reach);
     using Traversal = void (*)(const Node* nodes, const RaySlabs&, float reach, Visit,
                                void* context, TraversalStats*);
+    struct Traversals {
+        Traversal near_first = nullptr, any = nullptr;
+    };
 
     MotionBvh() = default;
     /// Ignores empty boxes.
     explicit MotionBvh(std::span<const MovingBox> boxes);
 
-    /// Calls `visit(thing)` for all that the ray may hit at `time` up to `t_max()`, near ones
-    /// first, until it returns true.
-    template <class Reach, class Visitation, class Stats>
+    /// Calls `visit(thing)` for all that the ray may hit at `time` up to `t_max()` until it returns
+    /// true.
+    template <Order kOrder, class Reach, class Visitation, class Stats>
     void traverse(const Ray& ray, double time, Reach&& t_max, Visitation&& visit,
                   Stats stats) const;
 
@@ -76,15 +80,15 @@ class MotionBvh {
     [[nodiscard]] RaySlabs slabs(const Ray& ray, double time) const;
 
     std::vector<Node> nodes_;
-    Traversal traversal_ = nullptr;
+    Traversals traversals_;
     std::vector<std::uint32_t> unbounded_;
     LocalFrame frame_;
 };
 
 /// For the chosen instruction set.
-[[nodiscard]] MotionBvh::Traversal motion_bvh_traversal();
+[[nodiscard]] MotionBvh::Traversals motion_bvh_traversals();
 
-template <class Reach, class Visitation, class Stats>
+template <MotionBvh::Order kOrder, class Reach, class Visitation, class Stats>
 void MotionBvh::traverse(const Ray& ray, double time, Reach&& t_max, Visitation&& visit,
                          Stats stats) const {
     for (const std::uint32_t thing : unbounded_) {
@@ -96,14 +100,17 @@ void MotionBvh::traverse(const Ray& ray, double time, Reach&& t_max, Visitation&
         const RaySlabs& ray;
         std::remove_reference_t<Reach>& t_max;
         std::remove_reference_t<Visitation>& visit;
-    } visitor{slab_ray, t_max, visit};
+        double known;  ///< t_max as it was
+    } visitor{slab_ray, t_max, visit, t_max()};
     const Visit call = [](void* context, std::uint32_t thing, float& reach) {
-        const Visitor& to = *static_cast<const Visitor*>(context);
-        const bool ends = to.visit(thing);
-        reach = to.ray.reach(to.t_max());
-        return ends;
+        Visitor& to = *static_cast<Visitor*>(context);
+        if (to.visit(thing)) return true;
+        const double now = to.t_max();
+        if (now != to.known) reach = to.ray.reach(to.known = now);
+        return false;
     };
-    traversal_(nodes_.data(), slab_ray, slab_ray.reach(t_max()), call, &visitor, stats.sink());
+    const Traversal run = kOrder == Order::NearFirst ? traversals_.near_first : traversals_.any;
+    run(nodes_.data(), slab_ray, slab_ray.reach(visitor.known), call, &visitor, stats.sink());
 }
 
 }  // namespace alhazen

@@ -52,6 +52,8 @@ HWY_INLINE std::uint32_t met_children(const MotionBvh::Node& node, const RayLane
 /// Levels of the tree: binary ones up to 48, where sets are halved from then on.
 constexpr std::size_t kMostLevels = 80;
 
+/// `Ordered`: near children first; else as they come, which costs less.
+template <bool Ordered>
 void traverse_motion(const MotionBvh::Node* nodes, const MotionBvh::RaySlabs& ray, float reach,
                      MotionBvh::Visit visit, void* context, TraversalStats* stats) {
     static_assert(MotionBvh::kWidth == kLaneCount);
@@ -75,13 +77,15 @@ void traverse_motion(const MotionBvh::Node* nodes, const MotionBvh::RaySlabs& ra
                 current = node.child[std::countr_zero(met)];
                 continue;
             }
-            const std::size_t before = count;
+            [[maybe_unused]] const std::size_t before = count;
             for (; met != 0; met &= met - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(met));
                 // The nearest last: insertion into the few that this node has added.
                 std::size_t at = count++;
-                for (; at > before && waiting[at - 1].enter < entries[i]; --at) {
-                    waiting[at] = waiting[at - 1];
+                if constexpr (Ordered) {
+                    for (; at > before && waiting[at - 1].enter < entries[i]; --at) {
+                        waiting[at] = waiting[at - 1];
+                    }
                 }
                 waiting[at] = {node.child[i], entries[i]};
             }
@@ -98,8 +102,8 @@ void traverse_motion(const MotionBvh::Node* nodes, const MotionBvh::RaySlabs& ra
 
 }  // namespace
 
-MotionBvh::Traversal traverse_motion_kernel() {
-    return &traverse_motion;
+MotionBvh::Traversals traverse_motion_kernels() {
+    return {&traverse_motion<true>, &traverse_motion<false>};
 }
 
 }  // namespace HWY_NAMESPACE
@@ -109,11 +113,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(traverse_motion_kernel);
+HWY_EXPORT(traverse_motion_kernels);
 
-MotionBvh::Traversal motion_bvh_traversal() {
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return HWY_DYNAMIC_DISPATCH(traverse_motion_kernel)();
+MotionBvh::Traversals motion_bvh_traversals() {
+    return HWY_DYNAMIC_DISPATCH(traverse_motion_kernels)();
 }
 
 }  // namespace alhazen

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "alhazen/primitives/primitive_lanes.h"
 #include "alhazen/primitives/unused_shear.h"
 #include "alhazen/shapes/core/first_hit.h"
 
@@ -13,14 +14,14 @@ namespace {
 /// are padded by 1e-13.
 constexpr double kEven = 1e-12;
 
-/// False where the line of the ray passes the ball by for certain; rounding is far below the
-/// margin.
-bool may_meet(const Sphere& ball, const Ray& ray) {
+/// True where a line passes the ball by for certain; rounding is far below the margin. `origin`,
+/// `direction`: of the line in the frame of the ball; `size`: the square of the direction's length.
+bool passes_by(const Sphere& ball, const Vec3& origin, const Vec3& direction, double size) {
     constexpr double kMargin = 1e-12;
-    const Vec3 f = ray.origin - ball.center;
-    const double along = dot(f, ray.direction), away = length_squared(f);
+    const Vec3 f = origin - ball.center;
+    const double along = dot(f, direction), away = length_squared(f);
     const double beyond = (1.0 - kMargin) * away - (1.0 + kMargin) * (ball.radius * ball.radius);
-    return !(along * along < length_squared(ray.direction) * beyond);
+    return along * along < size * beyond;
 }
 
 }  // namespace
@@ -40,6 +41,9 @@ MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t
     }
     tree_ = MotionBvh(boxes);
     for (const Instance& instance : table_.instances) movers_.push_back(mover_of(instance));
+    if (!resting_) return;
+    const PrimitiveTable* alone = movers_[table_.index(*resting_)].lone;
+    rests_alone_ = alone != nullptr && !takes_lanes(*alone, PrimitiveId{0});
 }
 
 MotionAggregate::Mover MotionAggregate::mover_of(const Instance& instance) {
@@ -80,11 +84,7 @@ std::optional<MotionAggregate::Slide> MotionAggregate::slide_of(const TransformM
     return Slide{open.translation, close.translation};
 }
 
-Ray MotionAggregate::inner_ray_of(std::size_t instance, const Ray& ray, double time) const {
-    if (const std::optional<Slide>& slide = movers_[instance].slide) {
-        const Vec3 translation = (1.0 - time) * slide->from + time * slide->to;
-        return {ray.origin - translation, ray.direction, ray.t_min, ray.t_max};
-    }
+Ray MotionAggregate::moved_ray(std::size_t instance, const Ray& ray, double time) const {
     return transformed(placement_at(table_.instances[instance], time).inner_from_outer, ray);
 }
 
@@ -126,13 +126,14 @@ PrimitiveTable::ShadowEffect MotionAggregate::effect_of(PrimitiveId id, const Ra
     return (mesh.mirrored ? side < 0.0 : side > 0.0) ? Blocks : None;
 }
 
-template <class Reach, class OnTriangle, class OnInstance>
+template <MotionBvh::Order kOrder, class Reach, class OnTriangle, class OnInstance>
 void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                             OnInstance&& on_instance) const {
     const bool has_triangles = table_.first(kInstanceKind) > 0;
     const RayShear shear = has_triangles ? RayShear(ray.direction) : kUnusedShear;
+    const double size = length_squared(ray.direction);
     with_stats(query.stats, [&](auto stats) {
-        tree_.traverse(
+        tree_.traverse<kOrder>(
             ray, query.time, t_max,
             [&](std::uint32_t i) {
                 const PrimitiveId id{i};
@@ -147,7 +148,17 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                     return on_triangle(id, hit);
                 }
                 const std::size_t index = i - table_.first(kInstanceKind);
-                Ray inner = inner_ray_of(index, ray, query.time);
+                const Mover& mover = movers_[index];
+                Ray inner = ray;
+                if (mover.slide) {
+                    inner.origin = ray.origin - mover.slide->at(query.time);
+                    if (mover.ball && passes_by(*mover.ball, inner.origin, ray.direction, size)) {
+                        stats.primitives(1);
+                        return false;
+                    }
+                } else {
+                    inner = moved_ray(index, ray, query.time);
+                }
                 inner.t_max = t_max();
                 return on_instance(id, index, inner);
             },
@@ -164,7 +175,7 @@ bool MotionAggregate::closest_in(std::size_t instance, const Ray& ray, Hit& hit,
     with_stats(query.stats, [&](auto stats) {
         if (mover.ball) {
             stats.primitives(1);
-            if (!may_meet(*mover.ball, ray) || !find_first_hit(*mover.ball, ray, hit)) return;
+            if (!find_first_hit(*mover.ball, ray, hit)) return;
             stats.primitive_hits(1);
             hit.primitive = PrimitiveId{0};
         } else {
@@ -184,7 +195,7 @@ bool MotionAggregate::occluded_in(std::size_t instance, const Ray& ray, RayQuery
         }
         ShapeHit hit;
         stats.primitives(1);
-        if (!may_meet(*mover.ball, ray) || !find_first_hit(*mover.ball, ray, hit)) return false;
+        if (!find_first_hit(*mover.ball, ray, hit)) return false;
         stats.primitive_hits(1);
         return true;
     });
@@ -192,7 +203,7 @@ bool MotionAggregate::occluded_in(std::size_t instance, const Ray& ray, RayQuery
 
 void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) const {
     double t_max = best.found() ? best.t : ray.t_max;
-    visit(
+    visit<MotionBvh::Order::NearFirst>(
         ray, query, [&] { return t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
             if (!wins(hit.t, id, best)) return false;
@@ -218,7 +229,7 @@ bool MotionAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
     hit = Hit{};
     if (!is_valid(ray)) return false;
     if (resting_ && table_.is_seen(*resting_, query.mask) &&
-        resting_instance().aggregate->closest(ray, hit, query)) {
+        closest_in(table_.index(*resting_), ray, hit, query)) {
         hit.path.push_back(*resting_);
     }
     closest_moving(ray, hit, query);
@@ -227,7 +238,7 @@ bool MotionAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
 
 bool MotionAggregate::occluded_by_moving(const Ray& ray, RayQuery query) const {
     bool met = false;
-    visit(
+    visit<MotionBvh::Order::Any>(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId, const ShapeHit&) { return met = true; },
         [&](PrimitiveId, std::size_t instance, const Ray& inner_ray) {
@@ -238,7 +249,7 @@ bool MotionAggregate::occluded_by_moving(const Ray& ray, RayQuery query) const {
 
 bool MotionAggregate::occluded(const Ray& ray, RayQuery query) const {
     if (!is_valid(ray)) return false;
-    if (resting_ && resting_instance().aggregate->occluded(ray, query)) return true;
+    if (resting_ && occluded_in(table_.index(*resting_), ray, query)) return true;
     return occluded_by_moving(ray, query);
 }
 
@@ -252,7 +263,7 @@ void MotionAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery 
         return false;
     };
     if (resting_) append(*resting_, table_.index(*resting_), ray);
-    visit(
+    visit<MotionBvh::Order::Any>(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
             Hit& found = hits.emplace_back();
@@ -276,7 +287,7 @@ bool MotionAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQ
         return false;
     };
     if (resting_ && append(*resting_, table_.index(*resting_), ray)) return true;
-    visit(
+    visit<MotionBvh::Order::Any>(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
             using enum PrimitiveTable::ShadowEffect;
@@ -296,13 +307,14 @@ bool MotionAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQ
 void MotionAggregate::closest_batch_at(std::span<const Ray> rays, std::span<const float> times,
                                        std::span<Hit> hits, RayQuery query,
                                        Coherence coherence) const {
-    if (resting_) {
+    if (resting_ && !rests_alone_) {
         resting_instance().aggregate->closest_batch(rays, hits, query, coherence);
     } else {
         for (Hit& hit : hits) hit = Hit{};
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!is_valid(rays[i])) continue;
+        if (rests_alone_) closest_in(table_.index(*resting_), rays[i], hits[i], query);
         if (hits[i].found()) hits[i].path.push_back(*resting_);
         closest_moving(rays[i], hits[i], {query.stats, query.mask, times[i]});
     }
@@ -312,10 +324,13 @@ void MotionAggregate::occluded_batch_at(std::span<const Ray> rays, std::span<con
                                         std::span<bool> met, RayQuery query,
                                         Coherence coherence) const {
     for (bool& m : met) m = false;
-    if (resting_) resting_instance().aggregate->occluded_batch(rays, met, query, coherence);
+    if (resting_ && !rests_alone_) {
+        resting_instance().aggregate->occluded_batch(rays, met, query, coherence);
+    }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (met[i] || !is_valid(rays[i])) continue;
-        met[i] = occluded_by_moving(rays[i], {query.stats, query.mask, times[i]});
+        met[i] = (rests_alone_ && occluded_in(table_.index(*resting_), rays[i], query)) ||
+                 occluded_by_moving(rays[i], {query.stats, query.mask, times[i]});
     }
 }
 

@@ -45,6 +45,7 @@ class MotionAggregate final : public Aggregate {
     /// A motion without turn or stretch, evenly along a line: its translation at both ends.
     struct Slide {
         Vec3 from, to;
+        [[nodiscard]] Vec3 at(double time) const { return (1.0 - time) * from + time * to; }
     };
     /// What the leaves of the tree need of an instance, in one place.
     struct Mover {
@@ -58,8 +59,8 @@ class MotionAggregate final : public Aggregate {
     [[nodiscard]] static Mover mover_of(const Instance& instance);
     [[nodiscard]] static std::optional<Slide> slide_of(const TransformMotion& motion,
                                                        const Box3& inner);
-    /// The ray in the frame of an instance.
-    [[nodiscard]] Ray inner_ray_of(std::size_t instance, const Ray& ray, double time) const;
+    /// The ray in the frame of an instance that does more than slide.
+    [[nodiscard]] Ray moved_ray(std::size_t instance, const Ray& ray, double time) const;
     /// All that rests, where there is such.
     [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {
@@ -76,13 +77,14 @@ class MotionAggregate final : public Aggregate {
     [[nodiscard]] bool occluded_in(std::size_t instance, const Ray& ray, RayQuery query) const;
     /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, index, inner_ray)` for all that the
     /// ray may hit, until that returns true.
-    template <class Reach, class OnTriangle, class OnInstance>
+    template <MotionBvh::Order kOrder, class Reach, class OnTriangle, class OnInstance>
     void visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                OnInstance&& on_instance) const;
 
     PrimitiveTable table_;
     std::vector<Mover> movers_;  ///< [instance]
     std::optional<PrimitiveId> resting_;
+    bool rests_alone_ = false;  ///< one shape rests, for which there is no test in lanes
     MovingBox box_;
     MotionBvh tree_;
 };

@@ -116,7 +116,6 @@ namespace alhazen {
 HWY_EXPORT(ALHAZEN_KERNELS_FUNCTION);
 
 const WideBvhKernels& ALHAZEN_KERNELS_FUNCTION() {
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     return HWY_DYNAMIC_DISPATCH(ALHAZEN_KERNELS_FUNCTION)();
 }
 
