@@ -351,7 +351,8 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Adaptive supersampling instead of --spp: rays through the corners of the "
                      "pixels, and more where their shades would change the pixel by more than "
                      "threshold (0.02), down to 1 / 2^depth (4) of a pixel; guarantee (on): and "
-                     "where an object may hide between rays; neighbours (on): and where rays of "
+                     "where an object may hide between rays (all: also where all rays around meet "
+                     "something nearer); neighbours (on): and where rays of "
                      "cells beside it differ; weigh (on): shades count by the area of their cell. "
                      "exact: the integral over the whole area of each pixel, or "
                      "under a filter (`alhazen list filters`), of beam_tracing; shades that change "
@@ -359,7 +360,7 @@ void add_render(CLI::App& app, int& exit_status) {
                      "antialiasing; a quick look: rays for one pixel in step (8) of each row and "
                      "column, more where shades differ by more than threshold (0.05)")
         ->type_name(
-            "whitted[:threshold=T,depth=D,guarantee=on|off,weigh=on|off,neighbours=on|off]|"
+            "whitted[:threshold=T,depth=D,guarantee=on|off|all,weigh=on|off,neighbours=on|off]|"
             "exact[:error=E,filter=NAME,radius=PIXELS]|pixel_selection[:step=N,threshold=T]");
     command
         ->add_option("--depth", args->depth,

@@ -327,6 +327,8 @@ TEST(Antialias, SettingsAreChecked) {
     EXPECT_EQ(s.threshold, 0.1);
     EXPECT_EQ(s.depth, 2);
     EXPECT_FALSE(s.guarantee);
+    EXPECT_FALSE(s.behind_all);
+    EXPECT_TRUE(parse_antialias("whitted:guarantee=all").behind_all);
     for (const char* bad :
          {"", "cook", "whitted:depth=9", "whitted:depth=1.5", "whitted:x=1", "whitted:threshold=-1",
           "whitted:threshold=nan", "whitted:guarantee=2", "whitted:weigh=no"}) {

@@ -136,6 +136,34 @@ TEST(ObjectSearch, ABallHalfBehindAnEdgeIsFound) {
     EXPECT_EQ(picture(scene, {.guarantee = false}).film.at(kSide / 2, kSide / 2 - 1).r, 0.0);
 }
 
+TEST(ObjectSearch, ABallBehindAGapIsFoundByGuaranteeAll) {
+    // Through a slit of 0.2 pixels in the middle of a pixel; all corners show the walls.
+    SceneMaker maker;
+    const MaterialId dark = maker.material(Material{}), light = bright(maker);
+    const double left = 0.4 * kPixel, right = 0.6 * kPixel;
+    maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {9 + left, 0, 0}, .edge_v = {0, 18, 0}},
+              dark);
+    maker.add(
+        Rectangle{.corner = {right, -9, 0}, .edge_u = {9 - right, 0, 0}, .edge_v = {0, 18, 0}},
+        dark);
+    const double away = 3 * kPixel, grown = (5 + away) / 5;
+    maker.add(Sphere{{0.5 * kPixel * grown, 0.5 * kPixel * grown, -away}, 0.2 * kPixel * grown},
+              light);
+    const Scene scene = maker.compile("wide_bvh");
+    const AntialiasedPicture on = picture(scene, {.threshold = 0.001, .depth = 6});
+    const AntialiasedPicture all =
+        picture(scene, {.threshold = 0.001, .depth = 6, .behind_all = true});
+    EXPECT_EQ(on.counts().met, 2U);
+    EXPECT_EQ(on.counts().sought, 0U);
+    EXPECT_EQ(on.counts().passed_over, 1U);
+    EXPECT_EQ(all.counts().met, 3U);
+    EXPECT_EQ(all.counts().sought, 1U);
+    EXPECT_EQ(all.counts().passed_over, 0U);
+    EXPECT_EQ(on.film.at(kSide / 2, kSide / 2 - 1).r, 0.0);
+    // The part of a disc of radius 0.2 within 0.1 of its middle line.
+    EXPECT_NEAR(all.film.at(kSide / 2, kSide / 2 - 1).r, 0.0765, 0.015);
+}
+
 /// A tube hidden behind the edge of a wall, so close that no bound tells that it is.
 Scene hidden_tube() {
     SceneMaker maker;

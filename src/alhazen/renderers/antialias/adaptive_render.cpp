@@ -92,14 +92,13 @@ class AdaptiveRender {
     void look_for_objects() {
         if (job_.stop_requested()) return;
         const auto begin = std::chrono::steady_clock::now();
-        spheres_.emplace(objects_->objects(), met_, picture_);
+        spheres_.emplace(objects_->objects(), met_, picture_, settings_.behind_all);
         if (spheres_->empty()) {
             spheres_.reset();
         } else {
             std::vector<WatchedObject> around = spheres_->around(grid_);
-            std::vector<std::uint32_t> sought;
-            for (const WatchedObject& w : around) sought.push_back(w.object);
-            report_.sought = count_distinct(sought);
+            for (const WatchedObject& w : around) looked_for_.push_back(w.object);
+            report_.sought = count_distinct(looked_for_);
             search_.emplace(ObjectSearch::Where{*objects_, *spheres_, picture_, grid_}, met_,
                             around);
             search_->run(pool_, job_);
@@ -117,6 +116,7 @@ class AdaptiveRender {
             report_.unbounded += objects[i].is_seen && !(objects[i].sphere.radius < kInfinity);
             report_.met += met_[i];
         }
+        count_passed_over();
         if (!search_) return;
         for (const std::uint32_t pixel : search_->pixels()) {
             report_.searching += pixel != ObjectSearch::kNone;
@@ -134,6 +134,16 @@ class AdaptiveRender {
         report_.below_depth = count_distinct(unmet);
         name_unmet();
     }
+    void count_passed_over() {
+        std::vector<std::uint8_t> known = met_;
+        for (const std::uint32_t object : looked_for_) known[object] = 1;
+        for (std::size_t i = 0; i < known.size(); ++i) {
+            const SceneObject& object = objects_->objects()[i];
+            report_.passed_over +=
+                known[i] == 0 && object.is_seen && object.sphere.radius < kInfinity;
+        }
+    }
+
     /// Names the first objects that were not met, each with the first pixel where it was looked
     /// for.
     void name_unmet() {
@@ -263,10 +273,11 @@ class AdaptiveRender {
     AdaptiveGrid grid_;
     RayCounters counters_;
     AntialiasReport report_;
-    std::optional<SceneObjects> objects_;   ///< with the guarantee
-    std::vector<std::uint8_t> met_;         ///< [object] a ray with a shade met it
-    std::optional<SoughtSpheres> spheres_;  ///< where some object was not met at first
-    std::optional<ObjectSearch> search_;    ///< likewise
+    std::optional<SceneObjects> objects_;    ///< with the guarantee
+    std::vector<std::uint8_t> met_;          ///< [object] a ray with a shade met it
+    std::vector<std::uint32_t> looked_for_;  ///< objects; each once
+    std::optional<SoughtSpheres> spheres_;   ///< where some object was not met at first
+    std::optional<ObjectSearch> search_;     ///< likewise
     std::vector<WatchedObject> below_depth_;
 };
 

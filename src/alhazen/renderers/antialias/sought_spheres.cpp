@@ -49,8 +49,9 @@ bool meets_bounds(const SceneObject& object, double room, const Ray& ray, double
 }  // namespace
 
 SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
-                             const std::vector<std::uint8_t>& met, const PictureGrid& picture)
-    : objects_(objects), met_(met), picture_(picture) {
+                             const std::vector<std::uint8_t>& met, const PictureGrid& picture,
+                             bool behind_all)
+    : objects_(objects), met_(met), picture_(picture), behind_all_(behind_all) {
     PrimitiveTable table;
     auto& column = std::get<ShapeColumn<Sphere>>(table.columns);
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
@@ -77,6 +78,7 @@ double SoughtSpheres::room(const SceneObject& object, int level) const {
 
 bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
                              double farthest) const {
+    if (behind_all_) farthest = kInfinity;
     const SceneObject& o = objects_[object];
     const Ray ray = picture_.ray(level + 1, {2 * cell.x + 1, 2 * cell.y + 1});
     const Vec3 to_center = o.sphere.center - ray.origin;
@@ -101,7 +103,7 @@ std::vector<WatchedObject> SoughtSpheres::around(const AdaptiveGrid& grid) const
                 const double farthest = grid.farthest_of_pixel(x, y);
                 Ray ray = picture_.ray(1, {2 * x + 1, 2 * y + 1});
                 ray.t_min = t_min_;
-                ray.t_max = farthest;
+                ray.t_max = behind_all_ ? kInfinity : farthest;
                 hits.clear();
                 tree_->all_hits(ray, hits, nullptr);
                 hiding.clear();

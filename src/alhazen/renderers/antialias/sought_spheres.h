@@ -5,7 +5,8 @@
 /// r_k(D) of the ray through the middle of the cell: half the largest diagonal of a cell of that
 /// level, seen from there. So that ray meets the sphere of the radius R + r_k around the object,
 /// where R bounds it, and the rays through all four corners meet that of the radius R + 2 r_k. An
-/// object may hide in a cell where this is so and some corner shows a surface behind it.
+/// object may hide in a cell where this is so and some corner shows a surface behind it; with
+/// `behind_all` whatever the corners show.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980, section
 /// "Treatment of Aliasing" (bounding spheres that are large enough for some ray).
@@ -30,7 +31,7 @@ class SoughtSpheres final : public ObjectWatch {
     /// [object] `met`: 1 for those that rays with a shade have met, kept up to date by the caller;
     /// the arguments must outlive the object. The tree has the objects that are not met now.
     SoughtSpheres(const std::vector<SceneObject>& objects, const std::vector<std::uint8_t>& met,
-                  const PictureGrid& picture);
+                  const PictureGrid& picture, bool behind_all);
 
     [[nodiscard]] bool empty() const { return sought_.empty(); }
     /// The pixels where objects of the tree may hide; sorted. `grid`: in its first round, all
@@ -52,6 +53,7 @@ class SoughtSpheres final : public ObjectWatch {
     const std::vector<SceneObject>& objects_;
     const std::vector<std::uint8_t>& met_;
     const PictureGrid& picture_;
+    bool behind_all_;
     std::vector<std::uint32_t> sought_;      ///< [sphere of the tree] object
     std::shared_ptr<const Aggregate> tree_;  ///< over the spheres of level 0
     double t_min_ = 0;                       ///< of queries: -infinity where the eye is in a sphere

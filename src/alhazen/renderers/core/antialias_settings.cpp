@@ -25,7 +25,7 @@ void read_exact_filter(RendererSettings& given, AntialiasSettings& settings) {
 }  // namespace
 
 AntialiasSettings parse_antialias(const std::string& text) {
-    static constexpr const char* kSwitch[] = {"off", "on"};
+    static constexpr const char *kSwitch[] = {"off", "on"}, *kGuarantee[] = {"off", "on", "all"};
     RendererSettings given(text, "--antialias");
     AntialiasSettings settings;
     if (given.name() == "exact") {
@@ -47,7 +47,9 @@ AntialiasSettings parse_antialias(const std::string& text) {
     }
     settings.threshold = given.number("threshold", settings.threshold, 0.0, 1.0);
     settings.depth = given.whole("depth", settings.depth, 0, AntialiasSettings::kDeepest);
-    settings.guarantee = given.choice("guarantee", 1, kSwitch) == 1;
+    const std::size_t guarantee = given.choice("guarantee", 1, kGuarantee);
+    settings.guarantee = guarantee > 0;
+    settings.behind_all = guarantee == 2;
     settings.weigh = given.choice("weigh", 1, kSwitch) == 1;
     settings.neighbours = given.choice("neighbours", 1, kSwitch) == 1;
     given.finish();

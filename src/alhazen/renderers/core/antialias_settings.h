@@ -1,6 +1,6 @@
 #pragma once
 /// Settings of adaptive supersampling, as `--antialias` takes them:
-/// "whitted:threshold=T,depth=D,guarantee=on|off,weigh=on|off,neighbours=on|off",
+/// "whitted:threshold=T,depth=D,guarantee=on|off|all,weigh=on|off,neighbours=on|off",
 /// "exact:error=E,filter=NAME,radius=R".
 
 #include <string>
@@ -21,6 +21,9 @@ struct AntialiasSettings {
     int step = 0;
     int depth = 4;          ///< most divisions of a pixel, at most kDeepest
     bool guarantee = true;  ///< look for objects between the rays
+    /// Look for them also where something nearer is at all corners: behind gaps that no corner ray
+    /// passes.
+    bool behind_all = false;
     /// Shades count as parts of the pixel: by the area of their cell. Off: as they are, cut off at
     /// 1, at every level alike.
     bool weigh = true;
