@@ -77,7 +77,10 @@ RenderOptions render_options(const RenderArguments& args) {
         options.height = size.height;
     }
     if (!args.crop.empty()) options.crop = parse_crop(args.crop);
-    if (args.depth >= 0) options.max_depth = args.depth;
+    if (args.depth >= 0) {
+        options.max_depth = args.depth;
+        options.renderer = with_depth(options.renderer, args.depth);
+    }
     if (!args.antialias.empty()) options.antialias = parse_antialias(args.antialias);
     SamplingTexts sampling = args.sampling;
     sampling.seconds = args.scene.time_limit;
@@ -364,7 +367,8 @@ void add_render(CLI::App& app, int& exit_status) {
             "exact[:error=E,filter=NAME,radius=PIXELS]|pixel_selection[:step=N,threshold=T]");
     command
         ->add_option("--depth", args->depth,
-                     "Recursion depth, 0 = eye rays only; default: the format's")
+                     "Recursion depth, 0 = eye rays only; default: the format's. Of what follows "
+                     "paths: N + 1 scatterings at most; default: that of its setting depth")
         ->check(CLI::Range(0, 1000));
     command
         ->add_option(

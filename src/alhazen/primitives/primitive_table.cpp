@@ -59,8 +59,10 @@ void PrimitiveTable::finish() {
         },
         columns);
     std::uint64_t triangles = 0;
+    mesh_starts_.clear();
     for (PlacedMesh& mesh : meshes) {
         mesh.first_triangle = static_cast<std::uint32_t>(triangles);
+        mesh_starts_.push_back(mesh.first_triangle);
         triangles += mesh.mesh->triangles.size();
     }
     begin_kind(triangles);
@@ -120,10 +122,17 @@ std::uint32_t PrimitiveTable::index(PrimitiveId id) const {
 
 const PlacedMesh& PrimitiveTable::mesh_of(std::uint32_t triangle) const {
     if (meshes.size() == 1) return meshes.front();
-    const auto after = std::upper_bound(
-        meshes.begin(), meshes.end(), triangle,
-        [](std::uint32_t t, const PlacedMesh& mesh) { return t < mesh.first_triangle; });
-    return *(after - 1);
+    constexpr std::size_t kFew = 32;
+    std::size_t after = 0;
+    if (meshes.size() <= kFew) {
+        // Without a branch that depends on the triangle.
+        for (const std::uint32_t start : mesh_starts_) after += start <= triangle;
+    } else {
+        after = static_cast<std::size_t>(
+            std::upper_bound(mesh_starts_.begin(), mesh_starts_.end(), triangle) -
+            mesh_starts_.begin());
+    }
+    return meshes[after - 1];
 }
 
 std::array<Vec3, 3> PrimitiveTable::triangle_vertices(std::uint32_t triangle) const {

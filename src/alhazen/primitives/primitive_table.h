@@ -214,6 +214,7 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] bool leaves_through_front(PrimitiveId id, const Ray& ray) const;
 
     std::array<std::uint32_t, kKindCount + 1> first_{};
+    std::vector<std::uint32_t> mesh_starts_;  ///< [mesh] its first triangle: dense, to be searched
     /// Primitives from `first` up to the next entry.
     struct MaskRange {
         std::uint32_t first;

@@ -1,5 +1,6 @@
 #include "alhazen/renderers/core/renderer.h"
 
+#include <algorithm>
 #include <array>
 
 #include "alhazen/base/error.h"
@@ -172,30 +173,31 @@ std::span<const RendererEntry> renderers() {
          [](RendererSettings& settings) {
              return std::unique_ptr<Renderer>(
                  std::make_unique<LightTracing>(path_settings(settings)));
-         }},
+         },
+         true},
         {"path_tracing",
          "all light by random paths from the eye, lights sampled at each surface (Kajiya 1986, "
          "Veach 1997); depth=N, roulette=N, clamp=X, manifold=on|off (light by way of mirrors and "
          "glass by walks, Hanika 2015, Zeltner 2020), polarization=on|off (Wilkie and Weidlich "
          "2012)",
-         [](RendererSettings& settings) { return make_path_tracing(settings); }},
+         [](RendererSettings& settings) { return make_path_tracing(settings); }, true},
         {"photon_mapping",
          "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
          "irradiance cache for them), projection=on|off, memory=MB, depth=N, roulette=N",
-         [](RendererSettings& settings) { return make_photon_mapping(settings); }},
+         [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "
          "(Hachisuka and Jensen 2009); photons=N (of a pass), radius=DISTANCE (of the first), "
          "alpha=X, memory=MB, depth=N, roulette=N",
-         [](RendererSettings& settings) { return make_sppm(settings); }},
+         [](RendererSettings& settings) { return make_sppm(settings); }, true},
         {"vcm",
          "bidirectional and photons together, weighed by what each finds, in passes, one for each "
          "sample of --spp (Georgiev et al. 2012); merge=on|off, pilot=say|choose|off (a run before "
          "that says whether merging pays), photons=N (of a pass), radius=DISTANCE (of the first), "
          "alpha=X, memory=MB, depth=N, roulette=N",
-         [](RendererSettings& settings) { return make_vcm(settings); }},
+         [](RendererSettings& settings) { return make_vcm(settings); }, true},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
@@ -215,7 +217,8 @@ std::span<const RendererEntry> renderers() {
          [](RendererSettings& settings) {
              return std::unique_ptr<Renderer>(
                  std::make_unique<Bidirectional>(path_settings(settings)));
-         }},
+         },
+         true},
         {"cone_tracing",
          "a cone a pixel: covered areas in closed form, reflected, refracted and shadow cones "
          "(Amanatides 1984); coverage=formulas|tables",
@@ -230,6 +233,20 @@ std::span<const RendererEntry> renderers() {
          [](RendererSettings& settings) { return make_scan_lines(settings, true); }},
     }};
     return table;
+}
+
+std::string with_depth(const std::string& text, int depth) {
+    const std::size_t colon = text.find(':');
+    const std::string name = text.substr(0, colon), settings = text.substr(name.size());
+    const auto follows = [&](const RendererEntry& entry) {
+        return entry.name == name && entry.follows_paths;
+    };
+    if (std::none_of(renderers().begin(), renderers().end(), follows)) return text;
+    if (settings.find(":depth=") != std::string::npos ||
+        settings.find(",depth=") != std::string::npos) {
+        return text;
+    }
+    return text + (settings.empty() ? ":" : ",") + "depth=" + std::to_string(depth + 1);
 }
 
 std::unique_ptr<Renderer> make_renderer(const std::string& text) {

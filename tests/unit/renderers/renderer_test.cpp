@@ -59,6 +59,17 @@ class StopAfter final : public ProgressSink {
     std::size_t parts_;
 };
 
+TEST(RendererList, DepthBecomesASettingOfWhatFollowsPaths) {
+    EXPECT_EQ(with_depth("path_tracing", 8), "path_tracing:depth=9");
+    EXPECT_EQ(with_depth("vcm:merge=off", 0), "vcm:merge=off,depth=1");
+    EXPECT_EQ(with_depth("sppm:depth=3,alpha=0.5", 8), "sppm:depth=3,alpha=0.5");
+    EXPECT_EQ(with_depth("whitted:beer=on", 8), "whitted:beer=on");
+    EXPECT_EQ(with_depth("unknown", 8), "unknown");
+    for (const RendererEntry& entry : renderers()) {
+        EXPECT_NO_THROW(static_cast<void>(make_renderer(with_depth(entry.name, 1000))));
+    }
+}
+
 TEST(Renderer, OneWithoutTilesRendersASceneWithoutAnAggregate) {
     SceneMaker maker;
     Material red, green;

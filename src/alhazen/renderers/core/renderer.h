@@ -136,6 +136,7 @@ struct RendererEntry {
     const char* description;
     /// Throws Error (Usage) for an invalid setting.
     std::unique_ptr<Renderer> (*make)(RendererSettings& settings);
+    bool follows_paths = false;  ///< its setting `depth` is the most scatterings of a path
 };
 
 /// The table of renderers. ADD A RENDERER HERE (renderer_list.cpp: one line).
@@ -143,5 +144,8 @@ struct RendererEntry {
 /// The renderer of "NAME" or "NAME:SETTING=VALUE,...". Throws Error (Usage) listing the names for
 /// an unknown one, the settings of a renderer for an unknown setting.
 [[nodiscard]] std::unique_ptr<Renderer> make_renderer(const std::string& text);
+/// The text of a renderer whose rays are reflected and refracted `depth` times after the eye ray:
+/// what follows paths gets a setting, unless it has one; others take it from the scene.
+[[nodiscard]] std::string with_depth(const std::string& text, int depth);
 
 }  // namespace alhazen

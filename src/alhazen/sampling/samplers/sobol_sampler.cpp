@@ -1,5 +1,6 @@
 #include "alhazen/sampling/samplers/sobol_sampler.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -53,11 +54,11 @@ constexpr std::array<std::uint8_t, 24> kOrders = [] {
     return orders;
 }();
 
-/// The number of a sample, its bits flipped by hashes of the bits above: each first 2^k numbers
-/// stay an aligned block.
-std::uint32_t shuffled_number(std::uint32_t s, int bits, std::uint64_t key) {
+/// Bits [least, bits) of the number of a sample, flipped by hashes of the bits above: each first
+/// 2^k numbers stay an aligned block.
+std::uint32_t shuffled_number(std::uint32_t s, int bits, int least, std::uint64_t key) {
     std::uint32_t out = 0;
-    for (int bit = bits - 1; bit >= 0; --bit) {
+    for (int bit = bits - 1; bit >= least; --bit) {
         const std::uint64_t above = std::uint64_t{s >> bit >> 1} | std::uint64_t(bit + 1) << 32;
         out |= (((s >> bit) & 1u) ^ static_cast<std::uint32_t>(mix64(key ^ above) >> 63)) << bit;
     }
@@ -89,9 +90,13 @@ void SobolSampler::points(const SamplePixel& pixel, std::uint32_t pair, std::uin
     const std::uint64_t place = std::uint64_t{curve_place(pixel, key)} << sample_bits_;
     const std::uint64_t order = mix64(key ^ mix64(pixel.id()));
     const std::uint64_t second = second_digits(place);
+    // Bits that are zero in all of these numbers are flipped alike.
+    const auto end = static_cast<std::uint32_t>(first + out.size());
+    const int low = std::min(sample_bits_, static_cast<int>(std::bit_width(end - 1)));
+    const std::uint32_t high = pair > 0 ? shuffled_number(0, sample_bits_, low, order) : 0;
     for (std::uint32_t k = 0; k < out.size(); ++k) {
         std::uint32_t s = first + k;
-        if (pair > 0) s = shuffled_number(s, sample_bits_, order);
+        if (pair > 0) s = high | shuffled_number(s, low, 0, order);
         out[k] = {nested_scramble<kScrambledDigits>(trees[0], reversed_bits(place | s)),
                   nested_scramble<kScrambledDigits>(trees[1], second ^ second_digits(s))};
     }

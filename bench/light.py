@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Path tracing beside Cycles of Debian's blender: the same scenes, two threads, equal time.
+
+Usage: bench/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--json FILE] [--keep DIR]
+Each renders for T seconds, and for N T seconds as the reference that its error is measured against; how far both
+references are apart is told. RMSE is of linear light, whole and cut off at 1 (what a picture shows). Neither denoises,
+clamps or adapts; building the scene is in no time.
+"""
+
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+
+from light_scenes import SCENES, write_alhazen, write_json
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MANY = 1 << 20
+
+
+def blender(*arguments):
+    """Its output. Blender takes the modules of the first Python in PATH: that of the system, which has numpy."""
+    done = subprocess.run(["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P",
+                           os.path.join(HERE, "cycles.py"), "--", *map(str, arguments)],
+                          capture_output=True, text=True, env={**os.environ, "PATH": os.defpath})
+    if done.returncode != 0:
+        raise SystemExit(f"blender: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def compared(a, b):
+    return json.loads(re.search(r"^compared (.*)$", blender("compare", a, b), re.M).group(1))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("alhazen")
+    parser.add_argument("data")
+    parser.add_argument("--scenes", default=",".join(SCENES))
+    parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--long", type=float, default=12, help="times the seconds, of references")
+    parser.add_argument("--size", default="400x300")
+    parser.add_argument("--renderer", default="path_tracing")
+    parser.add_argument("--json", help="file for the figures")
+    parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
+    args = parser.parse_args()
+    if not shutil.which("blender"):
+        raise SystemExit("blender is not installed: scripts/setup --blender")
+    folder = args.keep or tempfile.mkdtemp()
+    os.makedirs(folder, exist_ok=True)
+    at = lambda name: os.path.join(folder, name)
+    width, height = (int(n) for n in args.size.split("x"))
+    figures = {}
+
+    def alhazen(scene, out, seconds, seed):
+        stats = at("stats.json")
+        subprocess.run([args.alhazen, "render", at(scene + ".alhazen"), "-o", at(out), "--full-float", "--size",
+                        args.size, "-t", "2", "-q", "--renderer", f"{args.renderer}:depth={depth + 1}", "--spp",
+                        str(MANY), "--filter", "box", "--time", f"{seconds:g}s", "--seed", str(seed), "--stats", stats,
+                        "--no-counts"], check=True)
+        with open(stats, encoding="utf-8") as source:
+            given = json.load(source)
+        return given["sampling"]["samples_per_pixel"], given["seconds"]["render"]
+
+    def cycles(scene, out, seconds, seed):
+        told = blender("render", at(scene + ".json"), at(out), width, height, seconds, MANY, seed)
+        return max(int(n) for n in re.findall(r"Sample (\d+)/", told)), seconds
+
+    for name in args.scenes.split(","):
+        scene = SCENES[name](args.data)
+        depth = scene.depth
+        if scene.sky:
+            write_sky(args.alhazen, at(scene.sky))
+        write_alhazen(scene, at(name + ".alhazen"))
+        write_json(scene, at(name + ".json"))
+        row = figures[name] = {}
+        for program, render in (("alhazen", alhazen), ("cycles", cycles)):
+            picture = lambda kind: f"{name}_{program}{kind}.exr"
+            render(name, picture("_long"), args.long * args.seconds, 2)
+            samples, took = render(name, picture(""), args.seconds, 1)
+            row[program] = {"samples": samples, "seconds": took}
+        both = compared(at(name + "_alhazen_long.exr"), at(name + "_cycles_long.exr"))
+        row["references"] = both
+        for program in ("alhazen", "cycles"):
+            error = compared(at(f"{name}_{program}.exr"), at(f"{name}_{program}_long.exr"))
+            row[program].update(rmse=error["rmse"], shown=error["shown"])
+        for program in ("alhazen", "cycles"):
+            r = row[program]
+            print(f"{name}: {program}: {r['samples']:.0f} samples in {r['seconds']:.1f} s, RMSE {r['rmse']:.5f}, "
+                  f"shown {r['shown']:.5f}", flush=True)
+        print(f"{name}: the references differ by {both['rmse']:.5f}, shown {both['shown']:.5f}, their means are "
+              f"{both['means'][0]:.5f} and {both['means'][1]:.5f}", flush=True)
+    if args.json:
+        with open(args.json, "w", encoding="utf-8") as out:
+            json.dump(figures, out, indent=1)
+
+
+def write_sky(alhazen, path):
+    """The clear sky with its sun as a picture of all directions, its middle along x."""
+    scene = os.path.splitext(path)[0] + "_source.alhazen"
+    with open(scene, "w", encoding="ascii") as out:
+        out.write("alhazen 1\nenvironment { kind = sky; up = (0, 0, 1); to_sun = (0.25, 0.3, 1) }\n"
+                  "panorama_camera { eye = (0, 0, 0); direction = (1, 0, 0); up = (0, 0, 1) }\n"
+                  "sphere { center = (0, 0, -1000); radius = 0.001; material = { diffuse = 0 } }\n")
+    subprocess.run([alhazen, "render", scene, "-o", path, "--full-float", "--size", "1024x512", "--renderer",
+                    "path_tracing", "--spp", "64", "-q"], check=True)
+
+
+if __name__ == "__main__":
+    main()
