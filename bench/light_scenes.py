@@ -164,7 +164,7 @@ def many_lights(data):
                      for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         faces += [(k, k + 1, k + 2), (k, k + 2, k + 3)]
     for kind, (vertices, faces) in groups.items():
-        radiance = tuple(10 * 1.6 ** kind * (0.4 + 0.6 * chance.random()) for _ in range(3))
+        radiance = tuple(1.6 ** kind * (0.4 + 0.6 * chance.random()) for _ in range(3))
         scene.meshes.append((scene.glowing(f"lights {kind}", radiance), vertices, faces))
     return scene
 

@@ -31,14 +31,18 @@ class ViewSocket(ServerTest):
     # ---- who may open it, and what it refuses
     def test_a_socket_is_for_the_page_of_this_server(self):
         for origin in (None, "null", "http://evil.com", f"https://{self.server.host}"):
-            self.assertEqual(self.socket_of(Origin=origin).status, 403, origin)
+            frames = self.socket_of(Origin=origin)
+            self.assertEqual(frames.status, 403, origin)
+            frames.close()
         self.assertEqual(self.socket_of(Host="evil.com", Origin="http://evil.com").status, 403)
 
     def test_a_socket_needs_the_token_first(self):
         for first in ({"token": "0" * 32}, {"token": 1}, {**WISH, "id": 1}, [], b"{"):
             frames = self.socket_of()
+            self.assertEqual(frames.status, 101)
             frames.send(first)
             self.assertEqual(frames.end(), 1008, first)
+            frames.close()  # the server has eight clients at most, and waits for the end of each
 
     def test_a_socket_without_a_token_is_let_go(self):
         frames = self.socket_of()
@@ -58,6 +62,7 @@ class ViewSocket(ServerTest):
             frames = self.open()
             send(frames)
             self.assertIn(frames.end(), codes)
+            frames.close()
         self.assertEqual(self.server.ask("/state", {})[0], 200)
 
     # ---- pictures
