@@ -413,7 +413,7 @@ template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&,
 
 std::size_t PrimitiveTable::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    std::size_t total = bytes(meshes) + bytes(instances) + bytes(placements) +
+    std::size_t total = bytes(meshes) + bytes(mesh_starts_) + bytes(instances) + bytes(placements) +
                         bytes(material_opacity) + masks_.capacity() * sizeof(MaskRange);
     std::apply(
         [&](const auto&... c) {

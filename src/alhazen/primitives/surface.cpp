@@ -38,27 +38,20 @@ void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
     const Affine& outer = placement.outer_from_inner;
     const Affine& inner = placement.inner_from_outer;
     carry_normals_outward(inner, surface);
-    if (outer == Affine{}) {
-        // The terms below without products with 0 and 1: for a CSG object without a placement.
-        const Vec3 terms = 4 * kEpsilon * abs(surface.point);
-        surface.error = (surface.error + terms) + terms;
-        return;
-    }
     if (outer.linear == Mat3{} && inner.linear == Mat3{}) {
-        // The terms below without products with 0 and 1, for what slides.
+        // The terms below without products with 0 and 1.
         const Vec3 rounded_terms = abs(surface.point) + abs(outer.translation);
         surface.point = surface.point + outer.translation;
         const Vec3 inner_terms = abs(surface.point) + abs(inner.translation);
         surface.error = (surface.error + 4 * kEpsilon * inner_terms) + 4 * kEpsilon * rounded_terms;
-    } else {
-        const Vec3 rounded_terms =
-            times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
-        surface.point = outer.point(surface.point);
-        const Vec3 inner_terms =
-            times_abs(inner.linear, abs(surface.point)) + abs(inner.translation);
-        surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
-                        4 * kEpsilon * rounded_terms;
+        return;
     }
+    const Vec3 rounded_terms = times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
+    const Vec3 outer_point = outer.point(surface.point);
+    const Vec3 inner_terms = times_abs(inner.linear, abs(outer_point)) + abs(inner.translation);
+    surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
+                    4 * kEpsilon * rounded_terms;
+    surface.point = outer_point;
     if (!with_uv) return;
     surface.dpdu = outer.linear * surface.dpdu;
     surface.dpdv = outer.linear * surface.dpdv;

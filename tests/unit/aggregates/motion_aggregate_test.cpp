@@ -182,6 +182,62 @@ TEST(MotionAggregate, BatchesAreSingleRaysAtTheirTimes) {
     }
 }
 
+/// `shape` rests, alone, seen by reflected rays only where `masked`; balls slide before it.
+SceneDescription sliding_balls_before(const AnyShape& shape, bool masked) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> number(-1, 1);
+    SceneMaker maker;
+    const MaterialId matt = maker.material({});
+    SceneDescription& d = maker.description();
+    maker.add(shape, matt);
+    if (masked) d.objects[0].parts.back().visible_to = mask_of(RayKind::Reflection);
+    for (int i = 0; i < 20; ++i) {
+        maker.add(Sphere{.center = {number(random) * 3, number(random) * 3, number(random)},
+                         .radius = 0.5},
+                  matt);
+        const Vec3 way{number(random), number(random), number(random)};
+        d.objects[0].parts.back().motion = std::make_shared<const PartMotion>(
+            PartMotion{{}, {{0, Affine{}}, {1, Affine::translate(way)}}, {}});
+    }
+    d.shutter = {0, 1};
+    open_shutter(d, d.shutter);
+    return d;
+}
+
+TEST(MotionAggregate, OneShapeThatRestsIsMetAsInTheFrozenScene) {
+    // For the sphere there is a test in lanes, for the polygon there is none.
+    const Polygon floor{.vertices = {{-4, -4, -2}, {4, -4, -2}, {4, 4, -2}, {-4, 4, -2}}};
+    const std::vector<Ray> rays = random_rays(500);
+    const std::vector<float> times(rays.size(), 0.5f);
+    for (const AnyShape& shape : {AnyShape{floor}, AnyShape{Sphere{{0, 0, -9}, 7}}}) {
+        for (const bool masked : {false, true}) {
+            const SceneDescription d = sliding_balls_before(shape, masked);
+            const Scene moving = compile(d), still = frozen(d, 0.5);
+            EXPECT_EQ(moving.census.moving_things, 20u);
+            for (const RayMask mask : {mask_of(RayKind::Eye), mask_of(RayKind::Reflection)}) {
+                std::vector<Hit> hits(rays.size());
+                const auto met = std::make_unique<bool[]>(rays.size());
+                const RayQuery query{nullptr, mask, 0.5f};
+                moving.aggregate->closest_batch_at(rays, times, hits, query, Coherence::Any);
+                moving.aggregate->occluded_batch_at(rays, times, {met.get(), rays.size()}, query,
+                                                    Coherence::Any);
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    Hit one, other;
+                    const bool hit = still.aggregate->closest(rays[i], other, {nullptr, mask});
+                    ASSERT_EQ(moving.aggregate->closest(rays[i], one, query), hit);
+                    EXPECT_EQ(moving.aggregate->occluded(rays[i], query), hit);
+                    EXPECT_EQ(met[i], hit);
+                    ASSERT_EQ(hits[i].found(), hit);
+                    if (!hit) continue;
+                    EXPECT_NEAR(one.t, other.t, 1e-12);
+                    EXPECT_EQ(hits[i].t, one.t);
+                    EXPECT_TRUE(hits[i].path == one.path);
+                }
+            }
+        }
+    }
+}
+
 TEST(MotionAggregate, AShutterThatIsOpenForNoTimeShowsOneMoment) {
     SceneDescription d = scene_in_motion();
     open_shutter(d, {0.5, 0.5});

@@ -14,14 +14,13 @@ namespace {
 /// are padded by 1e-13.
 constexpr double kEven = 1e-12;
 
-/// True where a line passes the ball by for certain; rounding is far below the margin. `origin`,
-/// `direction`: of the line in the frame of the ball; `size`: the square of the direction's length.
-bool passes_by(const Sphere& ball, const Vec3& origin, const Vec3& direction, double size) {
+/// True where the line of the ray passes the ball by for certain; rounding is far below the margin.
+bool passes_by(const Ray& ray, const Sphere& ball) {
     constexpr double kMargin = 1e-12;
-    const Vec3 f = origin - ball.center;
-    const double along = dot(f, direction), away = length_squared(f);
+    const Vec3 f = ray.origin - ball.center;
+    const double along = dot(f, ray.direction), away = length_squared(f);
     const double beyond = (1.0 - kMargin) * away - (1.0 + kMargin) * (ball.radius * ball.radius);
-    return along * along < size * beyond;
+    return along * along < length_squared(ray.direction) * beyond;
 }
 
 }  // namespace
@@ -84,7 +83,11 @@ std::optional<MotionAggregate::Slide> MotionAggregate::slide_of(const TransformM
     return Slide{open.translation, close.translation};
 }
 
-Ray MotionAggregate::moved_ray(std::size_t instance, const Ray& ray, double time) const {
+Ray MotionAggregate::inner_ray_of(std::size_t instance, const Ray& ray, double time) const {
+    if (const std::optional<Slide>& slide = movers_[instance].slide) {
+        const Vec3 translation = (1.0 - time) * slide->from + time * slide->to;
+        return {ray.origin - translation, ray.direction, ray.t_min, ray.t_max};
+    }
     return transformed(placement_at(table_.instances[instance], time).inner_from_outer, ray);
 }
 
@@ -131,7 +134,6 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                             OnInstance&& on_instance) const {
     const bool has_triangles = table_.first(kInstanceKind) > 0;
     const RayShear shear = has_triangles ? RayShear(ray.direction) : kUnusedShear;
-    const double size = length_squared(ray.direction);
     with_stats(query.stats, [&](auto stats) {
         tree_.traverse<kOrder>(
             ray, query.time, t_max,
@@ -148,16 +150,11 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                     return on_triangle(id, hit);
                 }
                 const std::size_t index = i - table_.first(kInstanceKind);
-                const Mover& mover = movers_[index];
-                Ray inner = ray;
-                if (mover.slide) {
-                    inner.origin = ray.origin - mover.slide->at(query.time);
-                    if (mover.ball && passes_by(*mover.ball, inner.origin, ray.direction, size)) {
-                        stats.primitives(1);
-                        return false;
-                    }
-                } else {
-                    inner = moved_ray(index, ray, query.time);
+                Ray inner = inner_ray_of(index, ray, query.time);
+                const std::optional<Sphere>& ball = movers_[index].ball;
+                if (ball && passes_by(inner, *ball)) {
+                    stats.primitives(1);
+                    return false;
                 }
                 inner.t_max = t_max();
                 return on_instance(id, index, inner);

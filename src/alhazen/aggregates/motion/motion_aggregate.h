@@ -45,7 +45,6 @@ class MotionAggregate final : public Aggregate {
     /// A motion without turn or stretch, evenly along a line: its translation at both ends.
     struct Slide {
         Vec3 from, to;
-        [[nodiscard]] Vec3 at(double time) const { return (1.0 - time) * from + time * to; }
     };
     /// What the leaves of the tree need of an instance, in one place.
     struct Mover {
@@ -59,8 +58,8 @@ class MotionAggregate final : public Aggregate {
     [[nodiscard]] static Mover mover_of(const Instance& instance);
     [[nodiscard]] static std::optional<Slide> slide_of(const TransformMotion& motion,
                                                        const Box3& inner);
-    /// The ray in the frame of an instance that does more than slide.
-    [[nodiscard]] Ray moved_ray(std::size_t instance, const Ray& ray, double time) const;
+    /// The ray in the frame of an instance.
+    [[nodiscard]] Ray inner_ray_of(std::size_t instance, const Ray& ray, double time) const;
     /// All that rests, where there is such.
     [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {
