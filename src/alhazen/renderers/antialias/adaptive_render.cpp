@@ -27,11 +27,9 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Sorts the numbers.
-std::uint64_t count_distinct(std::vector<std::uint32_t>& numbers) {
+void keep_distinct(std::vector<std::uint32_t>& numbers) {
     std::sort(numbers.begin(), numbers.end());
-    return static_cast<std::uint64_t>(std::unique(numbers.begin(), numbers.end()) -
-                                      numbers.begin());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 /// Renders one film.
@@ -98,7 +96,8 @@ class AdaptiveRender {
         } else {
             std::vector<WatchedObject> around = spheres_->around(grid_);
             for (const WatchedObject& w : around) looked_for_.push_back(w.object);
-            report_.sought = count_distinct(looked_for_);
+            keep_distinct(looked_for_);
+            report_.sought = looked_for_.size();
             search_.emplace(ObjectSearch::Where{*objects_, *spheres_, picture_, grid_}, met_,
                             around);
             search_->run(pool_, job_);
@@ -131,7 +130,8 @@ class AdaptiveRender {
             before = w.pixel;
             unmet.push_back(w.object);
         }
-        report_.below_depth = count_distinct(unmet);
+        keep_distinct(unmet);
+        report_.below_depth = unmet.size();
         name_unmet();
     }
     void count_passed_over() {
@@ -275,7 +275,7 @@ class AdaptiveRender {
     AntialiasReport report_;
     std::optional<SceneObjects> objects_;    ///< with the guarantee
     std::vector<std::uint8_t> met_;          ///< [object] a ray with a shade met it
-    std::vector<std::uint32_t> looked_for_;  ///< objects; each once
+    std::vector<std::uint32_t> looked_for_;  ///< objects, each once
     std::optional<SoughtSpheres> spheres_;   ///< where some object was not met at first
     std::optional<ObjectSearch> search_;     ///< likewise
     std::vector<WatchedObject> below_depth_;

@@ -78,7 +78,6 @@ double SoughtSpheres::room(const SceneObject& object, int level) const {
 
 bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
                              double farthest) const {
-    if (behind_all_) farthest = kInfinity;
     const SceneObject& o = objects_[object];
     const Ray ray = picture_.ray(level + 1, {2 * cell.x + 1, 2 * cell.y + 1});
     const Vec3 to_center = o.sphere.center - ray.origin;
@@ -87,8 +86,8 @@ bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
     const double within = r * r - dot(across, across);
     if (!(within >= 0.0)) return false;
     const double middle = dot(to_center, ray.direction), half = std::sqrt(within);
-    if (!(middle - half < farthest) || middle + half < 0.0) return false;
-    return meets_bounds(o, around, ray, farthest);
+    if (!(middle - half < reach(farthest)) || middle + half < 0.0) return false;
+    return meets_bounds(o, around, ray, reach(farthest));
 }
 
 std::vector<WatchedObject> SoughtSpheres::around(const AdaptiveGrid& grid) const {
@@ -103,7 +102,7 @@ std::vector<WatchedObject> SoughtSpheres::around(const AdaptiveGrid& grid) const
                 const double farthest = grid.farthest_of_pixel(x, y);
                 Ray ray = picture_.ray(1, {2 * x + 1, 2 * y + 1});
                 ray.t_min = t_min_;
-                ray.t_max = behind_all_ ? kInfinity : farthest;
+                ray.t_max = reach(farthest);
                 hits.clear();
                 tree_->all_hits(ray, hits, nullptr);
                 hiding.clear();

@@ -47,6 +47,8 @@ class SoughtSpheres final : public ObjectWatch {
     }
 
   private:
+    /// How far objects are looked for where the farthest surface at a corner is at `farthest`.
+    [[nodiscard]] double reach(double farthest) const { return behind_all_ ? kInfinity : farthest; }
     /// r_k at the farthest point of an object.
     [[nodiscard]] double room(const SceneObject& object, int level) const;
 

@@ -28,13 +28,13 @@ struct AntialiasReport {
     std::uint64_t met = 0;        ///< objects that some eye ray met
     std::uint64_t searching = 0;  ///< eye rays without a shade, besides `points`
     std::uint64_t sought = 0;     ///< objects whose sphere a ray met before anything met the object
-    std::uint64_t below_depth = 0;  ///< of these, the ones that none met down to the depth
+    std::uint64_t below_depth = 0;         ///< of these, the ones that none met down to the depth
+    std::uint64_t below_depth_pixels = 0;  ///< where they were looked for
+    std::vector<UnmetObject> unmet;        ///< the first of these
     /// Objects with a sphere that none met and that were not looked for: outside of the picture, or
     /// behind something nearer at all corners of their pixels.
     std::uint64_t passed_over = 0;
-    std::uint64_t below_depth_pixels = 0;  ///< where they were looked for
-    std::vector<UnmetObject> unmet;        ///< the first of these
-    double seconds = 0;                    ///< for the spheres: collecting, and asking the tree
+    double seconds = 0;  ///< for the spheres: collecting, and asking the tree
 
     /// Rays with a shade; those of the search are besides.
     [[nodiscard]] std::uint64_t total_points() const {
