@@ -35,6 +35,17 @@ def compared(a, b):
     return json.loads(re.search(r"^compared (.*)$", blender("compare", a, b), re.M).group(1))
 
 
+def write_sky(alhazen, path):
+    """The clear sky with its sun as a picture of all directions, its middle along x."""
+    scene = os.path.splitext(path)[0] + "_source.alhazen"
+    with open(scene, "w", encoding="ascii") as out:
+        out.write("alhazen 1\nenvironment { kind = sky; up = (0, 0, 1); to_sun = (0.25, 0.3, 1) }\n"
+                  "panorama_camera { eye = (0, 0, 0); direction = (1, 0, 0); up = (0, 0, 1) }\n"
+                  "sphere { center = (0, 0, -1000); radius = 0.001; material = { diffuse = 0 } }\n")
+    subprocess.run([alhazen, "render", scene, "-o", path, "--full-float", "--size", "1024x512", "--renderer",
+                    "path_tracing", "--spp", "64", "-q"], check=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("alhazen")
@@ -53,25 +64,25 @@ def main():
     os.makedirs(folder, exist_ok=True)
     at = lambda name: os.path.join(folder, name)
     width, height = (int(n) for n in args.size.split("x"))
+    scenes = {name: SCENES[name](args.data) for name in args.scenes.split(",")}
     figures = {}
 
-    def alhazen(scene, out, seconds, seed):
+    # Each renders the scene of a name; returns samples a pixel and seconds.
+    def alhazen(name, out, seconds, seed):
         stats = at("stats.json")
-        subprocess.run([args.alhazen, "render", at(scene + ".alhazen"), "-o", at(out), "--full-float", "--size",
-                        args.size, "-t", "2", "-q", "--renderer", f"{args.renderer}:depth={depth + 1}", "--spp",
+        subprocess.run([args.alhazen, "render", at(name + ".alhazen"), "-o", at(out), "--full-float", "--size",
+                        args.size, "-t", "2", "-q", "--renderer", f"{args.renderer}:depth={scenes[name].depth + 1}", "--spp",
                         str(MANY), "--filter", "box", "--time", f"{seconds:g}s", "--seed", str(seed), "--stats", stats,
                         "--no-counts"], check=True)
         with open(stats, encoding="utf-8") as source:
             given = json.load(source)
         return given["sampling"]["samples_per_pixel"], given["seconds"]["render"]
 
-    def cycles(scene, out, seconds, seed):
-        told = blender("render", at(scene + ".json"), at(out), width, height, seconds, MANY, seed)
+    def cycles(name, out, seconds, seed):
+        told = blender("render", at(name + ".json"), at(out), width, height, seconds, MANY, seed)
         return max(int(n) for n in re.findall(r"Sample (\d+)/", told)), seconds
 
-    for name in args.scenes.split(","):
-        scene = SCENES[name](args.data)
-        depth = scene.depth
+    for name, scene in scenes.items():
         if scene.sky:
             write_sky(args.alhazen, at(scene.sky))
         write_alhazen(scene, at(name + ".alhazen"))
@@ -96,17 +107,6 @@ def main():
     if args.json:
         with open(args.json, "w", encoding="utf-8") as out:
             json.dump(figures, out, indent=1)
-
-
-def write_sky(alhazen, path):
-    """The clear sky with its sun as a picture of all directions, its middle along x."""
-    scene = os.path.splitext(path)[0] + "_source.alhazen"
-    with open(scene, "w", encoding="ascii") as out:
-        out.write("alhazen 1\nenvironment { kind = sky; up = (0, 0, 1); to_sun = (0.25, 0.3, 1) }\n"
-                  "panorama_camera { eye = (0, 0, 0); direction = (1, 0, 0); up = (0, 0, 1) }\n"
-                  "sphere { center = (0, 0, -1000); radius = 0.001; material = { diffuse = 0 } }\n")
-    subprocess.run([alhazen, "render", scene, "-o", path, "--full-float", "--size", "1024x512", "--renderer",
-                    "path_tracing", "--spp", "64", "-q"], check=True)
 
 
 if __name__ == "__main__":

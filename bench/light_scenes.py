@@ -10,15 +10,14 @@ import os
 import random
 import zipfile
 
-# What surrounds a scene: a picture of all directions, whose middle is seen along x; or one radiance.
-BLACK = (0.0, 0.0, 0.0)
+from peer_scenes import parse_obj
 
 
 class Scene:
     def __init__(self, eye, at, angle, depth=8):
         self.eye, self.at, self.angle = eye, at, angle  # degrees of the height
         self.depth = depth       # most bounces of a path
-        self.sky = None          # file
+        self.sky = None          # a picture of all directions, its middle along x; none: black
         self.materials = {}      # name -> {"diffuse" | "glossy" | "emission": colour, "roughness": number}
         self.meshes = []
 
@@ -50,23 +49,6 @@ def upright(v):
     return (v[0], -v[2], v[1])
 
 
-def read_obj(text):
-    """Vertices and {material: [triangle]}, polygons as fans."""
-    vertices, of_material, material = [], {}, ""
-    for line in text.splitlines():
-        word, *rest = line.split() or [""]
-        if word == "v":
-            vertices.append(upright(tuple(float(t) for t in rest[:3])))
-        elif word == "usemtl":
-            material = rest[0]
-        elif word == "f":
-            corners = [int(t.split("/")[0]) for t in rest]
-            corners = [c - 1 if c > 0 else len(vertices) + c for c in corners]
-            of_material.setdefault(material, []).extend(
-                (corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1))
-    return vertices, of_material
-
-
 def read_mtl(text):
     """{material: (Kd, Ke)}."""
     colors, name = {}, ""
@@ -74,7 +56,7 @@ def read_mtl(text):
         word, *rest = line.split("#")[0].split() or [""]
         if word == "newmtl":
             name = rest[0]
-            colors[name] = [(0.7, 0.7, 0.7), BLACK]
+            colors[name] = [(0.7, 0.7, 0.7), (0.0, 0.0, 0.0)]
         elif word in ("Kd", "Ke"):
             colors[name][word == "Ke"] = tuple(float(t) for t in rest[:3])
     return colors
@@ -84,8 +66,9 @@ def add_model(scene, archive, model):
     """The matt and glowing surfaces of an OBJ of an archive, its pictures left out."""
     with zipfile.ZipFile(archive) as files:
         read = lambda name: files.read(name).decode("utf-8", errors="replace")
-        vertices, of_material = read_obj(read(model + ".obj"))
+        vertices, of_material = parse_obj(read(model + ".obj").splitlines())
         colors = read_mtl(read(model + ".mtl"))
+    vertices = [upright(v) for v in vertices]
     known = set()  # faces that coincide are black to Cycles
     for name, faces in of_material.items():
         fresh = lambda face: len(set(face)) == 3 and frozenset(vertices[i] for i in face) not in known
@@ -132,7 +115,8 @@ def interior(data):
     scene.quad(scene.glowing("lamp", (40, 32, 20)), (0.7, 0.8, 2.55), (0.7, 1.1, 2.55), (1.1, 1.1, 2.55),
                (1.1, 0.8, 2.55))
     with open(os.path.join(data, "meshes/alecjacobson/data/stanford-bunny.obj"), encoding="ascii") as source:
-        vertices, faces = read_obj(source.read())
+        vertices, faces = parse_obj(source)
+    vertices = [upright(v) for v in vertices]
     low = min(v[2] for v in vertices)
     grown = [(8 * v[0] + 0.2, 8 * v[1] + 0.3, 8 * (v[2] - low)) for v in vertices]
     scene.meshes.append((gold, grown, [face for group in faces.values() for face in group]))

@@ -62,16 +62,28 @@ def read_nff(path):
     return scene
 
 
-def read_obj(path):
-    scene = Scene()
-    vertices, triangles = [], []
-    for line in open(path, encoding="utf-8", errors="replace"):
+def parse_obj(lines):
+    """The vertices and {material: [triangle]} of OBJ; polygons become fans."""
+    vertices, of_material, material = [], {}, ""
+    for line in lines:
         word, *rest = line.split() or [""]
         if word == "v":
             vertices.append(tuple(float(t) for t in rest[:3]))
+        elif word == "usemtl":
+            material = rest[0]
         elif word == "f":
-            corners = [int(t.split("/")[0]) - 1 for t in rest]
-            triangles += [(corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1)]
+            corners = [int(t.split("/")[0]) for t in rest]
+            corners = [c - 1 if c > 0 else len(vertices) + c for c in corners]
+            of_material.setdefault(material, []).extend(
+                (corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1))
+    return vertices, of_material
+
+
+def read_obj(path):
+    scene = Scene()
+    with open(path, encoding="utf-8", errors="replace") as lines:
+        vertices, of_material = parse_obj(lines)
+    triangles = [triangle for group in of_material.values() for triangle in group]
     lo = tuple(min(v[k] for v in vertices) for k in range(3))
     hi = tuple(max(v[k] for v in vertices) for k in range(3))
     size = math.dist(lo, hi)
