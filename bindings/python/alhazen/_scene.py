@@ -303,7 +303,7 @@ class Scene:
         camera : name or position; the first if not given
         view : (azimuth, elevation), degrees: a camera that frames all, instead
         layers : names of ``alhazen.layers()``, or "all"; they come as ``picture.layers``
-        depth : of reflections and refractions
+        depth : of reflections and refractions; what follows paths scatters once more at most
         crop : (x0, y0, x1, y1), pixels from the top left
         environment : "sky", "studio", "none" or a picture file, for renderers that follow light
         antialias : "whitted" or "exact", with settings as of ``alhazen render --antialias``

@@ -146,6 +146,9 @@ py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::o
     take(given, "width", wishes.render.width);
     take(given, "height", wishes.render.height);
     take(given, "depth", wishes.render.max_depth);
+    if (const std::optional<int>& depth = wishes.render.max_depth) {
+        wishes.render.renderer = with_depth(wishes.render.renderer, *depth);
+    }
     take(given, "seed", wishes.render.seed);
     take(given, "threads", wishes.render.threads);
     take(given, "layers", wishes.layers);
