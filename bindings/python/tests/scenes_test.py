@@ -192,6 +192,12 @@ class Pictures(unittest.TestCase):
         self.assertIsNone(picture[0, 0]._repr_png_())
         self.assertTrue(picture.complete)
 
+    def test_depth_holds_for_what_follows_paths(self):
+        one, same, more = (small_scene().render(width=16, height=12, spp=1, **given) for given in (
+            {"renderer": "path_tracing", "depth": 0}, {"renderer": "path_tracing:depth=1"}, {"renderer": "path_tracing"}))
+        np.testing.assert_array_equal(one, same)
+        self.assertTrue((one != more).any())
+
     def test_the_depth_layer_is_what_intersect_finds(self):
         scene = alhazen.Scene().add(
             alhazen.orthographic_camera(eye=(0, 0, 5), look_at=(0, 0, 0), up=(0, 1, 0), height=4),
