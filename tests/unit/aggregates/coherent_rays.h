@@ -21,14 +21,14 @@ inline void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
                             const std::vector<Hit>& expected, const std::string& name) {
     const WideBvhScene scene(tested.primitives(), tested.layout());
     std::vector<Hit> hits(rays.size());
-    wide_bvh_kernels(8).closest_coherent(scene, rays, hits, nullptr);
+    wide_bvh_kernels(8).plain.closest_coherent(scene, rays, hits, nullptr);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_TRUE(same(hits[i], expected[i])) << name << ", packets, ray " << i;
     }
     const auto occluded = std::make_unique<bool[]>(rays.size());
     // Rays that are occluded already stay so.
     for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = i % 16 == 5;
-    wide_bvh_kernels(8).occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
+    wide_bvh_kernels(8).plain.occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_EQ(occluded[i], i % 16 == 5 || expected[i].found())
             << name << ", packets for any hit, ray " << i;

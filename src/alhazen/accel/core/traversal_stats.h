@@ -37,6 +37,7 @@ struct TraversalStats {
 
 /// The counting policy.
 struct CountingStats {
+    static constexpr bool kCounts = true;
     TraversalStats* stats;
     void boxes(std::uint64_t n) const { stats->box_tests += n; }
     void primitives(std::uint64_t n) const { stats->primitive_tests += n; }
@@ -55,6 +56,7 @@ struct CountingStats {
 
 /// The policy that counts nothing.
 struct NoStats {
+    static constexpr bool kCounts = false;
     void boxes(std::uint64_t) const {}
     void primitives(std::uint64_t) const {}
     void primitive_hits(std::uint64_t) const {}

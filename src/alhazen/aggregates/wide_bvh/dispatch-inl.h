@@ -23,22 +23,14 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Calls `body(policy)` with the policy that counts into `stats`, or the one that does not.
-template <class Body>
-HWY_INLINE auto with_policy(TraversalStats* stats, Body&& body) {
-    return stats != nullptr ? body(CountingStats{stats}) : body(NoStats{});
-}
-
-template <std::size_t W, class Query>
-HWY_INLINE bool run(Query& query, TraversalStats* stats) {
+template <std::size_t W, class Query, class Stats>
+HWY_INLINE bool run(Query& query, Stats stats) {
     if (!query.valid) return false;
     const WideBvh& tree = query.scene.layout->tree;
-    return with_policy(stats, [&](auto policy) HWY_ATTR {
-        const bool stopped = traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root,
-                                                       query.slabs, query, policy);
-        if constexpr (requires { query.finish(policy); }) query.finish(policy);
-        return stopped;
-    });
+    const bool stopped =
+        traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root, query.slabs, query, stats);
+    if constexpr (requires { query.finish(stats); }) query.finish(stats);
+    return stopped;
 }
 
 /// The rays of a batch in order, without invalid and finished ones.
@@ -90,9 +82,9 @@ class BatchSource {
     BatchResolution resolution_;
 };
 
-template <class Query, std::size_t W, class Result>
+template <class Query, std::size_t W, class Result, class Stats>
 HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
-                          std::span<Result> results, TraversalStats* stats) {
+                          std::span<Result> results, Stats stats) {
     BatchSource<Query, Result> source(scene, rays, results);
     const WideBvhLayout& layout = *scene.layout;
     const NodeRef root = layout.tree.root;
@@ -104,10 +96,8 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
         nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
-    with_policy(stats, [&](auto policy) HWY_ATTR {
-        traverse_stream<Query>(nodes, root, prefetch_table, source, policy);
-        source.finish_all(policy);
-    });
+    traverse_stream<Query>(nodes, root, prefetch_table, source, stats);
+    source.finish_all(stats);
 }
 
 }  // namespace HWY_NAMESPACE

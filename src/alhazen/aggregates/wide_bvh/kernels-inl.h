@@ -1,28 +1,27 @@
-/// The kernels of the wide BVH aggregate (wide_bvh_kernels.h) for one node width and one triangle
-/// test.
+/// The kernels of the wide BVH aggregate (wide_bvh_kernels.h) for one node width, one triangle
+/// test, and with or without counting.
 ///
-/// A source file defines three macros and includes this file, which compiles itself once per
-/// instruction set:
-/// - ALHAZEN_KERNELS_FUNCTION: the function that returns the kernels of the chosen instruction set
-/// - ALHAZEN_KERNELS_WIDTH: children of a node
-/// - ALHAZEN_KERNELS_TEST: the triangle test, FilteredTriangleTest or FloatTriangleTest
+/// Conventions: included once per target (see simd/lanes-inl.h).
 
-#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
+#endif
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/kernels-inl.h"
-#include <hwy/foreach_target.h>  // IWYU pragma: keep
-// After foreach_target.h.
 #include "alhazen/aggregates/wide_bvh/coherent_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/dispatch-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// `W` children a node.
-template <std::size_t W, class TriangleTest>
+/// `W` children a node. `Stats` is CountingStats, which counts into the statistics of a query, or
+/// NoStats, which ignores them.
+template <std::size_t W, class TriangleTest, class Stats>
 struct Kernels {
     using Closest = ClosestQuery<TriangleTest>;
     using Occluded = OccludedQuery<TriangleTest>;
@@ -30,57 +29,53 @@ struct Kernels {
     static void closest(const WideBvhScene& scene, const Ray& ray, Hit& best,
                         TraversalStats* stats) {
         Closest query(scene, ray, best);
-        run<W>(query, stats);
+        run<W>(query, policy(stats));
     }
     static bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
         bool result = false;
         Occluded query(scene, ray, result);
-        return run<W>(query, stats);
+        return run<W>(query, policy(stats));
     }
     template <bool kStopAtOpaque>
     static bool collect(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
                         TraversalStats* stats) {
         CollectQuery<kStopAtOpaque> query(scene, ray, hits);
-        return run<W>(query, stats);
+        return run<W>(query, policy(stats));
     }
     static void closest_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                               std::span<Hit> best, TraversalStats* stats) {
-        run_batch<Closest, W>(scene, rays, best, stats);
+        run_batch<Closest, W>(scene, rays, best, policy(stats));
     }
     static void occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                                std::span<bool> occluded, TraversalStats* stats) {
-        run_batch<Occluded, W>(scene, rays, occluded, stats);
+        run_batch<Occluded, W>(scene, rays, occluded, policy(stats));
     }
     /// Rays in no packet go one by one where they are few or the tree is small.
     static void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                                  std::span<Hit> best, TraversalStats* stats) {
-        with_policy(stats, [&](auto policy) HWY_ATTR {
-            const auto otherwise = [&](std::size_t first, std::size_t count) {
-                if (streams_coherent(scene, count)) {
-                    return closest_batch(scene, rays.subspan(first, count),
-                                         best.subspan(first, count), stats);
-                }
-                for (std::size_t i = first; i < first + count; ++i) {
-                    closest(scene, rays[i], best[i], stats);
-                }
-            };
-            run_coherent<ClosestPacket>(scene, rays, best, policy, otherwise);
-        });
+        const auto otherwise = [&](std::size_t first, std::size_t count) {
+            if (streams_coherent(scene, count)) {
+                return closest_batch(scene, rays.subspan(first, count), best.subspan(first, count),
+                                     stats);
+            }
+            for (std::size_t i = first; i < first + count; ++i) {
+                closest(scene, rays[i], best[i], stats);
+            }
+        };
+        run_coherent<ClosestPacket>(scene, rays, best, policy(stats), otherwise);
     }
     static void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                                   std::span<bool> result, TraversalStats* stats) {
-        with_policy(stats, [&](auto policy) HWY_ATTR {
-            const auto otherwise = [&](std::size_t first, std::size_t count) {
-                if (streams_coherent(scene, count)) {
-                    return occluded_batch(scene, rays.subspan(first, count),
-                                          result.subspan(first, count), stats);
-                }
-                for (std::size_t i = first; i < first + count; ++i) {
-                    if (!result[i]) result[i] = occluded(scene, rays[i], stats);
-                }
-            };
-            run_coherent<OccludedPacket>(scene, rays, result, policy, otherwise);
-        });
+        const auto otherwise = [&](std::size_t first, std::size_t count) {
+            if (streams_coherent(scene, count)) {
+                return occluded_batch(scene, rays.subspan(first, count),
+                                      result.subspan(first, count), stats);
+            }
+            for (std::size_t i = first; i < first + count; ++i) {
+                if (!result[i]) result[i] = occluded(scene, rays[i], stats);
+            }
+        };
+        run_coherent<OccludedPacket>(scene, rays, result, policy(stats), otherwise);
     }
 
     /// Packets are for nodes of 8, and exact. The collecting queries are exact in both precisions:
@@ -98,26 +93,19 @@ struct Kernels {
         }
         return kernels;
     }
-};
 
-const WideBvhKernels& ALHAZEN_KERNELS_FUNCTION() {
-    static constexpr WideBvhKernels kernels =
-        Kernels<ALHAZEN_KERNELS_WIDTH, ALHAZEN_KERNELS_TEST>::table();
-    return kernels;
-}
+  private:
+    static HWY_INLINE Stats policy([[maybe_unused]] TraversalStats* stats) {
+        if constexpr (Stats::kCounts) {
+            return Stats{stats};
+        } else {
+            return Stats{};
+        }
+    }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace alhazen {
-
-HWY_EXPORT(ALHAZEN_KERNELS_FUNCTION);
-
-const WideBvhKernels& ALHAZEN_KERNELS_FUNCTION() {
-    return HWY_DYNAMIC_DISPATCH(ALHAZEN_KERNELS_FUNCTION)();
-}
-
-}  // namespace alhazen
-#endif
+#endif  // include guard that opens again for every target

@@ -66,7 +66,7 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
 
 void WideBvhAggregate::finish_build() {
     schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
-                           kernels_.closest_coherent != nullptr);
+                           kernels_.plain.closest_coherent != nullptr);
     // Rays that come from everywhere read the meshes at random.
     for (const PlacedMesh& placed : table_.meshes) {
         collapse_to_huge_pages(std::span(placed.mesh->triangles));
@@ -115,7 +115,8 @@ bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
             return false;
         });
     }
-    if (!layout_.tree.empty) kernels_.closest(scene(query.mask), ray, hit, query.stats);
+    if (!layout_.tree.empty)
+        kernels_.for_stats(query.stats).closest(scene(query.mask), ray, hit, query.stats);
     return hit.found();
 }
 
@@ -127,7 +128,8 @@ bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
         });
         if (found) return true;
     }
-    return !layout_.tree.empty && kernels_.occluded(scene(query.mask), ray, query.stats);
+    return !layout_.tree.empty &&
+           kernels_.for_stats(query.stats).occluded(scene(query.mask), ray, query.stats);
 }
 
 void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
@@ -138,7 +140,8 @@ void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery
         table_.all_hits(id, ray, shear, hits, policy, query.mask);
         return false;
     });
-    if (!layout_.tree.empty) (void)kernels_.all_hits(scene(query.mask), ray, hits, query.stats);
+    if (!layout_.tree.empty)
+        (void)kernels_.for_stats(query.stats).all_hits(scene(query.mask), ray, hits, query.stats);
     finish_hits(hits, before);
 }
 
@@ -150,7 +153,8 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
         return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
     });
     if (opaque) return true;
-    if (!layout_.tree.empty && kernels_.shadowed(scene(query.mask), ray, crossings, query.stats))
+    if (!layout_.tree.empty &&
+        kernels_.for_stats(query.stats).shadowed(scene(query.mask), ray, crossings, query.stats))
         return true;
     finish_hits(crossings, before);
     return false;
@@ -179,18 +183,19 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
     }
     if (layout_.tree.empty) return;
     WideBvhScene seen = scene(query.mask);
+    const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                kernels_.closest(seen, rays[i], hits[i], query.stats);
+                kernels.closest(seen, rays[i], hits[i], query.stats);
             }
             return;
         case Schedule::Stream:
-            return kernels_.closest_batch(seen, rays, hits, query.stats);
+            return kernels.closest_batch(seen, rays, hits, query.stats);
         case Schedule::Packets:
             // Counted work must not depend on earlier batches.
             if (query.stats == nullptr) seen.failures = &closest_failures_;
-            return kernels_.closest_coherent(seen, rays, hits, query.stats);
+            return kernels.closest_coherent(seen, rays, hits, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.closest(table_, rays, hits, query);
     }
@@ -208,17 +213,18 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
     }
     if (layout_.tree.empty) return;
     WideBvhScene seen = scene(query.mask);
+    const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                if (!occluded[i]) occluded[i] = kernels_.occluded(seen, rays[i], query.stats);
+                if (!occluded[i]) occluded[i] = kernels.occluded(seen, rays[i], query.stats);
             }
             return;
         case Schedule::Stream:
-            return kernels_.occluded_batch(seen, rays, occluded, query.stats);
+            return kernels.occluded_batch(seen, rays, occluded, query.stats);
         case Schedule::Packets:
             if (query.stats == nullptr) seen.failures = &occluded_failures_;
-            return kernels_.occluded_coherent(seen, rays, occluded, query.stats);
+            return kernels.occluded_coherent(seen, rays, occluded, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.occluded(table_, rays, occluded, query);
     }

@@ -77,7 +77,7 @@ class WideBvhAggregate final : public Aggregate {
     WideBvhLayout layout_;
     Schedules schedules_;
     double built_cost_ = 0;  ///< of the tree before any refit
-    WideBvhKernels kernels_;
+    WideBvhKernelPair kernels_;
     mutable PacketFailures closest_failures_{0}, occluded_failures_{0};
 };
 

@@ -2,16 +2,19 @@
 
 namespace alhazen {
 
-WideBvhKernels wide_bvh_kernels(std::uint32_t width, Precision precision) {
-    if (precision == Precision::Fast) {
-        WideBvhKernels kernels = wide_bvh_kernels_fast();
-        kernels.all_hits = wide_bvh_kernels_8().all_hits;
-        kernels.shadowed = wide_bvh_kernels_8().shadowed;
-        return kernels;
+WideBvhKernelPair wide_bvh_kernels(std::uint32_t width, Precision precision) {
+    const WideBvhKernelPair exact{wide_bvh_kernels_8(), wide_bvh_kernels_8_counting()};
+    if (precision == Precision::Robust) {
+        if (width == 4) return wide_bvh_kernels_4();
+        if (width == 16) return wide_bvh_kernels_16();
+        return exact;
     }
-    if (width == 4) return wide_bvh_kernels_4();
-    if (width == 16) return wide_bvh_kernels_16();
-    return wide_bvh_kernels_8();
+    WideBvhKernelPair fast{wide_bvh_kernels_fast(), wide_bvh_kernels_fast_counting()};
+    fast.plain.all_hits = exact.plain.all_hits;
+    fast.plain.shadowed = exact.plain.shadowed;
+    fast.counting.all_hits = exact.counting.all_hits;
+    fast.counting.shadowed = exact.counting.shadowed;
+    return fast;
 }
 
 }  // namespace alhazen

@@ -33,8 +33,9 @@ class WideBvhScene {
     bool all_seen_;  ///< every primitive is visible
 };
 
-/// The queries of `Aggregate` on the bounded primitives; the tree is not empty, `stats` may be
-/// null, hits are appended unsorted. An invalid ray hits nothing.
+/// The queries of `Aggregate` on the bounded primitives; the tree is not empty, hits are appended
+/// unsorted. An invalid ray hits nothing. Statistics are ignored by kernels that do not count, and
+/// not null for those that do.
 struct WideBvhKernels {
     /// `best` may hold an earlier hit, and limits the search.
     void (*closest)(const WideBvhScene&, const Ray&, Hit& best, TraversalStats*);
@@ -55,20 +56,31 @@ struct WideBvhKernels {
                               TraversalStats*);
 };
 
+struct WideBvhKernelPair {
+    WideBvhKernels plain, counting;
+
+    /// Those that count, where there are statistics.
+    [[nodiscard]] const WideBvhKernels& for_stats(const TraversalStats* stats) const {
+        return stats != nullptr ? counting : plain;
+    }
+};
+
 /// Out of line: std::vector's code is not compiled for wide instruction sets.
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id);
 
 /// The kernels for nodes of 4, 8 or 16 children, for the best instruction set of this machine or
 /// the one that is forced (simd/targets.h). Precision::Fast is for nodes of 8 only, and makes
 /// `closest`, `occluded` and their batches single-precision.
-[[nodiscard]] WideBvhKernels wide_bvh_kernels(std::uint32_t width,
-                                              Precision precision = Precision::Robust);
+[[nodiscard]] WideBvhKernelPair wide_bvh_kernels(std::uint32_t width,
+                                                 Precision precision = Precision::Robust);
 
-/// The parts of the above, one per source file (aggregates/wide_bvh/kernels-inl.h).
-[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4();
+/// The parts of the above. Those of nodes of 8, and of single precision, count or not; in single
+/// precision without `all_hits` and `shadowed`.
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_8();
-[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_16();
-/// Without `all_hits` and `shadowed`.
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_8_counting();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_fast();
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_fast_counting();
+[[nodiscard]] const WideBvhKernelPair& wide_bvh_kernels_4();
+[[nodiscard]] const WideBvhKernelPair& wide_bvh_kernels_16();
 
 }  // namespace alhazen

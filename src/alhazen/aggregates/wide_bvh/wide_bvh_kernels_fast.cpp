@@ -1,5 +1,34 @@
-// Nodes of 8 children, triangles in single precision.
-#define ALHAZEN_KERNELS_FUNCTION wide_bvh_kernels_fast
-#define ALHAZEN_KERNELS_WIDTH 8
-#define ALHAZEN_KERNELS_TEST FloatTriangleTest
+// Nodes of 8 children, triangles in single precision, without counting.
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/wide_bvh_kernels_fast.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
 #include "alhazen/aggregates/wide_bvh/kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+const WideBvhKernels& wide_bvh_kernels_fast() {
+    static constexpr WideBvhKernels kernels = Kernels<8, FloatTriangleTest, NoStats>::table();
+    return kernels;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+HWY_EXPORT(wide_bvh_kernels_fast);
+
+const WideBvhKernels& wide_bvh_kernels_fast() {
+    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_fast)();
+}
+
+}  // namespace alhazen
+#endif

@@ -34,7 +34,6 @@ struct AlgebraicPolynomial {
 
 constexpr int kMostDegree = PolynomialExpression::kMaxDegree;
 
-/// Calls f with the polynomial, of a type for its degree where that is a usual one.
 template <class F>
 auto with_polynomial(const Algebraic& shape, F&& f) {
     switch (shape.polynomial->degree()) {
@@ -94,14 +93,14 @@ Interval Algebraic::extent(const Vec3& axis) const {
 
 namespace {
 
+// For all degrees at once: a type for each would triple the code, which is compiled twice.
 ALHAZEN_FOR_EACH_INSTRUCTION_SET
 int all_hits(const Algebraic& shape, const Ray& ray, ShapeHit* hits) {
     ClipSegment s;
     const SolidFrame frame;
     if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return 0;
-    return with_polynomial(shape, [&](const auto& f) {
-        return intersect_segment(f, frame, ray, s, shape.capped, hits);
-    });
+    return intersect_segment(AlgebraicPolynomial<kMostDegree>{shape}, frame, ray, s, shape.capped,
+                             hits);
 }
 
 ALHAZEN_FOR_EACH_INSTRUCTION_SET

@@ -1,0 +1,54 @@
+// Nodes of 8 children, counting. They are compiled for AVX2 and
+// plain C++ only: AVX-512 fuses as AVX2 does, and SSE4 does not, as plain C++, so that the counts
+// are those of the set.
+#include <hwy/detect_targets.h>
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
+
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/wide_bvh_kernels_counting.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include "alhazen/aggregates/wide_bvh/kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+template <class TriangleTest>
+const WideBvhKernels& counting_kernels() {
+    static constexpr WideBvhKernels kernels = Kernels<8, TriangleTest, CountingStats>::table();
+    return kernels;
+}
+
+const WideBvhKernels& wide_bvh_kernels_8_counting() {
+    return counting_kernels<FilteredTriangleTest>();
+}
+const WideBvhKernels& wide_bvh_kernels_fast_counting() {
+    return counting_kernels<FloatTriangleTest>();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+HWY_EXPORT(wide_bvh_kernels_8_counting);
+
+HWY_EXPORT(wide_bvh_kernels_fast_counting);
+
+const WideBvhKernels& wide_bvh_kernels_8_counting() {
+    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_8_counting)();
+}
+
+const WideBvhKernels& wide_bvh_kernels_fast_counting() {
+    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_fast_counting)();
+}
+
+}  // namespace alhazen
+#endif

@@ -1,0 +1,56 @@
+// Nodes of 4 and 16 children, which are there to be compared with nodes of 8. They are compiled for
+// AVX2 and plain C++ only: AVX-512 fuses as AVX2 does, and SSE4 does not, as plain C++, so that the
+// counts are those of the set.
+#include <hwy/detect_targets.h>
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
+
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/wide_bvh_kernels_widths.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include "alhazen/aggregates/wide_bvh/kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+template <std::size_t W>
+const WideBvhKernelPair& kernels_of_width() {
+    static constexpr WideBvhKernelPair kernels{
+        Kernels<W, FilteredTriangleTest, NoStats>::table(),
+        Kernels<W, FilteredTriangleTest, CountingStats>::table()};
+    return kernels;
+}
+
+const WideBvhKernelPair& wide_bvh_kernels_4() {
+    return kernels_of_width<4>();
+}
+const WideBvhKernelPair& wide_bvh_kernels_16() {
+    return kernels_of_width<16>();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+HWY_EXPORT(wide_bvh_kernels_4);
+
+HWY_EXPORT(wide_bvh_kernels_16);
+
+const WideBvhKernelPair& wide_bvh_kernels_4() {
+    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_4)();
+}
+
+const WideBvhKernelPair& wide_bvh_kernels_16() {
+    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_16)();
+}
+
+}  // namespace alhazen
+#endif
