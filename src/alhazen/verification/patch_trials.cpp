@@ -280,8 +280,11 @@ PatchJudgement judge_crossings(const PatchModel& model, const Ray& ray,
         used[p] = true;
         const double error = std::abs(all[k].at - ours[p].at);
         out.worst_t = std::max(out.worst_t, error);
-        if (all[k].slope < 1e4) {
-            const double bound = (all[k].at_side ? near : rounding) * (1.0 + all[k].slope);
+        // At a crease the patch that reports a crossing may be the steeper one.
+        const bool at_side = all[k].at_side;
+        const double slope = at_side ? std::max(all[k].slope, ours[p].slope) : all[k].slope;
+        if (slope < 1e4) {
+            const double bound = (at_side ? near : rounding) * (1.0 + slope);
             out.worst_of_bound = std::max(out.worst_of_bound, error / bound);
         }
     }

@@ -58,8 +58,9 @@ struct PatchJudgement {
     int pairs = 0, at_sides = 0;   ///< pairs and single ones that rounding decides
     bool undecided = false;        ///< nothing is said
     double worst_t = 0;            ///< largest error of a crossing found, as a length
-    double worst_of_bound = 0;  ///< the same over rounding * (1 + slope), where slope < 1e4; over
-                                ///< kNear times as much at a side
+    double worst_of_bound = 0;  ///< the same over rounding * (1 + slope), where slope < 1e4; at a
+                                ///< side over kNear times as much, and the larger slope of the
+                                ///< exact crossing and the one found
 };
 
 /// `farthest`: along the line, of a crossing found from the exact one that it stands for.

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/base/file.h"
+#include "alhazen/formats/bpt/bpt_reader.h"
 #include "alhazen/session/generators/teapot_patches.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/verification/patch_trials.h"
+#include "support/test_data.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -131,6 +134,38 @@ TEST(PatchTrials, TheProductionSearchMissesAndInventsNothing) {
             EXPECT_LT(tally.undecided, 10) << model.name << ' ' << name;
             EXPECT_GT(tally.exact, 50) << model.name << ' ' << name;
         }
+    }
+}
+
+// Two lines of ten million: they meet a crease where one patch is almost edge-on, and the other has
+// the exact crossing.
+TEST(PatchTrials, AtACreaseTheSlopeOfThePatchThatReportsCounts) {
+    ALHAZEN_NEEDS_DATA("patches/teacup_sjbaker.bpt");
+    const std::string file = "teacup_sjbaker.bpt";
+    Diagnostics diagnostics;
+    std::vector<BezierNet> nets;
+    for (const BptMesh& part :
+         read_bpt(read_file(testing::test_data() / "patches" / file), file, {}, diagnostics)) {
+        for (std::size_t k = 0; k < part.mesh.patch_count(); ++k) nets.push_back(part.mesh.net(k));
+    }
+    const PatchModel model{file, nets};
+    const auto method = patch_method("certified_newton").make(model.nets);
+    const auto line = [](const Vec3& origin, const Vec3& direction) {
+        return Ray{origin, direction, -kInfinity, kInfinity};
+    };
+    for (const Ray& ray :
+         {line({0x1.e9ba62ff294f7p-1, 0x1.1e9356cd3fb9dp+2, -0x1.78a0f9f9ad18ep+1},
+               {-0x1.51e600333b412p-2, -0x1.8cfdc8a7b2be8p+0, 0x1.d62440f823cf3p-1}),
+          line({-0x1.387845899d864p+0, 0x1.8c940291f8879p+0, 0x1.37a19e33fd8adp-2},
+               {0x1.9c40aca4ec2a6p-1, -0x1.577824c0e3edbp+0, -0x1.160e9c8ac058ap-2})}) {
+        std::vector<PatchCrossing> found;
+        PatchMethodCounts counts;
+        method->crossings(ray, found, counts);
+        const PatchJudgement one = judge_crossings(model, ray, exact_patch_roots(model.nets, ray),
+                                                   found, 1e-3 * length(model.box.size()));
+        EXPECT_GT(one.exact, 0);
+        EXPECT_EQ(one.missed + one.invented, 0);
+        EXPECT_LE(one.worst_of_bound, 1.0);
     }
 }
 
