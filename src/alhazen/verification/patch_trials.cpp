@@ -38,6 +38,7 @@ Vec3 unit_direction(RandomStream& random) {
 
 /// A crossing by its place along the line.
 struct LinePlace {
+    std::uint32_t patch = 0;
     double at = 0;  ///< length along the line
     double slope = 0;
     bool inward = false;  ///< against the model's normal
@@ -56,7 +57,7 @@ LinePlace place_on(const PatchModel& model, const Ray& ray, std::uint32_t patch,
     const double per_v = facing / std::max(length(cross(at.du, d)), 1e-300);
     const bool by_side[4] = {v * per_v <= near, (1 - u) * per_u <= near, (1 - v) * per_v <= near,
                              u * per_u <= near};
-    LinePlace place{t * size, length(cross(normal, d)) / std::max(facing, 1e-300)};
+    LinePlace place{patch, t * size, length(cross(normal, d)) / std::max(facing, 1e-300)};
     place.inward = (dot(normal, d) < 0.0) != model.turned[patch];
     for (std::size_t side = 0; side < 4; ++side) {
         place.at_side = place.at_side || by_side[side];
@@ -280,9 +281,10 @@ PatchJudgement judge_crossings(const PatchModel& model, const Ray& ray,
         used[p] = true;
         const double error = std::abs(all[k].at - ours[p].at);
         out.worst_t = std::max(out.worst_t, error);
-        // At a crease the patch that reports a crossing may be the steeper one.
-        const bool at_side = all[k].at_side;
-        const double slope = at_side ? std::max(all[k].slope, ours[p].slope) : all[k].slope;
+        // At a crease another patch, which may be the steeper one, may report the crossing.
+        const bool at_side = all[k].at_side, elsewhere = all[k].patch != ours[p].patch;
+        const double slope =
+            at_side && elsewhere ? std::max(all[k].slope, ours[p].slope) : all[k].slope;
         if (slope < 1e4) {
             const double bound = (at_side ? near : rounding) * (1.0 + slope);
             out.worst_of_bound = std::max(out.worst_of_bound, error / bound);

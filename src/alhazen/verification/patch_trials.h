@@ -59,8 +59,8 @@ struct PatchJudgement {
     bool undecided = false;        ///< nothing is said
     double worst_t = 0;            ///< largest error of a crossing found, as a length
     double worst_of_bound = 0;  ///< the same over rounding * (1 + slope), where slope < 1e4; at a
-                                ///< side over kNear times as much, and the larger slope of the
-                                ///< exact crossing and the one found
+                                ///< side over kNear times as much, with the larger slope of
+                                ///< both where another patch reports the crossing
 };
 
 /// `farthest`: along the line, of a crossing found from the exact one that it stands for.

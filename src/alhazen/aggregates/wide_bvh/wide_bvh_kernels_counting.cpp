@@ -1,10 +1,6 @@
-// Nodes of 8 children, counting. They are compiled for AVX2 and
-// plain C++ only: AVX-512 fuses as AVX2 does, and SSE4 does not, as plain C++, so that the counts
-// are those of the set.
-#include <hwy/detect_targets.h>
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
-
+// Nodes of 8 children, counting.
+#include "alhazen/aggregates/wide_bvh/comparison_targets.h"
+// After it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 
 // Compiles the rest of this file once per target.
