@@ -81,16 +81,25 @@ PlaneRow row_at_v(const PlaneNet& net, double at) {
     return result;
 }
 
-/// The line u = at or v = at of a patch, as the polyline through its points on the grid. A point is
-/// found by halving in u first, on either kind of line: one value, whoever asks.
+/// Crossings of the positive x axis by the segment from `a` to `b`: 1 upward, -1 downward.
+int segment_crossings(PlanePoint a, PlanePoint b) {
+    const bool a_up = a.y >= 0.0, b_up = b.y >= 0.0;
+    if (a_up == b_up) return 0;
+    const double side = difference_of_products(a.x, b.y, b.x, a.y);
+    return (b_up ? side > 0.0 : side < 0.0) ? int{b_up} - int{a_up} : 0;
+}
+
+/// The line u = at or v = at of a patch, as the polyline through its points on the grid. Corners of
+/// cells are found by halving in u first, on either kind of line: one value, whoever asks. The
+/// points of an inner line v = at are halved in v first; a part of it has a segment more at either
+/// end, to the corner.
 class Border {
   public:
     Border(const PlaneNet& net, bool along_v, double at, double tiny)
         : net_(net),
           at_(at),
           degree_(along_v ? net.degree_v : net.degree_u),
-          // The points of an inner line v = at were halved in the other order.
-          slack_(along_v || at == 0.0 || at == 1.0 ? 0.0 : 0.25 * tiny),
+          ends_at_corners_(along_v || at == 0.0 || at == 1.0),
           row_(along_v ? row_at_u(net, at) : row_at_v(net, at)) {
         // Points of the polyline are about tiny / 32 apart.
         double fastest = 0.0;
@@ -113,35 +122,29 @@ class Border {
             row = in_left ? left : right;
             (in_left ? hi : lo) = middle;
         }
-        return count(row, lo, hi);
+        const int between = count(row, lo, hi);
+        if (ends_at_corners_) return between;
+        return between + to_corner(row[static_cast<std::size_t>(degree_)], to) -
+               to_corner(row[0], from);
     }
 
   private:
-    [[nodiscard]] PlanePoint point(const PlaneRow& row, bool last, double parameter) const {
-        if (slack_ == 0.0) return row[last ? static_cast<std::size_t>(degree_) : 0];
-        return point_of_row(row_at_u(net_, parameter), net_.degree_v, at_);
-    }
-    /// Whether the point has y >= 0; from the curve's own halves where these are sure of it.
-    [[nodiscard]] bool is_up(const PlaneRow& row, bool last, double parameter) const {
-        const double y = row[last ? static_cast<std::size_t>(degree_) : 0].y;
-        if (std::abs(y) > slack_) return y > 0.0;
-        return point(row, last, parameter).y >= 0.0;
+    /// Of the segment from a point of the line to the corner of cells that stands for it.
+    [[nodiscard]] int to_corner(PlanePoint point, double parameter) const {
+        return segment_crossings(point,
+                                 point_of_row(row_at_u(net_, parameter), net_.degree_v, at_));
     }
 
     [[nodiscard]] int count(const PlaneRow& row, double lo, double hi) const {
-        PlanePoint least = row[0], most = row[0];
+        const PlanePoint first = row[0], last = row[static_cast<std::size_t>(degree_)];
+        PlanePoint least = first, most = first;
         for (std::size_t k = 1; k <= static_cast<std::size_t>(degree_); ++k) {
             least = {std::min(least.x, row[k].x), std::min(least.y, row[k].y)};
             most = {std::max(most.x, row[k].x), std::max(most.y, row[k].y)};
         }
-        if (least.y > slack_ || most.y < -slack_ || most.x < -slack_) return 0;
-        if (least.x > slack_) return int{is_up(row, true, hi)} - int{is_up(row, false, lo)};
-        if (hi - lo <= last_) {
-            const PlanePoint a = point(row, false, lo), b = point(row, true, hi);
-            const double side = difference_of_products(a.x, b.y, b.x, a.y);
-            const bool a_up = a.y >= 0.0, b_up = b.y >= 0.0;
-            return (b_up ? side > 0.0 : side < 0.0) ? int{b_up} - int{a_up} : 0;
-        }
+        if (least.y > 0.0 || most.y < 0.0 || most.x < 0.0) return 0;
+        if (least.x > 0.0) return int{last.y >= 0.0} - int{first.y >= 0.0};
+        if (hi - lo <= last_) return segment_crossings(first, last);
         PlaneRow left, right;
         halve_plane_row(row, degree_, left, right);
         const double middle = 0.5 * (lo + hi);
@@ -151,7 +154,8 @@ class Border {
     const PlaneNet& net_;
     double at_;
     int degree_;
-    double slack_, last_;
+    bool ends_at_corners_;
+    double last_;
     PlaneRow row_;
 };
 

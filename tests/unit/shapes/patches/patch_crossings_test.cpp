@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "alhazen/shapes/algebraic/torus.h"
@@ -103,6 +104,18 @@ TEST(PatchCrossings, ClosedMeshesAreCrossedEvenly) {
     for (const double change : {0.0, 0.1, 0.4}) {
         expect_even(testing::random_closed_patches(random, change), random, 2000);
     }
+}
+
+// A circle of latitude, an inner border of its patch, seen edge-on: it turns where the line is.
+TEST(PatchCrossings, OfALineTangentToAnInnerBorderAreCountedInTime) {
+    const PatchMesh torus = testing::torus_of_patches(1.0, 0.4);
+    const Ray ray{{-0x1.355280edb201bp-1, -0x1.412bd056e3849p+2, 0x1.d683c630d5122p-5},
+                  {-0.0, 0x1.a7562c0e80722p+1, -0.0},
+                  -kInfinity,
+                  kInfinity};
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(all_hits(torus, ray).size(), 4u);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
 }
 
 TEST(PatchCrossings, NormalsOfClosedMeshesPointOutward) {
