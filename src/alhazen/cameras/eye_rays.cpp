@@ -4,6 +4,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/cameras/eye_rays.cpp"
@@ -60,11 +62,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(rays_along_of_target);
+ALHAZEN_KERNEL_TABLE(rays_along_of_target);
 
 void EyeRays::rays(std::span<const Vec3> sums, Ray* out) const {
     std::size_t done = 0;
-    if (from_eye_) done = HWY_DYNAMIC_DISPATCH(rays_along_of_target)(fixed_, sums, out);
+    if (from_eye_) done = ALHAZEN_KERNEL(rays_along_of_target)(fixed_, sums, out);
     for (std::size_t i = done; i < sums.size(); ++i) out[i] = ray(sums[i]);
 }
 

@@ -1,5 +1,7 @@
 #include "alhazen/csg/csg_bvh.h"
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/csg/csg_bvh_kernel.cpp"
@@ -54,10 +56,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(ranges_kernel);
+ALHAZEN_KERNEL_TABLE(ranges_kernel);
 
 CsgBvh::RangesKernel csg_ranges_kernel() {
-    return HWY_DYNAMIC_DISPATCH(ranges_kernel)();
+    return ALHAZEN_KERNEL(ranges_kernel)();
 }
 
 }  // namespace alhazen

@@ -3,6 +3,8 @@
 #include <bit>
 #include <limits>
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/csg/csg_lanes.cpp"
@@ -219,10 +221,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(csg_lanes_of_target);
+ALHAZEN_KERNEL_TABLE(csg_lanes_of_target);
 
 const CsgLanesKernel& csg_lanes_kernel() {
-    return HWY_DYNAMIC_DISPATCH(csg_lanes_of_target)();
+    return ALHAZEN_KERNEL(csg_lanes_of_target)();
 }
 
 }  // namespace alhazen

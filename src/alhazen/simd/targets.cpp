@@ -1,57 +1,115 @@
 #include "alhazen/simd/targets.h"
 
+#include <atomic>
+
 #include <hwy/highway.h>
 
 #include "alhazen/base/error.h"
+#include "alhazen/simd/dispatch.h"
+
+#if HWY_ARCH_X86
+#include <cpuid.h>
+#endif
 
 namespace alhazen {
 namespace {
 
-/// Bits of the available targets; a lower bit is a better target.
-std::int64_t compiled_and_supported() {
-    return hwy::SupportedTargets() & HWY_TARGETS;
+#if HWY_ARCH_X86
+
+/// What compilers' names of features leave out, by a leaf of `cpuid` and a bit of ECX.
+bool has_cpuid_bit(unsigned leaf, int bit) {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return __get_cpuid(leaf, &a, &b, &c, &d) != 0 && (c >> bit & 1U) != 0;
 }
 
-void choose(std::int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+/// The targets whose instructions this machine and its operating system have. Highway's library
+/// would tell, but measures the timer for some milliseconds whenever a program is loaded.
+std::int64_t targets_of_machine() {
+    __builtin_cpu_init();
+    std::int64_t targets = HWY_EMU128 | HWY_SCALAR;
+    const bool sse4 = __builtin_cpu_supports("ssse3") && __builtin_cpu_supports("sse4.1") &&
+                      __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("pclmul") &&
+                      __builtin_cpu_supports("aes");
+    if (__builtin_cpu_supports("ssse3")) targets |= HWY_SSSE3;
+    if (!sse4) return targets;
+    targets |= HWY_SSE4;
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                      __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                      has_cpuid_bit(1, 29) /* F16C */ && has_cpuid_bit(0x80000001U, 5) /* LZCNT */;
+    if (!avx2) return targets;
+    targets |= HWY_AVX2;
+    const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                        __builtin_cpu_supports("avx512cd");
+    if (avx512) targets |= HWY_AVX3;
+    return targets;
+}
+
+#else
+
+std::int64_t targets_of_machine() {
+    return HWY_STATIC_TARGET | HWY_EMU128 | HWY_SCALAR;
+}
+
+#endif
+
+/// The targets to choose among, a lower bit the better.
+struct Choice {
+    std::int64_t of_machine = targets_of_machine() & HWY_TARGETS;
+    std::atomic<std::int64_t> targets = of_machine;
+    hwy::ChosenTarget chosen;
+
+    Choice() { chosen.Update(targets); }
+    void set(std::int64_t new_targets) {
+        targets = new_targets;
+        chosen.Update(new_targets);
+    }
+};
+
+Choice& choice() {
+    static Choice choice;
+    return choice;
+}
+
+std::int64_t best_of(std::int64_t targets) {
+    return targets & -targets;
 }
 
 }  // namespace
 
+const hwy::ChosenTarget& chosen_simd_target() {
+    return choice().chosen;
+}
+
 std::vector<std::string> simd_targets() {
     std::vector<std::string> names;
-    for (std::int64_t rest = compiled_and_supported(); rest != 0; rest &= rest - 1) {
-        names.emplace_back(hwy::TargetName(rest & -rest));
+    for (std::int64_t rest = choice().targets; rest != 0; rest &= rest - 1) {
+        names.emplace_back(hwy::TargetName(best_of(rest)));
     }
     return names;
 }
 
 std::string simd_target() {
-    const std::int64_t targets = compiled_and_supported();
-    return hwy::TargetName(targets & -targets);
+    return hwy::TargetName(best_of(choice().targets));
 }
 
-SimdTargetOverride::SimdTargetOverride(const std::string& name)
-    : before_(compiled_and_supported()) {
-    hwy::SetSupportedTargetsForTest(0);
+SimdTargetOverride::SimdTargetOverride(const std::string& name) : before_(choice().targets) {
     std::string names;
-    for (std::int64_t rest = compiled_and_supported(); rest != 0; rest &= rest - 1) {
-        const std::int64_t target = rest & -rest;
+    for (std::int64_t rest = choice().of_machine; rest != 0; rest &= rest - 1) {
+        const std::int64_t target = best_of(rest);
         if (name == hwy::TargetName(target)) {
-            choose(target);
+            choice().set(target);
             return;
         }
         names += names.empty() ? "" : ", ";
         names += hwy::TargetName(target);
     }
-    choose(before_);
     throw Error(ErrorKind::Usage,
                 "no instruction set '" + name + "' on this machine; the valid names are: " + names);
 }
 
 SimdTargetOverride::~SimdTargetOverride() {
-    choose(before_);
+    choice().set(before_);
 }
 
 }  // namespace alhazen

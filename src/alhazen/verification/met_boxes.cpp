@@ -1,5 +1,7 @@
 #include "alhazen/verification/met_boxes.h"
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/verification/met_boxes.cpp"
@@ -61,11 +63,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(met_boxes_kernel);
+ALHAZEN_KERNEL_TABLE(met_boxes_kernel);
 
 std::size_t met_boxes(const BoxList& boxes, const BoxLine& line, std::size_t begin, std::size_t end,
                       std::uint32_t* met) {
-    static const auto kernel = HWY_DYNAMIC_DISPATCH(met_boxes_kernel)();
+    static const auto kernel = ALHAZEN_KERNEL(met_boxes_kernel)();
     return kernel(boxes, line, begin, end, met);
 }
 

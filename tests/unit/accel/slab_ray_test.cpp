@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "alhazen/simd/dispatch.h"
 #include "alhazen/simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -38,7 +39,7 @@ HWY_AFTER_NAMESPACE();
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
-HWY_EXPORT(met);
+ALHAZEN_KERNEL_TABLE(met);
 
 __extension__ typedef __float128 Quad;
 using RandomEngine = std::mt19937_64;
@@ -157,7 +158,7 @@ TEST(SlabRay, NeverMissesABoxThatTheExactLineMeets) {
         for (const std::string& target : simd_targets()) {
             const SimdTargetOverride use(target);
             for (const Case& c : cases) {
-                const std::uint32_t found = HWY_DYNAMIC_DISPATCH(met)(c.node, frame, c.ray);
+                const std::uint32_t found = ALHAZEN_KERNEL(met)(c.node, frame, c.ray);
                 ASSERT_EQ(c.exact & ~found, 0u) << target << ", ray " << show(c.ray);
             }
         }
@@ -178,9 +179,9 @@ TEST(SlabRay, MissesBoxesThatAreAThousandthOfAPercentAside) {
         WideNode node;
         node.set_box(0, frame.local(Box3{aside, aside}));
         node.set_box(1, frame.local(Box3{p, p}));
-        EXPECT_EQ(HWY_DYNAMIC_DISPATCH(met)(node, frame, ray), 2u) << show(ray);
+        EXPECT_EQ(ALHAZEN_KERNEL(met)(node, frame, ray), 2u) << show(ray);
         ray.t_max = 1 - 1e-5;
-        EXPECT_EQ(HWY_DYNAMIC_DISPATCH(met)(node, frame, ray), 0u) << show(ray);
+        EXPECT_EQ(ALHAZEN_KERNEL(met)(node, frame, ray), 0u) << show(ray);
     }
 }
 
@@ -192,7 +193,7 @@ TEST(SlabRay, AFreeSlotIsNeverMet) {
         const double distance = std::ldexp(1.0, static_cast<int>(random() % 1000) - 10);
         const Ray ray = ray_through({0, 0, 0}, distance, random);
         if (!is_valid(ray)) continue;
-        ASSERT_EQ(HWY_DYNAMIC_DISPATCH(met)(empty, frame, ray), 0u) << show(ray);
+        ASSERT_EQ(ALHAZEN_KERNEL(met)(empty, frame, ray), 0u) << show(ray);
     }
 }
 
@@ -206,7 +207,7 @@ TEST(SlabRay, ExtremeRaysPassWhatTheyMayHit) {
           Ray{{-1e-300, 0, 0}, {1e-300, 0, 0}}, Ray{{-5, 0, 0}, {0x1p-1074, 0, 0}},
           Ray{{-5, 0, 0}, {1.7e308, 0, 0}}, Ray{{-5, 0, 0}, {1, 0, 0}, -inf, inf},
           Ray{{-5, 0, 0}, {1, 0, 0}, 4, 4}, Ray{{-1e15, 0, 0}, {1, 0, 0}, 0, 1e15}}) {
-        EXPECT_EQ(HWY_DYNAMIC_DISPATCH(met)(node, frame, ray) & 1, 1u) << show(ray);
+        EXPECT_EQ(ALHAZEN_KERNEL(met)(node, frame, ray) & 1, 1u) << show(ray);
     }
 }
 

@@ -12,6 +12,7 @@
 
 #include "alhazen/geometry/sphere_roots.h"
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/simd/dispatch.h"
 #include "alhazen/simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -96,9 +97,9 @@ HWY_AFTER_NAMESPACE();
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
-HWY_EXPORT(operators);
-HWY_EXPORT(triangle);
-HWY_EXPORT(sphere);
+ALHAZEN_KERNEL_TABLE(operators);
+ALHAZEN_KERNEL_TABLE(triangle);
+ALHAZEN_KERNEL_TABLE(sphere);
 
 using lanes_test::Case;
 using lanes_test::kInputs;
@@ -175,7 +176,7 @@ TEST(Lanes, OperatorsGiveTheBitsOfTheScalar) {
     compare(
         9,
         [](Case& c) {
-            HWY_DYNAMIC_DISPATCH(operators)
+            ALHAZEN_KERNEL(operators)
             (c);
         },
         [](const double* in) {
@@ -201,7 +202,7 @@ TEST(Lanes, ComparisonsAreThoseOfTheScalar) {
             Case c{};
             fill(c, random);
             if (block % 3 == 0) std::memcpy(c.in[1], c.in[0], 4 * sizeof(double));
-            HWY_DYNAMIC_DISPATCH(operators)(c);
+            ALHAZEN_KERNEL(operators)(c);
             std::uint32_t bits[4] = {};
             for (std::uint32_t lane = 0; lane < 8; ++lane) {
                 const double a = c.in[0][lane], b = c.in[1][lane];
@@ -221,7 +222,7 @@ TEST(Lanes, TheTriangleTestGivesTheBitsOfTheScalar) {
     compare(
         8,
         [](Case& c) {
-            HWY_DYNAMIC_DISPATCH(triangle)
+            ALHAZEN_KERNEL(triangle)
             (c);
         },
         [](const double* in) {
@@ -239,7 +240,7 @@ TEST(Lanes, TheSphereTestGivesTheBitsOfTheScalar) {
     compare(
         3,
         [](Case& c) {
-            HWY_DYNAMIC_DISPATCH(sphere)
+            ALHAZEN_KERNEL(sphere)
             (c);
         },
         [](const double* in) {

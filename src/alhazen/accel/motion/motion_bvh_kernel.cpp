@@ -1,5 +1,7 @@
 #include "alhazen/accel/motion/motion_bvh.h"
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/accel/motion/motion_bvh_kernel.cpp"
@@ -113,10 +115,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(traverse_motion_kernels);
+ALHAZEN_KERNEL_TABLE(traverse_motion_kernels);
 
 MotionBvh::Traversals motion_bvh_traversals() {
-    return HWY_DYNAMIC_DISPATCH(traverse_motion_kernels)();
+    return ALHAZEN_KERNEL(traverse_motion_kernels)();
 }
 
 }  // namespace alhazen

@@ -2,6 +2,7 @@
 #include "alhazen/aggregates/wide_bvh/comparison_targets.h"
 // After it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
@@ -34,16 +35,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(wide_bvh_kernels_8_counting);
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_8_counting);
 
-HWY_EXPORT(wide_bvh_kernels_fast_counting);
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_fast_counting);
 
 const WideBvhKernels& wide_bvh_kernels_8_counting() {
-    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_8_counting)();
+    return ALHAZEN_KERNEL(wide_bvh_kernels_8_counting)();
 }
 
 const WideBvhKernels& wide_bvh_kernels_fast_counting() {
-    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_fast_counting)();
+    return ALHAZEN_KERNEL(wide_bvh_kernels_fast_counting)();
 }
 
 }  // namespace alhazen

@@ -1,5 +1,6 @@
 // Nodes of 8 children, triangles in single precision, without counting.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
@@ -24,10 +25,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(wide_bvh_kernels_fast);
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_fast);
 
 const WideBvhKernels& wide_bvh_kernels_fast() {
-    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_fast)();
+    return ALHAZEN_KERNEL(wide_bvh_kernels_fast)();
 }
 
 }  // namespace alhazen

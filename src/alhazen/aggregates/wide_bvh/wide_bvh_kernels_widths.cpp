@@ -2,6 +2,7 @@
 #include "alhazen/aggregates/wide_bvh/comparison_targets.h"
 // After it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
@@ -36,16 +37,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(wide_bvh_kernels_4);
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_4);
 
-HWY_EXPORT(wide_bvh_kernels_16);
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_16);
 
 const WideBvhKernelPair& wide_bvh_kernels_4() {
-    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_4)();
+    return ALHAZEN_KERNEL(wide_bvh_kernels_4)();
 }
 
 const WideBvhKernelPair& wide_bvh_kernels_16() {
-    return HWY_DYNAMIC_DISPATCH(wide_bvh_kernels_16)();
+    return ALHAZEN_KERNEL(wide_bvh_kernels_16)();
 }
 
 }  // namespace alhazen

@@ -1,5 +1,7 @@
 #include "alhazen/renderers/lane_carpenter/patch_block.h"
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/renderers/lane_carpenter/patch_block.cpp"
@@ -275,10 +277,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(find_patch_points_of_target);
+ALHAZEN_KERNEL_TABLE(find_patch_points_of_target);
 
 void find_patch_points(const BezierNet& net, bool polynomial, PatchBlock& block) {
-    HWY_DYNAMIC_DISPATCH(find_patch_points_of_target)(net, polynomial, block);
+    ALHAZEN_KERNEL(find_patch_points_of_target)(net, polynomial, block);
 }
 
 }  // namespace alhazen

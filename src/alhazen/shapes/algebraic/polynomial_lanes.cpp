@@ -7,6 +7,7 @@
 #include "alhazen/shapes/algebraic/algebraic.h"
 #include "alhazen/shapes/algebraic/torus.h"
 #include "alhazen/shapes/algebraic/torus_polynomial.h"
+#include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
@@ -261,11 +262,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(polynomial_kernels_of_target);
+ALHAZEN_KERNEL_TABLE(polynomial_kernels_of_target);
 
 const PolynomialKernels& polynomial_kernels() {
     // Called for every eight rays: the dispatch is cached.
-    return HWY_DYNAMIC_DISPATCH(polynomial_kernels_of_target)();
+    return ALHAZEN_KERNEL(polynomial_kernels_of_target)();
 }
 
 }  // namespace alhazen

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/shapes/blobs/blob_lanes.cpp"
@@ -151,11 +153,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(blob_kernels_of_target);
+ALHAZEN_KERNEL_TABLE(blob_kernels_of_target);
 
 const BlobKernels& blob_kernels() {
     // Called for every eight rays: the dispatch is cached.
-    return HWY_DYNAMIC_DISPATCH(blob_kernels_of_target)();
+    return ALHAZEN_KERNEL(blob_kernels_of_target)();
 }
 
 }  // namespace alhazen

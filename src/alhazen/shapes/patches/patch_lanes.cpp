@@ -1,5 +1,7 @@
 #include "alhazen/shapes/patches/patch_lanes.h"
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/shapes/patches/patch_lanes.cpp"
@@ -238,11 +240,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(patch_kernels_of_target);
+ALHAZEN_KERNEL_TABLE(patch_kernels_of_target);
 
 const PatchKernels& patch_kernels() {
     // Called for every ray: the dispatch is cached.
-    return HWY_DYNAMIC_DISPATCH(patch_kernels_of_target)();
+    return ALHAZEN_KERNEL(patch_kernels_of_target)();
 }
 
 }  // namespace alhazen

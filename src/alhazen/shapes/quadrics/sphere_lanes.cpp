@@ -1,5 +1,7 @@
 #include "alhazen/shapes/quadrics/sphere_lanes.h"
 
+#include "alhazen/simd/dispatch.h"
+
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alhazen/shapes/quadrics/sphere_lanes.cpp"
@@ -62,11 +64,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(sphere_hits_of_target);
+ALHAZEN_KERNEL_TABLE(sphere_hits_of_target);
 
 SphereHitsKernel sphere_hits_kernel() {
     // Called for every eight rays: the dispatch is cached.
-    return HWY_DYNAMIC_DISPATCH(sphere_hits_of_target)();
+    return ALHAZEN_KERNEL(sphere_hits_of_target)();
 }
 
 }  // namespace alhazen
