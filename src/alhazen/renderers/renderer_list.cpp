@@ -99,6 +99,13 @@ std::uint64_t photon_count(RendererSettings& settings, const char* name, std::ui
         settings.number(name, static_cast<double>(fallback), least, kMost));
 }
 
+/// Of an eye that looks at photons.
+PathSettings photon_paths(RendererSettings& settings) {
+    PathSettings paths = path_settings(settings);
+    paths.split = settings.number("split", paths.split, 0.0, 1.0);
+    return paths;
+}
+
 std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     PhotonMappingSettings photons;
     photons.photons = photon_count(settings, "photons", photons.photons, 1.0);
@@ -112,7 +119,7 @@ std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     photons.memory = settings.number("memory", photons.memory, 1.0, 1e6);
     static constexpr const char* kProjection[] = {"off", "on"};
     photons.projection = settings.choice("projection", 1, kProjection) == 1;
-    photons.paths = path_settings(settings);
+    photons.paths = photon_paths(settings);
     return std::make_unique<PhotonMapping>(photons);
 }
 
@@ -122,7 +129,7 @@ std::unique_ptr<Renderer> make_sppm(RendererSettings& settings) {
     sppm.radius = settings.number("radius", sppm.radius, 0.0, 1e30);
     sppm.alpha = settings.number("alpha", sppm.alpha, 0.01, 1.0);
     sppm.memory = settings.number("memory", sppm.memory, 1.0, 1e6);
-    sppm.paths = path_settings(settings);
+    sppm.paths = photon_paths(settings);
     return std::make_unique<Sppm>(sppm);
 }
 

@@ -15,6 +15,7 @@
 #include "alhazen/renderers/photons/photon_grid.h"
 #include "alhazen/renderers/photons/photon_passes.h"
 #include "alhazen/sampling/random.h"
+#include "alhazen/shapes/polygons/box_shape.h"
 #include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -104,6 +105,31 @@ TEST(PhotonRenderers, APointOfLightInABallOfGlassLightsTheFloor) {
          {"photon_mapping:photons=100,caustics=200000,nearest=800,filter=disc",
           "sppm:photons=50000,radius=0.3"}) {
         EXPECT_NEAR(mean_of(picture_of(scene, renderer, 2, 8)).g, 0.01, 0.0007) << renderer;
+    }
+}
+
+/// A wall that shines, seen straight through a slab: (1 - R) / (1 + R) of it, over all orders. Both
+/// ways at each side are one sample's; with a choice a sample is all or nothing.
+TEST(PhotonRenderers, BothWaysThroughASlabOfGlassAreOneSample) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 3}, {0, 0, -1}, {0.2, 0, 0}, {0, 0.2, 0}};
+    maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
+    BoxShape slab;
+    slab.lo = {-2, -2, 1};
+    slab.hi = {2, 2, 1.5};
+    maker.add(slab, maker.material(smooth_glass()));
+    const Scene scene = maker.compile();
+    const double r = 0.04, expected = (1.0 - r) / (1.0 + r);
+    for (const std::string renderer : {"photon_mapping:photons=100,caustics=100,roulette=64,split=",
+                                       "sppm:photons=100,roulette=64,split="}) {
+        const Film both = picture_of(scene, renderer + "1e-9", 4, 1);
+        for (int i = 0; i < 16; ++i)
+            EXPECT_NEAR(both.at(i % 4, i / 4).g, expected, 1e-6) << renderer;
+        for (const char* split : {"0.01", "1"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer + split, 4, 1024)).g, expected, 0.01)
+                << renderer << split;
+        }
     }
 }
 

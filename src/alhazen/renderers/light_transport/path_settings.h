@@ -11,7 +11,10 @@ struct PathSettings {
     int roulette = 4;           ///< scatterings after which a path may end by chance
     bool manifold = false;      ///< chains of mirrors and glass are sought from each surface
     bool polarization = false;  ///< light is polarised, and seen to be
-    double clamp = 0.0;         ///< largest contribution of indirect light to a sample; 0: none
+    /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
+    /// sample's light, both ways are followed, else one by chance.
+    double split = 0.05;
+    double clamp = 0.0;  ///< largest contribution of indirect light to a sample; 0: none
 };
 
 }  // namespace alhazen

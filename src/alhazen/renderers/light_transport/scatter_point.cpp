@@ -131,6 +131,22 @@ std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
     return s;
 }
 
+std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transport) const {
+    // The lowest choice reflects, the highest refracts.
+    const auto reflected = sample(0.0, {}, transport);
+    if (!reflected || !reflected->singular || reflected->transmitted) return std::nullopt;
+    const auto refracted = sample(0x1.fffffffffffffp-1, {}, transport);
+    if (!refracted || !refracted->singular || !refracted->transmitted || refracted->straight ||
+        refracted->dispersed) {
+        return std::nullopt;
+    }
+    // Else there are other lobes.
+    if (!(reflected->density + refracted->density > 1.0 - 0x1p-40)) return std::nullopt;
+    std::array<Scattered, 2> ways{*reflected, *refracted};
+    for (Scattered& way : ways) way.weight = way.density * way.weight;
+    return ways;
+}
+
 double ScatterPoint::importance_correction(const Vec3& direction) const {
     const double shading = std::abs(local_view_.z * dot(direction, geometric_));
     const double geometric = std::abs(dot(view_, geometric_) * dot(direction, frame_.z));

@@ -6,6 +6,7 @@
 /// Conventions: the view is where the path came from. A direction counts as reflected or
 /// transmitted by the geometric normal; where the shading normal disagrees nothing is scattered.
 
+#include <array>
 #include <optional>
 
 #include "alhazen/renderers/core/local_shading.h"
@@ -54,6 +55,10 @@ class ScatterPoint {
     [[nodiscard]] double reverse_density(const Vec3& direction) const;
     [[nodiscard]] std::optional<Scattered> sample(double choice, const Vec2& u,
                                                   Transport transport) const;
+
+    /// Both ways of a smooth boundary between clear media, reflection first, weighed without a
+    /// choice; none where one of them is all, at other surfaces, and where it disperses.
+    [[nodiscard]] std::optional<std::array<Scattered, 2>> both_ways(Transport transport) const;
 
     /// The share of light that goes straight on through a thin sheet.
     [[nodiscard]] Spectrum straight() const { return bsdf_.straight(local_view_); }

@@ -8,6 +8,12 @@
 
 namespace alhazen {
 
+namespace {
+
+constexpr std::size_t kMostWaiting = 64;  ///< ways of a sample
+
+}  // namespace
+
 PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
                      const PathSettings& settings, std::span<const Wavelengths> waves)
     : job_(job),
@@ -40,22 +46,33 @@ void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray
 
 void PhotonEye::trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Spectrum& sum,
                       Spectrum& direct) {
-    PathEnd path;
+    Branch first;
+    PathEnd& path = first.path;
     path.waves = &waves;
     path.time = camera_.time(chance_, id);
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
-    PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
     path.media = camera_.media();
-    Last last;
-    for (int event = 0;; ++event) {
+    waiting_.assign(1, first);
+    for (int event = 0; !waiting_.empty(); ++event) {
+        Branch at = waiting_.back();
+        waiting_.pop_back();
+        follow(id, at, event, waves, sum, direct);
+    }
+}
+
+void PhotonEye::follow(const SampleId& id, Branch& at, int& event, Wavelengths& waves,
+                       Spectrum& sum, Spectrum& direct) {
+    PathEnd& path = at.path;
+    const PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
+    for (;; ++event) {
         if (!next_.find(path, numbers)) {
-            sum += escaped(path, last);
+            sum += escaped(path, at.last);
             return;
         }
         const ShadingPoint& point = next_.point();
-        sum += emitted(path, last);
-        if (point.material->unlit || last.scatterings >= settings_.depth) return;
+        sum += emitted(path, at.last);
+        if (point.material->unlit || at.last.scatterings >= settings_.depth) return;
         scatter_.set(scene_, point, path.media, waves);
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         if (scatter_.has_density()) {
@@ -65,24 +82,42 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Sp
             sum += path.throughput *
                    photon_light({point.surface, scatter_, path, id.number % given_.size(), own});
         }
+        if (const auto ways = scatter_.both_ways(Transport::Radiance);
+            ways && waiting_.size() < kMostWaiting) {
+            const auto share = [&](const Scattered& way) {
+                return at.last.eta_scale * (path.throughput * way.weight).max();
+            };
+            if (std::min(share((*ways)[0]), share((*ways)[1])) > settings_.split) {
+                Branch other = at;
+                if (leave(id, event, (*ways)[0], other, waves)) waiting_.push_back(other);
+                if (!leave(id, event, (*ways)[1], at, waves)) return;
+                continue;
+            }
+        }
         const auto drawn =
             scatter_.sample(chance_.draw(id, event, PathChance::kChoices).x,
                             chance_.draw(id, event, PathChance::kDirection), Transport::Radiance);
         if (!drawn || drawn->weight.is_black()) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
-        if (drawn->straight) {
-            if (++path.met > kMaxPassedSurfaces) return;
-        } else {
-            ++last.scatterings;
-            last.singular = drawn->singular;
-            last.density = drawn->density;
-            last.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
-            last.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
-        }
-        NextSurface::go_on(path, point.surface, scatter_, *drawn);
-        if (drawn->dispersed) waves.keep_hero(path.throughput);
-        if (!survives(path, last, id, event)) return;
+        if (!leave(id, event, *drawn, at, waves)) return;
     }
+}
+
+bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Branch& at,
+                      Wavelengths& waves) const {
+    const ShadingPoint& point = next_.point();
+    if (drawn.straight) {
+        if (++at.path.met > kMaxPassedSurfaces) return false;
+    } else {
+        ++at.last.scatterings;
+        at.last.singular = drawn.singular;
+        at.last.density = drawn.density;
+        at.last.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
+        at.last.eta_scale *= drawn.transmitted ? drawn.eta * drawn.eta : 1.0;
+    }
+    NextSurface::go_on(at.path, point.surface, scatter_, drawn);
+    if (drawn.dispersed) waves.keep_hero(at.path.throughput);
+    return survives(at.path, at.last, id, event);
 }
 
 Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
@@ -128,7 +163,9 @@ bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, in
     if (!path.throughput.is_finite()) return false;
     if (last.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
-    const double share = std::min(kMost, last.eta_scale * path.throughput.max());
+    // Ways that are followed for certain are dim already.
+    const double light = last.eta_scale * path.throughput.max();
+    const double share = light < kMost * settings_.split ? light / settings_.split : kMost;
     if (!(chance_.draw(id, event, PathChance::kLuck).x < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;

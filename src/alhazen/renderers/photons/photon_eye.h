@@ -3,7 +3,8 @@
 /// followed, lights are sampled, and all other light is that of photons.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 5 (the four parts of
-/// the light that a surface scatters).
+/// the light that a surface scatters); Arvo and Kirk, "Particle Transport and Image Synthesis",
+/// SIGGRAPH 1990 (when to split a path).
 /// Differs: glossy is a direction, not a surface: where the BSDF samples it with more than
 /// kGlossyDensity. Direct light of those is weighed by the power heuristic, as both ways find it.
 /// Conventions: pairs of dimensions as in light_transport/path_chance.h. A pixel depends neither on
@@ -62,9 +63,19 @@ class PhotonEye {
         double eta_scale = 1;
         int scatterings = 0;
     };
-    // `event`: scatterings and straight passes so far, for random numbers.
+    /// A way that is yet to be followed.
+    struct Branch {
+        PathEnd path;
+        Last last;
+    };
     void trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Spectrum& sum,
                Spectrum& direct);
+    /// `event`: scatterings and straight passes of the sample so far, for random numbers.
+    void follow(const SampleId& id, Branch& at, int& event, Wavelengths& waves, Spectrum& sum,
+                Spectrum& direct);
+    /// Leaves a surface; false where the path ends.
+    [[nodiscard]] bool leave(const SampleId& id, int event, const Scattered& drawn, Branch& at,
+                             Wavelengths& waves) const;
     [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
     [[nodiscard]] Spectrum emitted(const PathEnd& path, const Last& last) const;
     void add_direct_light(const SampleId& id, int event, const PathEnd& path, Spectrum& direct);
@@ -80,6 +91,7 @@ class PhotonEye {
     const std::vector<Wavelengths> given_;
     std::vector<Spectrum> light_, direct_;  ///< [sample]
     std::vector<Wavelengths> waves_;        ///< [sample]
+    std::vector<Branch> waiting_;           ///< of the sample in hand
 };
 
 }  // namespace alhazen
