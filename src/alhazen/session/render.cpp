@@ -272,9 +272,9 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
     const auto scatters = [](const Material& m) { return !m.scattering.coefficient.is_black(); };
     if (!renderer.follows_light() &&
         std::any_of(scene.materials.begin(), scene.materials.end(), scatters)) {
-        notes.push_back(fmt::format("renderer '{}' scatters no light inside of volumes; {} does",
-                                    options.renderer,
-                                    renderers_where(&Renderer::scatters_in_volumes)));
+        notes.push_back(
+            fmt::format("renderer '{}' scatters no light inside of volumes; those that do: {}",
+                        options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };

@@ -43,13 +43,15 @@ VolumeStep step_in_volume(const Spectrum& absorption, const Spectrum& scattering
     while (chosen > 0 && chances[chosen] == 0.0) --chosen;
     const double distance = extinction[chosen] > 0.0 ? -std::log1p(-u.y) / extinction[chosen]
                                                      : std::numeric_limits<double>::infinity();
-    VolumeStep step{distance < length, std::min(distance, length), {}};
+    VolumeStep step{distance < length, std::min(distance, length), {}, {}};
     const Spectrum left = transmittance(extinction, step.distance);
     double density = 0.0;
     for (int i = 0; i < Spectrum::kCount; ++i) {
         density += chances[i] * (step.scatters ? extinction[i] * left[i] : left[i]);
     }
-    if (density > 0.0) step.weight = (1.0 / density) * (step.scatters ? scattering * left : left);
+    if (!(density > 0.0)) return step;
+    step.weight = (1.0 / density) * (step.scatters ? scattering * left : left);
+    if (step.scatters) step.arrived = (1.0 / density) * left;
     return step;
 }
 

@@ -24,6 +24,7 @@ struct VolumeStep {
     bool scatters = false;  ///< before the end
     double distance = 0;    ///< to where it does
     Spectrum weight;        ///< of what happens: value over density
+    Spectrum arrived;       ///< where it scatters: what arrives there over density
 };
 
 /// What happens to a path of `throughput` along `length`, which may be infinite. `u` in [0, 1)^2.

@@ -22,9 +22,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      has_scattering_(
-          std::any_of(scene_.materials.begin(), scene_.materials.end(),
-                      [](const Material& m) { return !m.scattering.coefficient.is_black(); })),
+      media_(scene_),
       layers_(layers),
       manifold_(manifold) {
     if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
@@ -81,7 +79,7 @@ void PathTracer::bounce(bool first) {
             if (point == nullptr) {
                 constexpr double kEndless = std::numeric_limits<double>::infinity();
                 const Medium* const medium = path.media.here();
-                const bool scatters = medium != nullptr && scattering_in(*medium) != nullptr;
+                const bool scatters = medium != nullptr && media_.in(*medium) != nullptr;
                 if (scatters && cross_medium(path, *medium, rays_[k], kEndless, sum)) return;
                 return escape(path, rays_[k], sum);
             }
@@ -158,7 +156,7 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
     Spectrum light = path.throughput * lights_.environment(ray.direction, waves(path));
     if (light.is_black()) return;
     if (const Medium* medium = path.media.here();
-        medium != nullptr && scattering_in(*medium) == nullptr) {
+        medium != nullptr && media_.in(*medium) == nullptr) {
         light = light * transmittance(waves(path).absorption(medium->absorption),
                                       std::numeric_limits<double>::infinity());
     }
@@ -227,27 +225,14 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     const Medium* const medium = media.here();
     Spectrum& to = place_of_joined(path, first_along(path, drawn.to_light), &drawn.to_light, sum);
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
-                 extinction_in(medium), waves(path), limited_joined(light, path.scatterings + 1),
-                 to);
-}
-
-const VolumeScattering* PathTracer::scattering_in(const Medium& medium) const {
-    if (!has_scattering_) return nullptr;
-    const VolumeScattering& scattering = scene_.materials[medium.material].scattering;
-    return scattering.coefficient.is_black() ? nullptr : &scattering;
-}
-
-Rgb PathTracer::extinction_in(const Medium* medium) const {
-    if (medium == nullptr) return {};
-    const VolumeScattering* const scattering = scattering_in(*medium);
-    return scattering == nullptr ? medium->absorption
-                                 : medium->absorption + scattering->coefficient;
+                 media_.extinction(medium), waves(path),
+                 limited_joined(light, path.scatterings + 1), to);
 }
 
 bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
                               Spectrum& sum) {
     const Spectrum absorption = waves(path).absorption(medium.absorption);
-    const VolumeScattering* const scattering = scattering_in(medium);
+    const VolumeScattering* const scattering = media_.in(medium);
     if (scattering == nullptr) {
         path.throughput = path.throughput * transmittance(absorption, t);
         return false;
@@ -267,7 +252,7 @@ bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ra
 /// `ray`: from where the path is scattered, straight on.
 void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray,
                                    Spectrum& sum) {
-    const double g = scattering_in(medium)->anisotropy;
+    const double g = media_.in(medium)->anisotropy;
     const LitPoint at{ray.origin, ray.direction, true};
     if (path.scatterings == 0) path.first = {.transmitted = true};
     const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
@@ -280,7 +265,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         Spectrum& to = place_of_joined(path, path.first, nullptr, sum);
         const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeEnd * drawn.distance};
         shadows_.add(
-            to_light, path.time, extinction_in(&medium), waves(path),
+            to_light, path.time, media_.extinction(&medium), waves(path),
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1), to);
     }
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);

@@ -14,6 +14,7 @@
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/renderers/manifold/manifold_light.h"
 
 namespace alhazen {
@@ -83,10 +84,6 @@ class PathTracer {
     [[nodiscard]] bool cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
                                     Spectrum& sum);
     void scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray, Spectrum& sum);
-    /// None: null.
-    [[nodiscard]] const VolumeScattering* scattering_in(const Medium& medium) const;
-    /// Of a shadow ray: absorbed, or scattered away.
-    [[nodiscard]] Rgb extinction_in(const Medium* medium) const;
     void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
               Spectrum& sum);
@@ -127,7 +124,7 @@ class PathTracer {
     VisibleBatch visible_;
     LightBatch shadows_;
     ScatterPoint scatter_;
-    bool has_scattering_;            ///< some volume scatters light
+    ScatteringMedia media_;
     LightLayers* layers_;            ///< null: none is wanted
     const ManifoldScene* manifold_;  ///< null: no chains are sought
     std::optional<ManifoldLight> chains_;

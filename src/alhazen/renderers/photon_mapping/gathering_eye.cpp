@@ -38,6 +38,16 @@ Spectrum GatheringEye::photon_light(const SeenPoint& at) {
            density_.radiance(maps.global, at.scatter, point, LightPart::NotGlossy, hero_only);
 }
 
+Spectrum GatheringEye::photon_light(const SeenVolume& at) {
+    return volume_light(at.place, at.waves, at.path.waves->hero_only());
+}
+
+Spectrum GatheringEye::volume_light(const VolumePoint& at, std::size_t waves, bool hero_only) {
+    const PhotonMapPair& maps = maps_.pairs[waves];
+    return density_.radiance(maps.caustic_in_volumes, at, hero_only) +
+           density_.radiance(maps.global_in_volumes, at, hero_only);
+}
+
 Spectrum GatheringEye::matt_light(const SeenPoint& at, const Spectrum& reflectance) {
     std::optional<Spectrum> irradiance = cache_->irradiance(at.surface.point, at.scatter.normal());
     if (!irradiance) {
@@ -110,9 +120,23 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
     path.waves = &along_;
     Spectrum sum;
     for (int surface = 0; surface < settings_.depth; ++surface) {
-        if (!next_.find(path, numbers)) return sum;
-        const ShadingPoint& point = next_.point();
+        const std::uint64_t first = 3 * static_cast<std::uint64_t>(surface);
+        const PathMeets meets = next_.find(path, numbers);
+        if (meets == PathMeets::Nothing) return sum;
         if (surface == 0) distance = path.travelled;
+        if (meets == PathMeets::Volume) {
+            const VolumePoint& place = next_.volume();
+            Spectrum light = volume_light(place, at.waves, along_.hero_only());
+            const DirectLight straight = direct_light(
+                place, numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, along_);
+            if (!straight.light.is_black()) {
+                light += straight.light * shadows_.passing(straight.ray, path.time,
+                                                           next_.media().extinction(&place.medium),
+                                                           along_);
+            }
+            return sum + path.throughput * light;
+        }
+        const ShadingPoint& point = next_.point();
         if (point.material->unlit) return sum;
         met_.set(scene_, point, path.media, along_);
         if (met_.needs_hero()) along_.keep_hero(path.throughput);
@@ -121,7 +145,6 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
                                                        point.surface.point, LightPart::All,
                                                        along_.hero_only());
         }
-        const std::uint64_t first = 3 * static_cast<std::uint64_t>(surface);
         const auto drawn = met_.sample(
             numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, Transport::Radiance);
         if (!drawn || !drawn->singular || drawn->weight.is_black()) return sum;

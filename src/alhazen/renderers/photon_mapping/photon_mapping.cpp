@@ -48,6 +48,8 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
             const PhotonMapPair& pair = maps.pairs[k];
             add_to_cloud(pair.global.tree.photons(), false, job.photons, maps.waves[k]);
             add_to_cloud(pair.caustic.tree.photons(), true, job.photons, maps.waves[k]);
+            add_to_cloud(pair.global_in_volumes.tree.photons(), false, job.photons, maps.waves[k]);
+            add_to_cloud(pair.caustic_in_volumes.tree.photons(), true, job.photons, maps.waves[k]);
         }
         record_photon_layer(job, film, [&](const Vec3& point, const Vec3& normal) {
             double sum = 0.0;

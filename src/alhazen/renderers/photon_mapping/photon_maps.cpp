@@ -26,11 +26,14 @@ std::uint64_t share_of(std::uint64_t photons, const PhotonMaps& maps) {
 
 /// Adds the photons of a shot to the maps. False after a stop.
 bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& shot,
-          const PhotonMappingSettings& settings, PhotonMaps& maps, PhotonMap& map) {
+          const PhotonMappingSettings& settings, PhotonMaps& maps, PhotonMap& map,
+          PhotonMap& in_volumes) {
     double taken = 0.0;
     for (const PhotonMapPair& pair : maps.pairs) {
-        taken += static_cast<double>(pair.caustic.tree.photons().size() +
-                                     pair.global.tree.photons().size());
+        for (const PhotonMap* other :
+             {&pair.caustic, &pair.global, &pair.caustic_in_volumes, &pair.global_in_volumes}) {
+            taken += static_cast<double>(other->tree.photons().size());
+        }
     }
     const double most = std::min(settings.memory * 1e6 / kBytesOfPhoton - taken,
                                  double{std::numeric_limits<std::uint32_t>::max()});
@@ -39,11 +42,15 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
     maps.counters += shot_photons.counters;
     if (!shot_photons.complete) return maps.complete = false;
     ThreadLimit threads(job.control.threads);
-    threads.run([&] { map.tree = PhotonTree(std::move(shot_photons.photons)); });
     const std::uint64_t nearest = share_of(static_cast<std::uint64_t>(settings.nearest), maps);
-    map.nearest = std::max<std::size_t>(2, nearest);
-    map.filter = settings.filter;
-    map.radius = settings.radius > 0.0 ? settings.radius : usual_radius(map.tree, map.nearest);
+    const auto build = [&](std::vector<Photon> photons, PhotonMap& of) {
+        threads.run([&] { of.tree = PhotonTree(std::move(photons)); });
+        of.nearest = std::max<std::size_t>(2, nearest);
+        of.filter = settings.filter;
+        of.radius = settings.radius > 0.0 ? settings.radius : usual_radius(of.tree, of.nearest);
+    };
+    build(std::move(shot_photons.photons), map);
+    build(std::move(shot_photons.in_volumes), in_volumes);
     return true;
 }
 
@@ -60,20 +67,25 @@ bool fill_pair(const RenderJob& job, const Illumination& lights,
         kinds = {PhotonKind::Caustic, PhotonKind::Indirect};
     }
     seed = mix64(seed);
+    PhotonKinds in_volumes{PhotonKind::Indirect};
+    if (settings.caustics == 0) in_volumes = {PhotonKind::Caustic, PhotonKind::Indirect};
     PhotonShot shot{share_of(settings.photons, maps), kinds, settings.paths.depth, seed,
                     &maps.waves[set]};
-    if (!fill(job, lights, shot, settings, maps, pair.global)) return false;
+    shot.in_volumes = in_volumes;
+    if (!fill(job, lights, shot, settings, maps, pair.global, pair.global_in_volumes)) {
+        return false;
+    }
     if (settings.caustics == 0) return true;
     seed = mix64(seed);
     shot.count = share_of(settings.caustics, maps);
-    shot.kinds = {PhotonKind::Caustic};
+    shot.kinds = shot.in_volumes = {PhotonKind::Caustic};
     shot.seed = seed;
     if (settings.projection && !projection) {
         ThreadLimit threads(job.control.threads);
         threads.run([&] { projection.emplace(job, lights, mix64(seed), maps.counters); });
     }
     if (projection) shot.projection = &*projection;
-    return fill(job, lights, shot, settings, maps, pair.caustic);
+    return fill(job, lights, shot, settings, maps, pair.caustic, pair.caustic_in_volumes);
 }
 
 }  // namespace

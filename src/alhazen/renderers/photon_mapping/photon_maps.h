@@ -13,6 +13,8 @@ namespace alhazen {
 struct PhotonMapPair {
     PhotonMap caustic;  ///< of light by way of mirrors and smooth glass alone
     PhotonMap global;   ///< with final gathering all light, else what is in no other part
+    /// The same in volumes; neither has direct light.
+    PhotonMap caustic_in_volumes, global_in_volumes;
 };
 
 struct PhotonMaps {

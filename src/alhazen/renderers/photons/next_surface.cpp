@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -10,13 +11,8 @@ namespace {
 
 /// Dimensions from here on decide about coverage.
 constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
-
-void absorb(PathEnd& path, double distance) {
-    const Medium* const medium = path.media.here();
-    if (medium == nullptr) return;
-    path.throughput =
-        path.throughput * transmittance(path.waves->absorption(medium->absorption), distance);
-}
+/// Those from here on about ways through volumes.
+constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
 
 }  // namespace
 
@@ -24,28 +20,60 @@ double PathNumbers::at(std::uint64_t dimension) const {
     return random_at(seed, path, part, dimension);
 }
 
-bool NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
+PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
         ++counters_[path.kind].cast;
         hit_ = Hit();
         if (!scene_.aggregate->closest(path.ray, hit_, {stats_, mask_of(path.kind), path.time})) {
-            absorb(path, std::numeric_limits<double>::infinity());
-            return false;
+            const bool scattered =
+                cross_medium(path, std::numeric_limits<double>::infinity(), numbers);
+            return scattered ? PathMeets::Volume : PathMeets::Nothing;
         }
         ++counters_[path.kind].hit;
+        if (cross_medium(path, hit_.t, numbers)) return PathMeets::Volume;
         set_shading_point(
             scene_, path.ray, hit_,
             {!path.media.empty(), path.cone.width_at(hit_.t), path.time, path.kind != RayKind::Eye},
             {}, point_);
         path.cone = path.cone.from(hit_.t);
         path.travelled += hit_.t;
-        absorb(path, hit_.t);
         const double coverage = point_.material->coverage;
         const std::uint32_t number = path.met++;
-        if (coverage >= 1.0 || numbers.at(kCoverage + number) < coverage) return true;
+        if (coverage >= 1.0 || numbers.at(kCoverage + number) < coverage) {
+            return PathMeets::Surface;
+        }
         path.ray = leaving_ray(point_.surface, path.ray.direction);
     }
-    return false;
+    return PathMeets::Nothing;
+}
+
+bool NextSurface::cross_medium(PathEnd& path, double length, const PathNumbers& numbers) {
+    const Medium* const medium = path.media.here();
+    if (medium == nullptr) return false;
+    const Spectrum absorption = path.waves->absorption(medium->absorption);
+    const VolumeScattering* const scattering = media_.in(*medium);
+    if (scattering == nullptr) {
+        path.throughput = path.throughput * transmittance(absorption, length);
+        return false;
+    }
+    const std::uint64_t first = kVolume + 2 * std::uint64_t{path.stretch++};
+    const VolumeStep step =
+        step_in_volume(absorption, path.waves->absorption(scattering->coefficient), path.throughput,
+                       length, {numbers.at(first), numbers.at(first + 1)});
+    volume_ = {path.ray.at(step.distance), path.ray.direction, *medium, scattering->anisotropy,
+               path.throughput * step.arrived};
+    path.throughput = path.throughput * step.weight;
+    if (!step.scatters) return false;
+    path.cone = path.cone.from(step.distance);
+    path.travelled += step.distance;
+    return true;
+}
+
+void NextSurface::go_on_in_volume(PathEnd& path, const Vec2& u) const {
+    const Vec3 direction = sample_henyey_greenstein(volume_.along, volume_.anisotropy, u);
+    path.ray = {volume_.point, direction};
+    path.kind = RayKind::Refraction;
+    path.travelled = 0.0;
 }
 
 void NextSurface::go_on(PathEnd& path, const ShapeSurface& at, const ScatterPoint& scatter,

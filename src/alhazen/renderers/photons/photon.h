@@ -1,5 +1,5 @@
 #pragma once
-/// Light that has arrived at a surface, in 32 bytes.
+/// Light that has arrived at a surface, or where a volume scatters it, in 32 bytes.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 4 (a compact
 /// photon); Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
@@ -45,8 +45,16 @@ class OctahedralVector {
         }
         return normalize(Vec3{x, y, z});
     }
+    /// What is no direction: its `vector` means nothing.
+    [[nodiscard]] static OctahedralVector none() {
+        OctahedralVector v;
+        v.x_ = kNone;
+        return v;
+    }
+    [[nodiscard]] bool is_none() const { return x_ == kNone; }
 
   private:
+    static constexpr std::int16_t kNone = -32768;
     static constexpr double kScale = 32767.0;
     [[nodiscard]] static double sign(double v) { return v < 0.0 ? -1.0 : 1.0; }
     [[nodiscard]] static std::int16_t rounded(double v) {
@@ -66,13 +74,14 @@ struct Photon {
     std::array<float, 3> position{};
     std::array<float, 3> power{};  ///< that arrives, as `stored_light`
     OctahedralVector from;         ///< towards where it came from
-    OctahedralVector normal;       ///< geometric, on that side
+    OctahedralVector normal;       ///< geometric, on that side; none: in a volume
 
     [[nodiscard]] Vec3 point() const { return {position[0], position[1], position[2]}; }
     [[nodiscard]] Spectrum light() const {
         return std::signbit(power[0]) ? light_of_waves()
                                       : Spectrum{power[0], power[1], power[2], power[2]};
     }
+    [[nodiscard]] bool in_volume() const { return normal.is_none(); }
     /// Whether it carries the light of all wavelengths at that of the hero.
     [[nodiscard]] bool hero_only() const {
         return (std::bit_cast<std::uint32_t>(power[0]) >> 30) == 3;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/renderers/light_transport/volume_scattering.h"
 
 namespace alhazen {
 
@@ -82,6 +83,30 @@ Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, c
                scattered_light(at, photon, part, hero_only);
     }
     return (1.0 / (kPi * squared)) * sum;
+}
+
+Spectrum scattered_light(const VolumePoint& at, const Photon& photon, bool hero_only) {
+    const double phase = henyey_greenstein(dot(at.along, photon.from.vector()), at.anisotropy);
+    const double share = hero_only && photon.hero_only() ? 1.0 / Spectrum::kCount : 1.0;
+    return (share * phase) * photon.light();
+}
+
+Spectrum PhotonDensity::radiance(const PhotonMap& map, const VolumePoint& at, bool hero_only) {
+    double squared = map.radius * map.radius;
+    map.tree.nearest(
+        at.point, map.nearest, squared, [](const Photon&) { return true; }, found_);
+    if (found_.empty()) return {};
+    std::size_t first = 0;
+    if (found_.size() == map.nearest && map.nearest > 1) {
+        squared = found_.front().squared;
+        first = 1;
+    }
+    if (!(squared > 0.0)) return {};
+    Spectrum sum;
+    for (std::size_t i = first; i < found_.size(); ++i) {
+        sum += scattered_light(at, map.tree.photons()[found_[i].node], hero_only);
+    }
+    return (3.0 / (4.0 * kPi * squared * std::sqrt(squared))) * sum;
 }
 
 }  // namespace alhazen

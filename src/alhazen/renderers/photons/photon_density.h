@@ -2,7 +2,9 @@
 /// The light that a surface scatters, from the density of the photons around a point of it.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 5 (n nearest), and
-/// "Realistic Image Synthesis Using Photon Mapping", 2001, section 7 (cone and gauss filter).
+/// "Realistic Image Synthesis Using Photon Mapping", 2001, section 7 (cone and gauss filter);
+/// Jensen and Christensen, "Efficient Simulation of Light Transport in Scenes with Participating
+/// Media using Photon Maps", SIGGRAPH 1998 (in volumes).
 /// Differs: of the n nearest the farthest bounds the disc and is not counted, for n in the disc
 /// that ends with the n-th are too many by n / (n - 1). All filters are divided by their mean over
 /// the disc (that of Jensen's gauss filter is 0.531). Photons of surfaces that face elsewhere are
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/renderers/photons/photon_tree.h"
 
 namespace alhazen {
@@ -69,11 +72,18 @@ struct PhotonMap {
 /// ten photons have `nearest` others. 0 of an empty tree.
 [[nodiscard]] double usual_radius(const PhotonTree& tree, std::size_t nearest);
 
+/// The light that a place in a volume scatters towards where a path along `along` came from, over
+/// its coefficient, for a photon of unit density by volume.
+[[nodiscard]] Spectrum scattered_light(const VolumePoint& at, const Photon& photon, bool hero_only);
+
 /// Estimates of one thread.
 class PhotonDensity {
   public:
     [[nodiscard]] Spectrum radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
                                     LightPart part, bool hero_only);
+    /// The radiance that arrives at a place in a volume and is scattered, over the coefficient: by
+    /// the photons in a ball, which all count alike.
+    [[nodiscard]] Spectrum radiance(const PhotonMap& map, const VolumePoint& at, bool hero_only);
 
   private:
     std::vector<PhotonTree::Near> found_;

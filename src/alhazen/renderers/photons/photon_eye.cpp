@@ -4,6 +4,7 @@
 
 #include "alhazen/renderers/light_transport/emission_of.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
+#include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/renderers/photons/photon_density.h"
 
 namespace alhazen {
@@ -20,11 +21,11 @@ PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumina
       scene_(job.scene),
       counters_(counters),
       settings_(settings),
+      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       lights_(lights),
       chance_(job),
       camera_(job),
       next_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       given_(waves.begin(), waves.end()) {}
 
 void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
@@ -66,8 +67,15 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, Wavelengths& 
     PathEnd& path = at.path;
     const PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
     for (;; ++event) {
-        if (!next_.find(path, numbers)) {
+        const PathMeets meets = next_.find(path, numbers);
+        if (meets == PathMeets::Nothing) {
             sum += escaped(path, at.last);
+            return;
+        }
+        if (meets == PathMeets::Volume) {
+            if (at.last.scatterings < settings_.depth) {
+                look_into_volume(id, event, path, sum, direct);
+            }
             return;
         }
         const ShadingPoint& point = next_.point();
@@ -153,10 +161,30 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     if (other > kGlossyDensity) weight *= power_heuristic(drawn.density, other);
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
-    const Medium* const medium = media.here();
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{}, *path.waves,
+                 next_.media().extinction(media.here()), *path.waves,
                  path.throughput * (weight * light), direct);
+}
+
+PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double choice,
+                                               const Vec2& place, const Wavelengths& waves) const {
+    const LightDraw drawn = lights_.draw({at.point, at.along, true}, choice, place, waves);
+    if (!(drawn.density > 0.0)) return {};
+    const double phase = henyey_greenstein(dot(at.along, drawn.to_light), at.anisotropy);
+    return {(phase / drawn.density) * drawn.radiance,
+            {at.point, drawn.to_light, 0.0, kBeforeEnd * drawn.distance}};
+}
+
+void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& path, Spectrum& sum,
+                                 Spectrum& direct) {
+    const VolumePoint& at = next_.volume();
+    sum += path.throughput * photon_light(SeenVolume{at, path, id.number % given_.size()});
+    const DirectLight straight =
+        direct_light(at, chance_.draw(id, event, PathChance::kChoices).y,
+                     chance_.draw(id, event, PathChance::kLight), *path.waves);
+    if (straight.light.is_black()) return;
+    shadows_.add(straight.ray, path.time, next_.media().extinction(&at.medium), *path.waves,
+                 path.throughput * straight.light, direct);
 }
 
 bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int event) const {

@@ -32,6 +32,13 @@ struct SeenPoint {
     PathNumbers numbers;  ///< for what is drawn there
 };
 
+/// A place in a volume that is looked at.
+struct SeenVolume {
+    const VolumePoint& place;
+    const PathEnd& path;  ///< that arrived
+    std::size_t waves;    ///< as of SeenPoint
+};
+
 class PhotonEye {
   public:
     /// `waves`: of which sample `number` has those at number % size.
@@ -49,10 +56,23 @@ class PhotonEye {
     /// The radiance that the point scatters, without direct light and glossy directions.
     [[nodiscard]] virtual Spectrum photon_light(const SeenPoint& at) = 0;
 
+    /// The radiance that arrives at a place in a volume and goes on to the eye, over the
+    /// coefficient, without direct light.
+    [[nodiscard]] virtual Spectrum photon_light(const SeenVolume& at) = 0;
+    /// Direct light at a place in a volume, over the coefficient: that of a light drawn, with the
+    /// ray towards it.
+    struct DirectLight {
+        Spectrum light;
+        Ray ray;
+    };
+    [[nodiscard]] DirectLight direct_light(const VolumePoint& at, double choice, const Vec2& place,
+                                           const Wavelengths& waves) const;
+
     const RenderJob& job_;
     const Scene& scene_;
     RayCounters& counters_;
     const PathSettings settings_;
+    LightBatch shadows_;
 
   private:
     /// The state of a path besides its end.
@@ -79,6 +99,8 @@ class PhotonEye {
     [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
     [[nodiscard]] Spectrum emitted(const PathEnd& path, const Last& last) const;
     void add_direct_light(const SampleId& id, int event, const PathEnd& path, Spectrum& direct);
+    void look_into_volume(const SampleId& id, int event, const PathEnd& path, Spectrum& sum,
+                          Spectrum& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
                                 int event) const;
 
@@ -86,7 +108,6 @@ class PhotonEye {
     PathChance chance_;
     CameraRays camera_;
     NextSurface next_;
-    LightBatch shadows_;
     ScatterPoint scatter_;
     const std::vector<Wavelengths> given_;
     std::vector<Spectrum> light_, direct_;  ///< [sample]

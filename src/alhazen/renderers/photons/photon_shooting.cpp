@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "alhazen/base/error.h"
@@ -37,7 +38,13 @@ ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights, cons
                                 "surfaces cannot be sampled; path_tracing finds their light",
                                 renderer));
     }
-    return {std::move(shot_photons.records), shot_photons.counters, shot_photons.complete};
+    std::vector<Photon>& photons = shot_photons.records;
+    const auto first = std::stable_partition(photons.begin(), photons.end(),
+                                             [](const Photon& p) { return !p.in_volume(); });
+    std::vector<Photon> in_volumes(first, photons.end());
+    photons.erase(first, photons.end());
+    return {std::move(photons), std::move(in_volumes), shot_photons.counters,
+            shot_photons.complete};
 }
 
 }  // namespace alhazen

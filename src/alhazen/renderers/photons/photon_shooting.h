@@ -14,7 +14,8 @@
 namespace alhazen {
 
 struct ShotPhotons {
-    std::vector<Photon> photons;
+    std::vector<Photon> photons;  ///< at surfaces
+    std::vector<Photon> in_volumes;
     RayCounters counters;
     bool complete = true;  ///< false after a stop
 };

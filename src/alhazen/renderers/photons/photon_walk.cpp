@@ -26,7 +26,8 @@ PhotonWalk::PhotonWalk(const Scene& scene, const Illumination& lights, const Pho
     : scene_(scene),
       lights_(lights),
       shot_(shot),
-      caustics_only_(!shot.kinds.has(PhotonKind::Direct) && !shot.kinds.has(PhotonKind::Indirect)),
+      caustics_only_(!shot.kinds.has(PhotonKind::Direct) && !shot.kinds.has(PhotonKind::Indirect) &&
+                     !shot.in_volumes.has(PhotonKind::Indirect)),
       sampler_(find_sampler("sobol")->make(shot.seed, kMaxSamples)),
       media_(scene),
       next_(scene, counters, stats) {}
@@ -63,6 +64,16 @@ void PhotonWalk::store(PhotonKind kind, const Spectrum& power, const Wavelengths
                       OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});
 }
 
+void PhotonWalk::store_in_volume(PhotonKind kind, const Spectrum& fluence, const Wavelengths& waves,
+                                 std::vector<Photon>& stored) const {
+    if (!shot_.in_volumes.has(kind) || fluence.is_black() || !fluence.is_finite()) return;
+    const VolumePoint& at = next_.volume();
+    const double share = 1.0 / static_cast<double>(shot_.count);
+    stored.push_back({floats(at.point.x, at.point.y, at.point.z),
+                      stored_light(share * fluence, waves), OctahedralVector(-at.along),
+                      OctahedralVector::none()});
+}
+
 bool PhotonWalk::survives(PathEnd& path, double begun, const PathNumbers& numbers,
                           std::uint64_t dimension) const {
     const double share = path.throughput.max() / begun;
@@ -94,14 +105,27 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     PhotonKind kind = PhotonKind::Direct;
     bool scattered = false;
     for (int surface = 0; surface < shot_.depth; ++surface) {
-        if (!next_.find(path, numbers)) return true;
+        const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
+        const PathMeets meets = next_.find(path, numbers);
+        if (meets == PathMeets::Nothing) return true;
+        if (meets == PathMeets::Volume) {
+            if (!scattered) fall = falloff(light, next_.volume().point, path.travelled);
+            store_in_volume(kind, fall * next_.volume().arrived, waves, stored);
+            if (caustics_only_) return true;
+            kind = PhotonKind::Indirect;
+            path.throughput = fall * path.throughput;
+            scattered = true;
+            fall = Spectrum::all(1);
+            next_.go_on_in_volume(path, {numbers.at(first + 1), numbers.at(first + 2)});
+            if (!survives(path, begun, numbers, first + 3)) return true;
+            continue;
+        }
         const ShadingPoint& point = next_.point();
         if (point.material->unlit) return true;
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
         scatter_.set(scene_, point, path.media, waves);
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         if (scatter_.has_density()) store(kind, fall * path.throughput, waves, stored);
-        const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
         const auto drawn =
             scatter_.sample(numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)},
                             Transport::Importance);

@@ -1,13 +1,16 @@
 #pragma once
 /// One photon after the other: from a light through the scene, stored at each surface that scatters
-/// with a density.
+/// with a density, and wherever a volume scatters it.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 3; Arvo and Kirk,
-/// "Particle Transport and Image Synthesis", SIGGRAPH 1990 (Russian roulette).
+/// "Particle Transport and Image Synthesis", SIGGRAPH 1990 (Russian roulette); Jensen and
+/// Christensen, "Efficient Simulation of Light Transport in Scenes with Participating Media using
+/// Photon Maps", SIGGRAPH 1998 (photons in volumes).
 /// Differs: directions are drawn from the whole BSDF; the roulette keeps the largest channel of a
 /// photon at what its light gave it, and its colour changes. Shading normals: Veach's factor.
 /// Conventions: photons are numbered. What a photon does depends on the scene, the seed and its
-/// number alone. Surfaces that are passed straight (thin sheets) receive light and are no events.
+/// number alone. A photon in a volume stands for fluence: power times the way that it goes there.
+/// Surfaces that are passed straight (thin sheets) receive light and are no events.
 
 #include <cstdint>
 #include <memory>
@@ -30,6 +33,7 @@ struct PhotonShot {
     std::uint64_t seed = 0;
     const Wavelengths* waves = &kColorChannels;  ///< of all photons, as they leave their lights
     const ProjectionMap* projection = nullptr;   ///< where lights send them; null: everywhere
+    PhotonKinds in_volumes;                      ///< to be stored there
 };
 
 class PhotonWalk {
@@ -46,6 +50,8 @@ class PhotonWalk {
     [[nodiscard]] Spectrum falloff(const LightRay& light, const Vec3& point, double distance) const;
     void store(PhotonKind kind, const Spectrum& power, const Wavelengths& waves,
                std::vector<Photon>& stored) const;
+    void store_in_volume(PhotonKind kind, const Spectrum& fluence, const Wavelengths& waves,
+                         std::vector<Photon>& stored) const;
     [[nodiscard]] bool survives(PathEnd& path, double begun, const PathNumbers& numbers,
                                 std::uint64_t dimension) const;
 

@@ -29,7 +29,9 @@ bool meets_mirror(const Scene& scene, const LightRay& light, const MediaFinder& 
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
     path.media = start.media;
-    if (!next.find(path, numbers) || next.point().material->unlit) return false;
+    if (next.find(path, numbers) != PathMeets::Surface || next.point().material->unlit) {
+        return false;
+    }
     scatter.set(scene, next.point(), path.media, kColorChannels);
     return scatter.has_singular();
 }

@@ -25,8 +25,11 @@ constexpr std::size_t kEyePathsAtOnce = 256;
 class PassEye final : public PhotonEye {
   public:
     PassEye(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
-            const PathSettings& paths, const PhotonGrid& grid, const Wavelengths* waves)
-        : PhotonEye(job, counters, lights, paths, {waves, 1}), grid_(grid) {}
+            const PathSettings& paths, const PhotonGrid& grid, const PhotonGrid& in_volumes,
+            const Wavelengths* waves)
+        : PhotonEye(job, counters, lights, paths, {waves, 1}),
+          grid_(grid),
+          in_volumes_(in_volumes) {}
 
   private:
     [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override {
@@ -41,7 +44,18 @@ class PassEye final : public PhotonEye {
         return (1.0 / (kPi * grid_.radius() * grid_.radius())) * sum;
     }
 
+    [[nodiscard]] Spectrum photon_light(const SeenVolume& at) override {
+        const bool hero_only = at.path.waves->hero_only();
+        Spectrum sum;
+        in_volumes_.for_near(at.place.point, [&](const Photon& photon) {
+            sum += scattered_light(at.place, photon, hero_only);
+        });
+        const double r = in_volumes_.radius();
+        return (3.0 / (4.0 * kPi * r * r * r)) * sum;
+    }
+
     const PhotonGrid& grid_;
+    const PhotonGrid& in_volumes_;
 };
 
 void record_photons_of(const PhotonGrid& grid, const RenderJob& job, const Film& film) {
@@ -63,6 +77,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
                     {PhotonKind::Caustic, PhotonKind::Indirect},
                     settings_.paths.depth,
                     mix64(job.seed)};
+    shot.in_volumes = shot.kinds;
     const auto most = static_cast<std::size_t>(
         std::min(settings_.memory * 1e6 / PhotonGrid::kBytesOfPhoton, 0x1p31));
     note_silent_lights(lights, "sppm", passes.report());
@@ -73,12 +88,16 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         if (lights.shines()) photons = shoot_photons(passes.job(), lights, shot, most, "sppm");
         passes.report().counters += photons.counters;
         if (!photons.complete) return passes.stopped();
-        if (pass == 0) add_to_cloud(photons.photons, false, job.photons, waves);
+        if (pass == 0) {
+            add_to_cloud(photons.photons, false, job.photons, waves);
+            add_to_cloud(photons.in_volumes, false, job.photons, waves);
+        }
         const PhotonGrid grid(std::move(photons.photons), radius);
+        const PhotonGrid in_volumes(std::move(photons.in_volumes), radius);
         if (pass == 0) record_photons_of(grid, job, film);
         const bool complete = passes.look([&](const RenderJob& part) {
-            return std::make_unique<RoundRenderer<PassEye>>(part, kEyePathsAtOnce, lights,
-                                                            settings_.paths, grid, &waves);
+            return std::make_unique<RoundRenderer<PassEye>>(
+                part, kEyePathsAtOnce, lights, settings_.paths, grid, in_volumes, &waves);
         });
         if (!complete) break;
         shot.seed = mix64(shot.seed);

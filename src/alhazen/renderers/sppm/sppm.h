@@ -34,6 +34,7 @@ class Sppm final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool has_photons() const override { return true; }
+    [[nodiscard]] bool scatters_in_volumes() const override { return true; }
     [[nodiscard]] bool takes_wavelengths() const override { return true; }
 
   private:
