@@ -12,6 +12,7 @@
 #include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/laboratory/traversal_trace.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/session/render.h"
 
 namespace alhazen::viewer {
@@ -41,15 +42,18 @@ json camera_json(const Scene& scene, const CameraDescription& described) {
             {"distance", distance_in_middle(scene, described.camera)}};
 }
 
-/// Those that need no other geometry than is loaded.
+/// Those that need no other geometry than is loaded. `depth`: where nothing is wished, unless it is
+/// that of the scene; counted as `with_depth` does.
 json renderer_menu() {
     json menu = json::array();
     for (const RendererEntry& entry : renderers()) {
         const std::unique_ptr<Renderer> renderer = make_renderer(entry.name);
         if (renderer->takes_triangles_within() > 0.0) continue;
-        menu.push_back({{"name", entry.name},
-                        {"what", entry.description},
-                        {"selects", renderer->answers_single_rays()}});
+        json choice{{"name", entry.name},
+                    {"what", entry.description},
+                    {"selects", renderer->answers_single_rays()}};
+        if (entry.follows_paths) choice["depth"] = PathSettings{}.depth - 1;
+        menu.push_back(std::move(choice));
     }
     return menu;
 }

@@ -97,7 +97,10 @@ FrameWish frame_wish(const json& wish) {
     result.camera.aspect = static_cast<double>(*options.width) / *options.height;
     options.renderer = wish.value("renderer", "whitted");
     options.samples_per_pixel = whole_in(wish, "samples", 1, 1, 1024);
-    if (wish.contains("depth")) options.max_depth = whole_in(wish, "depth", 5, 0, 100);
+    if (wish.contains("depth")) {
+        options.max_depth = whole_in(wish, "depth", 5, 0, 100);
+        options.renderer = with_depth(options.renderer, *options.max_depth);
+    }
     result.layer = layer_in(wish);
     if (result.layer != nullptr) options.aovs.add(result.layer->kind);
     use_exact_areas(options);

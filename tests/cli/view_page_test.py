@@ -140,6 +140,30 @@ class ViewPage(unittest.TestCase):
         self.assertTrue(page.value(READY))
         self.shoot("view_lost")
 
+    def test_a_depth_is_sent_where_one_is_chosen(self):
+        self.open("900,700")
+        page = self.page
+        depth = "viewer.controls.number('depth')"
+
+        def sent():
+            return page.value("viewer.wish(viewer.camera, 64).depth ?? null")
+
+        self.assertEqual((page.value(depth), sent()), (4, None))
+        # A renderer that follows paths has a depth of its own, until one is chosen.
+        self.changes(lambda: self.choose("renderer", "path_tracing"))
+        self.assertEqual((page.value(depth), sent()), (63, None))
+        self.changes(lambda: self.choose("depth", "0"))
+        self.assertEqual(sent(), 0)
+        self.changes(lambda: self.choose("renderer", "whitted"))
+        self.assertEqual((page.value(depth), sent()), (0, 0))
+        # An emptied field is as usual again; the scene's depth is followed.
+        self.changes(lambda: self.choose("depth", ""))
+        self.assertEqual((page.value(depth), sent()), (4, None))
+        self.changes(lambda: (self.scene.write_text(SCENE.replace("max_depth = 4", "max_depth = 0"), encoding="utf-8"),
+                              page.wait("viewer.scene.version > 1")))
+        self.assertEqual((page.value(depth), sent()), (0, None))
+        self.check_quiet()
+
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
         self.open("900,700")
         page = self.page

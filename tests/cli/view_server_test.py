@@ -176,6 +176,21 @@ class ViewServer(ServerTest):
         self.assertIn("whitted", [r["name"] for r in state["renderers"]])
         self.assertEqual([c["name"] for c in state["cameras"]], ["front", "side"])
 
+    def test_renderers_that_follow_paths_heed_a_depth_that_is_wished(self):
+        def png(renderer, **change):
+            status, _, body = self.server.ask("/frame", {**WISH, "png": True, "renderer": renderer, **change})
+            self.assertEqual(status, 200, body)
+            return body
+
+        followers = {r["name"]: r["depth"] for r in self.server.state()["renderers"] if "depth" in r}
+        self.assertEqual(set(followers), {"path_tracing", "light_tracing", "bidirectional", "photon_mapping", "sppm", "vcm"})
+        for renderer in ("path_tracing", "bidirectional"):
+            usual = png(renderer)
+            self.assertNotEqual(png(renderer, depth=0), usual)
+            self.assertEqual(png(renderer, depth=0), png(f"{renderer}:depth=1"))
+            # What the page shows where nothing is wished.
+            self.assertEqual(png(renderer, depth=followers[renderer]), usual)
+
     def test_a_newer_frame_ends_an_older_one(self):
         long = {**WISH, "width": 2000, "height": 1500, "samples": 1024}
         status = self.server.in_hand("/frame", long)

@@ -18,6 +18,8 @@ type Key = MenuKey | NumberKey;
 export class Controls {
   readonly form = element("form", {class: "controls", "aria-label": "Settings", submit: e => e.preventDefault()});
   private readonly fields = new Map<Key, HTMLSelectElement | HTMLInputElement>();
+  private readonly usual = new Map<NumberKey, number>();
+  private readonly wishes = new Set<NumberKey>();  // numbers that were chosen; others are the usual ones
 
   constructor(private readonly changed: (key: Key) => void) {}
 
@@ -26,6 +28,15 @@ export class Controls {
   }
   number(key: NumberKey) {
     return Number(this.fields.get(key)?.value);
+  }
+  /** Undefined where nothing was chosen. */
+  wished(key: NumberKey) {
+    return this.wishes.has(key) ? this.number(key) : undefined;
+  }
+  /** What it is where nothing is chosen. */
+  setUsual(key: NumberKey, value: number) {
+    this.usual.set(key, value);
+    if (!this.wishes.has(key)) this.set(key, String(value));
   }
   set(key: Key, value: string) {
     const field = this.fields.get(key);
@@ -41,13 +52,23 @@ export class Controls {
     return field instanceof HTMLSelectElement ? [...field.options].map(o => o.text) : [];
   }
 
+  // A field that was emptied is as usual again.
+  private typed(key: NumberKey) {
+    if (this.fields.get(key)?.value) this.wishes.add(key);
+    else {
+      this.wishes.delete(key);
+      this.set(key, String(this.usual.get(key)));
+    }
+    this.changed(key);
+  }
   /** What was chosen stays where it still is. */
   fill(scene: Scene) {
     const focus = [...this.fields].find(([, field]) => field === document.activeElement)?.[0];
     const chosen = new Map([...this.fields].map(([key, field]) => [key, field.value]));
     this.form.replaceChildren();
     const add = (key: Key, label: string, field: HTMLSelectElement | HTMLInputElement, value: string) => {
-      field.value = chosen.get(key) ?? value;
+      const kept = field instanceof HTMLSelectElement || this.wishes.has(key as NumberKey);
+      field.value = (kept ? chosen.get(key) : undefined) ?? value;
       if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.value = value;
       if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.selectedIndex = 0;
       this.fields.set(key, field);
@@ -56,8 +77,10 @@ export class Controls {
     const menu = (key: MenuKey, label: string, entries: Choice[], value: string) =>
       add(key, label, element("select", {name: key, change: () => this.changed(key)}, ...entries.map(e =>
         element("option", {value: e.value ?? e.name, title: e.what}, e.name))), value);
-    const field = (key: NumberKey, label: string, value: number, min: number, max: number, step = 1) =>
-      add(key, label, element("input", {name: key, type: "number", min, max, step, change: () => this.changed(key)}), String(value));
+    const field = (key: NumberKey, label: string, value: number, min: number, max: number, step = 1) => {
+      this.usual.set(key, value);
+      add(key, label, element("input", {name: key, type: "number", min, max, step, change: () => this.typed(key)}), String(value));
+    };
 
     menu("camera", "camera", scene.cameras.map((c, i) => ({name: c.name || `camera ${i + 1}`, value: String(i)})), "0");
     menu("renderer", "renderer", scene.renderers, "whitted");

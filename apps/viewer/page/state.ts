@@ -19,6 +19,7 @@ export interface Choice {
 }
 export interface RendererChoice extends Choice {
   selects: boolean;
+  depth?: number;  // where nothing is wished; undefined: that of the scene
 }
 /** What changes with the file only. */
 export interface Menus {
@@ -84,7 +85,7 @@ export interface Wish {
   renderer: string;
   accelerator: string;
   layer: string;
-  depth: number;
+  depth?: number;  // undefined: as scene and renderer have it
   exposure: number;
   curve: string;
   samples: number;

@@ -112,7 +112,7 @@ export class Viewer {
     const scene = this.scene = {...known, ...state} as Scene;
     if (!known) {
       document.title = `${scene.scene} \u2013 Alhazen`;
-      this.controls.fill(scene);
+      this.fill(scene);
       this.see(scene.cameras[0]);
     } else if (known.version !== scene.version) {
       this.refill(known, scene);
@@ -124,11 +124,17 @@ export class Viewer {
     const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
     const same = scene.cameras.findIndex(c => c.name === old.name);
     const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
-    const follows = this.controls.number("depth") === before.depth;
-    this.controls.fill(scene);
-    if (follows) this.controls.set("depth", String(scene.depth));
+    this.fill(scene);
     this.controls.set("camera", String(index));
     if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
+  }
+  private fill(scene: Scene) {
+    this.controls.fill(scene);
+    this.showDepth(scene);
+  }
+  // Renderers that follow paths have a depth of their own where nothing is chosen.
+  private showDepth(scene: Scene) {
+    this.controls.setUsual("depth", this.renders(this.controls.get("renderer"))?.depth ?? scene.depth);
   }
   private see(camera: CameraData) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
@@ -136,6 +142,7 @@ export class Viewer {
   }
   private chosen(key: string) {
     if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "renderer" && this.scene) this.showDepth(this.scene);
     if (key === "camera") this.goHome();
     else if (key !== "steps") this.changed();
   }
@@ -151,7 +158,7 @@ export class Viewer {
     const {eye, look, right, up, parallel} = camera, controls = this.controls;
     return {camera: {eye, look, right, up, parallel}, width, height: Math.max(1, Math.round(width / camera.aspect)),
             renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
-            depth: controls.number("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1};
+            depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1};
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
   private selects() {
@@ -162,8 +169,8 @@ export class Viewer {
     return {full: this.full(), depth: this.controls.number("depth"), deepens: this.selects()};
   }
   private movingWish(camera: ViewCamera): Wish {
-    const {width, depth} = this.pace.next(this.limits()), wish = {...this.wish(camera, width), depth};
-    if (this.selects()) return {...wish, selected: true};
+    const {width, depth} = this.pace.next(this.limits()), wish = this.wish(camera, width);
+    if (this.selects()) return {...wish, depth, selected: true};
     if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
     return {...wish, renderer: "ray_casting"};
   }
@@ -233,7 +240,7 @@ export class Viewer {
     ++this.frames;
   }
   private describe(asked: Asked, facts: FrameFacts) {
-    const now = performance.now(), scene = this.scene!, moving = asked.level === 0;
+    const now = performance.now(), scene = this.scene!, moving = asked.level === 0, deepest = this.controls.number("depth");
     if (moving) {
       // Where the server was never idle: from picture to picture.
       const busy = asked.begin < this.shownAt;
@@ -245,7 +252,7 @@ export class Viewer {
     drawScale(this.scale, facts.layer, scene.scales);
     this.status.textContent = statusText(
       {facts, samples: asked.wish.samples, selected: !!asked.wish.selected, way: now - asked.begin,
-       moving: moving ? {depth: asked.wish.depth, rate} : null}, this.full(), this.controls.number("depth"), scene.memory);
+       moving: moving ? {depth: asked.wish.depth ?? deepest, rate} : null}, this.full(), deepest, scene.memory);
   }
 
   // ---- what is done with it

@@ -1197,16 +1197,28 @@ var MOVING = [
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
 var Controls = class {
+  // numbers that were chosen; others are the usual ones
   constructor(changed) {
     this.changed = changed;
   }
   form = element("form", { class: "controls", "aria-label": "Settings", submit: (e) => e.preventDefault() });
   fields = /* @__PURE__ */ new Map();
+  usual = /* @__PURE__ */ new Map();
+  wishes = /* @__PURE__ */ new Set();
   get(key) {
     return this.fields.get(key)?.value ?? "";
   }
   number(key) {
     return Number(this.fields.get(key)?.value);
+  }
+  /** Undefined where nothing was chosen. */
+  wished(key) {
+    return this.wishes.has(key) ? this.number(key) : void 0;
+  }
+  /** What it is where nothing is chosen. */
+  setUsual(key, value) {
+    this.usual.set(key, value);
+    if (!this.wishes.has(key)) this.set(key, String(value));
   }
   set(key, value) {
     const field = this.fields.get(key);
@@ -1221,20 +1233,33 @@ var Controls = class {
     const field = this.fields.get(key);
     return field instanceof HTMLSelectElement ? [...field.options].map((o) => o.text) : [];
   }
+  // A field that was emptied is as usual again.
+  typed(key) {
+    if (this.fields.get(key)?.value) this.wishes.add(key);
+    else {
+      this.wishes.delete(key);
+      this.set(key, String(this.usual.get(key)));
+    }
+    this.changed(key);
+  }
   /** What was chosen stays where it still is. */
   fill(scene) {
     const focus = [...this.fields].find(([, field2]) => field2 === document.activeElement)?.[0];
     const chosen = new Map([...this.fields].map(([key, field2]) => [key, field2.value]));
     this.form.replaceChildren();
     const add2 = (key, label, field2, value) => {
-      field2.value = chosen.get(key) ?? value;
+      const kept = field2 instanceof HTMLSelectElement || this.wishes.has(key);
+      field2.value = (kept ? chosen.get(key) : void 0) ?? value;
       if (field2 instanceof HTMLSelectElement && field2.selectedIndex < 0) field2.value = value;
       if (field2 instanceof HTMLSelectElement && field2.selectedIndex < 0) field2.selectedIndex = 0;
       this.fields.set(key, field2);
       this.form.append(element("label", {}, label, field2));
     };
     const menu = (key, label, entries, value) => add2(key, label, element("select", { name: key, change: () => this.changed(key) }, ...entries.map((e) => element("option", { value: e.value ?? e.name, title: e.what }, e.name))), value);
-    const field = (key, label, value, min, max, step = 1) => add2(key, label, element("input", { name: key, type: "number", min, max, step, change: () => this.changed(key) }), String(value));
+    const field = (key, label, value, min, max, step = 1) => {
+      this.usual.set(key, value);
+      add2(key, label, element("input", { name: key, type: "number", min, max, step, change: () => this.typed(key) }), String(value));
+    };
     menu("camera", "camera", scene.cameras.map((c, i) => ({ name: c.name || `camera ${i + 1}`, value: String(i) })), "0");
     menu("renderer", "renderer", scene.renderers, "whitted");
     menu("accelerator", "accelerator", scene.accelerators, scene.accelerator);
@@ -1580,7 +1605,7 @@ var Viewer = class {
     const scene = this.scene = { ...known, ...state };
     if (!known) {
       document.title = `${scene.scene} \u2013 Alhazen`;
-      this.controls.fill(scene);
+      this.fill(scene);
       this.see(scene.cameras[0]);
     } else if (known.version !== scene.version) {
       this.refill(known, scene);
@@ -1592,11 +1617,17 @@ var Viewer = class {
     const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
     const same = scene.cameras.findIndex((c) => c.name === old.name);
     const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
-    const follows = this.controls.number("depth") === before.depth;
-    this.controls.fill(scene);
-    if (follows) this.controls.set("depth", String(scene.depth));
+    this.fill(scene);
     this.controls.set("camera", String(index));
     if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
+  }
+  fill(scene) {
+    this.controls.fill(scene);
+    this.showDepth(scene);
+  }
+  // Renderers that follow paths have a depth of their own where nothing is chosen.
+  showDepth(scene) {
+    this.controls.setUsual("depth", this.renders(this.controls.get("renderer"))?.depth ?? scene.depth);
   }
   see(camera) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
@@ -1604,6 +1635,7 @@ var Viewer = class {
   }
   chosen(key) {
     if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "renderer" && this.scene) this.showDepth(this.scene);
     if (key === "camera") this.goHome();
     else if (key !== "steps") this.changed();
   }
@@ -1623,7 +1655,7 @@ var Viewer = class {
       renderer: controls.get("renderer"),
       accelerator: controls.get("accelerator"),
       layer: controls.get("layer"),
-      depth: controls.number("depth"),
+      depth: controls.wished("depth"),
       exposure: controls.number("exposure"),
       curve: controls.get("curve"),
       samples: 1
@@ -1637,8 +1669,8 @@ var Viewer = class {
     return { full: this.full(), depth: this.controls.number("depth"), deepens: this.selects() };
   }
   movingWish(camera) {
-    const { width, depth } = this.pace.next(this.limits()), wish = { ...this.wish(camera, width), depth };
-    if (this.selects()) return { ...wish, selected: true };
+    const { width, depth } = this.pace.next(this.limits()), wish = this.wish(camera, width);
+    if (this.selects()) return { ...wish, depth, selected: true };
     if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
     return { ...wish, renderer: "ray_casting" };
   }
@@ -1709,7 +1741,7 @@ var Viewer = class {
     ++this.frames;
   }
   describe(asked, facts) {
-    const now = performance.now(), scene = this.scene, moving = asked.level === 0;
+    const now = performance.now(), scene = this.scene, moving = asked.level === 0, deepest = this.controls.number("depth");
     if (moving) {
       const busy = asked.begin < this.shownAt;
       this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, this.limits());
@@ -1724,10 +1756,10 @@ var Viewer = class {
         samples: asked.wish.samples,
         selected: !!asked.wish.selected,
         way: now - asked.begin,
-        moving: moving ? { depth: asked.wish.depth, rate } : null
+        moving: moving ? { depth: asked.wish.depth ?? deepest, rate } : null
       },
       this.full(),
-      this.controls.number("depth"),
+      deepest,
       scene.memory
     );
   }
