@@ -13,6 +13,8 @@
 #include "alhazen/laboratory/traversal_trace.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/session/environment_option.h"
+#include "alhazen/session/lighting.h"
 #include "alhazen/session/render.h"
 
 namespace alhazen::viewer {
@@ -51,7 +53,8 @@ json renderer_menu() {
         if (renderer->takes_triangles_within() > 0.0) continue;
         json choice{{"name", entry.name},
                     {"what", entry.description},
-                    {"selects", renderer->answers_single_rays()}};
+                    {"selects", renderer->answers_single_rays()},
+                    {"follows_light", renderer->follows_light()}};
         if (entry.follows_paths) choice["depth"] = PathSettings{}.depth - 1;
         menu.push_back(std::move(choice));
     }
@@ -82,6 +85,10 @@ json menu_of(const Table& table) {
 }  // namespace
 
 json view_menus(const LoadedScene& loaded) {
+    json lights = json::array();
+    for (const LightChoice& light : light_choices(loaded.description)) {
+        lights.push_back({{"name", light.name}, {"what", light.kind}});
+    }
     static const json kRenderers = renderer_menu();
     const Scene& scene = loaded.scene;
     const FrameSize frame =
@@ -98,6 +105,8 @@ json view_menus(const LoadedScene& loaded) {
             {"cameras", std::move(cameras)},
             {"renderers", kRenderers},
             {"accelerators", menu_of(accelerator_table())},
+            {"lights", std::move(lights)},
+            {"environments", menu_of(environments())},
             {"layers", menu_of(aov_table())},
             {"scales",
              {{"heat", scale_json(ColorScale::Colors::Heat)},

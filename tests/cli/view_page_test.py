@@ -14,7 +14,7 @@ import time
 import unittest
 
 from browser_session import BrowserSession, browser
-from view_server import SCENE, Server
+from view_server import LIGHTS, SCENE, Server
 
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -68,6 +68,11 @@ class ViewPage(unittest.TestCase):
         act()
         self.page.wait(FINE)
         self.assertNotEqual(self.picture(), before)
+
+    def edit(self, text):
+        before = self.page.value("viewer.scene.version")
+        self.scene.write_text(text, encoding="utf-8")
+        self.page.wait(f"viewer.scene.version > {before}")
 
     def choose(self, key, value):
         self.page.value(f"viewer.controls.choose('{key}', '{value}')")
@@ -159,9 +164,48 @@ class ViewPage(unittest.TestCase):
         # An emptied field is as usual again; the scene's depth is followed.
         self.changes(lambda: self.choose("depth", ""))
         self.assertEqual((page.value(depth), sent()), (4, None))
-        self.changes(lambda: (self.scene.write_text(SCENE.replace("max_depth = 4", "max_depth = 0"), encoding="utf-8"),
-                              page.wait("viewer.scene.version > 1")))
+        self.changes(lambda: self.edit(SCENE.replace("max_depth = 4", "max_depth = 0")))
         self.assertEqual((page.value(depth), sent()), (0, None))
+        self.check_quiet()
+
+    def test_lights_are_turned_off_and_undo_takes_back_what_was_chosen(self):
+        self.scene.write_text(LIGHTS, encoding="utf-8")
+        self.open("1300,900")
+        page = self.page
+        first = self.picture()
+        summary = "document.querySelector('#lights summary')"
+        boxes = "[...document.querySelectorAll('#lights input')]"
+        self.assertEqual(page.value(f"{summary}.textContent"), "lights: all of 4 on")
+        # By keys alone.
+        page.value(f"{summary}.focus()")
+        page.key("Enter")
+        page.wait("document.getElementById('lights').open")
+        page.value(f"{boxes}.find(b => b.name === 'key').focus()")
+        self.changes(lambda: page.key(" "))
+        self.assertEqual(page.value(f"{summary}.textContent"), "lights: 3 of 4 on")
+        self.shoot("view_lights")
+        # What is off stays off where the file changes, and so does the place of the keys.
+        self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
+        self.assertEqual(page.value("viewer.controls.lights.off().join()"), "key")
+        self.assertEqual(page.value("document.activeElement.name"), "key")
+        self.changes(lambda: self.edit(LIGHTS))
+        # Surroundings are for renderers that follow light.
+        self.assertTrue(page.value("document.querySelector('[name=environment]').disabled"))
+        self.changes(lambda: self.choose("renderer", "path_tracing"))
+        self.assertFalse(page.value("document.querySelector('[name=environment]').disabled"))
+        self.changes(lambda: self.choose("environment", "studio"))
+        self.shoot("view_environment")
+        off = "[...document.querySelectorAll('#lights button')].find(b => b.textContent === 'All off').click()"
+        self.changes(lambda: page.value(off))
+        self.assertEqual(page.value(f"{summary}.textContent"), "lights: 0 of 4 on")
+        # Undo: lights, environment, renderer, light.
+        undo = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Undo').click()"
+        for state in ("studio,path_tracing,key", ",path_tracing,key", ",whitted,key", ",whitted,"):
+            self.changes(lambda: page.value(undo))
+            self.assertEqual(page.value("['environment', 'renderer'].map(k => viewer.controls.get(k)).join() + ',' + "
+                                        "viewer.controls.lights.off().join()"), state)
+        self.assertEqual(self.picture(), first)
+        self.assertEqual(page.value(f"{boxes}.filter(b => b.checked).length"), 4)
         self.check_quiet()
 
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
@@ -278,6 +322,8 @@ class ViewPage(unittest.TestCase):
     def test_it_fits_a_phone_and_is_named_for_readers(self):
         self.open("480,1000")
         self.shoot("view_phone")
+        self.page.value("document.getElementById('lights').open = true")
+        self.shoot("view_phone_lights")
         self.assertLessEqual(self.page.value("document.documentElement.scrollWidth - innerWidth"), 0)
         self.assertEqual(self.page.value("""[...document.querySelectorAll("img,canvas,progress,input,select,textarea,button")].filter(e =>
             !e.alt && !e.getAttribute("aria-label") && !e.textContent.trim() && !e.closest("label")).length"""), 0)

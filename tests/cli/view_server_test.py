@@ -14,7 +14,7 @@ import sys
 import time
 import unittest
 
-from view_server import DEEP, SCENE, WISH, Server, ServerTest
+from view_server import DEEP, LIGHTS, SCENE, WISH, Server, ServerTest
 
 ALHAZEN = sys.argv[1]
 
@@ -190,6 +190,56 @@ class ViewServer(ServerTest):
             self.assertEqual(png(renderer, depth=0), png(f"{renderer}:depth=1"))
             # What the page shows where nothing is wished.
             self.assertEqual(png(renderer, depth=followers[renderer]), usual)
+
+    def test_lights_are_turned_off_and_surroundings_chosen(self):
+        scene = self.scene.with_name("lights.alhazen")
+        scene.write_text(LIGHTS, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+
+        def png(renderer="whitted", **change):
+            status, _, body = server.ask("/frame", {**WISH, "png": True, "renderer": renderer, **change})
+            self.assertEqual(status, 200, body)
+            return body
+
+        try:
+            state = server.state()
+            names = [light["name"] for light in state["lights"]]
+            self.assertEqual([(light["name"], light["what"]) for light in state["lights"]],
+                             [("spot light 1", "spot light"), ("lamp", "area light"), ("key", "point light"),
+                              ("ember", "material that emits")])
+            # Each has an effect of its own, and on those that follow paths, too.
+            for renderer in ("whitted", "distributed", "path_tracing"):
+                pictures = {png(renderer)} | {png(renderer, lights_off=[name]) for name in names}
+                self.assertEqual(len(pictures), 5, renderer)
+                self.assertEqual(png(renderer, lights_off=names), png(renderer, lights_off=names[::-1]))
+            self.assertEqual(png(lights_off=[]), png())
+            dark = png("path_tracing", lights_off=names, environment="none")
+            black = png("path_tracing", lights_off=names, environment="none", exposure=16)
+            self.assertEqual(dark, black)
+            # Surroundings: of the table, and for those that follow light.
+            listed = subprocess.run([ALHAZEN, "list", "environments"], capture_output=True, text=True).stdout
+            self.assertEqual([e["name"] for e in state["environments"]], ["none", "sky", "studio"])
+            for entry in state["environments"]:
+                self.assertIn(f"  {entry['name']} ", listed)
+            self.assertEqual(len({png("path_tracing", environment=e) for e in ("", "none", "sky", "studio")}), 4)
+            self.assertEqual(png(environment="sky"), png())
+            follow = {r["name"] for r in state["renderers"] if r["follows_light"]}
+            self.assertTrue({"path_tracing", "ambient_occlusion"} & follow)
+            self.assertNotIn("whitted", follow)
+            # An explanation is of the picture that is shown.
+            pixel = {**WISH, "x": 40, "y": 58, "steps": "list"}
+            explained = json.loads(server.ask("/explain", {**pixel, "lights_off": names})[2])
+            self.assertEqual((explained["pixel"], explained["rays"]["shadow"]), ([0, 0, 0], 0))
+            self.assertGreater(json.loads(server.ask("/explain", pixel)[2])["pixel"][0], 0.1)
+            # What there is not is said.
+            for change, text in (({"lights_off": ["moon"]}, "no light 'moon'; expected one of: spot light 1, lamp, key"),
+                                 ({"environment": "sea"}, "no environment 'sea'; expected one of none, sky, studio"),
+                                 ({"lights_off": 3}, "")):
+                status, _, body = server.ask("/frame", {**WISH, **change})
+                self.assertEqual(status, 400, body)
+                self.assertIn(text, json.loads(body)["error"])
+        finally:
+            server.close()
 
     def test_a_newer_frame_ends_an_older_one(self):
         long = {**WISH, "width": 2000, "height": 1500, "samples": 1024}

@@ -19,6 +19,7 @@ export interface Choice {
 }
 export interface RendererChoice extends Choice {
   selects: boolean;
+  follows_light: boolean;
   depth?: number;  // where nothing is wished; undefined: that of the scene
 }
 /** What changes with the file only. */
@@ -31,6 +32,8 @@ export interface Menus {
   cameras: CameraData[];
   renderers: RendererChoice[];
   accelerators: Choice[];
+  lights: Choice[];
+  environments: Choice[];
   layers: Choice[];
   scales: Record<"heat" | "grey", string[]>;
   curves: string[];
@@ -88,6 +91,8 @@ export interface Wish {
   depth?: number;  // undefined: as scene and renderer have it
   exposure: number;
   curve: string;
+  environment: string;  // empty: that of the scene
+  lights_off: string[];
   samples: number;
   selected?: boolean;
 }

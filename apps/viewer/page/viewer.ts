@@ -5,6 +5,7 @@ import type {Explanation} from "../../../src/alhazen/explain/page/explanation_da
 import {showExplanation} from "../../../src/alhazen/explain/page/explanation_view";
 import {ViewCamera} from "./camera";
 import {Controls} from "./controls";
+import type {Key, Settings} from "./controls";
 import {listen} from "./input";
 import {FrameLink} from "./link";
 import {Messages, WorkLine, drawScale, statusText} from "./notices";
@@ -14,6 +15,7 @@ import type {CameraData, FrameFacts, FrameHead, Scene, State, Wish} from "./stat
 const WIDEST = 4096;          // that the server draws
 const MOST_RAW = 1.5e6;       // pixels that come as they are; more as JPEG
 const STOPPED = "Reading the file was ended.";
+const NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 
 interface Asked {
@@ -30,7 +32,7 @@ export class Viewer {
   readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "The scene",
                                       "aria-describedby": "help"});
   readonly scale = element("div", {class: "scale", hidden: true});
-  readonly controls = new Controls(key => this.chosen(key));
+  readonly controls = new Controls((key, before) => this.chosen(key, before));
   scene: Scene | undefined;
   camera: ViewCamera | undefined;
   frames = 0;
@@ -47,7 +49,7 @@ export class Viewer {
   private readonly g = this.image.getContext("2d")!;
   private readonly pace = new Pace();
   private readonly link: FrameLink;
-  private readonly undone: ViewCamera[] = [];
+  private readonly undone: {camera: ViewCamera, settings: Settings}[] = [];
   private readonly asked = new Map<number, Asked>();
   private lastId = 0;
   private held: object | undefined;       // nothing is asked for while this work lasts
@@ -130,20 +132,24 @@ export class Viewer {
   }
   private fill(scene: Scene) {
     this.controls.fill(scene);
-    this.showDepth(scene);
+    this.fitRenderer(scene);
   }
-  // Renderers that follow paths have a depth of their own where nothing is chosen.
-  private showDepth(scene: Scene) {
-    this.controls.setUsual("depth", this.renders(this.controls.get("renderer"))?.depth ?? scene.depth);
+  // Renderers that follow paths have a depth of their own where nothing is chosen; others than those that follow light see
+  // no environment but the background.
+  private fitRenderer(scene: Scene) {
+    const renderer = this.renders(this.controls.get("renderer"));
+    this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
+    this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
   }
   private see(camera: CameraData) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
     this.changed();
   }
-  private chosen(key: string) {
-    if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
-    if (key === "renderer" && this.scene) this.showDepth(this.scene);
-    if (key === "camera") this.goHome();
+  private chosen(key: Key, before: Settings) {
+    this.remember(before);
+    if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
+    if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
 
@@ -158,7 +164,8 @@ export class Viewer {
     const {eye, look, right, up, parallel} = camera, controls = this.controls;
     return {camera: {eye, look, right, up, parallel}, width, height: Math.max(1, Math.round(width / camera.aspect)),
             renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
-            depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1};
+            depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1,
+            environment: controls.get("environment"), lights_off: controls.lights.off()};
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
   private selects() {
@@ -264,16 +271,22 @@ export class Viewer {
   }
   private goHome() {
     this.remember();
+    this.seeChosen();
+  }
+  private seeChosen() {
     if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
   }
-  private remember() {
-    if (this.camera) this.undone.push(this.camera.copy());
+  private remember(settings = this.controls.settings()) {
+    if (this.camera) this.undone.push({camera: this.camera.copy(), settings});
     if (this.undone.length > 100) this.undone.shift();
   }
   undo() {
-    const camera = this.undone.pop();
-    if (!camera) return;
-    this.camera = camera;
+    const before = this.undone.pop();
+    if (!before || !this.scene) return;
+    this.camera = before.camera;
+    this.controls.restore(before.settings);
+    this.fitRenderer(this.scene);
+    this.pace.forget();
     this.changed();
   }
   // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.

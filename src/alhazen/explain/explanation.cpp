@@ -15,6 +15,7 @@
 #include "alhazen/imaging/film/pixel_filter.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/lighting.h"
 
 namespace alhazen {
 
@@ -193,18 +194,9 @@ void name_parts_of(const RayNode& ray, const SceneDescription& description, Expl
     }
 }
 
-std::string light_name(const SceneDescription& description, const Scene& scene, std::size_t i) {
-    if (i < description.lights.size() && !description.lights[i].name.empty()) {
-        return description.lights[i].name;
-    }
-    constexpr const char* kNames[] = {"ambient light", "directional light", "point light",
-                                      "spot light", "area light"};
-    static_assert(std::size(kNames) == std::variant_size_v<Light>);
-    return fmt::format("{} {}", kNames[scene.lights[i].index()], i + 1);
-}
-
 /// A small picture, and where its pixels are in space.
-void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Explanation& e) {
+void add_picture(const Scene& scene, const SceneDescription& description,
+                 const ExplainOptions& options, Explanation& e) {
     constexpr int kLongestSide = 240;
     constexpr int kDepthOfPicture = 5;  // it shows where things are
     const double scale =
@@ -218,7 +210,7 @@ void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Expla
     small.aovs = AovSet();
     small.aovs.add(AovKind::Position);
     small.aovs.add(AovKind::Alpha);
-    const RenderResult result = render(loaded, small);
+    const RenderResult result = render_with_description(scene, description, small);
     e.complete &= result.complete;
     e.preview = encode(result.film.data(), *small.width, *small.height, Encoding::Srgb, 8);
     const LayerChannel* channels[] = {result.layers.find("P.X"), result.layers.find("P.Y"),
@@ -241,7 +233,7 @@ void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Expla
 }  // namespace
 
 Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& options) {
-    Scene scene = loaded.scene;
+    Scene scene = options.scene != nullptr ? *options.scene : loaded.scene;
     if (options.render.max_depth) scene.conventions.shading.max_depth = *options.render.max_depth;
     const CameraDescription& described = chosen_camera(scene, options.render);
     const FrameSize frame =
@@ -282,8 +274,8 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
     if (!e.complete) return e;
     name_parts_of(e.tree, loaded.description, e);
     for (const Material& material : scene.materials) e.material_names.push_back(material.name);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        e.light_names.push_back(light_name(loaded.description, scene, i));
+    for (std::size_t i = 0; i < loaded.description.lights.size(); ++i) {
+        e.light_names.push_back(light_name(loaded.description, i));
     }
     e.parallel = std::holds_alternative<OrthographicCamera>(job.camera);
     const Vec2 corners[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
@@ -291,7 +283,7 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
         const Ray corner = eye_ray(job.camera, corners[i].x, corners[i].y);
         e.picture[i] = e.parallel ? corner.origin : corner.at(1.0);
     }
-    if (options.with_picture) add_picture(loaded, options, e);
+    if (options.with_picture) add_picture(scene, loaded.description, options, e);
     return e;
 }
 

@@ -35,6 +35,8 @@ struct ExplainOptions {
     /// Camera, size, samples per pixel, depth, seed, threads and stop are read. The tree is that of
     /// `whitted`; with the renderers `cone_tracing` and `beam_tracing` there are cones, or beams.
     RenderOptions render;
+    /// Instead of that of the file, whose geometry it has (session/lighting.h); null: none.
+    const Scene* scene = nullptr;
     std::size_t most_rays = 10'000;  ///< of the tree, shadow rays included
     int most_depth = 64;             ///< of the tree
     std::size_t most_steps = 5'000;  ///< of the accelerator

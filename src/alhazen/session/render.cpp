@@ -318,7 +318,12 @@ RenderResult render(const Scene& scene, const PictureSettings& picture,
 }
 
 RenderResult render(const LoadedScene& loaded, const RenderOptions& options) {
-    return render_described(loaded.scene, &loaded.description, loaded.description.picture, options);
+    return render_with_description(loaded.scene, loaded.description, options);
+}
+
+RenderResult render_with_description(const Scene& scene, const SceneDescription& description,
+                                     const RenderOptions& options) {
+    return render_described(scene, &description, description.picture, options);
 }
 
 }  // namespace alhazen

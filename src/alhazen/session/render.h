@@ -116,5 +116,9 @@ void check_spectral(const RenderOptions& options, const Renderer& renderer);
                                   const RenderOptions& options);
 /// Renders with the description, for renderers that read geometry from it.
 [[nodiscard]] RenderResult render(const LoadedScene& loaded, const RenderOptions& options);
+/// The same of a scene whose lights are not those of the description (lighting.h).
+[[nodiscard]] RenderResult render_with_description(const Scene& scene,
+                                                   const SceneDescription& description,
+                                                   const RenderOptions& options);
 
 }  // namespace alhazen

@@ -1190,6 +1190,66 @@ var ViewCamera = class _ViewCamera {
   }
 };
 
+// apps/viewer/page/lights.ts
+var LightList = class {
+  constructor(changed) {
+    this.changed = changed;
+  }
+  summary = element("summary");
+  list = element("div", { class: "lights" });
+  element = element("details", { id: "lights" }, this.summary, this.list);
+  dark = /* @__PURE__ */ new Set();
+  // names; of lights that the scene no longer has, too
+  boxes = [];
+  /** Names of those that are off. */
+  off() {
+    return this.boxes.filter((b) => !b.checked).map((b) => b.name);
+  }
+  setOff(names) {
+    this.dark.clear();
+    for (const name of names) this.dark.add(name);
+    for (const box of this.boxes) box.checked = !this.dark.has(box.name);
+    this.count();
+  }
+  focused() {
+    return this.boxes.find((b) => b === document.activeElement)?.name;
+  }
+  focus(name) {
+    this.boxes.find((b) => b.name === name)?.focus();
+  }
+  /** What was turned off stays off where it still is. */
+  fill(lights) {
+    this.boxes = lights.map((light) => element("input", {
+      type: "checkbox",
+      name: light.name,
+      checked: !this.dark.has(light.name),
+      change: () => this.turned()
+    }));
+    const all = (text, on) => element("button", { type: "button", click: () => {
+      for (const box of this.boxes) box.checked = on;
+      this.turned();
+    } }, text);
+    this.list.replaceChildren(
+      ...lights.map((light, i) => element("label", { title: light.what ?? "" }, this.boxes[i], element("span", {}, light.name))),
+      ...lights.length > 1 ? [element("div", { class: "row" }, all("All on", true), all("All off", false))] : []
+    );
+    this.element.hidden = lights.length === 0;
+    this.count();
+  }
+  turned() {
+    for (const box of this.boxes) {
+      if (box.checked) this.dark.delete(box.name);
+      else this.dark.add(box.name);
+    }
+    this.count();
+    this.changed();
+  }
+  count() {
+    const on = this.boxes.filter((b) => b.checked).length;
+    this.summary.textContent = `lights: ${on === this.boxes.length ? "all" : on} of ${this.boxes.length} on`;
+  }
+};
+
 // apps/viewer/page/controls.ts
 var MOVING = [
   { name: "steady", what: "the same renderer, 20 pictures a second: fewer pixels, then fewer generations of rays; shades between rays where they agree" },
@@ -1197,14 +1257,17 @@ var MOVING = [
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
 var Controls = class {
-  // numbers that were chosen; others are the usual ones
+  /** `changed` has what was chosen before, too. */
   constructor(changed) {
     this.changed = changed;
   }
   form = element("form", { class: "controls", "aria-label": "Settings", submit: (e) => e.preventDefault() });
+  lights = new LightList(() => this.tell("lights"));
   fields = /* @__PURE__ */ new Map();
   usual = /* @__PURE__ */ new Map();
   wishes = /* @__PURE__ */ new Set();
+  // numbers that were chosen; others are the usual ones
+  last;
   get(key) {
     return this.fields.get(key)?.value ?? "";
   }
@@ -1223,11 +1286,41 @@ var Controls = class {
   set(key, value) {
     const field = this.fields.get(key);
     if (field) field.value = value;
+    this.last = this.settings();
   }
   /** As a person would. */
   choose(key, value) {
-    this.set(key, value);
-    this.fields.get(key)?.dispatchEvent(new Event("change"));
+    const field = this.fields.get(key);
+    if (field) field.value = value;
+    field?.dispatchEvent(new Event("change"));
+  }
+  /** A menu that has no effect. */
+  disable(key, off, why) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    field.disabled = off;
+    field.title = off ? why : "";
+  }
+  settings() {
+    const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
+    return { values, wishes: new Set(this.wishes), off: this.lights.off() };
+  }
+  /** What the scene no longer has stays as it is. */
+  restore({ values, wishes, off }) {
+    for (const [key, field] of this.fields) {
+      const now = field.value;
+      field.value = values.get(key) ?? now;
+      if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.value = now;
+    }
+    this.wishes.clear();
+    for (const key of wishes) this.wishes.add(key);
+    this.lights.setOff(off);
+    this.last = this.settings();
+  }
+  tell(key) {
+    const before = this.last;
+    this.last = this.settings();
+    this.changed(key, before ?? this.last);
   }
   options(key) {
     const field = this.fields.get(key);
@@ -1235,16 +1328,19 @@ var Controls = class {
   }
   // A field that was emptied is as usual again.
   typed(key) {
-    if (this.fields.get(key)?.value) this.wishes.add(key);
+    const field = this.fields.get(key);
+    if (!field) return;
+    if (field.value) this.wishes.add(key);
     else {
       this.wishes.delete(key);
-      this.set(key, String(this.usual.get(key)));
+      field.value = String(this.usual.get(key));
     }
-    this.changed(key);
+    this.tell(key);
   }
   /** What was chosen stays where it still is. */
   fill(scene) {
     const focus = [...this.fields].find(([, field2]) => field2 === document.activeElement)?.[0];
+    const light = this.lights.focused();
     const chosen = new Map([...this.fields].map(([key, field2]) => [key, field2.value]));
     this.form.replaceChildren();
     const add2 = (key, label, field2, value) => {
@@ -1255,7 +1351,7 @@ var Controls = class {
       this.fields.set(key, field2);
       this.form.append(element("label", {}, label, field2));
     };
-    const menu = (key, label, entries, value) => add2(key, label, element("select", { name: key, change: () => this.changed(key) }, ...entries.map((e) => element("option", { value: e.value ?? e.name, title: e.what }, e.name))), value);
+    const menu = (key, label, entries, value) => add2(key, label, element("select", { name: key, change: () => this.tell(key) }, ...entries.map((e) => element("option", { value: e.value ?? e.name, title: e.what }, e.name))), value);
     const field = (key, label, value, min, max, step = 1) => {
       this.usual.set(key, value);
       add2(key, label, element("input", { name: key, type: "number", min, max, step, change: () => this.typed(key) }), String(value));
@@ -1263,6 +1359,9 @@ var Controls = class {
     menu("camera", "camera", scene.cameras.map((c, i) => ({ name: c.name || `camera ${i + 1}`, value: String(i) })), "0");
     menu("renderer", "renderer", scene.renderers, "whitted");
     menu("accelerator", "accelerator", scene.accelerators, scene.accelerator);
+    this.lights.fill(scene.lights);
+    this.form.append(this.lights.element);
+    menu("environment", "environment", [{ name: "of the scene", value: "" }, ...scene.environments], "");
     menu("layer", "layer", [{ name: "colours", value: "", what: "the picture" }, ...scene.layers], "");
     menu("moving", "moving", MOVING, "steady");
     field("samples", "samples", 4, 1, 1024);
@@ -1271,6 +1370,8 @@ var Controls = class {
     menu("curve", "tone curve", scene.curves.map((name) => ({ name })), "none");
     menu("steps", "steps of", scene.steps.split(", ").map((name) => ({ name })), "kay_kajiya");
     if (focus) this.fields.get(focus)?.focus();
+    if (light) this.lights.focus(light);
+    this.last = this.settings();
   }
 };
 
@@ -1498,6 +1599,7 @@ function clamped(x, lo, hi) {
 var WIDEST = 4096;
 var MOST_RAW = 15e5;
 var STOPPED = "Reading the file was ended.";
+var NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
   // What tests look at, too.
@@ -1510,7 +1612,7 @@ var Viewer = class {
     "aria-describedby": "help"
   });
   scale = element("div", { class: "scale", hidden: true });
-  controls = new Controls((key) => this.chosen(key));
+  controls = new Controls((key, before) => this.chosen(key, before));
   scene;
   camera;
   frames = 0;
@@ -1623,20 +1725,24 @@ var Viewer = class {
   }
   fill(scene) {
     this.controls.fill(scene);
-    this.showDepth(scene);
+    this.fitRenderer(scene);
   }
-  // Renderers that follow paths have a depth of their own where nothing is chosen.
-  showDepth(scene) {
-    this.controls.setUsual("depth", this.renders(this.controls.get("renderer"))?.depth ?? scene.depth);
+  // Renderers that follow paths have a depth of their own where nothing is chosen; others than those that follow light see
+  // no environment but the background.
+  fitRenderer(scene) {
+    const renderer = this.renders(this.controls.get("renderer"));
+    this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
+    this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
   }
   see(camera) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
     this.changed();
   }
-  chosen(key) {
-    if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
-    if (key === "renderer" && this.scene) this.showDepth(this.scene);
-    if (key === "camera") this.goHome();
+  chosen(key, before) {
+    this.remember(before);
+    if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
+    if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
   // ---- what is asked for
@@ -1658,7 +1764,9 @@ var Viewer = class {
       depth: controls.wished("depth"),
       exposure: controls.number("exposure"),
       curve: controls.get("curve"),
-      samples: 1
+      samples: 1,
+      environment: controls.get("environment"),
+      lights_off: controls.lights.off()
     };
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
@@ -1772,16 +1880,22 @@ var Viewer = class {
   }
   goHome() {
     this.remember();
+    this.seeChosen();
+  }
+  seeChosen() {
     if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
   }
-  remember() {
-    if (this.camera) this.undone.push(this.camera.copy());
+  remember(settings = this.controls.settings()) {
+    if (this.camera) this.undone.push({ camera: this.camera.copy(), settings });
     if (this.undone.length > 100) this.undone.shift();
   }
   undo() {
-    const camera = this.undone.pop();
-    if (!camera) return;
-    this.camera = camera;
+    const before = this.undone.pop();
+    if (!before || !this.scene) return;
+    this.camera = before.camera;
+    this.controls.restore(before.settings);
+    this.fitRenderer(this.scene);
+    this.pace.forget();
     this.changed();
   }
   // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.
