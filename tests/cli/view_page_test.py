@@ -303,6 +303,22 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: page.value("viewer.image.focus()") or page.key("ArrowLeft"))
         self.check_quiet()
 
+    def test_rays_that_are_not_those_of_the_picture_are_said_to_be(self):
+        self.open("900,700")
+        page = self.page
+        for renderer, said in (("whitted", None), ("path_tracing", "draws other rays at random"), ("distributed", "at random"),
+                               ("ray_casting", "by ray_casting; the tree of rays is that of whitted")):
+            self.choose("renderer", renderer)
+            page.wait(FINE)
+            page.value("document.getElementById('explanation').replaceChildren()")
+            page.value("viewer.explain(0.5, 0.5)")
+            page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+            text = page.value("document.getElementById('other')?.textContent ?? null")
+            self.assertEqual(text is None, said is None)
+            if said:
+                self.assertIn(said, text)
+        self.check_quiet()
+
     def test_methods_are_explained_by_their_cones_and_beams(self):
         self.scene.write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith(("sphere", "plane"))) +
                               'rectangle { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "mirror" }\n',

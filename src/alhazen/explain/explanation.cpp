@@ -13,6 +13,7 @@
 #include "alhazen/explain/spans/part_of_primitive.h"
 #include "alhazen/explain/tree/ray_tree_recorder.h"
 #include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/lighting.h"
@@ -257,6 +258,8 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
     e.sample = options.sample;
     e.scene = loaded.description.path.filename().string();
     e.camera = described.name;
+    e.renderer = options.render.renderer.substr(0, options.render.renderer.find(':'));
+    e.draws_at_random = make_renderer(options.render.renderer)->distributes();
     e.min_contribution = scene.conventions.shading.min_contribution;
     e.background = scene.background;
     const PixelSamples samples(job, frame.width, frame.height, options.x, options.y);

@@ -66,8 +66,10 @@ struct Explanation {
     bool complete = true;  ///< false after a stop
     int width = 0, height = 0, x = 0, y = 0, sample = 0;
     std::string scene, camera;
-    int max_depth = 0;     ///< of the tree
-    int wished_depth = 0;  ///< larger where the tree was cut
+    std::string renderer;          ///< of the picture, without settings
+    bool draws_at_random = false;  ///< it does
+    int max_depth = 0;             ///< of the tree
+    int wished_depth = 0;          ///< larger where the tree was cut
     double min_contribution = 0;
     Rgb background;
     Rgb pixel;  ///< the mean of the samples

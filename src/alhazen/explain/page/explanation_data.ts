@@ -187,6 +187,8 @@ export type ScenePoint = [number, number, number, number, number, number];
 
 export interface Explanation {
   scene: string;
+  renderer: string;          // of the picture
+  draws_at_random: boolean;  // it does
   width: number;
   height: number;
   x: number;

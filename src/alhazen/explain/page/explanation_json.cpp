@@ -208,6 +208,8 @@ std::string explanation_json(const Explanation& e, int indent) {
     json out{{"format", "alhazen explanation 1"},
              {"scene", e.scene},
              {"camera", e.camera},
+             {"renderer", e.renderer},
+             {"draws_at_random", e.draws_at_random},
              {"width", e.width},
              {"height", e.height},
              {"x", e.x},

@@ -62,7 +62,7 @@ function header(data: Explanation, picture: string | null) {
     ...Object.entries(data.rays).filter(([, n]) => n).map(([kind, n]) => `${n} ${kind}`)];
   const head = element("header", {}, element("div", {},
     element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
-    element("p", {class: "soft"}, facts.join(" \u00b7 "))));
+    element("p", {class: "soft"}, facts.join(" \u00b7 ")), otherRenderer(data)));
   if (picture) {
     const image = element("img", {src: picture, alt: `The scene; the pixel is marked`});
     const mark = element("span", {class: "mark", "aria-hidden": "true"});
@@ -71,6 +71,14 @@ function header(data: Explanation, picture: string | null) {
     head.append(element("div", {class: "preview"}, image, mark));
   }
   return head;
+}
+// The tree is that of whitted, whoever made the picture.
+function otherRenderer({renderer, draws_at_random}: Explanation) {
+  if (renderer === "whitted") return null;
+  return element("p", {class: "cut", id: "other"}, draws_at_random
+    ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends ` +
+      "for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one."
+    : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
 }
 function legend(data: Explanation, view: () => SceneView) {
   const shadows = element("input", {type: "checkbox", checked: true, change: () => {

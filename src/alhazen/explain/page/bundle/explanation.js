@@ -1072,7 +1072,8 @@ function header(data, picture) {
     "div",
     {},
     element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
-    element("p", { class: "soft" }, facts.join(" \xB7 "))
+    element("p", { class: "soft" }, facts.join(" \xB7 ")),
+    otherRenderer(data)
   ));
   if (picture) {
     const image = element("img", { src: picture, alt: `The scene; the pixel is marked` });
@@ -1082,6 +1083,10 @@ function header(data, picture) {
     head.append(element("div", { class: "preview" }, image, mark));
   }
   return head;
+}
+function otherRenderer({ renderer, draws_at_random }) {
+  if (renderer === "whitted") return null;
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {
