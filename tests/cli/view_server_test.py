@@ -333,6 +333,7 @@ class ViewServer(ServerTest):
         self.assertGreater(len(pictures), 10)
         layer = json.loads(self.server.ask("/frame", {**WISH, "layer": "depth"})[1]["x-alhazen"])["layer"]
         self.assertAlmostEqual(layer["low"], 2.9056, delta=0.001)  # to the floor at the lower edge
+        self.assertLess(layer["high"], 50, "the horizon leaves no greys for the rest")
         status, _, body = self.server.ask("/frame", {**WISH, "layer": "none"})
         self.assertEqual(status, 400)
         self.assertIn("expected one of alpha, depth", json.loads(body)["error"])
