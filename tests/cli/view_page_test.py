@@ -121,6 +121,7 @@ class ViewPage(unittest.TestCase):
         page.mouse("mouseReleased", x, y)
         page.wait("document.querySelectorAll('#explanation .ray').length > 0")
         self.assertIn("ball", page.value("document.querySelector('#explanation summary').textContent"))
+        self.assertIn("samples a pixel", page.value("document.getElementById('status').textContent"))
         self.shoot("view_explained")
         # The block is a camera that shows the same.
         block = page.value("viewer.camera.block()")
@@ -346,6 +347,10 @@ class ViewPage(unittest.TestCase):
         self.page.value("viewer.image.focus()")
         self.page.key("Enter")
         self.page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+        # The table of the first surface is as wide as the page.
+        self.assertLessEqual(self.page.value("(t => t.scrollWidth - t.clientWidth)(document.querySelector('.equation').parentElement)"), 0)
+        self.page.value("document.getElementById('tree').scrollIntoView()")
+        self.shoot("view_phone_tree")
         self.check_quiet()
 
     def test_without_its_key_the_page_shows_nothing(self):

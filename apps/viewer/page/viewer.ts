@@ -55,6 +55,7 @@ export class Viewer {
   private held: object | undefined;       // nothing is asked for while this work lasts
   private explaining: object | undefined;
   private halted = false;                 // by Stop, until something changes
+  private described = "";                 // of the picture that is shown
   private shownAt = 0;
   private movingShown: number[] = [];     // times
 
@@ -195,7 +196,10 @@ export class Viewer {
     ++this.generation;
     this.level = 0;
     this.halted = false;
-    if (this.explaining) this.explaining = this.held = undefined;  // the server ends it
+    if (this.explaining) {  // the server ends it
+      this.explaining = this.held = undefined;
+      this.status.textContent = this.described;
+    }
     this.request();
   }
   private request() {
@@ -257,7 +261,7 @@ export class Viewer {
     this.shownAt = now;
     const span = now - this.movingShown[0], rate = span > 0 ? 1000 * (this.movingShown.length - 1) / span : 0;
     drawScale(this.scale, facts.layer, scene.scales);
-    this.status.textContent = statusText(
+    this.status.textContent = this.described = statusText(
       {facts, samples: asked.wish.samples, selected: !!asked.wish.selected, way: now - asked.begin,
        moving: moving ? {depth: asked.wish.depth ?? deepest, rate} : null}, this.full(), deepest, scene.memory);
   }
@@ -297,6 +301,7 @@ export class Viewer {
     if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
     void this.ask("/stop");
     this.messages.say("explain", "");
+    this.status.textContent = this.described;
   }
   // Nothing is asked for until the work is done.
   private async hold(work: () => Promise<void>) {
@@ -331,6 +336,7 @@ export class Viewer {
       const answer = await this.ask("/explain", {...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps")});
       if (this.explaining !== own) return;
       this.explaining = undefined;
+      this.status.textContent = this.described;
       if (!answer || answer.status === 204) return;
       const data = await answer.json() as Explanation & {error?: string};
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");

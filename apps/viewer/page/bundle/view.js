@@ -1546,11 +1546,14 @@ function statusText(shown, full, depth, memory) {
     parts.splice(1, 1, [`moving, ${moving.rate.toFixed(0)} pictures/s`, ...less.filter((t) => t)].join(", "));
   }
   parts.push(
-    `${(1e3 * facts.seconds).toFixed(1)} ms, ${shown.way.toFixed(0)} ms with the way here`,
+    `${timeText(1e3 * facts.seconds)}, ${timeText(shown.way)} with the way here`,
     `${(facts.rays / facts.seconds / 1e6).toFixed(2)} M rays/s on ${facts.threads} threads`,
     `${(memory / 1048576).toFixed(0)} MiB`
   );
   return parts.join(" \xB7 ");
+}
+function timeText(ms) {
+  return ms < 1e3 ? `${ms.toFixed(ms < 100 ? 1 : 0)} ms` : `${(ms / 1e3).toFixed(ms < 1e4 ? 2 : 1)} s`;
 }
 function drawScale(place, layer, scales) {
   place.hidden = !layer;
@@ -1644,6 +1647,8 @@ var Viewer = class {
   explaining;
   halted = false;
   // by Stop, until something changes
+  described = "";
+  // of the picture that is shown
   shownAt = 0;
   movingShown = [];
   // times
@@ -1801,7 +1806,10 @@ var Viewer = class {
     ++this.generation;
     this.level = 0;
     this.halted = false;
-    if (this.explaining) this.explaining = this.held = void 0;
+    if (this.explaining) {
+      this.explaining = this.held = void 0;
+      this.status.textContent = this.described;
+    }
     this.request();
   }
   request() {
@@ -1863,7 +1871,7 @@ var Viewer = class {
     this.shownAt = now;
     const span = now - this.movingShown[0], rate = span > 0 ? 1e3 * (this.movingShown.length - 1) / span : 0;
     drawScale(this.scale, facts.layer, scene.scales);
-    this.status.textContent = statusText(
+    this.status.textContent = this.described = statusText(
       {
         facts,
         samples: asked.wish.samples,
@@ -1911,6 +1919,7 @@ var Viewer = class {
     if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
     void this.ask("/stop");
     this.messages.say("explain", "");
+    this.status.textContent = this.described;
   }
   // Nothing is asked for until the work is done.
   async hold(work) {
@@ -1945,6 +1954,7 @@ var Viewer = class {
       const answer = await this.ask("/explain", { ...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps") });
       if (this.explaining !== own) return;
       this.explaining = void 0;
+      this.status.textContent = this.described;
       if (!answer || answer.status === 204) return;
       const data = await answer.json();
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");
