@@ -318,6 +318,17 @@ class ViewPage(unittest.TestCase):
             self.assertEqual(text is None, said is None)
             if said:
                 self.assertIn(said, text)
+            self.assertEqual(page.value("document.querySelectorAll('#path .vertex').length > 0"), renderer == "path_tracing")
+            if renderer == "path_tracing":
+                ink = "document.querySelector('canvas.space').toDataURL()"
+                drawn = page.value(ink)
+                page.value("document.querySelector('#path input').click()")
+                self.assertNotEqual(page.value(ink), drawn)
+                page.value("document.querySelector('#path input').click()")
+                self.assertEqual(page.value(ink), drawn)
+                self.shoot("view_path_space")
+                page.value("document.getElementById('path').scrollIntoView()")
+                self.shoot("view_path")
         self.check_quiet()
 
     def test_methods_are_explained_by_their_cones_and_beams(self):

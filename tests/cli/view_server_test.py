@@ -168,6 +168,45 @@ class ViewServer(ServerTest):
         self.assertEqual(data["tree"]["surfaces"][0]["object"], "ball")
         self.assertEqual((data["width"], data["traversal"]["accelerator"]), (80, "list"))
 
+    def test_a_path_of_path_tracing_is_told_and_adds_up(self):
+        scene = self.scene.with_name("path.alhazen")
+        scene.write_text(LIGHTS, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        steps, asked = set(), 0
+        try:
+            for y in range(2, 60, 7):
+                for x in range(3, 80, 11):
+                    wish = {**WISH, "renderer": "path_tracing", "x": x, "y": y, "steps": "list", "samples": 3, "sample": 2}
+                    status, _, body = server.ask("/explain", wish)
+                    self.assertEqual(status, 200, body)
+                    data = json.loads(body)
+                    path, at = data["path"]["vertices"], [0.0, 0.0, 0.0]
+                    for i, v in enumerate(path):
+                        steps.add(v["step"])
+                        light = v.get("light")
+                        asked += light is not None
+                        for c in range(3):
+                            at[c] += v["found"][c] + (light["arrived"][c] if light else 0)
+                            if light:
+                                self.assertLessEqual(light["arrived"][c], light["offered"][c] * (1 + 1e-12))
+                        self.assertEqual(v["step"] in ("scattered", "mirrored", "straight"), i + 1 < len(path), (x, y, path))
+                        if i > 0:  # each ray begins where the one before ends
+                            before = path[i - 1]
+                            for c in range(3):
+                                end = before["origin"][c] + before["t"] * before["direction"][c]
+                                self.assertAlmostEqual(v["origin"][c], end, delta=1e-9)
+                    for c in range(3):
+                        self.assertAlmostEqual(at[c], data["path"]["radiance"][c], delta=1e-12)
+            self.assertLessEqual({"scattered", "mirrored", "escaped"}, steps)
+            self.assertGreater(asked, 20)
+            # A depth of 0: the floor, and one ray that may come upon a light. Of other renderers there is none.
+            one = {**WISH, "x": 40, "y": 55, "steps": "list", "renderer": "path_tracing"}
+            self.assertLessEqual(len(json.loads(server.ask("/explain", {**one, "depth": 0})[2])["path"]["vertices"]), 2)
+            for renderer in ("whitted", "bidirectional", "path_tracing:manifold=on", "path_tracing:polarization=on"):
+                self.assertNotIn("path", json.loads(server.ask("/explain", {**one, "renderer": renderer})[2]))
+        finally:
+            server.close()
+
     def test_menus_are_those_of_the_program(self):
         state = self.server.state()
         listed = subprocess.run([ALHAZEN, "list", "accelerators"], capture_output=True, text=True).stdout

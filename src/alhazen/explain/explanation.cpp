@@ -180,11 +180,13 @@ void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options
     }
 }
 
+void name_part(std::uint32_t part, const SceneDescription& description, Explanation& e) {
+    if (e.part_names.size() <= part) e.part_names.resize(part + 1);
+    if (e.part_names[part].empty()) e.part_names[part] = part_name(description, part);
+}
+
 void name_parts_of(const RayNode& ray, const SceneDescription& description, Explanation& e) {
-    const auto name = [&](std::uint32_t part) {
-        if (e.part_names.size() <= part) e.part_names.resize(part + 1);
-        if (e.part_names[part].empty()) e.part_names[part] = part_name(description, part);
-    };
+    const auto name = [&](std::uint32_t part) { name_part(part, description, e); };
     for (const SurfaceNode& surface : ray.surfaces) {
         name(surface.part);
         for (const LightTerm& light : surface.lights) {
@@ -193,6 +195,20 @@ void name_parts_of(const RayNode& ray, const SceneDescription& description, Expl
         for (const RayNode& child : surface.reflected) name_parts_of(child, description, e);
         for (const RayNode& child : surface.refracted) name_parts_of(child, description, e);
     }
+}
+
+/// The path of a sample, as in the whole picture.
+void add_path(const Scene& scene, const SceneDescription& description,
+              const ExplainOptions& options, Explanation& e) {
+    RenderOptions one = options.render;
+    one.crop = PixelBox{e.x, e.y, e.x + 1, e.y + 1};
+    one.aovs = AovSet();
+    one.antialias.reset();
+    PathRecord record;
+    record.sample = static_cast<std::uint32_t>(e.sample);
+    one.path = &record;
+    if (!render_with_description(scene, description, one).complete) return;
+    if (!record.vertices.empty()) e.path = std::move(record);
 }
 
 /// A small picture, and where its pixels are in space.
@@ -273,9 +289,13 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
         e.cones = explain_cones(job, e.x, e.y, e.width, e.height);
     if (options.render.renderer == "beam_tracing")
         e.beams = explain_beams(job, e.x, e.y, e.width, e.height);
+    if (e.renderer == "path_tracing") add_path(scene, loaded.description, options, e);
     e.complete = !job.stop_requested();
     if (!e.complete) return e;
     name_parts_of(e.tree, loaded.description, e);
+    if (e.path) {
+        for (const RecordedVertex& v : e.path->vertices) name_part(v.part, loaded.description, e);
+    }
     for (const Material& material : scene.materials) e.material_names.push_back(material.name);
     for (std::size_t i = 0; i < loaded.description.lights.size(); ++i) {
         e.light_names.push_back(light_name(loaded.description, i));

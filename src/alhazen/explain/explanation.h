@@ -22,6 +22,7 @@
 #include "alhazen/explain/tree/ray_tree.h"
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/laboratory/traversal_trace.h"
+#include "alhazen/renderers/core/path_record.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 
@@ -33,7 +34,8 @@ struct ExplainOptions {
     /// Whose steps are shown: one of `traceable_accelerators()`, with settings. Empty: none.
     std::string accelerator = "kay_kajiya";
     /// Camera, size, samples per pixel, depth, seed, threads and stop are read. The tree is that of
-    /// `whitted`; with the renderers `cone_tracing` and `beam_tracing` there are cones, or beams.
+    /// `whitted`; with the renderers `cone_tracing`, `beam_tracing` and `path_tracing` (without
+    /// `manifold` and `polarization`) there are cones, beams, or a path.
     RenderOptions render;
     /// Instead of that of the file, whose geometry it has (session/lighting.h); null: none.
     const Scene* scene = nullptr;
@@ -89,6 +91,7 @@ struct Explanation {
     std::vector<std::string> light_names;     ///< [light]
     std::optional<ConeExplanation> cones;
     std::optional<BeamExplanation> beams;
+    std::optional<PathRecord> path;  ///< of `sample`, by the renderer `path_tracing`
     EncodedImage preview;
     std::vector<ScenePoint> points;
 };

@@ -137,6 +137,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                         .sampling = options.sampling ? &*options.sampling : nullptr,
                         .spectral = options.spectral,
                         .photons = options.keep_photons ? &result.photons : nullptr,
+                        .path = options.path,
                         .control = {.threads = options.threads,
                                     .tile_size = options.tile_size,
                                     .stop = options.stop,
