@@ -112,6 +112,7 @@ INSIDE = {
         "cones": [""],
         "mirrors": [],
         "motion": [""],
+        "nearest": [""],
         "polygon": [""],
         "facets": ["polygon"],
         "polygon_sets": [""],

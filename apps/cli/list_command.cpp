@@ -12,6 +12,7 @@
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/sampling/samplers/sampler.h"
+#include "alhazen/session/environment_option.h"
 #include "commands.h"
 #include "messages.h"
 
@@ -63,6 +64,9 @@ void list_shapes() {
 void list_layers() {
     for (const AovEntry& entry : aov_table()) print_entry(entry.name, entry.description);
 }
+void list_environments() {
+    for (const EnvironmentEntry& entry : environments()) print_entry(entry.name, entry.description);
+}
 
 struct Topic {
     const char* name;
@@ -75,7 +79,8 @@ constexpr Topic kTopics[] = {{"renderers", list_renderers},
                              {"formats", list_formats},
                              {"samplers", list_samplers},
                              {"filters", list_filters},
-                             {"layers", list_layers}};
+                             {"layers", list_layers},
+                             {"environments", list_environments}};
 
 }  // namespace
 
@@ -83,7 +88,7 @@ void add_list(CLI::App& app, int& exit_status) {
     CLI::App* command =
         app.add_subcommand("list",
                            "List what can be chosen by name: renderers, accelerators, CSG "
-                           "evaluators, shapes, formats, samplers, filters, layers");
+                           "evaluators, shapes, formats, samplers, filters, layers, environments");
     const auto wanted = std::make_shared<std::string>();
     std::vector<std::string> names;
     for (const Topic& topic : kTopics) names.emplace_back(topic.name);

@@ -12,6 +12,9 @@
 #include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/laboratory/traversal_trace.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/session/environment_option.h"
+#include "alhazen/session/lighting.h"
 #include "alhazen/session/render.h"
 
 namespace alhazen::viewer {
@@ -41,15 +44,19 @@ json camera_json(const Scene& scene, const CameraDescription& described) {
             {"distance", distance_in_middle(scene, described.camera)}};
 }
 
-/// Those that need no other geometry than is loaded.
+/// Those that need no other geometry than is loaded. `depth`: where nothing is wished, unless it is
+/// that of the scene; counted as `with_depth` does.
 json renderer_menu() {
     json menu = json::array();
     for (const RendererEntry& entry : renderers()) {
         const std::unique_ptr<Renderer> renderer = make_renderer(entry.name);
         if (renderer->takes_triangles_within() > 0.0) continue;
-        menu.push_back({{"name", entry.name},
-                        {"what", entry.description},
-                        {"selects", renderer->answers_single_rays()}});
+        json choice{{"name", entry.name},
+                    {"what", entry.description},
+                    {"selects", renderer->answers_single_rays()},
+                    {"follows_light", renderer->follows_light()}};
+        if (entry.follows_paths) choice["depth"] = PathSettings{}.depth - 1;
+        menu.push_back(std::move(choice));
     }
     return menu;
 }
@@ -78,6 +85,10 @@ json menu_of(const Table& table) {
 }  // namespace
 
 json view_menus(const LoadedScene& loaded) {
+    json lights = json::array();
+    for (const LightChoice& light : light_choices(loaded.description)) {
+        lights.push_back({{"name", light.name}, {"what", light.kind}});
+    }
     static const json kRenderers = renderer_menu();
     const Scene& scene = loaded.scene;
     const FrameSize frame =
@@ -94,6 +105,8 @@ json view_menus(const LoadedScene& loaded) {
             {"cameras", std::move(cameras)},
             {"renderers", kRenderers},
             {"accelerators", menu_of(accelerator_table())},
+            {"lights", std::move(lights)},
+            {"environments", menu_of(environments())},
             {"layers", menu_of(aov_table())},
             {"scales",
              {{"heat", scale_json(ColorScale::Colors::Heat)},

@@ -11,6 +11,7 @@
 #include "alhazen/imaging/codecs/jpeg.h"
 #include "alhazen/imaging/codecs/png.h"
 #include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/environment_option.h"
 #include "alhazen/session/picture.h"
 #include "frame_protocol.h"
 #include "view_wishes.h"
@@ -145,6 +146,19 @@ Response ViewSession::state(const std::string& known) const {
     return {200, "application/json", text_of(state), "", std::move(version)};
 }
 
+std::optional<Scene> ViewSession::lit(const LoadedScene& loaded, Lighting lighting) {
+    if (lighting.is_that_of_the_scene()) return std::nullopt;
+    const SceneDescription& description = loaded.description;
+    if (!lighting.environment.empty()) {
+        const std::lock_guard lock(surroundings_mutex_);
+        const auto [place, is_new] =
+            surroundings_.try_emplace({lighting.environment, description.up_axis});
+        if (is_new) place->second = make_environment(lighting.environment, description.up_axis);
+        lighting.surroundings = place->second;
+    }
+    return with_lighting(loaded.scene, description, lighting);
+}
+
 Response ViewSession::frame(const json& request, Turn& turn) {
     FrameWish wish = frame_wish(request);
     const auto here = scenes_.with(request.value("accelerator", ""), turn.flag());
@@ -153,7 +167,9 @@ Response ViewSession::frame(const json& request, Turn& turn) {
     wish.options.stop = &turn.flag();
     wish.options.progress = &turn;
     if (turn.flag().requested()) return turn.ended();
-    const RenderResult result = render(here->scene, wish.options);
+    const std::optional<Scene> other = lit(here->scene, std::move(wish.lighting));
+    const RenderResult result = render_with_description(other ? *other : here->scene.scene,
+                                                        here->scene.description, wish.options);
     if (!result.complete) return turn.ended();
     json facts{{"seconds", result.seconds},    {"rays", result.counters.total_cast()},
                {"threads", result.threads},    {"version", here->version},
@@ -165,7 +181,9 @@ Response ViewSession::frame(const json& request, Turn& turn) {
 Response ViewSession::explain(const json& request, Turn& turn) {
     const FrameWish wish = frame_wish(request);
     const auto here = scenes_.with(request.value("accelerator", ""), turn.flag());
+    const std::optional<Scene> other = lit(here->scene, wish.lighting);
     ExplainOptions options;
+    options.scene = other ? &*other : nullptr;
     options.render = wish.options;
     options.render.aovs = {};
     options.render.view = &wish.camera;

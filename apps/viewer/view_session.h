@@ -10,8 +10,11 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 
+#include "alhazen/session/lighting.h"
 #include "http_server.h"
 #include "scene_store.h"
 
@@ -37,9 +40,14 @@ class ViewSession {
     [[nodiscard]] Response frame(const Json& wish, Turn& turn);
     [[nodiscard]] Response explain(const Json& wish, Turn& turn);
     [[nodiscard]] Response stop(const Json& wish);
+    /// The scene as it is to be lit; none: as it is.
+    [[nodiscard]] std::optional<Scene> lit(const LoadedScene& loaded, Lighting lighting);
 
     SceneStore scenes_;
     const int threads_;
+    std::mutex surroundings_mutex_;
+    /// [name, up axis] that were made
+    std::map<std::pair<std::string, UpAxis>, std::shared_ptr<const Environment>> surroundings_;
     mutable std::mutex turns_mutex_;
     std::map<std::string, Turn*> turns_;  ///< [client] in hand
     bool closing_ = false;

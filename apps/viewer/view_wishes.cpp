@@ -8,6 +8,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/session/environment_option.h"
 
 namespace alhazen::viewer {
 
@@ -74,6 +75,22 @@ void select_pixels(RenderOptions& options) {
     options.antialias = parse_antialias("pixel_selection");
 }
 
+/// Surroundings are for renderers that follow light; others go on to see those of the scene.
+Lighting lighting_in(const json& wish, const std::string& renderer) {
+    Lighting lighting;
+    lighting.off = wish.value("lights_off", std::vector<std::string>());
+    const std::string name = wish.value("environment", "");
+    if (name.empty()) return lighting;
+    std::string known;
+    for (const EnvironmentEntry& entry : environments()) {
+        if (name == entry.name && follows_light(renderer)) lighting.environment = name;
+        if (name == entry.name) return lighting;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw Error(ErrorKind::Usage,
+                fmt::format("there is no environment '{}'; expected one of {}", name, known));
+}
+
 const AovEntry* layer_in(const json& wish) {
     const std::string name = wish.value("layer", "");
     if (name.empty()) return nullptr;
@@ -97,11 +114,15 @@ FrameWish frame_wish(const json& wish) {
     result.camera.aspect = static_cast<double>(*options.width) / *options.height;
     options.renderer = wish.value("renderer", "whitted");
     options.samples_per_pixel = whole_in(wish, "samples", 1, 1, 1024);
-    if (wish.contains("depth")) options.max_depth = whole_in(wish, "depth", 5, 0, 100);
+    if (wish.contains("depth")) {
+        options.max_depth = whole_in(wish, "depth", 5, 0, 100);
+        options.renderer = with_depth(options.renderer, *options.max_depth);
+    }
     result.layer = layer_in(wish);
     if (result.layer != nullptr) options.aovs.add(result.layer->kind);
     use_exact_areas(options);
     if (wish.value("selected", false)) select_pixels(options);
+    result.lighting = lighting_in(wish, options.renderer);
     result.tone = tone_in(wish);
     result.png = wish.value("png", false);
     result.raw = wish.value("raw", false) && !result.png;

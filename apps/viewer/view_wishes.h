@@ -7,6 +7,7 @@
 
 #include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/session/lighting.h"
 #include "alhazen/session/render.h"
 
 namespace alhazen::viewer {
@@ -15,6 +16,7 @@ namespace alhazen::viewer {
 struct FrameWish {
     CameraDescription camera;
     RenderOptions options;  ///< without `view`, `threads` and `stop`
+    Lighting lighting;      ///< without its surroundings
     ToneMapping tone;
     const AovEntry* layer = nullptr;  ///< instead of the colours; null: none
     bool png = false;

@@ -106,8 +106,10 @@ class BrowserSession:
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=buttons, clickCount=1)
 
     def key(self, key):
+        # What these do to a field that has the focus needs their texts.
+        text = {"Enter": {"text": "\r", "windowsVirtualKeyCode": 13}, " ": {"text": " ", "windowsVirtualKeyCode": 32}}.get(key, {})
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key)
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, **text)
 
     def screenshot(self, path):
         path.parent.mkdir(parents=True, exist_ok=True)

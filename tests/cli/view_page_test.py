@@ -14,7 +14,7 @@ import time
 import unittest
 
 from browser_session import BrowserSession, browser
-from view_server import SCENE, Server
+from view_server import LIGHTS, SCENE, Server
 
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -69,6 +69,11 @@ class ViewPage(unittest.TestCase):
         self.page.wait(FINE)
         self.assertNotEqual(self.picture(), before)
 
+    def edit(self, text):
+        before = self.page.value("viewer.scene.version")
+        self.scene.write_text(text, encoding="utf-8")
+        self.page.wait(f"viewer.scene.version > {before}")
+
     def choose(self, key, value):
         self.page.value(f"viewer.controls.choose('{key}', '{value}')")
 
@@ -116,6 +121,7 @@ class ViewPage(unittest.TestCase):
         page.mouse("mouseReleased", x, y)
         page.wait("document.querySelectorAll('#explanation .ray').length > 0")
         self.assertIn("ball", page.value("document.querySelector('#explanation summary').textContent"))
+        self.assertIn("samples a pixel", page.value("document.getElementById('status').textContent"))
         self.shoot("view_explained")
         # The block is a camera that shows the same.
         block = page.value("viewer.camera.block()")
@@ -139,6 +145,69 @@ class ViewPage(unittest.TestCase):
         page.wait(MESSAGE + ".includes('does not answer')")
         self.assertTrue(page.value(READY))
         self.shoot("view_lost")
+
+    def test_a_depth_is_sent_where_one_is_chosen(self):
+        self.open("900,700")
+        page = self.page
+        depth = "viewer.controls.number('depth')"
+
+        def sent():
+            return page.value("viewer.wish(viewer.camera, 64).depth ?? null")
+
+        self.assertEqual((page.value(depth), sent()), (4, None))
+        # A renderer that follows paths has a depth of its own, until one is chosen.
+        self.changes(lambda: self.choose("renderer", "path_tracing"))
+        self.assertEqual((page.value(depth), sent()), (63, None))
+        self.changes(lambda: self.choose("depth", "0"))
+        self.assertEqual(sent(), 0)
+        self.changes(lambda: self.choose("renderer", "whitted"))
+        self.assertEqual((page.value(depth), sent()), (0, 0))
+        # An emptied field is as usual again; the scene's depth is followed.
+        self.changes(lambda: self.choose("depth", ""))
+        self.assertEqual((page.value(depth), sent()), (4, None))
+        self.changes(lambda: self.edit(SCENE.replace("max_depth = 4", "max_depth = 0")))
+        self.assertEqual((page.value(depth), sent()), (0, None))
+        self.check_quiet()
+
+    def test_lights_are_turned_off_and_undo_takes_back_what_was_chosen(self):
+        self.scene.write_text(LIGHTS, encoding="utf-8")
+        self.open("1300,900")
+        page = self.page
+        first = self.picture()
+        summary = "document.querySelector('#lights summary')"
+        boxes = "[...document.querySelectorAll('#lights input')]"
+        self.assertEqual(page.value(f"{summary}.textContent"), "lights: all of 4 on")
+        # By keys alone.
+        page.value(f"{summary}.focus()")
+        page.key("Enter")
+        page.wait("document.getElementById('lights').open")
+        page.value(f"{boxes}.find(b => b.name === 'key').focus()")
+        self.changes(lambda: page.key(" "))
+        self.assertEqual(page.value(f"{summary}.textContent"), "lights: 3 of 4 on")
+        self.shoot("view_lights")
+        # What is off stays off where the file changes, and so does the place of the keys.
+        self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
+        self.assertEqual(page.value("viewer.controls.lights.off().join()"), "key")
+        self.assertEqual(page.value("document.activeElement.name"), "key")
+        self.changes(lambda: self.edit(LIGHTS))
+        # Surroundings are for renderers that follow light.
+        self.assertTrue(page.value("document.querySelector('[name=environment]').disabled"))
+        self.changes(lambda: self.choose("renderer", "path_tracing"))
+        self.assertFalse(page.value("document.querySelector('[name=environment]').disabled"))
+        self.changes(lambda: self.choose("environment", "studio"))
+        self.shoot("view_environment")
+        off = "[...document.querySelectorAll('#lights button')].find(b => b.textContent === 'All off').click()"
+        self.changes(lambda: page.value(off))
+        self.assertEqual(page.value(f"{summary}.textContent"), "lights: 0 of 4 on")
+        # Undo: lights, environment, renderer, light.
+        undo = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Undo').click()"
+        for state in ("studio,path_tracing,key", ",path_tracing,key", ",whitted,key", ",whitted,"):
+            self.changes(lambda: page.value(undo))
+            self.assertEqual(page.value("['environment', 'renderer'].map(k => viewer.controls.get(k)).join() + ',' + "
+                                        "viewer.controls.lights.off().join()"), state)
+        self.assertEqual(self.picture(), first)
+        self.assertEqual(page.value(f"{boxes}.filter(b => b.checked).length"), 4)
+        self.check_quiet()
 
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
         self.open("900,700")
@@ -235,6 +304,33 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: page.value("viewer.image.focus()") or page.key("ArrowLeft"))
         self.check_quiet()
 
+    def test_rays_that_are_not_those_of_the_picture_are_said_to_be(self):
+        self.open("900,700")
+        page = self.page
+        for renderer, said in (("whitted", None), ("path_tracing", "draws other rays at random"), ("distributed", "at random"),
+                               ("ray_casting", "by ray_casting; the tree of rays is that of whitted")):
+            self.choose("renderer", renderer)
+            page.wait(FINE)
+            page.value("document.getElementById('explanation').replaceChildren()")
+            page.value("viewer.explain(0.5, 0.5)")
+            page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+            text = page.value("document.getElementById('other')?.textContent ?? null")
+            self.assertEqual(text is None, said is None)
+            if said:
+                self.assertIn(said, text)
+            self.assertEqual(page.value("document.querySelectorAll('#path .vertex').length > 0"), renderer == "path_tracing")
+            if renderer == "path_tracing":
+                ink = "document.querySelector('canvas.space').toDataURL()"
+                drawn = page.value(ink)
+                page.value("document.querySelector('#path input').click()")
+                self.assertNotEqual(page.value(ink), drawn)
+                page.value("document.querySelector('#path input').click()")
+                self.assertEqual(page.value(ink), drawn)
+                self.shoot("view_path_space")
+                page.value("document.getElementById('path').scrollIntoView()")
+                self.shoot("view_path")
+        self.check_quiet()
+
     def test_methods_are_explained_by_their_cones_and_beams(self):
         self.scene.write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith(("sphere", "plane"))) +
                               'rectangle { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "mirror" }\n',
@@ -254,12 +350,18 @@ class ViewPage(unittest.TestCase):
     def test_it_fits_a_phone_and_is_named_for_readers(self):
         self.open("480,1000")
         self.shoot("view_phone")
+        self.page.value("document.getElementById('lights').open = true")
+        self.shoot("view_phone_lights")
         self.assertLessEqual(self.page.value("document.documentElement.scrollWidth - innerWidth"), 0)
         self.assertEqual(self.page.value("""[...document.querySelectorAll("img,canvas,progress,input,select,textarea,button")].filter(e =>
             !e.alt && !e.getAttribute("aria-label") && !e.textContent.trim() && !e.closest("label")).length"""), 0)
         self.page.value("viewer.image.focus()")
         self.page.key("Enter")
         self.page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+        # The table of the first surface is as wide as the page.
+        self.assertLessEqual(self.page.value("(t => t.scrollWidth - t.clientWidth)(document.querySelector('.equation').parentElement)"), 0)
+        self.page.value("document.getElementById('tree').scrollIntoView()")
+        self.shoot("view_phone_tree")
         self.check_quiet()
 
     def test_without_its_key_the_page_shows_nothing(self):

@@ -31,6 +31,14 @@ box "block" { lo = (-2, 0, 0); hi = (-1.2, 0.8, 0.8); material = "red" }
 plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 """
 
+# A light with a name, one without, one with extent that is seen, and a surface that shines.
+LIGHTS = SCENE.replace('point_light "key"', '''
+spot_light { position = (-3, 5, 4); direction = (3, -5, -4); color = (0.4, 0.4, 0.5) }
+disc_light "lamp" { center = (1.5, 2.4, 0); normal = (0, -1, 0); radius = 0.4; radiance = (2, 2, 1) }
+material "ember" { diffuse = 0.2; emission = (0.9, 0.3, 0.05) }
+sphere { center = (1.4, 0.3, 1); radius = 0.3; material = "ember" }
+point_light "key"''')
+
 WISH = {"width": 80, "height": 60, "renderer": "whitted", "accelerator": "wide_bvh",
         "camera": {"eye": [0, 1, 6], "look": [0, 0, -1], "right": [0.9, 0, 0], "up": [0, 0.7, 0]}}
 

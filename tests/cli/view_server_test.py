@@ -14,7 +14,7 @@ import sys
 import time
 import unittest
 
-from view_server import DEEP, SCENE, WISH, Server, ServerTest
+from view_server import DEEP, LIGHTS, SCENE, WISH, Server, ServerTest
 
 ALHAZEN = sys.argv[1]
 
@@ -168,6 +168,45 @@ class ViewServer(ServerTest):
         self.assertEqual(data["tree"]["surfaces"][0]["object"], "ball")
         self.assertEqual((data["width"], data["traversal"]["accelerator"]), (80, "list"))
 
+    def test_a_path_of_path_tracing_is_told_and_adds_up(self):
+        scene = self.scene.with_name("path.alhazen")
+        scene.write_text(LIGHTS, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        steps, asked = set(), 0
+        try:
+            for y in range(2, 60, 7):
+                for x in range(3, 80, 11):
+                    wish = {**WISH, "renderer": "path_tracing", "x": x, "y": y, "steps": "list", "samples": 3, "sample": 2}
+                    status, _, body = server.ask("/explain", wish)
+                    self.assertEqual(status, 200, body)
+                    data = json.loads(body)
+                    path, at = data["path"]["vertices"], [0.0, 0.0, 0.0]
+                    for i, v in enumerate(path):
+                        steps.add(v["step"])
+                        light = v.get("light")
+                        asked += light is not None
+                        for c in range(3):
+                            at[c] += v["found"][c] + (light["arrived"][c] if light else 0)
+                            if light:
+                                self.assertLessEqual(light["arrived"][c], light["offered"][c] * (1 + 1e-12))
+                        self.assertEqual(v["step"] in ("scattered", "mirrored", "straight"), i + 1 < len(path), (x, y, path))
+                        if i > 0:  # each ray begins where the one before ends
+                            before = path[i - 1]
+                            for c in range(3):
+                                end = before["origin"][c] + before["t"] * before["direction"][c]
+                                self.assertAlmostEqual(v["origin"][c], end, delta=1e-9)
+                    for c in range(3):
+                        self.assertAlmostEqual(at[c], data["path"]["radiance"][c], delta=1e-12)
+            self.assertLessEqual({"scattered", "mirrored", "escaped"}, steps)
+            self.assertGreater(asked, 20)
+            # A depth of 0: the floor, and one ray that may come upon a light. Of other renderers there is none.
+            one = {**WISH, "x": 40, "y": 55, "steps": "list", "renderer": "path_tracing"}
+            self.assertLessEqual(len(json.loads(server.ask("/explain", {**one, "depth": 0})[2])["path"]["vertices"]), 2)
+            for renderer in ("whitted", "bidirectional", "path_tracing:manifold=on", "path_tracing:polarization=on"):
+                self.assertNotIn("path", json.loads(server.ask("/explain", {**one, "renderer": renderer})[2]))
+        finally:
+            server.close()
+
     def test_menus_are_those_of_the_program(self):
         state = self.server.state()
         listed = subprocess.run([ALHAZEN, "list", "accelerators"], capture_output=True, text=True).stdout
@@ -175,6 +214,71 @@ class ViewServer(ServerTest):
             self.assertIn(f"  {entry['name']} ", listed)
         self.assertIn("whitted", [r["name"] for r in state["renderers"]])
         self.assertEqual([c["name"] for c in state["cameras"]], ["front", "side"])
+
+    def test_renderers_that_follow_paths_heed_a_depth_that_is_wished(self):
+        def png(renderer, **change):
+            status, _, body = self.server.ask("/frame", {**WISH, "png": True, "renderer": renderer, **change})
+            self.assertEqual(status, 200, body)
+            return body
+
+        followers = {r["name"]: r["depth"] for r in self.server.state()["renderers"] if "depth" in r}
+        self.assertEqual(set(followers), {"path_tracing", "light_tracing", "bidirectional", "photon_mapping", "sppm", "vcm"})
+        for renderer in ("path_tracing", "bidirectional"):
+            usual = png(renderer)
+            self.assertNotEqual(png(renderer, depth=0), usual)
+            self.assertEqual(png(renderer, depth=0), png(f"{renderer}:depth=1"))
+            # What the page shows where nothing is wished.
+            self.assertEqual(png(renderer, depth=followers[renderer]), usual)
+
+    def test_lights_are_turned_off_and_surroundings_chosen(self):
+        scene = self.scene.with_name("lights.alhazen")
+        scene.write_text(LIGHTS, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+
+        def png(renderer="whitted", **change):
+            status, _, body = server.ask("/frame", {**WISH, "png": True, "renderer": renderer, **change})
+            self.assertEqual(status, 200, body)
+            return body
+
+        try:
+            state = server.state()
+            names = [light["name"] for light in state["lights"]]
+            self.assertEqual([(light["name"], light["what"]) for light in state["lights"]],
+                             [("spot light 1", "spot light"), ("lamp", "area light"), ("key", "point light"),
+                              ("ember", "material that emits")])
+            # Each has an effect of its own, and on those that follow paths, too.
+            for renderer in ("whitted", "distributed", "path_tracing"):
+                pictures = {png(renderer)} | {png(renderer, lights_off=[name]) for name in names}
+                self.assertEqual(len(pictures), 5, renderer)
+                self.assertEqual(png(renderer, lights_off=names), png(renderer, lights_off=names[::-1]))
+            self.assertEqual(png(lights_off=[]), png())
+            dark = png("path_tracing", lights_off=names, environment="none")
+            black = png("path_tracing", lights_off=names, environment="none", exposure=16)
+            self.assertEqual(dark, black)
+            # Surroundings: of the table, and for those that follow light.
+            listed = subprocess.run([ALHAZEN, "list", "environments"], capture_output=True, text=True).stdout
+            self.assertEqual([e["name"] for e in state["environments"]], ["none", "sky", "studio"])
+            for entry in state["environments"]:
+                self.assertIn(f"  {entry['name']} ", listed)
+            self.assertEqual(len({png("path_tracing", environment=e) for e in ("", "none", "sky", "studio")}), 4)
+            self.assertEqual(png(environment="sky"), png())
+            follow = {r["name"] for r in state["renderers"] if r["follows_light"]}
+            self.assertTrue({"path_tracing", "ambient_occlusion"} & follow)
+            self.assertNotIn("whitted", follow)
+            # An explanation is of the picture that is shown.
+            pixel = {**WISH, "x": 40, "y": 58, "steps": "list"}
+            explained = json.loads(server.ask("/explain", {**pixel, "lights_off": names})[2])
+            self.assertEqual((explained["pixel"], explained["rays"]["shadow"]), ([0, 0, 0], 0))
+            self.assertGreater(json.loads(server.ask("/explain", pixel)[2])["pixel"][0], 0.1)
+            # What there is not is said.
+            for change, text in (({"lights_off": ["moon"]}, "no light 'moon'; expected one of: spot light 1, lamp, key"),
+                                 ({"environment": "sea"}, "no environment 'sea'; expected one of none, sky, studio"),
+                                 ({"lights_off": 3}, "")):
+                status, _, body = server.ask("/frame", {**WISH, **change})
+                self.assertEqual(status, 400, body)
+                self.assertIn(text, json.loads(body)["error"])
+        finally:
+            server.close()
 
     def test_a_newer_frame_ends_an_older_one(self):
         long = {**WISH, "width": 2000, "height": 1500, "samples": 1024}
@@ -268,6 +372,7 @@ class ViewServer(ServerTest):
         self.assertGreater(len(pictures), 10)
         layer = json.loads(self.server.ask("/frame", {**WISH, "layer": "depth"})[1]["x-alhazen"])["layer"]
         self.assertAlmostEqual(layer["low"], 2.9056, delta=0.001)  # to the floor at the lower edge
+        self.assertLess(layer["high"], 50, "the horizon leaves no greys for the rest")
         status, _, body = self.server.ask("/frame", {**WISH, "layer": "none"})
         self.assertEqual(status, 400)
         self.assertIn("expected one of alpha, depth", json.loads(body)["error"])

@@ -1,6 +1,7 @@
 // What can be chosen: menus of what the program says that there is, and numbers.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
+import {LightList} from "./lights";
 import type {Choice, Scene} from "./state";
 
 const MOVING: Choice[] = [
@@ -8,18 +9,30 @@ const MOVING: Choice[] = [
                          "rays where they agree"},
   {name: "coarser", what: "the same renderer at its depth: as many pixels as 20 pictures a second allow"},
   {name: "flat", what: "ray_casting: no shadows, mirrors, glass"}];
-const MENUS = ["camera", "renderer", "accelerator", "layer", "moving", "curve", "steps"] as const;
+const MENUS = ["camera", "renderer", "accelerator", "environment", "layer", "moving", "curve", "steps"] as const;
 const NUMBERS = ["samples", "depth", "exposure"] as const;
 
 export type MenuKey = typeof MENUS[number];
 export type NumberKey = typeof NUMBERS[number];
-type Key = MenuKey | NumberKey;
+export type Key = MenuKey | NumberKey | "lights";
+type FieldKey = MenuKey | NumberKey;
+/** All that is chosen, to come back to. */
+export interface Settings {
+  values: Map<FieldKey, string>;
+  wishes: Set<NumberKey>;
+  off: string[];
+}
 
 export class Controls {
   readonly form = element("form", {class: "controls", "aria-label": "Settings", submit: e => e.preventDefault()});
-  private readonly fields = new Map<Key, HTMLSelectElement | HTMLInputElement>();
+  readonly lights = new LightList(() => this.tell("lights"));
+  private readonly fields = new Map<FieldKey, HTMLSelectElement | HTMLInputElement>();
+  private readonly usual = new Map<NumberKey, number>();
+  private readonly wishes = new Set<NumberKey>();  // numbers that were chosen; others are the usual ones
+  private last: Settings | undefined;
 
-  constructor(private readonly changed: (key: Key) => void) {}
+  /** `changed` has what was chosen before, too. */
+  constructor(private readonly changed: (key: Key, before: Settings) => void) {}
 
   get(key: MenuKey) {
     return this.fields.get(key)?.value ?? "";
@@ -27,41 +40,98 @@ export class Controls {
   number(key: NumberKey) {
     return Number(this.fields.get(key)?.value);
   }
-  set(key: Key, value: string) {
+  /** Undefined where nothing was chosen. */
+  wished(key: NumberKey) {
+    return this.wishes.has(key) ? this.number(key) : undefined;
+  }
+  /** What it is where nothing is chosen. */
+  setUsual(key: NumberKey, value: number) {
+    this.usual.set(key, value);
+    if (!this.wishes.has(key)) this.set(key, String(value));
+  }
+  set(key: FieldKey, value: string) {
     const field = this.fields.get(key);
     if (field) field.value = value;
+    this.last = this.settings();
   }
   /** As a person would. */
-  choose(key: Key, value: string) {
-    this.set(key, value);
-    this.fields.get(key)?.dispatchEvent(new Event("change"));
+  choose(key: FieldKey, value: string) {
+    const field = this.fields.get(key);
+    if (field) field.value = value;
+    field?.dispatchEvent(new Event("change"));
+  }
+  /** A menu that has no effect. */
+  disable(key: MenuKey, off: boolean, why: string) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    field.disabled = off;
+    field.title = off ? why : "";
+  }
+  settings(): Settings {
+    const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
+    return {values, wishes: new Set(this.wishes), off: this.lights.off()};
+  }
+  /** What the scene no longer has stays as it is. */
+  restore({values, wishes, off}: Settings) {
+    for (const [key, field] of this.fields) {
+      const now = field.value;
+      field.value = values.get(key) ?? now;
+      if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.value = now;
+    }
+    this.wishes.clear();
+    for (const key of wishes) this.wishes.add(key);
+    this.lights.setOff(off);
+    this.last = this.settings();
+  }
+  private tell(key: Key) {
+    const before = this.last;
+    this.last = this.settings();
+    this.changed(key, before ?? this.last);
   }
   options(key: MenuKey) {
     const field = this.fields.get(key);
     return field instanceof HTMLSelectElement ? [...field.options].map(o => o.text) : [];
   }
 
+  // A field that was emptied is as usual again.
+  private typed(key: NumberKey) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    if (field.value) this.wishes.add(key);
+    else {
+      this.wishes.delete(key);
+      field.value = String(this.usual.get(key));
+    }
+    this.tell(key);
+  }
   /** What was chosen stays where it still is. */
   fill(scene: Scene) {
     const focus = [...this.fields].find(([, field]) => field === document.activeElement)?.[0];
+    const light = this.lights.focused();
     const chosen = new Map([...this.fields].map(([key, field]) => [key, field.value]));
     this.form.replaceChildren();
-    const add = (key: Key, label: string, field: HTMLSelectElement | HTMLInputElement, value: string) => {
-      field.value = chosen.get(key) ?? value;
+    const add = (key: FieldKey, label: string, field: HTMLSelectElement | HTMLInputElement, value: string) => {
+      const kept = field instanceof HTMLSelectElement || this.wishes.has(key as NumberKey);
+      field.value = (kept ? chosen.get(key) : undefined) ?? value;
       if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.value = value;
       if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.selectedIndex = 0;
       this.fields.set(key, field);
       this.form.append(element("label", {}, label, field));
     };
     const menu = (key: MenuKey, label: string, entries: Choice[], value: string) =>
-      add(key, label, element("select", {name: key, change: () => this.changed(key)}, ...entries.map(e =>
+      add(key, label, element("select", {name: key, change: () => this.tell(key)}, ...entries.map(e =>
         element("option", {value: e.value ?? e.name, title: e.what}, e.name))), value);
-    const field = (key: NumberKey, label: string, value: number, min: number, max: number, step = 1) =>
-      add(key, label, element("input", {name: key, type: "number", min, max, step, change: () => this.changed(key)}), String(value));
+    const field = (key: NumberKey, label: string, value: number, min: number, max: number, step = 1) => {
+      this.usual.set(key, value);
+      add(key, label, element("input", {name: key, type: "number", min, max, step, change: () => this.typed(key)}), String(value));
+    };
 
     menu("camera", "camera", scene.cameras.map((c, i) => ({name: c.name || `camera ${i + 1}`, value: String(i)})), "0");
     menu("renderer", "renderer", scene.renderers, "whitted");
     menu("accelerator", "accelerator", scene.accelerators, scene.accelerator);
+    this.lights.fill(scene.lights);
+    this.form.append(this.lights.element);
+    menu("environment", "environment", [{name: "of the scene", value: ""}, ...scene.environments], "");
     menu("layer", "layer", [{name: "colours", value: "", what: "the picture"}, ...scene.layers], "");
     menu("moving", "moving", MOVING, "steady");
     field("samples", "samples", 4, 1, 1024);
@@ -70,5 +140,7 @@ export class Controls {
     menu("curve", "tone curve", scene.curves.map(name => ({name})), "none");
     menu("steps", "steps of", scene.steps.split(", ").map(name => ({name})), "kay_kajiya");
     if (focus) this.fields.get(focus)?.focus();
+    if (light) this.lights.focus(light);
+    this.last = this.settings();
   }
 }

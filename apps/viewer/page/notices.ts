@@ -50,10 +50,14 @@ export function statusText(shown: Shown, full: number, depth: number, memory: nu
                   moving.depth < depth ? `depth ${moving.depth} of ${depth}` : "", shown.selected ? "pixels selected" : ""];
     parts.splice(1, 1, [`moving, ${moving.rate.toFixed(0)} pictures/s`, ...less.filter(t => t)].join(", "));
   }
-  parts.push(`${(1000 * facts.seconds).toFixed(1)} ms, ${shown.way.toFixed(0)} ms with the way here`,
+  parts.push(`${timeText(1000 * facts.seconds)}, ${timeText(shown.way)} with the way here`,
              `${(facts.rays / facts.seconds / 1e6).toFixed(2)} M rays/s on ${facts.threads} threads`,
              `${(memory / 1048576).toFixed(0)} MiB`);
   return parts.join(" \u00b7 ");
+}
+
+function timeText(ms: number) {
+  return ms < 1000 ? `${ms.toFixed(ms < 100 ? 1 : 0)} ms` : `${(ms / 1000).toFixed(ms < 10000 ? 2 : 1)} s`;
 }
 
 /** What the colours of a layer mean. */

@@ -19,6 +19,8 @@ export interface Choice {
 }
 export interface RendererChoice extends Choice {
   selects: boolean;
+  follows_light: boolean;
+  depth?: number;  // where nothing is wished; undefined: that of the scene
 }
 /** What changes with the file only. */
 export interface Menus {
@@ -30,6 +32,8 @@ export interface Menus {
   cameras: CameraData[];
   renderers: RendererChoice[];
   accelerators: Choice[];
+  lights: Choice[];
+  environments: Choice[];
   layers: Choice[];
   scales: Record<"heat" | "grey", string[]>;
   curves: string[];
@@ -84,9 +88,11 @@ export interface Wish {
   renderer: string;
   accelerator: string;
   layer: string;
-  depth: number;
+  depth?: number;  // undefined: as scene and renderer have it
   exposure: number;
   curve: string;
+  environment: string;  // empty: that of the scene
+  lights_off: string[];
   samples: number;
   selected?: boolean;
 }

@@ -5,6 +5,7 @@ import type {Explanation} from "../../../src/alhazen/explain/page/explanation_da
 import {showExplanation} from "../../../src/alhazen/explain/page/explanation_view";
 import {ViewCamera} from "./camera";
 import {Controls} from "./controls";
+import type {Key, Settings} from "./controls";
 import {listen} from "./input";
 import {FrameLink} from "./link";
 import {Messages, WorkLine, drawScale, statusText} from "./notices";
@@ -14,6 +15,7 @@ import type {CameraData, FrameFacts, FrameHead, Scene, State, Wish} from "./stat
 const WIDEST = 4096;          // that the server draws
 const MOST_RAW = 1.5e6;       // pixels that come as they are; more as JPEG
 const STOPPED = "Reading the file was ended.";
+const NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 
 interface Asked {
@@ -30,7 +32,7 @@ export class Viewer {
   readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "The scene",
                                       "aria-describedby": "help"});
   readonly scale = element("div", {class: "scale", hidden: true});
-  readonly controls = new Controls(key => this.chosen(key));
+  readonly controls = new Controls((key, before) => this.chosen(key, before));
   scene: Scene | undefined;
   camera: ViewCamera | undefined;
   frames = 0;
@@ -47,12 +49,13 @@ export class Viewer {
   private readonly g = this.image.getContext("2d")!;
   private readonly pace = new Pace();
   private readonly link: FrameLink;
-  private readonly undone: ViewCamera[] = [];
+  private readonly undone: {camera: ViewCamera, settings: Settings}[] = [];
   private readonly asked = new Map<number, Asked>();
   private lastId = 0;
   private held: object | undefined;       // nothing is asked for while this work lasts
   private explaining: object | undefined;
   private halted = false;                 // by Stop, until something changes
+  private described = "";                 // of the picture that is shown
   private shownAt = 0;
   private movingShown: number[] = [];     // times
 
@@ -112,7 +115,7 @@ export class Viewer {
     const scene = this.scene = {...known, ...state} as Scene;
     if (!known) {
       document.title = `${scene.scene} \u2013 Alhazen`;
-      this.controls.fill(scene);
+      this.fill(scene);
       this.see(scene.cameras[0]);
     } else if (known.version !== scene.version) {
       this.refill(known, scene);
@@ -124,19 +127,30 @@ export class Viewer {
     const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
     const same = scene.cameras.findIndex(c => c.name === old.name);
     const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
-    const follows = this.controls.number("depth") === before.depth;
-    this.controls.fill(scene);
-    if (follows) this.controls.set("depth", String(scene.depth));
+    this.fill(scene);
     this.controls.set("camera", String(index));
     if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
+  }
+  private fill(scene: Scene) {
+    this.controls.fill(scene);
+    this.fitRenderer(scene);
+  }
+  // Renderers that follow paths have a depth of their own where nothing is chosen; others than those that follow light see
+  // no environment but the background.
+  private fitRenderer(scene: Scene) {
+    const renderer = this.renders(this.controls.get("renderer"));
+    this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
+    this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
   }
   private see(camera: CameraData) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
     this.changed();
   }
-  private chosen(key: string) {
-    if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
-    if (key === "camera") this.goHome();
+  private chosen(key: Key, before: Settings) {
+    this.remember(before);
+    if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
+    if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
 
@@ -151,7 +165,8 @@ export class Viewer {
     const {eye, look, right, up, parallel} = camera, controls = this.controls;
     return {camera: {eye, look, right, up, parallel}, width, height: Math.max(1, Math.round(width / camera.aspect)),
             renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
-            depth: controls.number("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1};
+            depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1,
+            environment: controls.get("environment"), lights_off: controls.lights.off()};
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
   private selects() {
@@ -162,8 +177,8 @@ export class Viewer {
     return {full: this.full(), depth: this.controls.number("depth"), deepens: this.selects()};
   }
   private movingWish(camera: ViewCamera): Wish {
-    const {width, depth} = this.pace.next(this.limits()), wish = {...this.wish(camera, width), depth};
-    if (this.selects()) return {...wish, selected: true};
+    const {width, depth} = this.pace.next(this.limits()), wish = this.wish(camera, width);
+    if (this.selects()) return {...wish, depth, selected: true};
     if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
     return {...wish, renderer: "ray_casting"};
   }
@@ -181,7 +196,10 @@ export class Viewer {
     ++this.generation;
     this.level = 0;
     this.halted = false;
-    if (this.explaining) this.explaining = this.held = undefined;  // the server ends it
+    if (this.explaining) {  // the server ends it
+      this.explaining = this.held = undefined;
+      this.status.textContent = this.described;
+    }
     this.request();
   }
   private request() {
@@ -233,7 +251,7 @@ export class Viewer {
     ++this.frames;
   }
   private describe(asked: Asked, facts: FrameFacts) {
-    const now = performance.now(), scene = this.scene!, moving = asked.level === 0;
+    const now = performance.now(), scene = this.scene!, moving = asked.level === 0, deepest = this.controls.number("depth");
     if (moving) {
       // Where the server was never idle: from picture to picture.
       const busy = asked.begin < this.shownAt;
@@ -243,9 +261,9 @@ export class Viewer {
     this.shownAt = now;
     const span = now - this.movingShown[0], rate = span > 0 ? 1000 * (this.movingShown.length - 1) / span : 0;
     drawScale(this.scale, facts.layer, scene.scales);
-    this.status.textContent = statusText(
+    this.status.textContent = this.described = statusText(
       {facts, samples: asked.wish.samples, selected: !!asked.wish.selected, way: now - asked.begin,
-       moving: moving ? {depth: asked.wish.depth, rate} : null}, this.full(), this.controls.number("depth"), scene.memory);
+       moving: moving ? {depth: asked.wish.depth ?? deepest, rate} : null}, this.full(), deepest, scene.memory);
   }
 
   // ---- what is done with it
@@ -257,16 +275,22 @@ export class Viewer {
   }
   private goHome() {
     this.remember();
+    this.seeChosen();
+  }
+  private seeChosen() {
     if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
   }
-  private remember() {
-    if (this.camera) this.undone.push(this.camera.copy());
+  private remember(settings = this.controls.settings()) {
+    if (this.camera) this.undone.push({camera: this.camera.copy(), settings});
     if (this.undone.length > 100) this.undone.shift();
   }
   undo() {
-    const camera = this.undone.pop();
-    if (!camera) return;
-    this.camera = camera;
+    const before = this.undone.pop();
+    if (!before || !this.scene) return;
+    this.camera = before.camera;
+    this.controls.restore(before.settings);
+    this.fitRenderer(this.scene);
+    this.pace.forget();
     this.changed();
   }
   // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.
@@ -277,6 +301,7 @@ export class Viewer {
     if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
     void this.ask("/stop");
     this.messages.say("explain", "");
+    this.status.textContent = this.described;
   }
   // Nothing is asked for until the work is done.
   private async hold(work: () => Promise<void>) {
@@ -311,6 +336,7 @@ export class Viewer {
       const answer = await this.ask("/explain", {...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps")});
       if (this.explaining !== own) return;
       this.explaining = undefined;
+      this.status.textContent = this.described;
       if (!answer || answer.status === 204) return;
       const data = await answer.json() as Explanation & {error?: string};
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");

@@ -1,8 +1,7 @@
 """The interface of Open3D's ``RaycastingScene``, on numpy arrays instead of tensors.
 
-Source: the documentation of Open3D, ``open3d.t.geometry.RaycastingScene``. Differs: results are numpy arrays; hits are
-computed in float64, and t_hit and uvs are of the rays' type. Not there, because the library answers no such
-question: compute_closest_points, compute_distance, compute_signed_distance.
+Source: the documentation of Open3D, ``open3d.t.geometry.RaycastingScene``. Differs: results are numpy arrays; all is
+computed in float64, and t_hit, uvs, points and distances are of the type of the rays or points.
 """
 from __future__ import annotations
 
@@ -81,6 +80,26 @@ class RaycastingScene:
         hold the point; where one is open, ``nsamples`` (odd) rays vote, inside where they cross an odd number of
         triangles."""
         return self._inside(query_points, nthreads, nsamples).astype(np.float32)
+
+    def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
+        """The nearest points of the meshes to points (..., 3): points (..., 3), geometry_ids, primitive_ids (uint32),
+        primitive_uvs (..., 2) and primitive_normals (..., 3); see ``Scene.closest_points``."""
+        found = self._scene.closest_points(query_points, threads=nthreads)
+        del found["distance"]
+        found["primitive_uvs"] = found.pop("uvs")
+        found["primitive_normals"] = found.pop("normals")
+        return found
+
+    def compute_distance(self, query_points: Any, nthreads: int = 0) -> np.ndarray:
+        """The distance of points (..., 3) from the meshes, scene units: real (...)."""
+        return self._scene.closest_points(query_points, threads=nthreads)["distance"]
+
+    def compute_signed_distance(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
+        """The distance of points (..., 3), negative for those inside of a mesh, as ``compute_occupancy`` has it:
+        real (...)."""
+        distance = self.compute_distance(query_points, nthreads)
+        inside = self._inside(query_points, nthreads, nsamples)
+        return np.negative(distance, out=distance, where=inside & (distance > 0))
 
     def _inside(self, query_points: Any, nthreads: int, nsamples: int) -> np.ndarray:
         if nsamples < 1 or nsamples % 2 != 1:

@@ -1,11 +1,15 @@
-"""The interface of trimesh's ray queries: ``RayMeshIntersector`` with its names, arguments and results.
+"""The interface of trimesh's queries: ``RayMeshIntersector`` and ``ProximityQuery``, with their names, arguments and
+results.
 
-Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector``. Differs: hits are exact in
-float64 and come in the order of the rays, the nearest first; ``contains_points`` takes points on the surface as inside.
+Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector`` and
+``trimesh.proximity.ProximityQuery``. Differs: hits and distances are computed in float64, hits come in the order of the
+rays, the nearest first; ``contains_points`` takes points on the surface as inside; ``ProximityQuery.vertex`` is not
+there.
 trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``. Queries follow the mesh: arrays that
 have a hash, as trimesh's have, are known by it; others are compared with a copy, which takes their size in memory.
 
     mesh.ray = alhazen.trimesh.RayMeshIntersector(mesh)
+    mesh.nearest = alhazen.trimesh.ProximityQuery(mesh)
 """
 from __future__ import annotations
 
@@ -14,9 +18,9 @@ from typing import Any, Tuple, Union
 import numpy as np
 
 from ._errors import UsageError
-from ._scene import Scene
+from ._scene import INVALID_ID, Scene
 
-__all__ = ["RayMeshIntersector"]
+__all__ = ["ProximityQuery", "RayMeshIntersector"]
 
 
 def _rays(origins: Any, directions: Any) -> np.ndarray:
@@ -33,16 +37,8 @@ def _known_by(array: Any) -> Union[int, np.ndarray]:
     return hash(array) if hashed else np.array(array)
 
 
-class RayMeshIntersector:
-    """Ray queries of one mesh. ``geometry``: an object with ``vertices`` (n, 3) and ``faces`` (m, 3).
-
-    >>> from types import SimpleNamespace
-    >>> import numpy as np
-    >>> mesh = SimpleNamespace(vertices=np.array([[0., 0, 0], [1, 0, 0], [0, 1, 0]]), faces=np.array([[0, 1, 2]]))
-    >>> ray = RayMeshIntersector(mesh)
-    >>> ray.intersects_location([[0.25, 0.25, 1]], [[0, 0, -1]])
-    (array([[0.25, 0.25, 0.  ]]), array([0]), array([0]))
-    """
+class _MeshQueries:
+    """A scene of a mesh that may change."""
 
     def __init__(self, geometry: Any, **kwargs: Any) -> None:
         self.mesh = geometry
@@ -62,6 +58,31 @@ class RayMeshIntersector:
             self._built = self._build()
             scene = self._built[1]
         return scene
+
+    def contains_points(self, points: Any) -> np.ndarray:
+        """Whether each point (n, 3) is inside of the mesh: (n,) bool. In a mesh with open edges, whether a line
+        through the point crosses it an odd number of times on both sides."""
+        points = np.asarray(points, dtype=np.float64)
+        scene = self._scene
+        if scene.solid_names:
+            return scene.inside(points)
+        # A direction of no axis and no diagonal.
+        direction = np.broadcast_to([0.4395064455, 0.617598629942, 0.652231566745], points.shape)
+        ahead, behind = (scene.count_intersections(np.concatenate([points, d], axis=-1)) % 2 == 1
+                         for d in (direction, -direction))
+        return ahead & behind
+
+
+class RayMeshIntersector(_MeshQueries):
+    """Ray queries of one mesh. ``geometry``: an object with ``vertices`` (n, 3) and ``faces`` (m, 3).
+
+    >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> mesh = SimpleNamespace(vertices=np.array([[0., 0, 0], [1, 0, 0], [0, 1, 0]]), faces=np.array([[0, 1, 2]]))
+    >>> ray = RayMeshIntersector(mesh)
+    >>> ray.intersects_location([[0.25, 0.25, 1]], [[0, 0, -1]])
+    (array([[0.25, 0.25, 0.  ]]), array([0]), array([0]))
+    """
 
     def intersects_id(self, ray_origins: Any, ray_directions: Any, return_locations: bool = False,
                       multiple_hits: bool = True, **kwargs: Any
@@ -99,15 +120,25 @@ class RayMeshIntersector:
         """Whether each ray hits the mesh: (n,) bool."""
         return self._scene.occluded(_rays(ray_origins, ray_directions))
 
-    def contains_points(self, points: Any) -> np.ndarray:
-        """Whether each point (n, 3) is inside of the mesh: (n,) bool. In a mesh with open edges, whether a line
-        through the point crosses it an odd number of times on both sides."""
-        points = np.asarray(points, dtype=np.float64)
-        scene = self._scene
-        if scene.solid_names:
-            return scene.inside(points)
-        # A direction of no axis and no diagonal.
-        direction = np.broadcast_to([0.4395064455, 0.617598629942, 0.652231566745], points.shape)
-        ahead, behind = (scene.count_intersections(np.concatenate([points, d], axis=-1)) % 2 == 1
-                         for d in (direction, -direction))
-        return ahead & behind
+
+class ProximityQuery(_MeshQueries):
+    """Distances from one mesh. ``geometry``: an object with ``vertices`` (n, 3) and ``faces`` (m, 3).
+
+    >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> mesh = SimpleNamespace(vertices=np.array([[0., 0, 0], [1, 0, 0], [0, 1, 0]]), faces=np.array([[0, 1, 2]]))
+    >>> ProximityQuery(mesh).on_surface([[0.25, 0.25, 2]])
+    (array([[0.25, 0.25, 0.  ]]), array([2.]), array([0]))
+    """
+
+    def on_surface(self, points: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The nearest points of the mesh to points (n, 3): closest (n, 3), distance (n,) and triangle_id (n,), int64, -1
+        where the mesh has no triangle."""
+        found = self._scene.closest_points(np.asarray(points, dtype=np.float64))
+        triangle = found["primitive_ids"]
+        return found["points"], found["distance"], np.where(triangle == INVALID_ID, -1, triangle.astype(np.int64))
+
+    def signed_distance(self, points: Any) -> np.ndarray:
+        """The distance of points (n, 3) from the mesh, positive inside, negative outside: (n,)."""
+        _, distance, _ = self.on_surface(points)
+        return np.negative(distance, out=distance, where=(distance > 0) & ~self.contains_points(points))

@@ -1,10 +1,13 @@
 #include "built_scene.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 
 #include "alhazen/formats/core/default_conventions.h"
 #include "alhazen/formats/native/read/native_fragment.h"
+#include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen::python {
 
@@ -79,6 +82,23 @@ std::shared_ptr<BuiltScene> BuiltScene::load(const std::string& path, const Buil
 const SolidScene& BuiltScene::solids() const {
     std::call_once(solids_made_, [this] { solids_.emplace(loaded_.description, loaded_.scene); });
     return *solids_;
+}
+
+const NearestTriangles& BuiltScene::nearest() const {
+    std::call_once(nearest_made_, [&] {
+        const PrimitiveTable& table = tracer_.aggregate().primitives();
+        const std::uint32_t count = table.first(kInstanceKind) - table.first(kTriangleKind);
+        if (count != table.size()) {
+            throw Error(ErrorKind::Usage,
+                        fmt::format("the nearest points are those of triangle meshes: {} of the {} "
+                                    "primitives are shapes, solids or instances",
+                                    table.size() - count, table.size()));
+        }
+        std::vector<NearestTriangles::Corners> triangles(count);
+        for (std::uint32_t i = 0; i < count; ++i) triangles[i] = table.triangle_vertices(i);
+        nearest_.emplace(triangles);
+    });
+    return *nearest_;
 }
 
 }  // namespace alhazen::python

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/geometry/nearest/nearest_triangles.h"
 #include "alhazen/session/load.h"
 #include "alhazen/solids/solid_scene.h"
 #include "alhazen/tracer/tracer.h"
@@ -52,6 +53,9 @@ class BuiltScene {
     [[nodiscard]] const Tracer& tracer() const { return tracer_; }
     /// Made on first use: finds which geometry is closed.
     [[nodiscard]] const SolidScene& solids() const;
+    /// The triangles of its aggregate, made on first use. Throws Error (Usage) where it has other
+    /// things, too.
+    [[nodiscard]] const NearestTriangles& nearest() const;
 
   private:
     SceneDescription source_;
@@ -59,6 +63,8 @@ class BuiltScene {
     Tracer tracer_;
     mutable std::once_flag solids_made_;
     mutable std::optional<SolidScene> solids_;
+    mutable std::once_flag nearest_made_;
+    mutable std::optional<NearestTriangles> nearest_;
 };
 
 }  // namespace alhazen::python

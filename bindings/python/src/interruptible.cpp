@@ -16,7 +16,7 @@ namespace alhazen::python {
 
 namespace {
 
-constexpr std::size_t kFirstBlock = 256, kLargestBlock = std::size_t{1} << 22;
+constexpr std::size_t kFirstBlock = 16, kLargestBlock = std::size_t{1} << 22;
 constexpr std::size_t kLargestGrain = 1024;                // items of a task
 constexpr double kShortBlock = 0.0125, kLongBlock = 0.05;  // seconds
 constexpr std::chrono::milliseconds kTick{20};

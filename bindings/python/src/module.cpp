@@ -11,6 +11,7 @@
 #include "ray_queries.h"
 #include "rendering.h"
 #include "solid_queries.h"
+#include "surface_queries.h"
 
 namespace py = pybind11;
 
@@ -231,6 +232,7 @@ void add_scene(py::module_& module) {
         .def("thickness", &thickness)
         .def("inside", &inside)
         .def("solids_at", &solids_at)
+        .def("closest_points", &closest_points)
         .def("solid_names", &solid_names)
         .def("measure_json", &measure_json)
         .def("section",

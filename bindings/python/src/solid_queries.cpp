@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/stopwatch.h"
 #include "alhazen/solids/measure_report.h"
@@ -188,12 +189,12 @@ std::string measure_json(const BuiltScene& scene, const std::vector<std::string>
     MeasureReport report;
     report.open_surfaces = solids.solids().open_surfaces();
     report.open_meshes = solids.open_meshes();
-    const MeasureOptions options{
-        .relative_error = error, .seconds = seconds, .seed = seed, .stop = &stop};
+    const MeasureOptions options{.relative_error = error, .seconds = seconds, .seed = seed};
     run_watched(stop, py::none(), [&](ProgressSink&) {
+        const Interruptible ends(&stop);
         ThreadLimit(threads).run([&] {
             for (const SolidId id : chosen) {
-                if (stop.requested()) return;
+                interruption_point();
                 const Stopwatch time;
                 SolidReport one{.solid = id, .name = solids.name(id)};
                 one.measures = measure(IsolatedSolid(solids.solids(), id), options);
@@ -216,8 +217,10 @@ py::list section(const BuiltScene& scene, const Vec3& normal, double offset,
     std::vector<SectionOutlines> cuts(chosen.size());
     StopFlag stop;
     run_watched(stop, py::none(), [&](ProgressSink&) {
+        const Interruptible ends(&stop);
         ThreadLimit(threads).run([&] {
-            for (std::size_t i = 0; i < chosen.size() && !stop.requested(); ++i) {
+            for (std::size_t i = 0; i < chosen.size(); ++i) {
+                interruption_point();
                 cuts[i] = trace_section(IsolatedSolid(solids.solids(), chosen[i]), frame, options);
             }
         });

@@ -77,7 +77,117 @@ class Trimesh(unittest.TestCase):
             self.ray.intersects_any(np.zeros((3, 3)), np.zeros((2, 3)))
 
 
+    def test_distances_are_those_of_the_cube(self):
+        near = alhazen.trimesh.ProximityQuery(self.mesh)
+        points = np.random.default_rng(3).uniform(-1.5, 1.5, (3000, 3))
+        closest, distance, triangle = near.on_surface(points)
+        self.assertEqual((closest.shape, distance.shape, triangle.dtype), ((3000, 3), (3000,), np.int64))
+        np.testing.assert_allclose(np.linalg.norm(points - closest, axis=1), distance, rtol=1e-15)
+        signed = near.signed_distance(points)
+        np.testing.assert_allclose(signed, -signed_distance_of_cube(points), atol=1e-15)
+        self.assertEqual(near.signed_distance([[0.5, 0, 0]]).tolist(), [0])
+        self.mesh.vertices = self.mesh.vertices * 2
+        self.assertEqual(near.signed_distance([[0.0, 0, 0], [0, 0, 3.0]]).tolist(), [1, -2])
+        self.mesh.faces = self.mesh.faces[:0]
+        self.assertEqual([a.tolist() for a in near.on_surface([[0.0, 0, 0]])], [[[0, 0, 0]], [np.inf], [-1]])
+
+
+def signed_distance_of_cube(points, half=0.5):
+    """Negative inside."""
+    beyond = np.abs(points) - half
+    return np.linalg.norm(np.maximum(beyond, 0), axis=-1) + np.minimum(beyond.max(axis=-1), 0)
+
+
+def closest_by_brute_force(points, corners):
+    """Distances (p,) and, by projection, points (p, 3) of the nearest of triangles (t, 3, 3)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    candidates = []
+    for p, q in ((a, b), (b, c), (c, a)):
+        along = q - p
+        t = np.clip(((points[:, None] - p) * along).sum(-1) / (along ** 2).sum(-1), 0, 1)
+        candidates.append(p + t[..., None] * along)
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    foot = points[:, None] - ((points[:, None] - a) * normal).sum(-1)[..., None] * normal
+    inside = np.all([(np.cross(q - p, foot - p) * normal).sum(-1) >= 0 for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    candidates.append(np.where(inside[..., None], foot, np.inf))
+    candidates = np.concatenate(candidates, axis=1)
+    distance = np.linalg.norm(points[:, None] - candidates, axis=-1)
+    best = distance.argmin(axis=1)
+    rows = np.arange(len(points))
+    return distance[rows, best], candidates[rows, best]
+
+
 class Open3D(unittest.TestCase):
+    def test_the_nearest_points_are_those_of_brute_force(self):
+        random = np.random.default_rng(8)
+        scene = alhazen.raycasting.RaycastingScene()
+        all_corners, owners = [], []
+        for i in range(3):
+            vertices = random.uniform(-1, 1, (60, 3)) + (2 * i, 0, 0)
+            faces = random.permuted(np.tile(np.arange(60), (40, 1)), axis=1)[:, :3]
+            scene.add_triangles(vertices, faces)
+            all_corners.append(vertices[faces])
+            owners += [(i, k) for k in range(40)]
+        corners, owners = np.concatenate(all_corners), np.array(owners)
+        points = random.uniform(-3, 7, (40, 30, 3))
+        found = scene.compute_closest_points(points)
+        self.assertEqual(sorted(found), ["geometry_ids", "points", "primitive_ids", "primitive_normals", "primitive_uvs"])
+        self.assertEqual((found["points"].shape, found["points"].dtype), ((40, 30, 3), np.float64))
+        self.assertEqual(found["geometry_ids"].dtype, np.uint32)
+        distance, closest = closest_by_brute_force(points.reshape(-1, 3), corners)
+        np.testing.assert_allclose(scene.compute_distance(points).ravel(), distance, rtol=1e-12, atol=1e-15)
+        np.testing.assert_allclose(found["points"].reshape(-1, 3), closest, atol=1e-9)
+        # The ids, the weights and the normal are of the triangle that has the point.
+        ids = np.stack([found["geometry_ids"], found["primitive_ids"]], axis=-1).reshape(-1, 2)
+        mine = corners[40 * ids[:, 0] + ids[:, 1]]
+        self.assertTrue((owners[40 * ids[:, 0] + ids[:, 1]] == ids).all())
+        u, v = found["primitive_uvs"].reshape(-1, 2).T[..., None]
+        np.testing.assert_allclose((1 - u - v) * mine[:, 0] + u * mine[:, 1] + v * mine[:, 2],
+                                   found["points"].reshape(-1, 3), atol=1e-14)
+        normals = np.cross(mine[:, 1] - mine[:, 0], mine[:, 2] - mine[:, 0])
+        np.testing.assert_allclose(found["primitive_normals"].reshape(-1, 3),
+                                   normals / np.linalg.norm(normals, axis=1, keepdims=True), atol=1e-9)
+        for threads in (1, 2):
+            np.testing.assert_array_equal(scene.compute_closest_points(points, threads)["points"], found["points"])
+
+    def test_signed_distances_are_negative_inside(self):
+        points = np.random.default_rng(9).uniform(-1, 1, (50, 40, 3))
+        vertices, faces = cube(-0.5, 0.5)
+        scene = alhazen.raycasting.RaycastingScene()
+        scene.add_triangles(vertices, faces)
+        signed = scene.compute_signed_distance(points)
+        np.testing.assert_allclose(signed, signed_distance_of_cube(points), atol=1e-15)
+        single = scene.compute_signed_distance(points.astype(np.float32), nthreads=1, nsamples=3)
+        self.assertEqual(single.dtype, np.float32)
+        np.testing.assert_allclose(single, signed_distance_of_cube(points.astype(np.float32).astype(np.float64)), atol=1e-7)
+        np.testing.assert_array_equal(scene.compute_distance(points), np.abs(signed))
+        self.assertEqual(str(scene.compute_signed_distance([[0.5, 0.25, 0]])[0]), "0.0")
+        # Where a mesh is open, rays vote.
+        open_scene = alhazen.raycasting.RaycastingScene()
+        open_scene.add_triangles(vertices, faces[:-1])
+        self.assertAlmostEqual(open_scene.compute_signed_distance([[-0.1, -0.1, -0.2]], nsamples=5)[0], -0.3, places=12)
+
+    def test_what_has_no_nearest_point_is_said(self):
+        scene = alhazen.raycasting.RaycastingScene()
+        with self.assertWarnsRegex(alhazen.SceneWarning, "empty"):
+            self.assertEqual(scene.compute_distance(np.zeros((2, 3))).tolist(), [np.inf, np.inf])
+        scene.add_triangles(*cube())
+        bad = np.array([[np.nan, 0, 0], [0, np.inf, 0], [0.5, 0.5, 3]])
+        np.testing.assert_array_equal(scene.compute_distance(bad), [np.nan, np.nan, 2])
+        self.assertEqual(scene.compute_closest_points(bad)["geometry_ids"].tolist(), [scene.INVALID_ID] * 2 + [0])
+        with self.assertRaisesRegex(alhazen.UsageError, r"shape \(\.\.\., 3\)"):
+            scene.compute_distance(np.zeros((2, 4)))
+        self.assertEqual(scene.compute_signed_distance(np.zeros((0, 3))).shape, (0,))
+        # Placed, and turned inside out.
+        placed = alhazen.Scene().add_mesh(*cube(), transform=np.diag([-2, 2, 2.0, 1]))
+        found = placed.closest_points([-1.5, 0.5, 5])
+        self.assertEqual((found["distance"], found["points"].tolist(), found["normals"].tolist()),
+                         (3, [-1.5, 0.5, 2], placed.intersect([-1.5, 0.5, 5, 0, 0, -1])["normals"].tolist()))
+        mixed = alhazen.Scene(*cube()).add(alhazen.sphere(center=(5, 0, 0), radius=1))
+        with self.assertRaisesRegex(alhazen.UsageError, "1 of the 13 primitives are shapes"):
+            mixed.closest_points([0, 0, 0])
+
     def test_two_cubes_have_ids_and_all_queries_agree(self):
         scene = alhazen.raycasting.RaycastingScene()
         for i, low in enumerate((0.0, 3.0)):

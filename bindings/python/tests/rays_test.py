@@ -216,10 +216,34 @@ def slow_scene_and_rays():
     return alhazen.Scene(vertices, faces, accelerator="list").build(), random_rays(300000)
 
 
+def slow_solid_and_rays():
+    """The same with one closed mesh, of 3000 small cubes."""
+    middles = np.random.default_rng(4).uniform(-1, 1, (3000, 1, 3))
+    vertices, faces = cube(-0.01, 0.01)
+    faces = faces + 8 * np.arange(3000)[:, None, None]
+    scene = alhazen.Scene((middles + vertices).reshape(-1, 3), faces.reshape(-1, 3), accelerator="list")
+    return scene.build(), random_rays(300000)
+
+
 class Running(unittest.TestCase):
     def test_ctrl_c_ends_every_batch_within_a_tenth_of_a_second(self):
         scene, rays = slow_scene_and_rays()
-        for query in (scene.intersect, scene.occluded, scene.all_hits):
+        for query in (scene.intersect, scene.occluded, scene.all_hits, scene.count_intersections):
+            self.check_ends_soon(query.__name__, lambda: query(rays))
+
+    def test_ctrl_c_ends_questions_about_solids_within_a_tenth_of_a_second(self):
+        scene, rays = slow_solid_and_rays()
+        points = rays[:, :3] + rays[:, 3:]
+        self.assertEqual(len(scene.solid_names), 1)  # found before the clock runs
+        scene.closest_points(points[:1])
+        for query, given in ((scene.spans, rays), (scene.thickness, rays), (scene.inside, points),
+                             (scene.solids_at, points), (scene.closest_points, np.tile(points, (4, 1)))):
+            self.check_ends_soon(query.__name__, lambda: query(given))
+        self.check_ends_soon("measure", lambda: scene.measure(error=1e-9, seconds=20))
+        self.check_ends_soon("section", lambda: scene.section((0, 0, 1), 0.013, cells=4000))
+
+    def check_ends_soon(self, name, query):
+        with self.subTest(name):
             late = []
             for _ in range(3):
                 start = time.perf_counter()
@@ -227,7 +251,7 @@ class Running(unittest.TestCase):
                 signal.setitimer(signal.ITIMER_REAL, 0.2)
                 try:
                     with self.assertRaises(KeyboardInterrupt):
-                        query(rays)
+                        query()
                 finally:
                     signal.setitimer(signal.ITIMER_REAL, 0)
                 late.append(time.perf_counter() - start - 0.2)

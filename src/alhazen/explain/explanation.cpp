@@ -13,8 +13,10 @@
 #include "alhazen/explain/spans/part_of_primitive.h"
 #include "alhazen/explain/tree/ray_tree_recorder.h"
 #include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/lighting.h"
 
 namespace alhazen {
 
@@ -178,11 +180,13 @@ void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options
     }
 }
 
+void name_part(std::uint32_t part, const SceneDescription& description, Explanation& e) {
+    if (e.part_names.size() <= part) e.part_names.resize(part + 1);
+    if (e.part_names[part].empty()) e.part_names[part] = part_name(description, part);
+}
+
 void name_parts_of(const RayNode& ray, const SceneDescription& description, Explanation& e) {
-    const auto name = [&](std::uint32_t part) {
-        if (e.part_names.size() <= part) e.part_names.resize(part + 1);
-        if (e.part_names[part].empty()) e.part_names[part] = part_name(description, part);
-    };
+    const auto name = [&](std::uint32_t part) { name_part(part, description, e); };
     for (const SurfaceNode& surface : ray.surfaces) {
         name(surface.part);
         for (const LightTerm& light : surface.lights) {
@@ -193,18 +197,23 @@ void name_parts_of(const RayNode& ray, const SceneDescription& description, Expl
     }
 }
 
-std::string light_name(const SceneDescription& description, const Scene& scene, std::size_t i) {
-    if (i < description.lights.size() && !description.lights[i].name.empty()) {
-        return description.lights[i].name;
-    }
-    constexpr const char* kNames[] = {"ambient light", "directional light", "point light",
-                                      "spot light", "area light"};
-    static_assert(std::size(kNames) == std::variant_size_v<Light>);
-    return fmt::format("{} {}", kNames[scene.lights[i].index()], i + 1);
+/// The path of a sample, as in the whole picture.
+void add_path(const Scene& scene, const SceneDescription& description,
+              const ExplainOptions& options, Explanation& e) {
+    RenderOptions one = options.render;
+    one.crop = PixelBox{e.x, e.y, e.x + 1, e.y + 1};
+    one.aovs = AovSet();
+    one.antialias.reset();
+    PathRecord record;
+    record.sample = static_cast<std::uint32_t>(e.sample);
+    one.path = &record;
+    if (!render_with_description(scene, description, one).complete) return;
+    if (!record.vertices.empty()) e.path = std::move(record);
 }
 
 /// A small picture, and where its pixels are in space.
-void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Explanation& e) {
+void add_picture(const Scene& scene, const SceneDescription& description,
+                 const ExplainOptions& options, Explanation& e) {
     constexpr int kLongestSide = 240;
     constexpr int kDepthOfPicture = 5;  // it shows where things are
     const double scale =
@@ -218,7 +227,7 @@ void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Expla
     small.aovs = AovSet();
     small.aovs.add(AovKind::Position);
     small.aovs.add(AovKind::Alpha);
-    const RenderResult result = render(loaded, small);
+    const RenderResult result = render_with_description(scene, description, small);
     e.complete &= result.complete;
     e.preview = encode(result.film.data(), *small.width, *small.height, Encoding::Srgb, 8);
     const LayerChannel* channels[] = {result.layers.find("P.X"), result.layers.find("P.Y"),
@@ -241,7 +250,7 @@ void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Expla
 }  // namespace
 
 Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& options) {
-    Scene scene = loaded.scene;
+    Scene scene = options.scene != nullptr ? *options.scene : loaded.scene;
     if (options.render.max_depth) scene.conventions.shading.max_depth = *options.render.max_depth;
     const CameraDescription& described = chosen_camera(scene, options.render);
     const FrameSize frame =
@@ -265,6 +274,8 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
     e.sample = options.sample;
     e.scene = loaded.description.path.filename().string();
     e.camera = described.name;
+    e.renderer = options.render.renderer.substr(0, options.render.renderer.find(':'));
+    e.draws_at_random = make_renderer(options.render.renderer)->distributes();
     e.min_contribution = scene.conventions.shading.min_contribution;
     e.background = scene.background;
     const PixelSamples samples(job, frame.width, frame.height, options.x, options.y);
@@ -278,12 +289,16 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
         e.cones = explain_cones(job, e.x, e.y, e.width, e.height);
     if (options.render.renderer == "beam_tracing")
         e.beams = explain_beams(job, e.x, e.y, e.width, e.height);
+    if (e.renderer == "path_tracing") add_path(scene, loaded.description, options, e);
     e.complete = !job.stop_requested();
     if (!e.complete) return e;
     name_parts_of(e.tree, loaded.description, e);
+    if (e.path) {
+        for (const RecordedVertex& v : e.path->vertices) name_part(v.part, loaded.description, e);
+    }
     for (const Material& material : scene.materials) e.material_names.push_back(material.name);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        e.light_names.push_back(light_name(loaded.description, scene, i));
+    for (std::size_t i = 0; i < loaded.description.lights.size(); ++i) {
+        e.light_names.push_back(light_name(loaded.description, i));
     }
     e.parallel = std::holds_alternative<OrthographicCamera>(job.camera);
     const Vec2 corners[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
@@ -291,7 +306,7 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
         const Ray corner = eye_ray(job.camera, corners[i].x, corners[i].y);
         e.picture[i] = e.parallel ? corner.origin : corner.at(1.0);
     }
-    if (options.with_picture) add_picture(loaded, options, e);
+    if (options.with_picture) add_picture(scene, loaded.description, options, e);
     return e;
 }
 

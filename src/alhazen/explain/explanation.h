@@ -22,6 +22,7 @@
 #include "alhazen/explain/tree/ray_tree.h"
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/laboratory/traversal_trace.h"
+#include "alhazen/renderers/core/path_record.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 
@@ -33,8 +34,11 @@ struct ExplainOptions {
     /// Whose steps are shown: one of `traceable_accelerators()`, with settings. Empty: none.
     std::string accelerator = "kay_kajiya";
     /// Camera, size, samples per pixel, depth, seed, threads and stop are read. The tree is that of
-    /// `whitted`; with the renderers `cone_tracing` and `beam_tracing` there are cones, or beams.
+    /// `whitted`; with the renderers `cone_tracing`, `beam_tracing` and `path_tracing` (without
+    /// `manifold` and `polarization`) there are cones, beams, or a path.
     RenderOptions render;
+    /// Instead of that of the file, whose geometry it has (session/lighting.h); null: none.
+    const Scene* scene = nullptr;
     std::size_t most_rays = 10'000;  ///< of the tree, shadow rays included
     int most_depth = 64;             ///< of the tree
     std::size_t most_steps = 5'000;  ///< of the accelerator
@@ -64,8 +68,10 @@ struct Explanation {
     bool complete = true;  ///< false after a stop
     int width = 0, height = 0, x = 0, y = 0, sample = 0;
     std::string scene, camera;
-    int max_depth = 0;     ///< of the tree
-    int wished_depth = 0;  ///< larger where the tree was cut
+    std::string renderer;          ///< of the picture, without settings
+    bool draws_at_random = false;  ///< it does
+    int max_depth = 0;             ///< of the tree
+    int wished_depth = 0;          ///< larger where the tree was cut
     double min_contribution = 0;
     Rgb background;
     Rgb pixel;  ///< the mean of the samples
@@ -85,6 +91,7 @@ struct Explanation {
     std::vector<std::string> light_names;     ///< [light]
     std::optional<ConeExplanation> cones;
     std::optional<BeamExplanation> beams;
+    std::optional<PathRecord> path;  ///< of `sample`, by the renderer `path_tracing`
     EncodedImage preview;
     std::vector<ScenePoint> points;
 };

@@ -61,16 +61,31 @@ LayerPicture scaled_picture(const PixelBox& crop, const LayerChannel& channel, C
     return picture;
 }
 
+/// The value below which `share` of them lie. Reorders them; there is one at least.
+float quantile_of(std::vector<float>& values, double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+}
+
 LayerPicture depth_picture(const PixelBox& crop, const LayerChannel& channel, bool drawn) {
-    const std::vector<float> values = finite_values(channel);
+    // Of a ground without end a few pixels see a thousand times farther than all others.
+    constexpr double kMost = 0.9, kFarBeyond = 4.0;
+    std::vector<float> values = finite_values(channel);
     ColorScale scale{
         .low = 0, .high = 0, .colors = ColorScale::Colors::NearGrey, .title = "", .drawn = drawn};
+    bool has_beyond = false;
     if (!values.empty()) {
         const auto [near, far] = std::minmax_element(values.begin(), values.end());
         scale.low = *near;
         scale.high = *far;
+        const double most = quantile_of(values, kMost);
+        has_beyond = scale.high - scale.low > kFarBeyond * (most - scale.low) && most > scale.low;
+        if (has_beyond) scale.high = most;
     }
-    return scaled_picture(crop, channel, scale);
+    LayerPicture picture = scaled_picture(crop, channel, scale);
+    if (has_beyond) picture.meaning += ", a tenth of the pixels beyond";
+    return picture;
 }
 
 LayerPicture heat_picture(const PixelBox& crop, const LayerChannel& channel, double quantile,
@@ -78,12 +93,7 @@ LayerPicture heat_picture(const PixelBox& crop, const LayerChannel& channel, dou
     std::vector<float> values = finite_values(channel);
     ColorScale scale{
         .low = 0, .high = 0, .colors = ColorScale::Colors::Heat, .title = "", .drawn = drawn};
-    if (!values.empty()) {
-        const auto rank =
-            static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1));
-        std::nth_element(values.begin(), values.begin() + rank, values.end());
-        scale.high = values[static_cast<std::size_t>(rank)];
-    }
+    if (!values.empty()) scale.high = quantile_of(values, quantile);
     return scaled_picture(crop, channel, scale);
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "alhazen/base/error.h"
@@ -22,12 +24,20 @@ std::vector<std::string> that_follow_light() {
     return names;
 }
 
+bool is_in_table(const std::string& name) {
+    const auto all = environments();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const EnvironmentEntry& entry) { return entry.name == name; });
+}
+
+EnvironmentKind kind_in_table(const std::string& name) {
+    return name == "sky" ? EnvironmentKind::Sky : EnvironmentKind::Studio;
+}
+
 EnvironmentSettings settings_of(const std::string& text, const ImageLimits& limits) {
     EnvironmentSettings settings;
-    if (text == "sky") {
-        settings.kind = EnvironmentKind::Sky;
-    } else if (text == "studio") {
-        settings.kind = EnvironmentKind::Studio;
+    if (is_in_table(text)) {
+        settings.kind = kind_in_table(text);
     } else {
         settings.kind = EnvironmentKind::Picture;
         settings.file = text;
@@ -36,9 +46,13 @@ EnvironmentSettings settings_of(const std::string& text, const ImageLimits& limi
     return settings;
 }
 
+Vec3 up_of(UpAxis up_axis) {
+    return up_axis == UpAxis::Z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+}
+
 void set(LoadedScene& loaded, EnvironmentSettings settings) {
-    const Vec3 up = loaded.description.up_axis == UpAxis::Z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
-    loaded.scene.environment = std::make_shared<const Environment>(settings, up);
+    loaded.scene.environment =
+        std::make_shared<const Environment>(settings, up_of(loaded.description.up_axis));
     loaded.description.environment = EnvironmentDescription{std::move(settings), {}};
 }
 
@@ -46,6 +60,22 @@ void set(LoadedScene& loaded, EnvironmentSettings settings) {
 
 bool follows_light(const std::string& renderer) {
     return make_renderer(renderer)->follows_light();
+}
+
+std::span<const EnvironmentEntry> environments() {
+    static constexpr std::array<EnvironmentEntry, 3> table{{
+        {"none", "black, and no light is added"},
+        {"sky", "clear, with its sun"},
+        {"studio", "soft boxes before grey walls"},
+    }};
+    return table;
+}
+
+std::shared_ptr<const Environment> make_environment(const std::string& name, UpAxis up_axis) {
+    if (name == "none") return nullptr;
+    EnvironmentSettings settings;
+    settings.kind = kind_in_table(name);
+    return std::make_shared<const Environment>(settings, up_of(up_axis));
 }
 
 void check_environment(const std::string& text, const std::string& renderer) {
@@ -56,7 +86,7 @@ void check_environment(const std::string& text, const std::string& renderer) {
                                 "renderer '{}' shows the background of the scene",
                                 fmt::join(that_follow_light(), ", "), renderer));
     }
-    if (text == "sky" || text == "studio" || text == "none") return;
+    if (is_in_table(text)) return;
     if (!std::filesystem::exists(text)) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--environment '{}': expected sky, studio, none or the file of a "

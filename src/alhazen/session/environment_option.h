@@ -1,6 +1,8 @@
 #pragma once
 /// The environment that a user chooses for a scene, or that a scene without light gets.
 
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,17 @@ namespace alhazen {
 
 /// Whether the renderer follows light physically, so that an environment lights what it renders.
 [[nodiscard]] bool follows_light(const std::string& renderer);
+
+/// An environment by name, and what it is in one line.
+struct EnvironmentEntry {
+    const char* name;
+    const char* description;
+};
+/// What `set_environment` takes beside names of pictures.
+[[nodiscard]] std::span<const EnvironmentEntry> environments();
+/// That of an entry of the table; null for "none".
+[[nodiscard]] std::shared_ptr<const Environment> make_environment(const std::string& name,
+                                                                  UpAxis up_axis);
 
 /// Throws Error (Usage) for a text that is not empty and a renderer that sees no environments, and
 /// for what is neither a known word nor a file.

@@ -137,6 +137,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                         .sampling = options.sampling ? &*options.sampling : nullptr,
                         .spectral = options.spectral,
                         .photons = options.keep_photons ? &result.photons : nullptr,
+                        .path = options.path,
                         .control = {.threads = options.threads,
                                     .tile_size = options.tile_size,
                                     .stop = options.stop,
@@ -318,7 +319,12 @@ RenderResult render(const Scene& scene, const PictureSettings& picture,
 }
 
 RenderResult render(const LoadedScene& loaded, const RenderOptions& options) {
-    return render_described(loaded.scene, &loaded.description, loaded.description.picture, options);
+    return render_with_description(loaded.scene, loaded.description, options);
+}
+
+RenderResult render_with_description(const Scene& scene, const SceneDescription& description,
+                                     const RenderOptions& options) {
+    return render_described(scene, &description, description.picture, options);
 }
 
 }  // namespace alhazen

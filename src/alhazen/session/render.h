@@ -20,6 +20,7 @@ namespace alhazen {
 struct AntialiasReport;
 struct BeamReport;
 struct LoadedScene;
+struct PathRecord;
 class Renderer;
 struct SamplingReport;
 struct ScanLineReport;
@@ -54,9 +55,10 @@ struct RenderOptions {
     std::uint64_t seed = 0;
     Protocol protocol = Protocol::None;
     bool count_tests = false;
-    AovSet aovs;                ///< layers to render in addition to the image
-    bool keep_photons = false;  ///< fill RenderResult::photons
-    bool spectral = false;      ///< RenderJob::spectral
+    AovSet aovs;                 ///< layers to render in addition to the image
+    bool keep_photons = false;   ///< fill RenderResult::photons
+    bool spectral = false;       ///< RenderJob::spectral
+    PathRecord* path = nullptr;  ///< RenderJob::path
     ProgressSink* progress = nullptr;
     const StopFlag* stop = nullptr;
 };
@@ -116,5 +118,9 @@ void check_spectral(const RenderOptions& options, const Renderer& renderer);
                                   const RenderOptions& options);
 /// Renders with the description, for renderers that read geometry from it.
 [[nodiscard]] RenderResult render(const LoadedScene& loaded, const RenderOptions& options);
+/// The same of a scene whose lights are not those of the description (lighting.h).
+[[nodiscard]] RenderResult render_with_description(const Scene& scene,
+                                                   const SceneDescription& description,
+                                                   const RenderOptions& options);
 
 }  // namespace alhazen

@@ -99,4 +99,16 @@ void add_seen_lights(SceneDescription& description) {
     }
 }
 
+std::optional<MaterialId> material_of_light(const SceneDescription& description,
+                                            std::size_t light) {
+    const auto is_part = [&](std::size_t i) {
+        const auto* const area = std::get_if<AreaLight>(&description.lights[i].light);
+        return area != nullptr && area->is_part;
+    };
+    if (!is_part(light)) return std::nullopt;
+    std::size_t id = description.materials.size();
+    for (std::size_t i = light; i < description.lights.size(); ++i) id -= is_part(i) ? 1 : 0;
+    return static_cast<MaterialId>(id);
+}
+
 }  // namespace alhazen

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 #include "alhazen/math/constants.h"
 
 namespace alhazen {
@@ -77,6 +78,7 @@ class ContourFollower {
 
     /// The spans of a line in the plane.
     const std::vector<Interval>& spans(const Vec2& through, const Vec2& direction) {
+        interruption_point();
         const Vec3 origin = frame_.origin + through.x * frame_.right + through.y * frame_.up;
         solid_.cross({origin, direction.x * frame_.right + direction.y * frame_.up}, false, found_);
         return found_.spans;
@@ -246,6 +248,7 @@ class ContourFollower {
         while (!waiting.empty()) {
             const auto [begin, end] = waiting.back();
             waiting.pop_back();
+            interruption_point();
             std::size_t worst = begin;
             double most = tolerance_;
             for (std::size_t i = begin + 1; i < end; ++i) {

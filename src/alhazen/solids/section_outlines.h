@@ -10,7 +10,7 @@
 /// split in four.
 /// Conventions: points are in the plane's coordinates (PlaneFrame: right, up), from its origin.
 /// Outlines are closed, with the solid on their left. Features narrower than a grid cell may be
-/// missed; the grid has `cells` along the longer side.
+/// missed; the grid has `cells` along the longer side. Can be given up (base/interruption.h).
 
 #include <vector>
 

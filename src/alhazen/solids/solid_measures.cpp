@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/interruption.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/sampling/random.h"
@@ -264,6 +265,7 @@ class Measurer {
         LineSpans found;
         double sum = 0;
         for (std::uint32_t i = 0; i < lines; ++i) {
+            interruption_point();
             const double z = 1 - 2 * scrambled_sobol(key, i, 0);
             const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
             const double across = std::sqrt(std::max(0.0, 1 - z * z));

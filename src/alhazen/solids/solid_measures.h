@@ -53,6 +53,8 @@ struct MeasureOptions {
     /// From this many lines on, cells are no longer cut: more lines are cast. A cell takes 12 bytes
     /// per line.
     std::uint64_t most_lines_of_round = std::uint64_t{1} << 23;
+    /// Ends the work as `seconds` does. An Interruptible (base/interruption.h) ends it at once,
+    /// with nothing measured.
     const StopFlag* stop = nullptr;
 };
 

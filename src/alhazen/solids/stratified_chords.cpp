@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/sampling/random.h"
 
@@ -191,7 +192,10 @@ StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
         for (std::size_t task = begin; task < end; ++task) {
             const std::size_t first = task * kCellsPerTask;
             const std::size_t last = std::min(cells_.size(), first + kCellsPerTask);
-            for (std::size_t i = first; i < last; ++i) f(cells_[i], i, found, parts[task]);
+            for (std::size_t i = first; i < last; ++i) {
+                interruption_point();
+                f(cells_[i], i, found, parts[task]);
+            }
         }
     });
     // In pairs: the rounding grows with the logarithm of the number of parts.

@@ -93,7 +93,7 @@ var BeamPieces = class {
         `${l.light}${l.through.length ? ` through ${l.through.join(", ")}` : ""}: (${triple(l.color)})`
       ));
       const button = element("button", { type: "button", class: `link ${p.kind}`, click: () => this.choose(p) }, what);
-      const row = element(
+      const row2 = element(
         "tr",
         {},
         element(
@@ -105,8 +105,8 @@ var BeamPieces = class {
         element("td", {}, `${number(100 * p.share)} %`),
         element("td", { class: "how" }, p.own ? element("div", {}, `own light: (${triple(p.own)})`) : "does not hold the sample point", ...lights)
       );
-      this.rows.set(p, row);
-      return row;
+      this.rows.set(p, row2);
+      return row2;
     });
     const heads = ["piece", "of the pixel", "adds to the sample point"];
     return scrolling("Pieces of the pixel", element(
@@ -143,7 +143,7 @@ var BeamPieces = class {
     chain.forEach((p) => svg.append(path(p.outline, `chosen ${p.kind}`)));
     for (const light of this.chosen?.lights ?? []) if (light.outline) svg.append(path(light.outline, "lit"));
     svg.append(element("svg:rect", { class: "here", x, y, width: 1, height: 1 }));
-    for (const [p, row] of this.rows) row.classList.toggle("selected", p === this.chosen);
+    for (const [p, row2] of this.rows) row2.classList.toggle("selected", p === this.chosen);
   }
 };
 
@@ -265,14 +265,85 @@ function patchFigure(p) {
   ));
 }
 
+// src/alhazen/explain/page/path_steps.ts
+var STEPS = {
+  scattered: "scattered, in a direction drawn at random",
+  mirrored: "goes on in the one direction of a mirror or of smooth glass",
+  straight: "goes straight on",
+  escaped: "leaves the scene",
+  deepest: "ends: no more scatterings are asked for",
+  absorbed: "ends: no light goes on",
+  roulette: "ends by chance: it carries little"
+};
+var isBlack = (c) => c.every((x) => x === 0);
+function pathSteps(root, data, path, view) {
+  const lines = linesOf(path), shown = element("input", { type: "checkbox", checked: true, change: () => draw() });
+  const draw = () => {
+    view.lines = shown.checked ? lines : [];
+    view.draw();
+  };
+  root.append(
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is what of the light at the end of a ray would reach the pixel. The light of all rows adds up to the sample.`),
+    scrolling("The path", element(
+      "table",
+      {},
+      headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+      element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
+      element("tfoot", {}, element(
+        "tr",
+        {},
+        element("th", { scope: "row", colspan: 5 }, "sum"),
+        element("td", {}, `(${triple(path.radiance)})`),
+        element("td", {}, swatch(path.radiance))
+      ))
+    )),
+    element("label", {}, shown, " draw it in space above")
+  );
+  draw();
+}
+function row(v, i) {
+  const met = v.t === null ? "meets nothing" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it` : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
+  const light = !v.light ? "none is asked" : isBlack(v.light.arrived) ? `blocked: (${triple(v.light.offered)})` : `(${triple(v.light.arrived)})`;
+  const here = add(v.found, v.light?.arrived ?? [0, 0, 0]);
+  return element(
+    "tr",
+    { class: "vertex" },
+    element("th", { scope: "row", class: v.kind }, String(i + 1)),
+    element("td", { class: "how" }, met),
+    element("td", {}, `(${triple(v.throughput)})`),
+    element("td", {}, isBlack(v.found) ? "no light" : `(${triple(v.found)})`),
+    element("td", {}, light),
+    element("td", { class: "how" }, STEPS[v.step]),
+    element("td", {}, swatch(here))
+  );
+}
+function linesOf(path) {
+  const list = [];
+  const reach = Math.max(1e-9, ...path.vertices.map((v) => v.t === null ? 0 : v.t * norm(v.direction)));
+  for (const v of path.vertices) {
+    const end = v.t === null ? add(v.origin, scaled(0.5 * reach, unit(v.direction))) : along(v, v.t);
+    list.push({ from: v.origin, to: end, color: "cell", width: 4, dash: v.t === null ? [10, 5] : [] });
+    if (!v.light) continue;
+    const far = v.light.t === null ? 0.5 * reach / norm(v.light.direction) : v.light.t;
+    list.push({
+      from: v.light.origin,
+      to: along(v.light, far),
+      color: isBlack(v.light.arrived) ? "shadow" : "cell",
+      width: 1.3,
+      dash: [3, 4]
+    });
+  }
+  return list;
+}
+
 // src/alhazen/explain/page/polynomial_plot.ts
 function polynomialPlots(root, data) {
   for (const p of data.polynomials) root.append(polynomialPlot(p));
 }
 function bernsteinValue(b, u) {
-  const row = [...b];
-  for (let n = row.length - 1; n > 0; --n) for (let i = 0; i < n; ++i) row[i] = (1 - u) * row[i] + u * row[i + 1];
-  return row[0];
+  const row2 = [...b];
+  for (let n = row2.length - 1; n > 0; --n) for (let i = 0; i < n; ++i) row2[i] = (1 - u) * row2[i] + u * row2[i + 1];
+  return row2[0];
 }
 function polynomialPlot(p) {
   const w = 360, h = 170, n = p.degree, count = 160;
@@ -401,7 +472,7 @@ var RayOutline = class {
   }
   equation(s) {
     const rows = [];
-    const row = (name, how, value, light) => {
+    const row2 = (name, how, value, light) => {
       const head = element("th", { scope: "row" }, name);
       const line = element(
         "tr",
@@ -417,15 +488,15 @@ var RayOutline = class {
       }
       rows.push(line);
     };
-    row("emission", "ke", s.emission);
+    row2("emission", "ke", s.emission);
     if (!s.unlit) {
       for (const a of s.ambient) {
-        row(`ambient, ${a.light}`, `ka (${triple(s.ambient_factor)}) \xD7 Ia (${triple(a.intensity)})`, a.value);
+        row2(`ambient, ${a.light}`, `ka (${triple(s.ambient_factor)}) \xD7 Ia (${triple(a.intensity)})`, a.value);
       }
-      for (const light of s.lights) row(light.light, this.lightText(light), light.value, light);
-      this.onward("reflected", "kr", s.reflected, row);
-      this.onward("refracted", "kt", s.refracted, row);
-      if (s.filter) row("medium", `all of it \xD7 (${triple(s.filter)}): what the medium lets through`, null);
+      for (const light of s.lights) row2(light.light, this.lightText(light), light.value, light);
+      this.onward("reflected", "kr", s.reflected, row2);
+      this.onward("refracted", "kt", s.refracted, row2);
+      if (s.filter) row2("medium", `all of it \xD7 (${triple(s.filter)}): what the medium lets through`, null);
     }
     return scrolling(`Shading of ${s.object}`, element(
       "table",
@@ -447,14 +518,14 @@ var RayOutline = class {
     const through = !light.cast ? "no shadow rays are cast" : isShadow(light) && light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}` : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";
     return `${through}; I (${triple(light.intensity)}) \xD7 [kd (N\xB7L) (${triple(light.diffuse)}) + ks highlight (${triple(light.highlight)})], N\xB7L = ${number(light.cosine)}`;
   }
-  onward(name, factor, term, row) {
+  onward(name, factor, term, row2) {
     if (!term) return;
-    if (term.ray && term.factor) row(
+    if (term.ray && term.factor) row2(
       name,
       `${factor} (${triple(term.factor)}) \xD7 ray ${term.ray.id} (${triple(term.ray.radiance)})`,
       term.value
     );
-    else if (term.reason !== "no_coefficient") row(name, `not sent: ${REASONS[term.reason]}`, null);
+    else if (term.reason !== "no_coefficient") row2(name, `not sent: ${REASONS[term.reason]}`, null);
   }
 };
 
@@ -481,6 +552,7 @@ var SceneView = class {
   showSteps = true;
   showShadows = true;
   cones = [];
+  lines = [];
   eye;
   axes;
   up;
@@ -554,6 +626,7 @@ var SceneView = class {
     for (const cone of this.cones) this.drawCone(cone);
     for (const ray of this.rays) if (ray !== this.selected) this.drawRay(ray);
     if (this.selected) this.drawRay(this.selected);
+    for (const l of this.lines) this.line(l.from, l.to, { color: this.color(l.color), width: l.width, dash: l.dash, arrow: true });
     this.drawLabels();
   }
   color(name) {
@@ -1020,7 +1093,7 @@ function showExplanation(root, data, picture) {
     ...children
   );
   const tree = element("div", { class: "outline" });
-  const cones = element("div"), beams = element("div"), patches = element("div", { class: "plots" });
+  const cones = element("div"), beams = element("div"), path = element("div"), patches = element("div", { class: "plots" });
   const spans = element("div"), plots = element("div", { class: "plots" }), steps = element("div");
   root.replaceChildren(
     header(data, picture),
@@ -1042,6 +1115,7 @@ function showExplanation(root, data, picture) {
     ),
     data.cones ? section("cones", "Cones and what covers them", cones) : "",
     data.beams ? section("beams", "Pieces of the beams", beams) : "",
+    data.path ? section("path", "One path of the picture", path) : "",
     section("spans", "Inside which solids the eye ray is", spans),
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
@@ -1055,6 +1129,7 @@ function showExplanation(root, data, picture) {
   patchParts(patches, data);
   if (data.cones) new ConeTree(cones, data.cones, view);
   if (data.beams) beamPieces(beams, data, data.beams);
+  if (data.path) pathSteps(path, data, data.path, view);
   if (data.traversal) new TraversalSteps(steps, data.traversal, view);
   select(rays[0], false);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());
@@ -1072,7 +1147,8 @@ function header(data, picture) {
     "div",
     {},
     element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
-    element("p", { class: "soft" }, facts.join(" \xB7 "))
+    element("p", { class: "soft" }, facts.join(" \xB7 ")),
+    otherRenderer(data)
   ));
   if (picture) {
     const image = element("img", { src: picture, alt: `The scene; the pixel is marked` });
@@ -1082,6 +1158,10 @@ function header(data, picture) {
     head.append(element("div", { class: "preview" }, image, mark));
   }
   return head;
+}
+function otherRenderer({ renderer, draws_at_random, path }) {
+  if (renderer === "whitted") return null;
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {
@@ -1190,6 +1270,66 @@ var ViewCamera = class _ViewCamera {
   }
 };
 
+// apps/viewer/page/lights.ts
+var LightList = class {
+  constructor(changed) {
+    this.changed = changed;
+  }
+  summary = element("summary");
+  list = element("div", { class: "lights" });
+  element = element("details", { id: "lights" }, this.summary, this.list);
+  dark = /* @__PURE__ */ new Set();
+  // names; of lights that the scene no longer has, too
+  boxes = [];
+  /** Names of those that are off. */
+  off() {
+    return this.boxes.filter((b) => !b.checked).map((b) => b.name);
+  }
+  setOff(names) {
+    this.dark.clear();
+    for (const name of names) this.dark.add(name);
+    for (const box of this.boxes) box.checked = !this.dark.has(box.name);
+    this.count();
+  }
+  focused() {
+    return this.boxes.find((b) => b === document.activeElement)?.name;
+  }
+  focus(name) {
+    this.boxes.find((b) => b.name === name)?.focus();
+  }
+  /** What was turned off stays off where it still is. */
+  fill(lights) {
+    this.boxes = lights.map((light) => element("input", {
+      type: "checkbox",
+      name: light.name,
+      checked: !this.dark.has(light.name),
+      change: () => this.turned()
+    }));
+    const all = (text, on) => element("button", { type: "button", click: () => {
+      for (const box of this.boxes) box.checked = on;
+      this.turned();
+    } }, text);
+    this.list.replaceChildren(
+      ...lights.map((light, i) => element("label", { title: light.what ?? "" }, this.boxes[i], element("span", {}, light.name))),
+      ...lights.length > 1 ? [element("div", { class: "row" }, all("All on", true), all("All off", false))] : []
+    );
+    this.element.hidden = lights.length === 0;
+    this.count();
+  }
+  turned() {
+    for (const box of this.boxes) {
+      if (box.checked) this.dark.delete(box.name);
+      else this.dark.add(box.name);
+    }
+    this.count();
+    this.changed();
+  }
+  count() {
+    const on = this.boxes.filter((b) => b.checked).length;
+    this.summary.textContent = `lights: ${on === this.boxes.length ? "all" : on} of ${this.boxes.length} on`;
+  }
+};
+
 // apps/viewer/page/controls.ts
 var MOVING = [
   { name: "steady", what: "the same renderer, 20 pictures a second: fewer pixels, then fewer generations of rays; shades between rays where they agree" },
@@ -1197,47 +1337,111 @@ var MOVING = [
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
 var Controls = class {
+  /** `changed` has what was chosen before, too. */
   constructor(changed) {
     this.changed = changed;
   }
   form = element("form", { class: "controls", "aria-label": "Settings", submit: (e) => e.preventDefault() });
+  lights = new LightList(() => this.tell("lights"));
   fields = /* @__PURE__ */ new Map();
+  usual = /* @__PURE__ */ new Map();
+  wishes = /* @__PURE__ */ new Set();
+  // numbers that were chosen; others are the usual ones
+  last;
   get(key) {
     return this.fields.get(key)?.value ?? "";
   }
   number(key) {
     return Number(this.fields.get(key)?.value);
   }
+  /** Undefined where nothing was chosen. */
+  wished(key) {
+    return this.wishes.has(key) ? this.number(key) : void 0;
+  }
+  /** What it is where nothing is chosen. */
+  setUsual(key, value) {
+    this.usual.set(key, value);
+    if (!this.wishes.has(key)) this.set(key, String(value));
+  }
   set(key, value) {
     const field = this.fields.get(key);
     if (field) field.value = value;
+    this.last = this.settings();
   }
   /** As a person would. */
   choose(key, value) {
-    this.set(key, value);
-    this.fields.get(key)?.dispatchEvent(new Event("change"));
+    const field = this.fields.get(key);
+    if (field) field.value = value;
+    field?.dispatchEvent(new Event("change"));
+  }
+  /** A menu that has no effect. */
+  disable(key, off, why) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    field.disabled = off;
+    field.title = off ? why : "";
+  }
+  settings() {
+    const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
+    return { values, wishes: new Set(this.wishes), off: this.lights.off() };
+  }
+  /** What the scene no longer has stays as it is. */
+  restore({ values, wishes, off }) {
+    for (const [key, field] of this.fields) {
+      const now = field.value;
+      field.value = values.get(key) ?? now;
+      if (field instanceof HTMLSelectElement && field.selectedIndex < 0) field.value = now;
+    }
+    this.wishes.clear();
+    for (const key of wishes) this.wishes.add(key);
+    this.lights.setOff(off);
+    this.last = this.settings();
+  }
+  tell(key) {
+    const before = this.last;
+    this.last = this.settings();
+    this.changed(key, before ?? this.last);
   }
   options(key) {
     const field = this.fields.get(key);
     return field instanceof HTMLSelectElement ? [...field.options].map((o) => o.text) : [];
   }
+  // A field that was emptied is as usual again.
+  typed(key) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    if (field.value) this.wishes.add(key);
+    else {
+      this.wishes.delete(key);
+      field.value = String(this.usual.get(key));
+    }
+    this.tell(key);
+  }
   /** What was chosen stays where it still is. */
   fill(scene) {
     const focus = [...this.fields].find(([, field2]) => field2 === document.activeElement)?.[0];
+    const light = this.lights.focused();
     const chosen = new Map([...this.fields].map(([key, field2]) => [key, field2.value]));
     this.form.replaceChildren();
     const add2 = (key, label, field2, value) => {
-      field2.value = chosen.get(key) ?? value;
+      const kept = field2 instanceof HTMLSelectElement || this.wishes.has(key);
+      field2.value = (kept ? chosen.get(key) : void 0) ?? value;
       if (field2 instanceof HTMLSelectElement && field2.selectedIndex < 0) field2.value = value;
       if (field2 instanceof HTMLSelectElement && field2.selectedIndex < 0) field2.selectedIndex = 0;
       this.fields.set(key, field2);
       this.form.append(element("label", {}, label, field2));
     };
-    const menu = (key, label, entries, value) => add2(key, label, element("select", { name: key, change: () => this.changed(key) }, ...entries.map((e) => element("option", { value: e.value ?? e.name, title: e.what }, e.name))), value);
-    const field = (key, label, value, min, max, step = 1) => add2(key, label, element("input", { name: key, type: "number", min, max, step, change: () => this.changed(key) }), String(value));
+    const menu = (key, label, entries, value) => add2(key, label, element("select", { name: key, change: () => this.tell(key) }, ...entries.map((e) => element("option", { value: e.value ?? e.name, title: e.what }, e.name))), value);
+    const field = (key, label, value, min, max, step = 1) => {
+      this.usual.set(key, value);
+      add2(key, label, element("input", { name: key, type: "number", min, max, step, change: () => this.typed(key) }), String(value));
+    };
     menu("camera", "camera", scene.cameras.map((c, i) => ({ name: c.name || `camera ${i + 1}`, value: String(i) })), "0");
     menu("renderer", "renderer", scene.renderers, "whitted");
     menu("accelerator", "accelerator", scene.accelerators, scene.accelerator);
+    this.lights.fill(scene.lights);
+    this.form.append(this.lights.element);
+    menu("environment", "environment", [{ name: "of the scene", value: "" }, ...scene.environments], "");
     menu("layer", "layer", [{ name: "colours", value: "", what: "the picture" }, ...scene.layers], "");
     menu("moving", "moving", MOVING, "steady");
     field("samples", "samples", 4, 1, 1024);
@@ -1246,6 +1450,8 @@ var Controls = class {
     menu("curve", "tone curve", scene.curves.map((name) => ({ name })), "none");
     menu("steps", "steps of", scene.steps.split(", ").map((name) => ({ name })), "kay_kajiya");
     if (focus) this.fields.get(focus)?.focus();
+    if (light) this.lights.focus(light);
+    this.last = this.settings();
   }
 };
 
@@ -1415,11 +1621,14 @@ function statusText(shown, full, depth, memory) {
     parts.splice(1, 1, [`moving, ${moving.rate.toFixed(0)} pictures/s`, ...less.filter((t) => t)].join(", "));
   }
   parts.push(
-    `${(1e3 * facts.seconds).toFixed(1)} ms, ${shown.way.toFixed(0)} ms with the way here`,
+    `${timeText(1e3 * facts.seconds)}, ${timeText(shown.way)} with the way here`,
     `${(facts.rays / facts.seconds / 1e6).toFixed(2)} M rays/s on ${facts.threads} threads`,
     `${(memory / 1048576).toFixed(0)} MiB`
   );
   return parts.join(" \xB7 ");
+}
+function timeText(ms) {
+  return ms < 1e3 ? `${ms.toFixed(ms < 100 ? 1 : 0)} ms` : `${(ms / 1e3).toFixed(ms < 1e4 ? 2 : 1)} s`;
 }
 function drawScale(place, layer, scales) {
   place.hidden = !layer;
@@ -1473,6 +1682,7 @@ function clamped(x, lo, hi) {
 var WIDEST = 4096;
 var MOST_RAW = 15e5;
 var STOPPED = "Reading the file was ended.";
+var NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
   // What tests look at, too.
@@ -1485,7 +1695,7 @@ var Viewer = class {
     "aria-describedby": "help"
   });
   scale = element("div", { class: "scale", hidden: true });
-  controls = new Controls((key) => this.chosen(key));
+  controls = new Controls((key, before) => this.chosen(key, before));
   scene;
   camera;
   frames = 0;
@@ -1512,6 +1722,8 @@ var Viewer = class {
   explaining;
   halted = false;
   // by Stop, until something changes
+  described = "";
+  // of the picture that is shown
   shownAt = 0;
   movingShown = [];
   // times
@@ -1580,7 +1792,7 @@ var Viewer = class {
     const scene = this.scene = { ...known, ...state };
     if (!known) {
       document.title = `${scene.scene} \u2013 Alhazen`;
-      this.controls.fill(scene);
+      this.fill(scene);
       this.see(scene.cameras[0]);
     } else if (known.version !== scene.version) {
       this.refill(known, scene);
@@ -1592,19 +1804,30 @@ var Viewer = class {
     const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
     const same = scene.cameras.findIndex((c) => c.name === old.name);
     const index = same >= 0 ? same : Math.min(chosen, scene.cameras.length - 1);
-    const follows = this.controls.number("depth") === before.depth;
-    this.controls.fill(scene);
-    if (follows) this.controls.set("depth", String(scene.depth));
+    this.fill(scene);
     this.controls.set("camera", String(index));
     if (this.camera?.isAt(old)) this.see(scene.cameras[index]);
+  }
+  fill(scene) {
+    this.controls.fill(scene);
+    this.fitRenderer(scene);
+  }
+  // Renderers that follow paths have a depth of their own where nothing is chosen; others than those that follow light see
+  // no environment but the background.
+  fitRenderer(scene) {
+    const renderer = this.renders(this.controls.get("renderer"));
+    this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
+    this.controls.disable("environment", !renderer?.follows_light, NO_ENVIRONMENT);
   }
   see(camera) {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
     this.changed();
   }
-  chosen(key) {
-    if (["renderer", "accelerator", "layer", "moving"].includes(key)) this.pace.forget();
-    if (key === "camera") this.goHome();
+  chosen(key, before) {
+    this.remember(before);
+    if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
+    if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
+    if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
   // ---- what is asked for
@@ -1623,10 +1846,12 @@ var Viewer = class {
       renderer: controls.get("renderer"),
       accelerator: controls.get("accelerator"),
       layer: controls.get("layer"),
-      depth: controls.number("depth"),
+      depth: controls.wished("depth"),
       exposure: controls.number("exposure"),
       curve: controls.get("curve"),
-      samples: 1
+      samples: 1,
+      environment: controls.get("environment"),
+      lights_off: controls.lights.off()
     };
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
@@ -1637,8 +1862,8 @@ var Viewer = class {
     return { full: this.full(), depth: this.controls.number("depth"), deepens: this.selects() };
   }
   movingWish(camera) {
-    const { width, depth } = this.pace.next(this.limits()), wish = { ...this.wish(camera, width), depth };
-    if (this.selects()) return { ...wish, selected: true };
+    const { width, depth } = this.pace.next(this.limits()), wish = this.wish(camera, width);
+    if (this.selects()) return { ...wish, depth, selected: true };
     if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
     return { ...wish, renderer: "ray_casting" };
   }
@@ -1656,7 +1881,10 @@ var Viewer = class {
     ++this.generation;
     this.level = 0;
     this.halted = false;
-    if (this.explaining) this.explaining = this.held = void 0;
+    if (this.explaining) {
+      this.explaining = this.held = void 0;
+      this.status.textContent = this.described;
+    }
     this.request();
   }
   request() {
@@ -1709,7 +1937,7 @@ var Viewer = class {
     ++this.frames;
   }
   describe(asked, facts) {
-    const now = performance.now(), scene = this.scene, moving = asked.level === 0;
+    const now = performance.now(), scene = this.scene, moving = asked.level === 0, deepest = this.controls.number("depth");
     if (moving) {
       const busy = asked.begin < this.shownAt;
       this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, this.limits());
@@ -1718,16 +1946,16 @@ var Viewer = class {
     this.shownAt = now;
     const span = now - this.movingShown[0], rate = span > 0 ? 1e3 * (this.movingShown.length - 1) / span : 0;
     drawScale(this.scale, facts.layer, scene.scales);
-    this.status.textContent = statusText(
+    this.status.textContent = this.described = statusText(
       {
         facts,
         samples: asked.wish.samples,
         selected: !!asked.wish.selected,
         way: now - asked.begin,
-        moving: moving ? { depth: asked.wish.depth, rate } : null
+        moving: moving ? { depth: asked.wish.depth ?? deepest, rate } : null
       },
       this.full(),
-      this.controls.number("depth"),
+      deepest,
       scene.memory
     );
   }
@@ -1740,16 +1968,22 @@ var Viewer = class {
   }
   goHome() {
     this.remember();
+    this.seeChosen();
+  }
+  seeChosen() {
     if (this.scene) this.see(this.scene.cameras[Number(this.controls.get("camera"))]);
   }
-  remember() {
-    if (this.camera) this.undone.push(this.camera.copy());
+  remember(settings = this.controls.settings()) {
+    if (this.camera) this.undone.push({ camera: this.camera.copy(), settings });
     if (this.undone.length > 100) this.undone.shift();
   }
   undo() {
-    const camera = this.undone.pop();
-    if (!camera) return;
-    this.camera = camera;
+    const before = this.undone.pop();
+    if (!before || !this.scene) return;
+    this.camera = before.camera;
+    this.controls.restore(before.settings);
+    this.fitRenderer(this.scene);
+    this.pace.forget();
     this.changed();
   }
   // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.
@@ -1760,6 +1994,7 @@ var Viewer = class {
     if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
     void this.ask("/stop");
     this.messages.say("explain", "");
+    this.status.textContent = this.described;
   }
   // Nothing is asked for until the work is done.
   async hold(work) {
@@ -1794,6 +2029,7 @@ var Viewer = class {
       const answer = await this.ask("/explain", { ...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps") });
       if (this.explaining !== own) return;
       this.explaining = void 0;
+      this.status.textContent = this.described;
       if (!answer || answer.status === 204) return;
       const data = await answer.json();
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");

@@ -172,6 +172,26 @@ export interface Beams {
   pieces: BeamPiece[];
 }
 
+/** A ray of a path, and what happened at its end; colours are in the pixel. */
+export interface PathVertex {
+  kind: Exclude<RayKind, "shadow">;
+  origin: Vec3;
+  direction: Vec3;
+  t: number | null;
+  throughput: Vec3;
+  found: Vec3;
+  step: "scattered" | "mirrored" | "straight" | "escaped" | "deepest" | "absorbed" | "roulette";
+  in_volume?: boolean;
+  object?: string;
+  material?: string;
+  normal?: Vec3;
+  light?: {origin: Vec3; direction: Vec3; t: number | null; offered: Vec3; arrived: Vec3};
+}
+export interface PathData {
+  radiance: Vec3;
+  vertices: PathVertex[];
+}
+
 export interface PatchSubdivision {
   shape: string;
   object: string;
@@ -187,6 +207,8 @@ export type ScenePoint = [number, number, number, number, number, number];
 
 export interface Explanation {
   scene: string;
+  renderer: string;          // of the picture
+  draws_at_random: boolean;  // it does
   width: number;
   height: number;
   x: number;
@@ -205,6 +227,7 @@ export interface Explanation {
   patches: PatchSubdivision[];
   cones?: Cones | Unavailable;
   beams?: Beams | Unavailable;
+  path?: PathData;
   traversal?: Traversal;
   points: ScenePoint[];
 }

@@ -208,6 +208,8 @@ std::string explanation_json(const Explanation& e, int indent) {
     json out{{"format", "alhazen explanation 1"},
              {"scene", e.scene},
              {"camera", e.camera},
+             {"renderer", e.renderer},
+             {"draws_at_random", e.draws_at_random},
              {"width", e.width},
              {"height", e.height},
              {"x", e.x},
@@ -237,6 +239,7 @@ std::string explanation_json(const Explanation& e, int indent) {
     out["patches"] = patches_json(e.patches);
     if (e.cones) out["cones"] = cones_json(*e.cones);
     if (e.beams) out["beams"] = beams_json(*e.beams, e.light_names);
+    if (e.path) out["path"] = path_json(*e.path, e.part_names, e.material_names);
     if (!e.traversal.accelerator.empty()) out["traversal"] = traversal_json(e);
     out["points"] = points_json(e.points);
     return out.dump(indent, ' ', true, json::error_handler_t::replace);

@@ -6,6 +6,7 @@ import {beamPieces} from "./beam_pieces";
 import {ConeTree} from "./cone_tree";
 import type {Explanation, RayKind} from "./explanation_data";
 import {patchParts} from "./patch_parts";
+import {pathSteps} from "./path_steps";
 import {polynomialPlots} from "./polynomial_plot";
 import {RayOutline, raysOf} from "./ray_outline";
 import type {AnyRay} from "./ray_outline";
@@ -25,7 +26,7 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
   const section = (id: string, title: string, ...children: Child[]) => element("section", {id, "aria-labelledby": `${id}-title`},
     element("h2", {id: `${id}-title`}, title), ...children);
   const tree = element("div", {class: "outline"});
-  const cones = element("div"), beams = element("div"), patches = element("div", {class: "plots"});
+  const cones = element("div"), beams = element("div"), path = element("div"), patches = element("div", {class: "plots"});
   const spans = element("div"), plots = element("div", {class: "plots"}), steps = element("div");
   root.replaceChildren(
     header(data, picture),
@@ -38,6 +39,7 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
           "many rays to be shown. All colours here are those of a picture of that depth."), tree)),
     data.cones ? section("cones", "Cones and what covers them", cones) : "",
     data.beams ? section("beams", "Pieces of the beams", beams) : "",
+    data.path ? section("path", "One path of the picture", path) : "",
     section("spans", "Inside which solids the eye ray is", spans),
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
@@ -50,6 +52,7 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
   patchParts(patches, data);
   if (data.cones) new ConeTree(cones, data.cones, view);
   if (data.beams) beamPieces(beams, data, data.beams);
+  if (data.path) pathSteps(path, data, data.path, view);
   if (data.traversal) new TraversalSteps(steps, data.traversal, view);
   select(rays[0], false);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());
@@ -62,7 +65,7 @@ function header(data: Explanation, picture: string | null) {
     ...Object.entries(data.rays).filter(([, n]) => n).map(([kind, n]) => `${n} ${kind}`)];
   const head = element("header", {}, element("div", {},
     element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
-    element("p", {class: "soft"}, facts.join(" \u00b7 "))));
+    element("p", {class: "soft"}, facts.join(" \u00b7 ")), otherRenderer(data)));
   if (picture) {
     const image = element("img", {src: picture, alt: `The scene; the pixel is marked`});
     const mark = element("span", {class: "mark", "aria-hidden": "true"});
@@ -71,6 +74,15 @@ function header(data: Explanation, picture: string | null) {
     head.append(element("div", {class: "preview"}, image, mark));
   }
   return head;
+}
+// The tree is that of whitted, whoever made the picture.
+function otherRenderer({renderer, draws_at_random, path}: Explanation) {
+  if (renderer === "whitted") return null;
+  return element("p", {class: "cut", id: "other"}, draws_at_random
+    ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends ` +
+      "for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one." +
+      (path ? " One path of the picture follows below the tree." : "")
+    : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
 }
 function legend(data: Explanation, view: () => SceneView) {
   const shadows = element("input", {type: "checkbox", checked: true, change: () => {

@@ -114,4 +114,33 @@ json beams_json(const BeamExplanation& beams, const std::vector<std::string>& li
             {"pieces", std::move(parts)}};
 }
 
+json path_json(const PathRecord& path, const std::vector<std::string>& part_names,
+               const std::vector<std::string>& material_names) {
+    json vertices = json::array();
+    for (const RecordedVertex& v : path.vertices) {
+        json out{{"kind", kRayKindNames[static_cast<std::size_t>(v.kind)]},
+                 {"origin", to_json(v.ray.origin)},
+                 {"direction", to_json(v.ray.direction)},
+                 {"t", v.t},
+                 {"throughput", to_json(v.throughput)},
+                 {"found", to_json(v.found)},
+                 {"step", kPathStepNames[static_cast<std::size_t>(v.step)]}};
+        if (std::isfinite(v.t)) {
+            out["in_volume"] = v.in_volume;
+            out["object"] = part_names[v.part];
+            out["material"] = material_names[v.material];
+            out["normal"] = to_json(v.normal);
+        }
+        if (v.asked_light) {
+            out["light"] = {{"origin", to_json(v.shadow.origin)},
+                            {"direction", to_json(v.shadow.direction)},
+                            {"t", v.shadow.t_max},
+                            {"offered", to_json(v.offered)},
+                            {"arrived", to_json(v.arrived)}};
+        }
+        vertices.push_back(std::move(out));
+    }
+    return {{"radiance", to_json(path.radiance)}, {"vertices", std::move(vertices)}};
+}
+
 }  // namespace alhazen

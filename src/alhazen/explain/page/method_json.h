@@ -1,5 +1,6 @@
 #pragma once
-/// Cones, beams and patches of an explanation as JSON (docs/guide/explain.md lists the fields).
+/// Cones, beams, patches and paths of an explanation as JSON (docs/guide/explain.md lists the
+/// fields).
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "alhazen/explain/beams/beam_explanation.h"
 #include "alhazen/explain/cones/cone_explanation.h"
 #include "alhazen/explain/patches/patch_subdivision.h"
+#include "alhazen/renderers/core/path_record.h"
 
 namespace alhazen {
 
@@ -28,5 +30,9 @@ inline double rounded(double x) {
 /// `lights`: [light] name.
 [[nodiscard]] nlohmann::ordered_json beams_json(const BeamExplanation& beams,
                                                 const std::vector<std::string>& lights);
+/// `part_names`, `material_names`: those of the Explanation.
+[[nodiscard]] nlohmann::ordered_json path_json(const PathRecord& path,
+                                               const std::vector<std::string>& part_names,
+                                               const std::vector<std::string>& material_names);
 
 }  // namespace alhazen

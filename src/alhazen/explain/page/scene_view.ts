@@ -16,12 +16,22 @@ interface Stroke {
   alpha?: number;
 }
 
+/** A line with a colour of the page's. */
+export interface DrawnLine {
+  from: Vec3;
+  to: Vec3;
+  color: string;
+  width: number;
+  dash: number[];
+}
+
 export class SceneView {
   selected: AnyRay | null = null;
   step = -1;
   showSteps = true;
   showShadows = true;
   cones: Cone[] = [];
+  lines: DrawnLine[] = [];
   private readonly eye: Vec3;
   private readonly axes: {right: Vec3; up: Vec3};
   private readonly up: Vec3;
@@ -112,6 +122,7 @@ export class SceneView {
     for (const cone of this.cones) this.drawCone(cone);
     for (const ray of this.rays) if (ray !== this.selected) this.drawRay(ray);
     if (this.selected) this.drawRay(this.selected);
+    for (const l of this.lines) this.line(l.from, l.to, {color: this.color(l.color), width: l.width, dash: l.dash, arrow: true});
     this.drawLabels();
   }
   private color(name: string) {

@@ -31,6 +31,7 @@ struct RenderControl {
 struct AntialiasReport;
 struct AntialiasSettings;
 struct BeamReport;
+struct PathRecord;
 struct PhotonCloud;
 struct SampleRound;
 struct SamplingPlan;
@@ -60,6 +61,7 @@ struct RenderJob {
     const SampleRound* round = nullptr;  ///< of `sampling`, while it is rendered (rounds.h)
     bool spectral = false;               ///< light by wavelengths, not by channels of colour
     PhotonCloud* photons = nullptr;      ///< filled by renderers that have some; may be null
+    PathRecord* path = nullptr;          ///< filled by `path_tracing`; may be null
     RenderControl control{};
 
     [[nodiscard]] bool stop_requested() const {

@@ -51,6 +51,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         }
     }
     light_.assign(rays.size(), {});
+    begin_record();
     if (layers_ != nullptr) parts_.assign(rays.size(), {});
     for (bool first = true; !paths_.empty(); first = false) {
         if (job_.stop_requested()) return;
@@ -59,8 +60,53 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Wavelengths& waves = chance_.is_spectral() ? waves_[i] : kColorChannels;
         radiance[i] = waves.color(light_[i]);
+        if (i == recorded_) job_.path->radiance = radiance[i];
         if (layers_ != nullptr) layers_->add(ids[i], parts_[i], waves, radiance[i]);
     }
+}
+
+void PathTracer::begin_record() {
+    recorded_ = kNoSample;
+    // Chains of mirrors and the polarised light of a path are not told.
+    if (job_.path == nullptr || joins_apart() || manifold_ != nullptr) return;
+    for (std::uint32_t i = 0; i < ids_.size(); ++i) {
+        if (ids_[i].number == job_.path->sample) recorded_ = i;
+    }
+    if (recorded_ != kNoSample) job_.path->vertices.clear();
+}
+
+void PathTracer::record_ray(const EyePath& path, const Ray& ray, const ShadingPoint* point,
+                            double t) {
+    RecordedVertex vertex;
+    vertex.kind = path.kind;
+    vertex.ray = ray;
+    vertex.throughput = waves(path).color(path.throughput);
+    if (point == nullptr) {
+        vertex.step = PathStep::Escaped;
+    } else {
+        vertex.t = t;
+        vertex.normal = point->surface.shading_normal;
+        vertex.part = point->surface.part;
+        vertex.material = static_cast<std::uint32_t>(point->surface.materials[0]);
+    }
+    job_.path->vertices.push_back(vertex);
+    recorded_arrival_ = {};
+}
+
+Spectrum* PathTracer::record_shadow(const EyePath& path, const Ray& shadow, const Spectrum& light) {
+    RecordedVertex* const vertex = recorded(path);
+    if (vertex == nullptr) return nullptr;
+    vertex->asked_light = true;
+    vertex->shadow = shadow;
+    vertex->offered = waves(path).color(light);
+    return &recorded_arrival_;
+}
+
+void PathTracer::record_arrival() {
+    const Wavelengths& waves = chance_.is_spectral() ? waves_[recorded_] : kColorChannels;
+    light_[recorded_] += recorded_arrival_;
+    job_.path->vertices.back().arrived += waves.color(recorded_arrival_);
+    recorded_arrival_ = {};
 }
 
 void PathTracer::bounce(bool first) {
@@ -76,6 +122,7 @@ void PathTracer::bounce(bool first) {
         [&](std::size_t k, const ShadingPoint* point, double t) {
             EyePath& path = paths_[k];
             Spectrum& sum = light_[path.sample];
+            if (path.sample == recorded_) record_ray(path, rays_[k], point, t);
             if (point == nullptr) {
                 constexpr double kEndless = std::numeric_limits<double>::infinity();
                 const Medium* const medium = path.media.here();
@@ -87,6 +134,7 @@ void PathTracer::bounce(bool first) {
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
         });
     shadows_.finish();
+    if (recorded_ != kNoSample) record_arrival();
     if (joins_apart()) add_joined();
     paths_.swap(next_paths_);
     rays_.swap(next_rays_);
@@ -98,6 +146,7 @@ void PathTracer::add(const EyePath& path, const Spectrum& light, Spectrum& sum) 
                              polarized_[path.sample].arrived());
     }
     const Spectrum shown = limited(light, path.scatterings);
+    if (RecordedVertex* vertex = recorded(path)) vertex->found += waves(path).color(shown);
     if (layers_ != nullptr) parts_[path.sample].add(shown, path.scatterings, path.first);
     sum += shown;
 }
@@ -176,12 +225,16 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     path.cone = path.cone.from(t);
     if (!chance_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
         if (path.met < kMaxPassedSurfaces) {
+            record_step(path, PathStep::Straight);
             go_on(path, leaving_ray(point.surface, ray.direction));
         }
         return;
     }
     add_emission(path, ray, hit, point, sum);
-    if (point.material->unlit || path.scatterings >= settings_.depth) return;
+    if (point.material->unlit || path.scatterings >= settings_.depth) {
+        if (!point.material->unlit) record_step(path, PathStep::Deepest);
+        return;
+    }
     scatter_.set(scene_, point, path.media, waves(path));
     if (scatter_.needs_hero()) keep_hero(path);
     if (scatter_.has_density()) {
@@ -223,10 +276,13 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
-    Spectrum& to = place_of_joined(path, first_along(path, drawn.to_light), &drawn.to_light, sum);
-    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
-                 media_.extinction(medium), waves(path),
-                 limited_joined(light, path.scatterings + 1), to);
+    const Ray shadow = leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance);
+    const Spectrum shown = limited_joined(light, path.scatterings + 1);
+    Spectrum* const waiting = record_shadow(path, shadow, shown);
+    Spectrum& to = waiting != nullptr ? *waiting
+                                      : place_of_joined(path, first_along(path, drawn.to_light),
+                                                        &drawn.to_light, sum);
+    shadows_.add(shadow, path.time, media_.extinction(medium), waves(path), shown, to);
 }
 
 bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
@@ -243,6 +299,11 @@ bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ra
     path.throughput = path.throughput * step.weight;
     if (!step.scatters) return false;
     path.cone = path.cone.from(step.distance);
+    if (RecordedVertex* vertex = recorded(path)) {
+        vertex->t = step.distance;
+        vertex->in_volume = true;
+        vertex->step = PathStep::Deepest;
+    }
     if (path.scatterings < settings_.depth && path.throughput.max() > 0.0) {
         scatter_in_volume(path, medium, {ray.at(step.distance), ray.direction}, sum);
     }
@@ -262,11 +323,13 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
         double weight = phase / drawn.density;
         if (!drawn.singular) weight *= power_heuristic(drawn.density, phase);
-        Spectrum& to = place_of_joined(path, path.first, nullptr, sum);
         const Ray to_light{ray.origin, drawn.to_light, 0.0, kBeforeEnd * drawn.distance};
-        shadows_.add(
-            to_light, path.time, media_.extinction(&medium), waves(path),
-            limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1), to);
+        const Spectrum shown =
+            limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);
+        Spectrum* const waiting = record_shadow(path, to_light, shown);
+        Spectrum& to =
+            waiting != nullptr ? *waiting : place_of_joined(path, path.first, nullptr, sum);
+        shadows_.add(to_light, path.time, media_.extinction(&medium), waves(path), shown, to);
     }
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
     const Vec3 direction = sample_henyey_greenstein(ray.direction, g, u);
@@ -279,6 +342,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     path.from = at;
     path.travelled = 0.0;
     path.kind = RayKind::Refraction;
+    record_step(path, PathStep::Scattered);
     if (survives(path)) go_on(path, {ray.origin, direction});
 }
 
@@ -309,6 +373,9 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         if (drawn->singular) path.first.diffuse = {};
     }
     ++path.drawn;
+    record_step(path, drawn->straight   ? PathStep::Straight
+                      : drawn->singular ? PathStep::Mirrored
+                                        : PathStep::Scattered);
     if (drawn->straight) {
         // Shadow rays pass thin sheets, too: the densities remain those of the last scattering.
         if (++path.met > kMaxPassedSurfaces) return;
@@ -345,7 +412,10 @@ bool PathTracer::survives(EyePath& path) {
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, path.eta_scale * path.throughput.max());
     const double luck = chance_.draw(path.sample, path.drawn - 1, PathChance::kLuck).x;
-    if (!(luck < share)) return false;
+    if (!(luck < share)) {
+        record_step(path, PathStep::Roulette);
+        return false;
+    }
     path.throughput = (1.0 / share) * path.throughput;
     return true;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/core/path_record.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
@@ -63,6 +64,19 @@ class PathTracer {
     };
 
     void bounce(bool first);
+    /// The vertex of the path that is recorded (RenderJob::path); null of others.
+    [[nodiscard]] RecordedVertex* recorded(const EyePath& path) {
+        return path.sample == recorded_ ? &job_.path->vertices.back() : nullptr;
+    }
+    void begin_record();
+    void record_ray(const EyePath& path, const Ray& ray, const ShadingPoint* point, double t);
+    void record_step(const EyePath& path, PathStep step) {
+        if (RecordedVertex* vertex = recorded(path)) vertex->step = step;
+    }
+    /// Where light that a shadow ray may bring waits; null where it is not recorded.
+    [[nodiscard]] Spectrum* record_shadow(const EyePath& path, const Ray& shadow,
+                                          const Spectrum& light);
+    void record_arrival();
     /// Adds light at the end of a path to its sample.
     void add(const EyePath& path, const Spectrum& light, Spectrum& sum);
     /// Whether joined light waits apart from the sums of the samples.
@@ -133,6 +147,9 @@ class PathTracer {
     std::vector<StokesLight> joined_to_eye_;  ///< [joined]; empty unless light is polarised
     std::vector<PolarizedPath> polarized_;    ///< [sample of the batch]; the same
     std::span<const SampleId> ids_;
+    static constexpr std::uint32_t kNoSample = 0xFFFFFFFFu;
+    std::uint32_t recorded_ = kNoSample;  ///< of the batch
+    Spectrum recorded_arrival_;
     std::vector<Wavelengths> waves_;  ///< [sample of the batch]; empty: channels
     std::vector<Spectrum> light_;     ///< [sample of the batch]
     std::vector<EyePath> paths_, next_paths_;

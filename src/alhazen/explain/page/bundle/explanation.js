@@ -93,7 +93,7 @@ var BeamPieces = class {
         `${l.light}${l.through.length ? ` through ${l.through.join(", ")}` : ""}: (${triple(l.color)})`
       ));
       const button = element("button", { type: "button", class: `link ${p.kind}`, click: () => this.choose(p) }, what);
-      const row = element(
+      const row2 = element(
         "tr",
         {},
         element(
@@ -105,8 +105,8 @@ var BeamPieces = class {
         element("td", {}, `${number(100 * p.share)} %`),
         element("td", { class: "how" }, p.own ? element("div", {}, `own light: (${triple(p.own)})`) : "does not hold the sample point", ...lights)
       );
-      this.rows.set(p, row);
-      return row;
+      this.rows.set(p, row2);
+      return row2;
     });
     const heads = ["piece", "of the pixel", "adds to the sample point"];
     return scrolling("Pieces of the pixel", element(
@@ -143,7 +143,7 @@ var BeamPieces = class {
     chain.forEach((p) => svg.append(path(p.outline, `chosen ${p.kind}`)));
     for (const light of this.chosen?.lights ?? []) if (light.outline) svg.append(path(light.outline, "lit"));
     svg.append(element("svg:rect", { class: "here", x, y, width: 1, height: 1 }));
-    for (const [p, row] of this.rows) row.classList.toggle("selected", p === this.chosen);
+    for (const [p, row2] of this.rows) row2.classList.toggle("selected", p === this.chosen);
   }
 };
 
@@ -265,14 +265,85 @@ function patchFigure(p) {
   ));
 }
 
+// src/alhazen/explain/page/path_steps.ts
+var STEPS = {
+  scattered: "scattered, in a direction drawn at random",
+  mirrored: "goes on in the one direction of a mirror or of smooth glass",
+  straight: "goes straight on",
+  escaped: "leaves the scene",
+  deepest: "ends: no more scatterings are asked for",
+  absorbed: "ends: no light goes on",
+  roulette: "ends by chance: it carries little"
+};
+var isBlack = (c) => c.every((x) => x === 0);
+function pathSteps(root2, data, path, view) {
+  const lines = linesOf(path), shown = element("input", { type: "checkbox", checked: true, change: () => draw() });
+  const draw = () => {
+    view.lines = shown.checked ? lines : [];
+    view.draw();
+  };
+  root2.append(
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is what of the light at the end of a ray would reach the pixel. The light of all rows adds up to the sample.`),
+    scrolling("The path", element(
+      "table",
+      {},
+      headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+      element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
+      element("tfoot", {}, element(
+        "tr",
+        {},
+        element("th", { scope: "row", colspan: 5 }, "sum"),
+        element("td", {}, `(${triple(path.radiance)})`),
+        element("td", {}, swatch(path.radiance))
+      ))
+    )),
+    element("label", {}, shown, " draw it in space above")
+  );
+  draw();
+}
+function row(v, i) {
+  const met = v.t === null ? "meets nothing" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it` : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
+  const light = !v.light ? "none is asked" : isBlack(v.light.arrived) ? `blocked: (${triple(v.light.offered)})` : `(${triple(v.light.arrived)})`;
+  const here = add(v.found, v.light?.arrived ?? [0, 0, 0]);
+  return element(
+    "tr",
+    { class: "vertex" },
+    element("th", { scope: "row", class: v.kind }, String(i + 1)),
+    element("td", { class: "how" }, met),
+    element("td", {}, `(${triple(v.throughput)})`),
+    element("td", {}, isBlack(v.found) ? "no light" : `(${triple(v.found)})`),
+    element("td", {}, light),
+    element("td", { class: "how" }, STEPS[v.step]),
+    element("td", {}, swatch(here))
+  );
+}
+function linesOf(path) {
+  const list = [];
+  const reach = Math.max(1e-9, ...path.vertices.map((v) => v.t === null ? 0 : v.t * norm(v.direction)));
+  for (const v of path.vertices) {
+    const end = v.t === null ? add(v.origin, scaled(0.5 * reach, unit(v.direction))) : along(v, v.t);
+    list.push({ from: v.origin, to: end, color: "cell", width: 4, dash: v.t === null ? [10, 5] : [] });
+    if (!v.light) continue;
+    const far = v.light.t === null ? 0.5 * reach / norm(v.light.direction) : v.light.t;
+    list.push({
+      from: v.light.origin,
+      to: along(v.light, far),
+      color: isBlack(v.light.arrived) ? "shadow" : "cell",
+      width: 1.3,
+      dash: [3, 4]
+    });
+  }
+  return list;
+}
+
 // src/alhazen/explain/page/polynomial_plot.ts
 function polynomialPlots(root2, data) {
   for (const p of data.polynomials) root2.append(polynomialPlot(p));
 }
 function bernsteinValue(b, u) {
-  const row = [...b];
-  for (let n = row.length - 1; n > 0; --n) for (let i = 0; i < n; ++i) row[i] = (1 - u) * row[i] + u * row[i + 1];
-  return row[0];
+  const row2 = [...b];
+  for (let n = row2.length - 1; n > 0; --n) for (let i = 0; i < n; ++i) row2[i] = (1 - u) * row2[i] + u * row2[i + 1];
+  return row2[0];
 }
 function polynomialPlot(p) {
   const w = 360, h = 170, n = p.degree, count = 160;
@@ -401,7 +472,7 @@ var RayOutline = class {
   }
   equation(s) {
     const rows = [];
-    const row = (name, how, value, light) => {
+    const row2 = (name, how, value, light) => {
       const head = element("th", { scope: "row" }, name);
       const line = element(
         "tr",
@@ -417,15 +488,15 @@ var RayOutline = class {
       }
       rows.push(line);
     };
-    row("emission", "ke", s.emission);
+    row2("emission", "ke", s.emission);
     if (!s.unlit) {
       for (const a of s.ambient) {
-        row(`ambient, ${a.light}`, `ka (${triple(s.ambient_factor)}) \xD7 Ia (${triple(a.intensity)})`, a.value);
+        row2(`ambient, ${a.light}`, `ka (${triple(s.ambient_factor)}) \xD7 Ia (${triple(a.intensity)})`, a.value);
       }
-      for (const light of s.lights) row(light.light, this.lightText(light), light.value, light);
-      this.onward("reflected", "kr", s.reflected, row);
-      this.onward("refracted", "kt", s.refracted, row);
-      if (s.filter) row("medium", `all of it \xD7 (${triple(s.filter)}): what the medium lets through`, null);
+      for (const light of s.lights) row2(light.light, this.lightText(light), light.value, light);
+      this.onward("reflected", "kr", s.reflected, row2);
+      this.onward("refracted", "kt", s.refracted, row2);
+      if (s.filter) row2("medium", `all of it \xD7 (${triple(s.filter)}): what the medium lets through`, null);
     }
     return scrolling(`Shading of ${s.object}`, element(
       "table",
@@ -447,14 +518,14 @@ var RayOutline = class {
     const through = !light.cast ? "no shadow rays are cast" : isShadow(light) && light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}` : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";
     return `${through}; I (${triple(light.intensity)}) \xD7 [kd (N\xB7L) (${triple(light.diffuse)}) + ks highlight (${triple(light.highlight)})], N\xB7L = ${number(light.cosine)}`;
   }
-  onward(name, factor, term, row) {
+  onward(name, factor, term, row2) {
     if (!term) return;
-    if (term.ray && term.factor) row(
+    if (term.ray && term.factor) row2(
       name,
       `${factor} (${triple(term.factor)}) \xD7 ray ${term.ray.id} (${triple(term.ray.radiance)})`,
       term.value
     );
-    else if (term.reason !== "no_coefficient") row(name, `not sent: ${REASONS[term.reason]}`, null);
+    else if (term.reason !== "no_coefficient") row2(name, `not sent: ${REASONS[term.reason]}`, null);
   }
 };
 
@@ -481,6 +552,7 @@ var SceneView = class {
   showSteps = true;
   showShadows = true;
   cones = [];
+  lines = [];
   eye;
   axes;
   up;
@@ -554,6 +626,7 @@ var SceneView = class {
     for (const cone of this.cones) this.drawCone(cone);
     for (const ray of this.rays) if (ray !== this.selected) this.drawRay(ray);
     if (this.selected) this.drawRay(this.selected);
+    for (const l of this.lines) this.line(l.from, l.to, { color: this.color(l.color), width: l.width, dash: l.dash, arrow: true });
     this.drawLabels();
   }
   color(name) {
@@ -1020,7 +1093,7 @@ function showExplanation(root2, data, picture) {
     ...children
   );
   const tree = element("div", { class: "outline" });
-  const cones = element("div"), beams = element("div"), patches = element("div", { class: "plots" });
+  const cones = element("div"), beams = element("div"), path = element("div"), patches = element("div", { class: "plots" });
   const spans = element("div"), plots = element("div", { class: "plots" }), steps = element("div");
   root2.replaceChildren(
     header(data, picture),
@@ -1042,6 +1115,7 @@ function showExplanation(root2, data, picture) {
     ),
     data.cones ? section("cones", "Cones and what covers them", cones) : "",
     data.beams ? section("beams", "Pieces of the beams", beams) : "",
+    data.path ? section("path", "One path of the picture", path) : "",
     section("spans", "Inside which solids the eye ray is", spans),
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
@@ -1055,6 +1129,7 @@ function showExplanation(root2, data, picture) {
   patchParts(patches, data);
   if (data.cones) new ConeTree(cones, data.cones, view);
   if (data.beams) beamPieces(beams, data, data.beams);
+  if (data.path) pathSteps(path, data, data.path, view);
   if (data.traversal) new TraversalSteps(steps, data.traversal, view);
   select(rays[0], false);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());
@@ -1072,7 +1147,8 @@ function header(data, picture) {
     "div",
     {},
     element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
-    element("p", { class: "soft" }, facts.join(" \xB7 "))
+    element("p", { class: "soft" }, facts.join(" \xB7 ")),
+    otherRenderer(data)
   ));
   if (picture) {
     const image = element("img", { src: picture, alt: `The scene; the pixel is marked` });
@@ -1082,6 +1158,10 @@ function header(data, picture) {
     head.append(element("div", { class: "preview" }, image, mark));
   }
   return head;
+}
+function otherRenderer({ renderer, draws_at_random, path }) {
+  if (renderer === "whitted") return null;
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {

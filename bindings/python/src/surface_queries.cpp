@@ -1,0 +1,65 @@
+#include "surface_queries.h"
+
+#include <cmath>
+
+#include "alhazen/shapes/meshes/triangle_normal.h"
+#include "array_making.h"
+#include "interruptible.h"
+#include "ray_array.h"
+
+namespace py = pybind11;
+
+namespace alhazen::python {
+
+namespace {
+
+/// Builds on first use, without the interpreter's lock.
+const NearestTriangles& built(const BuiltScene& scene) {
+    const py::gil_scoped_release released;
+    return scene.nearest();
+}
+
+}  // namespace
+
+py::dict closest_points(const BuiltScene& scene, const py::object& points_object, int threads) {
+    const NumberArray points(points_object, {3}, "points");
+    const NearestTriangles& triangles = built(scene);
+    const PrimitiveTable& table = scene.tracer().aggregate().primitives();
+    const RealArray distance(points.single(), points.shape(), 0);
+    const RealArray nearest(points.single(), points.shape(), 3);
+    const RealArray uvs(points.single(), points.shape(), 2);
+    const RealArray normals(points.single(), points.shape(), 3);
+    const PlainArray<std::uint32_t> geometry(points.shape()), primitive(points.shape());
+    run_in_blocks(points.count(), threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3 from = points.vector(i, 0);
+            const NearestTriangle found = triangles.nearest(from);
+            // Of what is no point nothing is known.
+            distance.set(i, is_finite(from) ? std::sqrt(found.squared)
+                                            : std::numeric_limits<double>::quiet_NaN());
+            nearest.set(i, found.point);
+            uvs.set(2 * i, found.u);
+            uvs.set(2 * i + 1, found.v);
+            geometry[i] = primitive[i] = NearestTriangle::kNone;
+            Vec3 normal;
+            if (found.found()) {
+                const PlacedMesh& mesh = table.mesh_of(found.triangle);
+                geometry[i] = mesh.part;
+                primitive[i] = found.triangle - mesh.first_triangle;
+                normal = triangle_normal(*mesh.mesh, primitive[i]);
+                if (mesh.mirrored) normal = -normal;
+            }
+            normals.set(i, normal);
+        }
+    });
+    py::dict result;
+    result["distance"] = distance.array();
+    result["points"] = nearest.array();
+    result["geometry_ids"] = geometry.array();
+    result["primitive_ids"] = primitive.array();
+    result["uvs"] = uvs.array();
+    result["normals"] = normals.array();
+    return result;
+}
+
+}  // namespace alhazen::python

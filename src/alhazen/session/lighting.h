@@ -1,0 +1,41 @@
+#pragma once
+/// The lights of a scene by name, and the scene with some of them off or with other surroundings.
+///
+/// Conventions: lights are those of the description, in its order, then materials that emit, but
+/// for those of seen lights (seen_lights.h), which are off with their light. Every name is another
+/// one. A light that is off is one without intensity, so that numbers of lights stay what they are.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "alhazen/session/load.h"
+
+namespace alhazen {
+
+/// The light's name, or its kind and its number from 1 on: "spot light 2".
+[[nodiscard]] std::string light_name(const SceneDescription& description, std::size_t light);
+
+struct LightChoice {
+    std::string name;
+    std::string kind;  ///< "point light", "material that emits"
+};
+[[nodiscard]] std::vector<LightChoice> light_choices(const SceneDescription& description);
+
+struct Lighting {
+    std::vector<std::string> off;  ///< names of `light_choices`
+    /// Instead of that of the scene; an entry of `environments()`, or empty. Only renderers that
+    /// follow light are to be given one.
+    std::string environment;
+    /// Of `environment`, as `make_environment` makes it; null for "none".
+    std::shared_ptr<const Environment> surroundings;
+
+    [[nodiscard]] bool is_that_of_the_scene() const { return off.empty() && environment.empty(); }
+};
+
+/// The scene with that lighting; all geometry is shared. Throws Error (Usage) for a light that
+/// there is not, listing those that there are.
+[[nodiscard]] Scene with_lighting(const Scene& scene, const SceneDescription& description,
+                                  const Lighting& lighting);
+
+}  // namespace alhazen

@@ -1,0 +1,120 @@
+#include "alhazen/session/lighting.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/base/error.h"
+#include "alhazen/session/environment_option.h"
+#include "alhazen/session/seen_lights.h"
+#include "alhazen/shading/lights/environment.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+
+Light disc_light(bool seen, Rgb radiance) {
+    AreaLight light;
+    light.extent = DiscExtent{{0, 3, 0}, {0, -1, 0}, 1.0, 0.0};
+    light.radiance = radiance;
+    light.seen = seen;
+    return light;
+}
+
+/// Lights that are seen and hidden, of the same name, and materials that emit.
+struct Lit {
+    SceneDescription description;
+    Scene scene;
+
+    Lit() {
+        SceneMaker maker;
+        Material ember;
+        ember.emission.color = {1, 0, 0};
+        ember.name = "lamp";
+        maker.add(Sphere{}, maker.material(ember));
+        maker.light(PointLight{});
+        maker.light(disc_light(true, {2, 2, 2}));
+        maker.light(disc_light(false, {3, 3, 3}));
+        maker.light(disc_light(true, {4, 4, 4}));
+        Material unnamed;
+        unnamed.emission.color = {0, 0, 1};
+        maker.add(Sphere{}, maker.material(unnamed));
+        Material unlit;
+        unlit.emission.color = {0, 1, 0};
+        unlit.metallic_roughness = MetallicRoughness{};
+        unlit.metallic_roughness->unlit = true;
+        maker.add(Sphere{}, maker.material(unlit));
+        for (std::size_t i : {1, 3}) maker.description().lights[i].name = "lamp";
+        add_seen_lights(maker.description());
+        scene = maker.compile();
+        description = maker.description();
+    }
+
+    [[nodiscard]] Scene without(std::vector<std::string> off) const {
+        Lighting lighting;
+        lighting.off = std::move(off);
+        return with_lighting(scene, description, lighting);
+    }
+};
+
+TEST(Lighting, LightsHaveNamesOfTheirOwn) {
+    std::vector<std::string> names, kinds;
+    for (const LightChoice& choice : light_choices(Lit().description)) {
+        names.push_back(choice.name);
+        kinds.push_back(choice.kind);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"point light 1", "lamp", "area light 3", "lamp (2)",
+                                               "lamp (3)", "material 2"}));
+    EXPECT_EQ(kinds,
+              (std::vector<std::string>{"point light", "area light", "area light", "area light",
+                                        "material that emits", "material that emits"}));
+}
+
+TEST(Lighting, ALightThatIsOffIsDarkWithItsPartAndItsNumberStays) {
+    const Lit lit;
+    const Scene dark = lit.without({"lamp (2)"});
+    ASSERT_EQ(dark.lights.size(), 4u);
+    EXPECT_TRUE(std::holds_alternative<AmbientLight>(dark.lights[3]));
+    EXPECT_FALSE(illuminates(dark.lights[3]));
+    EXPECT_TRUE(std::holds_alternative<AreaLight>(dark.lights[1]));
+    ASSERT_EQ(dark.materials.size(), 5u);
+    EXPECT_TRUE(dark.materials[4].emission.color.is_black());
+    for (std::size_t i : {0, 1, 2, 3}) EXPECT_FALSE(dark.materials[i].emission.color.is_black());
+    EXPECT_EQ(dark.aggregate, lit.scene.aggregate);
+    // A hidden one has no part, a material no light.
+    EXPECT_EQ(material_of_light(lit.description, 2), std::nullopt);
+    EXPECT_EQ(material_of_light(lit.description, 1), MaterialId{3});
+    const Scene cold = lit.without({"lamp (3)", "area light 3"});
+    EXPECT_TRUE(cold.materials[0].emission.color.is_black());
+    EXPECT_FALSE(illuminates(cold.lights[2]));
+    EXPECT_TRUE(illuminates(cold.lights[0]));
+}
+
+TEST(Lighting, AnUnknownLightIsRefusedWithThoseThatThereAre) {
+    try {
+        (void)Lit().without({"moon"});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("point light 1, lamp, area light 3"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(Lighting, SurroundingsTakeThePlaceOfThoseOfTheScene) {
+    Lit lit;
+    lit.scene.background = {1, 2, 3};
+    Lighting lighting{.environment = "sky", .surroundings = make_environment("sky", UpAxis::Y)};
+    const Scene sky = with_lighting(lit.scene, lit.description, lighting);
+    ASSERT_NE(sky.environment, nullptr);
+    EXPECT_TRUE(sky.environment->sun());
+    EXPECT_EQ(sky.background.r, 1);
+    lighting = {.environment = "none", .surroundings = make_environment("none", UpAxis::Y)};
+    const Scene none = with_lighting(sky, lit.description, lighting);
+    EXPECT_EQ(none.environment, nullptr);
+    EXPECT_TRUE(none.background.is_black());
+    EXPECT_TRUE(Lighting{}.is_that_of_the_scene());
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
