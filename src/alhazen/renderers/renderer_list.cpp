@@ -102,7 +102,7 @@ std::uint64_t photon_count(RendererSettings& settings, const char* name, std::ui
 /// Of an eye that looks at photons.
 PathSettings photon_paths(RendererSettings& settings) {
     PathSettings paths = path_settings(settings);
-    paths.split = settings.number("split", paths.split, 0.0, 1.0);
+    paths.split = settings.number("split", paths.split, 1e-4, 1.0);
     return paths;
 }
 

@@ -53,9 +53,15 @@ std::int64_t targets_of_machine() {
 
 #endif
 
+/// Those that are compiled in, at least that of the compiler's own flags.
+std::int64_t usable_targets() {
+    const std::int64_t targets = targets_of_machine() & HWY_TARGETS;
+    return targets != 0 ? targets : HWY_STATIC_TARGET;
+}
+
 /// The targets to choose among, a lower bit the better.
 struct Choice {
-    std::int64_t of_machine = targets_of_machine() & HWY_TARGETS;
+    std::int64_t of_machine = usable_targets();
     std::atomic<std::int64_t> targets = of_machine;
     hwy::ChosenTarget chosen;
 

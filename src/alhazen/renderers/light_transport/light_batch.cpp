@@ -26,13 +26,13 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
     waiting_.reserve(kMostLightRays);
 }
 
-void LightBatch::add(const Ray& ray, float time, const Rgb& absorption, const Wavelengths& waves,
-                     const Spectrum& light, Spectrum& sum) {
+void LightBatch::add(const Ray& ray, float time, const Extinction& extinction,
+                     const Wavelengths& waves, const Spectrum& light, Spectrum& sum) {
     if (rays_.size() == kMostLightRays) finish();
-    const Spectrum left = absorption.is_black()
-                              ? light
-                              : light * transmittance(waves.absorption(absorption),
-                                                      ray.t_max * length(ray.direction));
+    const Spectrum left =
+        extinction.is_black()
+            ? light
+            : light * transmittance(extinction.of(waves), ray.t_max * length(ray.direction));
     if (left.is_black()) return;
     rays_.push_back(ray);
     times_.push_back(time);
@@ -66,21 +66,21 @@ void LightBatch::find_met(std::span<bool> met) {
     }
 }
 
-Spectrum LightBatch::passing(const Ray& ray, float time, const Rgb& absorption,
+Spectrum LightBatch::passing(const Ray& ray, float time, const Extinction& extinction,
                              const Wavelengths& waves) {
-    return passing(ray, time, RayKind::Shadow, absorption, waves);
+    return passing(ray, time, RayKind::Shadow, extinction, waves);
 }
 
-Spectrum LightBatch::seen(const Ray& from_eye, float time, const Rgb& absorption,
+Spectrum LightBatch::seen(const Ray& from_eye, float time, const Extinction& extinction,
                           const Wavelengths& waves) {
-    return passing(from_eye, time, RayKind::Eye, absorption, waves);
+    return passing(from_eye, time, RayKind::Eye, extinction, waves);
 }
 
-Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption,
+Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const Extinction& extinction,
                              const Wavelengths& waves) {
     ++count_.cast;
-    const Spectrum left = absorption.is_black() ? Spectrum::all(1)
-                                                : transmittance(waves.absorption(absorption),
+    const Spectrum left = extinction.is_black() ? Spectrum::all(1)
+                                                : transmittance(extinction.of(waves),
                                                                 ray.t_max * length(ray.direction));
     if (!scene_.aggregate->occluded(ray, query(time, kind))) return left;
     ++count_.hit;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "alhazen/renderers/core/ray_counters.h"
-#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
 
@@ -25,18 +25,18 @@ class LightBatch {
     LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
     /// Adds `light` to `sum`, now or in `finish`, times what passes along `ray` up to its t_max;
-    /// `absorption`: of the medium in between; `waves` stays until `finish`. Sums are added to in
+    /// `extinction`: of the medium in between; `waves` stays until `finish`. Sums are added to in
     /// the order of the calls.
-    void add(const Ray& ray, float time, const Rgb& absorption, const Wavelengths& waves,
+    void add(const Ray& ray, float time, const Extinction& extinction, const Wavelengths& waves,
              const Spectrum& light, Spectrum& sum);
     /// Casts the gathered rays.
     void finish();
 
     /// The share that passes along one ray.
-    [[nodiscard]] Spectrum passing(const Ray& ray, float time, const Rgb& absorption,
+    [[nodiscard]] Spectrum passing(const Ray& ray, float time, const Extinction& extinction,
                                    const Wavelengths& waves);
     /// The same along a ray from the eye.
-    [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const Rgb& absorption,
+    [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const Extinction& extinction,
                                 const Wavelengths& waves);
 
   private:
@@ -55,8 +55,8 @@ class LightBatch {
                                             const Wavelengths& waves);
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
                                    const Wavelengths& waves) const;
-    [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption,
-                                   const Wavelengths& waves);
+    [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
+                                   const Extinction& extinction, const Wavelengths& waves);
 
     const Scene& scene_;
     RayCount& count_;

@@ -13,7 +13,7 @@ struct PathSettings {
     bool polarization = false;  ///< light is polarised, and seen to be
     /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
     /// sample's light, both ways are followed, else one by chance.
-    double split = 0.05;
+    double split = 0.03;
     double clamp = 0.0;  ///< largest contribution of indirect light to a sample; 0: none
 };
 

@@ -1,10 +1,29 @@
 #pragma once
-/// Which media of a scene scatter light.
+/// Which media of a scene scatter light, and what a medium takes from a ray.
 
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
+
+/// What a medium takes from light that goes straight on. The parts become wavelengths apart, as
+/// those of paths do.
+struct Extinction {
+    Rgb absorbed, scattered;
+
+    Extinction() = default;
+    Extinction(const Rgb& absorption)  // NOLINT(google-explicit-constructor)
+        : absorbed(absorption) {}
+    Extinction(const Rgb& absorption, const Rgb& scattering)
+        : absorbed(absorption), scattered(scattering) {}
+
+    [[nodiscard]] bool is_black() const { return absorbed.is_black() && scattered.is_black(); }
+    [[nodiscard]] Spectrum of(const Wavelengths& waves) const {
+        const Spectrum left = waves.absorption(absorbed);
+        return scattered.is_black() ? left : left + waves.absorption(scattered);
+    }
+};
 
 class ScatteringMedia {
   public:
@@ -20,12 +39,12 @@ class ScatteringMedia {
         const VolumeScattering& scattering = scene_.materials[medium.material].scattering;
         return scattering.coefficient.is_black() ? nullptr : &scattering;
     }
-    /// What takes light from a shadow ray: absorption, and scattering away. Null: outside all.
-    [[nodiscard]] Rgb extinction(const Medium* medium) const {
+    /// Of a shadow ray. Null: outside all.
+    [[nodiscard]] Extinction extinction(const Medium* medium) const {
         if (medium == nullptr) return {};
         const VolumeScattering* const scattering = in(*medium);
-        return scattering == nullptr ? medium->absorption
-                                     : medium->absorption + scattering->coefficient;
+        if (scattering == nullptr) return medium->absorption;
+        return {medium->absorption, scattering->coefficient};
     }
 
   private:

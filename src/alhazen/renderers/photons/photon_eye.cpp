@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 64;  ///< ways of a sample
+constexpr int kMostSplits = 1000;  ///< of a sample
 
 }  // namespace
 
@@ -45,16 +45,17 @@ void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray
     }
 }
 
-void PhotonEye::trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Spectrum& sum,
+void PhotonEye::trace(const SampleId& id, const Ray& ray, const Wavelengths& waves, Spectrum& sum,
                       Spectrum& direct) {
     Branch first;
     PathEnd& path = first.path;
-    path.waves = &waves;
+    first.waves = waves;
     path.time = camera_.time(chance_, id);
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
     path.media = camera_.media();
     waiting_.assign(1, first);
+    splits_ = 0;
     for (int event = 0; !waiting_.empty(); ++event) {
         Branch at = waiting_.back();
         waiting_.pop_back();
@@ -62,9 +63,10 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Sp
     }
 }
 
-void PhotonEye::follow(const SampleId& id, Branch& at, int& event, Wavelengths& waves,
+void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelengths& waves,
                        Spectrum& sum, Spectrum& direct) {
     PathEnd& path = at.path;
+    path.waves = &at.waves;
     const PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
     for (;; ++event) {
         const PathMeets meets = next_.find(path, numbers);
@@ -74,31 +76,33 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, Wavelengths& 
         }
         if (meets == PathMeets::Volume) {
             if (at.last.scatterings < settings_.depth) {
-                look_into_volume(id, event, path, sum, direct);
+                look_into_volume(id, event, path, waves, sum, direct);
             }
             return;
         }
         const ShadingPoint& point = next_.point();
         sum += emitted(path, at.last);
         if (point.material->unlit || at.last.scatterings >= settings_.depth) return;
-        scatter_.set(scene_, point, path.media, waves);
-        if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
+        scatter_.set(scene_, point, path.media, at.waves);
+        if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
         if (scatter_.has_density()) {
-            add_direct_light(id, event, path, direct);
+            add_direct_light(id, event, path, waves, direct);
             const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(event) + 1,
                                   numbers.path, numbers.part};
             sum += path.throughput *
                    photon_light({point.surface, scatter_, path, id.number % given_.size(), own});
         }
         if (const auto ways = scatter_.both_ways(Transport::Radiance);
-            ways && waiting_.size() < kMostWaiting) {
+            ways && splits_ < kMostSplits) {
             const auto share = [&](const Scattered& way) {
-                return at.last.eta_scale * (path.throughput * way.weight).max();
+                const double eta = way.transmitted ? way.eta * way.eta : 1.0;
+                return eta * at.last.eta_scale * (path.throughput * way.weight).max();
             };
             if (std::min(share((*ways)[0]), share((*ways)[1])) > settings_.split) {
+                ++splits_;
                 Branch other = at;
-                if (leave(id, event, (*ways)[0], other, waves)) waiting_.push_back(other);
-                if (!leave(id, event, (*ways)[1], at, waves)) return;
+                if (leave(id, event, (*ways)[0], other)) waiting_.push_back(other);
+                if (!leave(id, event, (*ways)[1], at)) return;
                 continue;
             }
         }
@@ -107,12 +111,11 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, Wavelengths& 
                             chance_.draw(id, event, PathChance::kDirection), Transport::Radiance);
         if (!drawn || drawn->weight.is_black()) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
-        if (!leave(id, event, *drawn, at, waves)) return;
+        if (!leave(id, event, *drawn, at)) return;
     }
 }
 
-bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Branch& at,
-                      Wavelengths& waves) const {
+bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Branch& at) const {
     const ShadingPoint& point = next_.point();
     if (drawn.straight) {
         if (++at.path.met > kMaxPassedSurfaces) return false;
@@ -124,7 +127,7 @@ bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Bra
         at.last.eta_scale *= drawn.transmitted ? drawn.eta * drawn.eta : 1.0;
     }
     NextSurface::go_on(at.path, point.surface, scatter_, drawn);
-    if (drawn.dispersed) waves.keep_hero(at.path.throughput);
+    if (drawn.dispersed) at.waves.keep_hero(at.path.throughput);
     return survives(at.path, at.last, id, event);
 }
 
@@ -148,7 +151,7 @@ Spectrum PhotonEye::emitted(const PathEnd& path, const Last& last) const {
 }
 
 void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& path,
-                                 Spectrum& direct) {
+                                 const Wavelengths& waves, Spectrum& direct) {
     const ShadingPoint& point = next_.point();
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
     const LightDraw drawn = lights_.draw(at, chance_.draw(id, event, PathChance::kChoices).y,
@@ -162,8 +165,8 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
-                 next_.media().extinction(media.here()), *path.waves,
-                 path.throughput * (weight * light), direct);
+                 next_.media().extinction(media.here()), waves, path.throughput * (weight * light),
+                 direct);
 }
 
 PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double choice,
@@ -175,15 +178,15 @@ PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double cho
             {at.point, drawn.to_light, 0.0, kBeforeEnd * drawn.distance}};
 }
 
-void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& path, Spectrum& sum,
-                                 Spectrum& direct) {
+void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& path,
+                                 const Wavelengths& waves, Spectrum& sum, Spectrum& direct) {
     const VolumePoint& at = next_.volume();
     sum += path.throughput * photon_light(SeenVolume{at, path, id.number % given_.size()});
     const DirectLight straight =
         direct_light(at, chance_.draw(id, event, PathChance::kChoices).y,
                      chance_.draw(id, event, PathChance::kLight), *path.waves);
     if (straight.light.is_black()) return;
-    shadows_.add(straight.ray, path.time, next_.media().extinction(&at.medium), *path.waves,
+    shadows_.add(straight.ray, path.time, next_.media().extinction(&at.medium), waves,
                  path.throughput * straight.light, direct);
 }
 

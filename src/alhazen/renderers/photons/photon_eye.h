@@ -87,20 +87,23 @@ class PhotonEye {
     struct Branch {
         PathEnd path;
         Last last;
+        Wavelengths waves;  ///< of the path, which may have only the hero left
     };
-    void trace(const SampleId& id, const Ray& ray, Wavelengths& waves, Spectrum& sum,
+    /// `waves`: of the sample; shadow rays keep them until they are cast.
+    void trace(const SampleId& id, const Ray& ray, const Wavelengths& waves, Spectrum& sum,
                Spectrum& direct);
     /// `event`: scatterings and straight passes of the sample so far, for random numbers.
-    void follow(const SampleId& id, Branch& at, int& event, Wavelengths& waves, Spectrum& sum,
+    void follow(const SampleId& id, Branch& at, int& event, const Wavelengths& waves, Spectrum& sum,
                 Spectrum& direct);
     /// Leaves a surface; false where the path ends.
-    [[nodiscard]] bool leave(const SampleId& id, int event, const Scattered& drawn, Branch& at,
-                             Wavelengths& waves) const;
+    [[nodiscard]] bool leave(const SampleId& id, int event, const Scattered& drawn,
+                             Branch& at) const;
     [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
     [[nodiscard]] Spectrum emitted(const PathEnd& path, const Last& last) const;
-    void add_direct_light(const SampleId& id, int event, const PathEnd& path, Spectrum& direct);
-    void look_into_volume(const SampleId& id, int event, const PathEnd& path, Spectrum& sum,
-                          Spectrum& direct);
+    void add_direct_light(const SampleId& id, int event, const PathEnd& path,
+                          const Wavelengths& waves, Spectrum& direct);
+    void look_into_volume(const SampleId& id, int event, const PathEnd& path,
+                          const Wavelengths& waves, Spectrum& sum, Spectrum& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
                                 int event) const;
 
@@ -113,6 +116,7 @@ class PhotonEye {
     std::vector<Spectrum> light_, direct_;  ///< [sample]
     std::vector<Wavelengths> waves_;        ///< [sample]
     std::vector<Branch> waiting_;           ///< of the sample in hand
+    int splits_ = 0;                        ///< the same
 };
 
 }  // namespace alhazen

@@ -13,8 +13,8 @@ namespace alhazen {
 void refuse_photons(const char* renderer, std::uint64_t shot, std::uint64_t count,
                     std::size_t most) {
     throw Error(ErrorKind::Resource,
-                fmt::format("{}: {} of {} photons fill the memory, which has place for {} at "
-                            "surfaces; give it more (memory=MB), or shoot fewer",
+                fmt::format("{}: {} of {} photons fill the memory, which has place for {}; give it "
+                            "more (memory=MB), or shoot fewer",
                             renderer, shot, count, most));
 }
 

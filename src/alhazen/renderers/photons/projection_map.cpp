@@ -28,7 +28,7 @@ bool meets_mirror(const Scene& scene, const LightRay& light, const MediaFinder& 
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
-    path.media = start.media;
+    // Without media: one that scatters would hide what lies beyond.
     if (next.find(path, numbers) != PathMeets::Surface || next.point().material->unlit) {
         return false;
     }

@@ -73,6 +73,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
     PhotonPasses passes(job, film, "sppm");
     const Illumination lights(job.scene);
     double radius = settings_.radius > 0.0 ? settings_.radius : radius_of_pixels(job, film);
+    double in_volumes_radius = radius;
     PhotonShot shot{settings_.photons,
                     {PhotonKind::Caustic, PhotonKind::Indirect},
                     settings_.paths.depth,
@@ -93,7 +94,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
             add_to_cloud(photons.in_volumes, false, job.photons, waves);
         }
         const PhotonGrid grid(std::move(photons.photons), radius);
-        const PhotonGrid in_volumes(std::move(photons.in_volumes), radius);
+        const PhotonGrid in_volumes(std::move(photons.in_volumes), in_volumes_radius);
         if (pass == 0) record_photons_of(grid, job, film);
         const bool complete = passes.look([&](const RenderJob& part) {
             return std::make_unique<RoundRenderer<PassEye>>(
@@ -101,7 +102,10 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         });
         if (!complete) break;
         shot.seed = mix64(shot.seed);
-        radius *= std::sqrt(squared_radius_step(settings_.alpha, static_cast<int>(pass) + 1));
+        // By area, and by volume.
+        const double step = squared_radius_step(settings_.alpha, static_cast<int>(pass) + 1);
+        radius *= std::sqrt(step);
+        in_volumes_radius *= std::cbrt(step);
     }
     return passes.report();
 }
