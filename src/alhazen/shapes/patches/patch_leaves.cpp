@@ -29,14 +29,23 @@ struct Part {
 /// numerator from the middle, N = w (S - middle), and the quotient rule.
 class PartBends {
   public:
-    PartBends(const BezierNet& net, const Vec3& middle) : net_(net), middle_(middle) {
+    PartBends(const BezierNet& net, const Vec3& middle) {
         double least = kInfinity;
         for (int k = 0; k < net.count(); ++k) {
-            least = std::min(least, net.points[static_cast<std::size_t>(k)].w);
+            const HomogeneousPoint& p = net.points[static_cast<std::size_t>(k)];
+            least = std::min(least, p.w);
+            value_.add({Vec3{p.x, p.y, p.z} - p.w * middle, p.w});
         }
         // For the margin of the cell (kCellMargin).
         const double growth = 1.0 + 2.5 * kCellMargin * (net.degree_u + net.degree_v);
-        factor_ = growth / least;
+        value_.factor = growth / least;
+        value_.order_u = net.degree_u + 1;
+        value_.order_v = net.degree_v + 1;
+        by_u_ = value_.by_u();
+        by_v_ = value_.by_v();
+        by_uu_ = by_u_.by_u();
+        by_uv_ = by_u_.by_v();
+        by_vv_ = by_v_.by_v();
     }
 
     /// Bounds of the second derivatives along an axis.
@@ -48,51 +57,60 @@ class PartBends {
         [[nodiscard]] double halved_v() const { return aa + ab + 0.25 * bb; }
     };
     [[nodiscard]] Bends along(const Vec3& axis) const {
-        const auto most = [&](int order_u, int order_v) { return find(axis, order_u, order_v); };
-        const Most m0 = most(0, 0), mu = most(1, 0), mv = most(0, 1);
-        const Most muu = most(2, 0), muv = most(1, 1), mvv = most(0, 2);
-        const double s = m0.point;
-        const double s_u = mu.point + mu.weight * s, s_v = mv.point + mv.weight * s;
-        const double s_uu = muu.point + 2.0 * mu.weight * s_u + muu.weight * s;
-        const double s_vv = mvv.point + 2.0 * mv.weight * s_v + mvv.weight * s;
-        const double s_uv = muv.point + mu.weight * s_v + mv.weight * s_u + muv.weight * s;
+        const double mu = by_u_.most_weight(), mv = by_v_.most_weight();
+        const double s = value_.most(axis);
+        const double s_u = by_u_.most(axis) + mu * s, s_v = by_v_.most(axis) + mv * s;
+        const double s_uu = by_uu_.most(axis) + 2.0 * mu * s_u + by_uu_.most_weight() * s;
+        const double s_vv = by_vv_.most(axis) + 2.0 * mv * s_v + by_vv_.most_weight() * s;
+        const double s_uv = by_uv_.most(axis) + mu * s_v + mv * s_u + by_uv_.most_weight() * s;
         return {s_uu, s_uv, s_vv};
     }
 
   private:
-    struct Most {
-        double point = 0, weight = 0;
+    struct Coefficient {
+        Vec3 point;
+        double weight;
+    };
+    /// Bernstein coefficients of a derivative of N and of the weight, but for a factor.
+    struct Coefficients {
+        int order_u = 0, order_v = 0, count = 0;
+        double factor = 1, largest_weight = 0;
+        Coefficient at[kMaxPatchOrder * kMaxPatchOrder];
+
+        void add(const Coefficient& c) {
+            at[count++] = c;
+            largest_weight = std::max(largest_weight, std::abs(c.weight));
+        }
+        [[nodiscard]] double most(const Vec3& axis) const {
+            double most = 0.0;
+            for (int k = 0; k < count; ++k) {
+                most = std::max(most, std::abs(dot(axis, at[k].point)));
+            }
+            return factor * most;
+        }
+        [[nodiscard]] double most_weight() const { return factor * largest_weight; }
+
+        [[nodiscard]] Coefficients by_u() const { return difference(1, 0); }
+        [[nodiscard]] Coefficients by_v() const { return difference(0, 1); }
+
+      private:
+        [[nodiscard]] Coefficients difference(int in_u, int in_v) const {
+            Coefficients out;
+            out.order_u = order_u - in_u;
+            out.order_v = order_v - in_v;
+            out.factor = 0.5 * factor * (in_u != 0 ? out.order_u : out.order_v);
+            for (int i = 0; i < out.order_u; ++i) {
+                for (int j = 0; j < out.order_v; ++j) {
+                    const Coefficient& a = at[i * order_v + j];
+                    const Coefficient& b = at[(i + in_u) * order_v + j + in_v];
+                    out.add({b.point - a.point, b.weight - a.weight});
+                }
+            }
+            return out;
+        }
     };
 
-    /// Bounds of a derivative of axis . N and of the weight: `order_u` times by u, `order_v` times
-    /// by v.
-    [[nodiscard]] Most find(const Vec3& axis, int order_u, int order_v) const {
-        static constexpr double kBinomial[3][3] = {{1, 0, 0}, {-1, 1, 0}, {1, -2, 1}};
-        double factor = factor_;
-        for (int k = 0; k < order_u; ++k) factor *= 0.5 * (net_.degree_u - k);
-        for (int k = 0; k < order_v; ++k) factor *= 0.5 * (net_.degree_v - k);
-        Most most;
-        for (int i = 0; i + order_u <= net_.degree_u; ++i) {
-            for (int j = 0; j + order_v <= net_.degree_v; ++j) {
-                double point = 0.0, weight = 0.0;
-                for (int k = 0; k <= order_u; ++k) {
-                    for (int l = 0; l <= order_v; ++l) {
-                        const double c = kBinomial[order_u][k] * kBinomial[order_v][l];
-                        const HomogeneousPoint& p = net_.at(i + k, j + l);
-                        point += c * dot(axis, Vec3{p.x, p.y, p.z} - p.w * middle_);
-                        weight += c * p.w;
-                    }
-                }
-                most.point = std::max(most.point, factor * std::abs(point));
-                most.weight = std::max(most.weight, factor * std::abs(weight));
-            }
-        }
-        return most;
-    }
-
-    const BezierNet& net_;
-    Vec3 middle_;
-    double factor_ = 1;
+    Coefficients value_, by_u_, by_v_, by_uu_, by_uv_, by_vv_;
 };
 
 /// The part of the lines that meet a leaf for which it is not certified.
@@ -182,6 +200,7 @@ void append_leaves(const BezierNet& net, std::uint32_t piece, const PatchFrame& 
     const std::size_t points = sizeof(HomogeneousPoint) * static_cast<std::size_t>(net.count());
     const std::size_t most =
         std::max(kFewestLeaves, points < room ? (room - points) / kBytesOfLeaf : 0);
+    parts.reserve(most);
     while (parts.size() < most) {
         double area = 0.0, uncertified = 0.0;
         for (const Part& part : parts) {
