@@ -91,6 +91,27 @@ class Trimesh(unittest.TestCase):
         self.mesh.faces = self.mesh.faces[:0]
         self.assertEqual([a.tolist() for a in near.on_surface([[0.0, 0, 0]])], [[[0, 0, 0]], [np.inf], [-1]])
 
+    def test_signs_of_open_meshes_are_of_the_nearest_normal(self):
+        # As trimesh 4 has them: of the side of the triangle, and aside of it of the crossings of rays.
+        vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64)
+        square = SimpleNamespace(vertices=vertices, faces=np.array([[0, 1, 2], [0, 2, 3]]))
+        points = np.array([[0.3, 0.6, 1], [0.3, 0.6, -1], [0.5, 0.5, -2], [3, 0.5, -0.1], [3, 0.5, 0.1], [1, 0.5, -1]])
+        signed = alhazen.trimesh.ProximityQuery(square).signed_distance(points)
+        np.testing.assert_allclose(signed, [-1, 1, 2, -np.hypot(2, 0.1), -np.hypot(2, 0.1), 1], rtol=1e-15)
+        vertices, faces = cube()
+        top = (vertices[faces][:, :, 2] == 1).all(axis=1)
+        for offset in (0.0, 1e5):
+            box = SimpleNamespace(vertices=vertices + offset, faces=faces[~top])
+            signed = alhazen.trimesh.ProximityQuery(box).signed_distance(
+                np.array([[0.5, 0.4, 0.7], [0.5, 0.5, 0.2], [0.5, 0.5, -1], [3, 0.4, 0.3]]) + offset)
+            np.testing.assert_allclose(signed, [0.4, 0.2, -1, -2], rtol=1e-9)
+        # A closed mesh that is inside out holds what it holds.
+        turned = SimpleNamespace(vertices=vertices, faces=faces[:, ::-1])
+        signed = alhazen.trimesh.ProximityQuery(turned).signed_distance([[0.5, 0.4, 0.7], [0.5, 0.5, 3]])
+        np.testing.assert_allclose(signed, [0.3, -2], rtol=1e-15)
+        empty = SimpleNamespace(vertices=np.zeros((0, 3)), faces=np.zeros((0, 3), dtype=np.int64))
+        self.assertEqual(alhazen.trimesh.ProximityQuery(empty).signed_distance([[0, 0, 0]]).tolist(), [-np.inf])
+
 
 def signed_distance_of_cube(points, half=0.5):
     """Negative inside."""
