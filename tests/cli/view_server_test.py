@@ -207,6 +207,23 @@ class ViewServer(ServerTest):
         finally:
             server.close()
 
+    def test_numbers_that_are_not_whole_or_out_of_range_are_refused(self):
+        pixel = {**WISH, "x": 40, "y": 30, "steps": "list"}
+        for key, most in (("samples", 1024), ("depth", 100), ("width", 4096), ("height", 4096)):
+            for bad in (2**40, 2**32 + 1, -2**31 - 1, -1, most + 1, 3.9, 1e300):
+                status, _, body = self.server.ask("/frame", {**WISH, key: bad})
+                self.assertEqual(status, 400, (key, bad))
+                self.assertIn(f"{key} must be a whole number from ", body.decode())
+        for key in ("x", "y", "sample"):
+            for bad in (2**40, 2**32, -2**32, 0.5, -1):
+                status, _, body = self.server.ask("/explain", {**pixel, key: bad})
+                self.assertEqual(status, 400, (key, bad))
+                self.assertIn(f"{key} must be a whole number from 0 to ", body.decode())
+        for bad in ("3", None, True, [3]):
+            self.assertEqual(self.server.ask("/frame", {**WISH, "depth": bad})[0], 400, bad)
+        self.assertEqual(self.server.ask("/frame", {**WISH, "depth": 3.0, "samples": 2})[0], 200)
+        self.assertEqual(self.server.ask("/explain", {**pixel, "x": 40.0})[0], 200)
+
     def test_menus_are_those_of_the_program(self):
         state = self.server.state()
         listed = subprocess.run([ALHAZEN, "list", "accelerators"], capture_output=True, text=True).stdout
