@@ -302,7 +302,7 @@ function pathSteps(root, data, path, view) {
   draw();
 }
 function row(v, i) {
-  const met = v.t === null ? "meets nothing" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it` : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
+  const met = v.t === null ? "meets nothing" : v.in_volume && !v.object ? "is scattered in a volume without end" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it` : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
   const light = !v.light ? "none is asked" : isBlack(v.light.arrived) ? `blocked: (${triple(v.light.offered)})` : `(${triple(v.light.arrived)})`;
   const here = add(v.found, v.light?.arrived ?? [0, 0, 0]);
   return element(

@@ -28,7 +28,8 @@ export function pathSteps(root: HTMLElement, data: Explanation, path: PathData, 
   draw();
 }
 function row(v: PathVertex, i: number) {
-  const met = v.t === null ? "meets nothing" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it`
+  const met = v.t === null ? "meets nothing" : v.in_volume && !v.object ? "is scattered in a volume without end"
+    : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it`
     : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
   const light = !v.light ? "none is asked" : isBlack(v.light.arrived) ? `blocked: (${triple(v.light.offered)})`
     : `(${triple(v.light.arrived)})`;
