@@ -283,7 +283,7 @@ function pathSteps(root2, data, path, view) {
     view.draw();
   };
   root2.append(
-    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is what of the light at the end of a ray would reach the pixel. The light of all rows adds up to the sample.`),
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. The light of all rows adds up to the sample.`),
     scrolling("The path", element(
       "table",
       {},
