@@ -189,9 +189,9 @@ Response ViewSession::explain(const json& request, Turn& turn) {
     options.render.view = &wish.camera;
     options.render.threads = threads_;
     options.render.stop = &turn.flag();
-    options.x = request.at("x").get<int>();
-    options.y = request.at("y").get<int>();
-    options.sample = request.value("sample", 0);
+    options.x = whole_in(request, "x", {}, 0, *wish.options.width - 1);
+    options.y = whole_in(request, "y", {}, 0, *wish.options.height - 1);
+    options.sample = whole_in(request, "sample", 0, 0, wish.options.samples_per_pixel - 1);
     options.accelerator = request.value("steps", options.accelerator);
     const Interruptible ends(&turn.flag());  // accelerators are built beside that of the scene
     const Explanation explanation = explain_pixel(here->scene, options);

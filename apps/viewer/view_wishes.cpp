@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/antialias_settings.h"
@@ -31,15 +32,6 @@ Camera camera_in(const json& wish) {
     }
     if (wish.value("parallel", false)) return OrthographicCamera{eye, look, right, up};
     return PerspectiveCamera{eye, look, right, up};
-}
-
-int whole_in(const json& wish, const char* key, int fallback, int least, int most) {
-    const int value = wish.value(key, fallback);
-    if (value < least || value > most) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("{} must be {} to {}, found {}", key, least, most, value));
-    }
-    return value;
 }
 
 ToneMapping tone_in(const json& wish) {
@@ -104,6 +96,20 @@ const AovEntry* layer_in(const json& wish) {
 }
 
 }  // namespace
+
+int whole_in(const json& wish, const char* key, std::optional<int> fallback, int least, int most) {
+    if (fallback && !wish.contains(key)) return *fallback;
+    const json& found = wish.at(key);
+    // Compared before it becomes an int: 2^32 + 1 is not 1.
+    const double value =
+        found.is_number() ? found.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!(value >= least && value <= most) || std::trunc(value) != value) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{} must be a whole number from {} to {}, found {}", key, least,
+                                most, found.dump()));
+    }
+    return static_cast<int>(value);
+}
 
 FrameWish frame_wish(const json& wish) {
     FrameWish result;

@@ -4,6 +4,7 @@
 /// Conventions: throws Error (Usage) or an exception of nlohmann::json for what is out of range.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/scene/scene.h"
@@ -22,6 +23,10 @@ struct FrameWish {
     bool png = false;
     bool raw = false;  ///< red, green, blue, 255 of each pixel, unless `png`
 };
+
+/// A number of a request; without a fallback it must be there. 3.0 is whole, too.
+[[nodiscard]] int whole_in(const nlohmann::ordered_json& wish, const char* key,
+                           std::optional<int> fallback, int least, int most);
 
 [[nodiscard]] FrameWish frame_wish(const nlohmann::ordered_json& wish);
 

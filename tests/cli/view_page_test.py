@@ -326,6 +326,9 @@ class ViewPage(unittest.TestCase):
                 self.assertNotEqual(page.value(ink), drawn)
                 page.value("document.querySelector('#path input').click()")
                 self.assertEqual(page.value(ink), drawn)
+                # The picture has 4 samples; the explanation is of one with 1.
+                self.assertEqual(page.value("document.getElementById('path-title').textContent"),
+                                 "One path of a picture with 1 sample")
                 self.shoot("view_path_space")
                 page.value("document.getElementById('path').scrollIntoView()")
                 self.shoot("view_path")

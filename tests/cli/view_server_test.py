@@ -207,6 +207,50 @@ class ViewServer(ServerTest):
         finally:
             server.close()
 
+    def test_a_path_in_endless_fog_names_no_surface_that_it_does_not_meet(self):
+        # The half space below the floor; the ball, the first part, is far from it.
+        scene = self.scene.with_name("fog.alhazen")
+        floor = "plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }"
+        self.assertIn(floor, LIGHTS)
+        scene.write_text(LIGHTS.replace(floor, "plane { normal = (0, 1, 0); material = { diffuse = 0; transmissive = 1; "
+                                               "index = 1; scattering = 0.5 } }"), encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        in_fog = 0
+        try:
+            for x in range(3, 80, 7):
+                wish = {**WISH, "renderer": "path_tracing", "x": x, "y": 57, "steps": "list"}
+                status, _, body = server.ask("/explain", wish)
+                self.assertEqual(status, 200, body)
+                vertices = json.loads(body)["path"]["vertices"]
+                for v in vertices:
+                    self.assertEqual(v["t"] is not None, "in_volume" in v)
+                    if v.get("in_volume") and v["origin"][1] < 1e-6 and v["direction"][1] < 0:  # down from the floor or below
+                        in_fog += 1
+                        self.assertFalse({"object", "material", "normal"} & set(v), v)
+                    elif v["t"] is not None:
+                        self.assertLessEqual({"object", "material", "normal"}, set(v), v)
+                        self.assertNotEqual(v["normal"], [0, 0, 0])
+            self.assertGreater(in_fog, 5)
+        finally:
+            server.close()
+
+    def test_numbers_that_are_not_whole_or_out_of_range_are_refused(self):
+        pixel = {**WISH, "x": 40, "y": 30, "steps": "list"}
+        for key, most in (("samples", 1024), ("depth", 100), ("width", 4096), ("height", 4096)):
+            for bad in (2**40, 2**32 + 1, -2**31 - 1, -1, most + 1, 3.9, 1e300):
+                status, _, body = self.server.ask("/frame", {**WISH, key: bad})
+                self.assertEqual(status, 400, (key, bad))
+                self.assertIn(f"{key} must be a whole number from ", body.decode())
+        for key in ("x", "y", "sample"):
+            for bad in (2**40, 2**32, -2**32, 0.5, -1):
+                status, _, body = self.server.ask("/explain", {**pixel, key: bad})
+                self.assertEqual(status, 400, (key, bad))
+                self.assertIn(f"{key} must be a whole number from 0 to ", body.decode())
+        for bad in ("3", None, True, [3]):
+            self.assertEqual(self.server.ask("/frame", {**WISH, "depth": bad})[0], 400, bad)
+        self.assertEqual(self.server.ask("/frame", {**WISH, "depth": 3.0, "samples": 2})[0], 200)
+        self.assertEqual(self.server.ask("/explain", {**pixel, "x": 40.0})[0], 200)
+
     def test_menus_are_those_of_the_program(self):
         state = self.server.state()
         listed = subprocess.run([ALHAZEN, "list", "accelerators"], capture_output=True, text=True).stdout

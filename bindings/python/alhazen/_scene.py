@@ -114,6 +114,14 @@ class Scene:
         self._built = None
         return self
 
+    def _only(self, parts: Sequence[int]) -> "Scene":
+        """A scene of some of the meshes, where ``add_mesh`` added all there is; the meshes are shared."""
+        scene = Scene()
+        scene._settings, scene._threads, scene._folder = self._settings, self._threads, self._folder
+        scene._meshes = [self._meshes[i] for i in parts]
+        scene._blocks = [self._blocks[i] for i in parts]
+        return scene
+
     def _scene(self) -> _alhazen.BuiltScene:
         with self._lock:
             if self._built is None:

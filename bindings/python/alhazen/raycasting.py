@@ -5,7 +5,7 @@ computed in float64, and t_hit, uvs, points and distances are of the type of the
 """
 from __future__ import annotations
 
-from typing import Any, Dict, Tuple, overload
+from typing import Any, Dict, Optional, Tuple, overload
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class RaycastingScene:
     def __init__(self, nthreads: int = 0) -> None:
         self._scene = Scene(threads=nthreads)
         self._count = 0
+        # Of how many meshes: the number of those that are closed, and a scene of the others.
+        self._sorted: Optional[Tuple[int, int, Optional[Scene]]] = None
 
     def add_triangles(self, vertex_positions: Any, triangle_indices: Any = None) -> int:
         """Adds a mesh and returns its geometry id: vertices (n, 3) and triangles (m, 3), or one object with
@@ -76,9 +78,9 @@ class RaycastingScene:
         return hits
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
-        """1 for points (..., 3) inside of a mesh, else 0: float32 (...). Meshes that are closed are asked whether they
-        hold the point; where one is open, ``nsamples`` (odd) rays vote, inside where they cross an odd number of
-        triangles."""
+        """1 for points (..., 3) inside of an odd number of meshes, else 0: float32 (...). Each mesh that is closed is
+        asked whether it holds the point; ``nsamples`` (odd) rays vote on those that are open, inside where they cross
+        an odd number of their triangles. Points on the surface of a closed mesh are inside."""
         return self._inside(query_points, nthreads, nsamples).astype(np.float32)
 
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
@@ -95,8 +97,7 @@ class RaycastingScene:
         return self._scene.closest_points(query_points, threads=nthreads)["distance"]
 
     def compute_signed_distance(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
-        """The distance of points (..., 3), negative for those inside of a mesh, as ``compute_occupancy`` has it:
-        real (...)."""
+        """The distance of points (..., 3), negative for those inside, as ``compute_occupancy`` has it: real (...)."""
         distance = self.compute_distance(query_points, nthreads)
         inside = self._inside(query_points, nthreads, nsamples)
         return np.negative(distance, out=distance, where=inside & (distance > 0))
@@ -104,17 +105,28 @@ class RaycastingScene:
     def _inside(self, query_points: Any, nthreads: int, nsamples: int) -> np.ndarray:
         if nsamples < 1 or nsamples % 2 != 1:
             raise UsageError(f"nsamples: expected an odd number from 1, found {nsamples}")
-        if len(self._scene.solid_names) == self._count:
-            return self._scene.inside(query_points, threads=nthreads)
-        points = np.asarray(query_points, dtype=np.float64)
+        points = np.asarray(query_points)
         if points.shape[-1:] != (3,):
             raise UsageError(f"query_points: expected the shape (..., 3), found {points.shape}")
-        votes = np.zeros(points.shape[:-1], dtype=np.int64)
-        # About the direction (1, 1, 1), the same for each call.
-        for direction in 1 + np.random.default_rng(42).uniform(-0.001, 0.001, (nsamples, 3)):
-            rays = np.concatenate([points, np.broadcast_to(direction, points.shape)], axis=-1)
-            votes += self._scene.count_intersections(rays, threads=nthreads) % 2
-        return votes > nsamples // 2
+        solids, open_meshes = self._closed_and_open()
+        if solids == 1 and open_meshes is None:
+            return self._scene.inside(points, threads=nthreads)
+        inside = np.zeros(points.shape[:-1], dtype=bool)
+        if open_meshes is not None:
+            inside = _votes(open_meshes, points, nthreads, nsamples)
+        if solids:
+            held = self._scene.solids_at(points, threads=nthreads)
+            inside ^= (np.diff(held["point_splits"]) % 2 == 1).reshape(inside.shape)
+            inside.reshape(-1)[held["point_ids"][held["on_surface"]]] = True
+        return inside
+
+    def _closed_and_open(self) -> Tuple[int, Optional[Scene]]:
+        """The number of closed meshes, and a scene of the others, if there are any."""
+        if self._sorted is None or self._sorted[0] != self._count:
+            closed = set(self._scene.solid_names)
+            others = [i for i, name in enumerate(self._scene.geometry_names) if name not in closed]
+            self._sorted = self._count, len(closed), self._scene._only(others) if others else None
+        return self._sorted[1:]
 
     @overload
     @staticmethod
@@ -160,6 +172,17 @@ class RaycastingScene:
         rays[..., 3:] = (x[None, :, None] * world_from_pixel[:, 0] + y[:, None, None] * world_from_pixel[:, 1]
                          + world_from_pixel[:, 2])
         return rays
+
+
+def _votes(scene: Scene, points: np.ndarray, nthreads: int, nsamples: int) -> np.ndarray:
+    """Whether most of ``nsamples`` rays from each point (..., 3) cross an odd number of triangles: bool (...)."""
+    points = points.astype(np.float64, copy=False)
+    votes = np.zeros(points.shape[:-1], dtype=np.int64)
+    # About the direction (1, 1, 1), the same for each call.
+    for direction in 1 + np.random.default_rng(42).uniform(-0.001, 0.001, (nsamples, 3)):
+        rays = np.concatenate([points, np.broadcast_to(direction, points.shape)], axis=-1)
+        votes += scene.count_intersections(rays, threads=nthreads) % 2
+    return votes > nsamples // 2
 
 
 _PINHOLE_ARGUMENTS = (("fov_deg", "center", "eye", "up", "width_px", "height_px"),

@@ -3,8 +3,9 @@ results.
 
 Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector`` and
 ``trimesh.proximity.ProximityQuery``. Differs: hits and distances are computed in float64, hits come in the order of the
-rays, the nearest first; ``contains_points`` takes points on the surface as inside; ``ProximityQuery.vertex`` is not
-there.
+rays, the nearest first; ``contains_points`` takes points on the surface as inside; ``ProximityQuery.signed_distance`` has
+the sign of ``contains_points`` in closed meshes, whichever way their triangles are turned; ``ProximityQuery.vertex`` is
+not there.
 trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``. Queries follow the mesh: arrays that
 have a hash, as trimesh's have, are known by it; others are compared with a copy, which takes their size in memory.
 
@@ -13,7 +14,7 @@ have a hash, as trimesh's have, are known by it; others are compared with a copy
 """
 from __future__ import annotations
 
-from typing import Any, Tuple, Union
+from typing import Any, Dict, Tuple, Union
 
 import numpy as np
 
@@ -139,6 +140,34 @@ class ProximityQuery(_MeshQueries):
         return found["points"], found["distance"], np.where(triangle == INVALID_ID, -1, triangle.astype(np.int64))
 
     def signed_distance(self, points: Any) -> np.ndarray:
-        """The distance of points (n, 3) from the mesh, positive inside, negative outside: (n,)."""
-        _, distance, _ = self.on_surface(points)
-        return np.negative(distance, out=distance, where=(distance > 0) & ~self.contains_points(points))
+        """The distance of points (n, 3) from the mesh, positive inside, negative outside: (n,). In a mesh with open
+        edges, points straight above their nearest triangle are outside where its normal points to them; others are
+        inside where ``contains_points`` says so."""
+        points = np.asarray(points, dtype=np.float64)
+        found = self._scene.closest_points(points)
+        distance = found["distance"]
+        if self._scene.solid_names:
+            outside = ~self.contains_points(points)
+        else:
+            offset = points - found["points"]
+            height = np.einsum("ij,ij->i", offset, found["normals"])
+            outside = height > 0
+            aside = ~self._is_above(points, offset, found)
+            if aside.any():
+                outside[aside] = ~self.contains_points(points[aside])
+        return np.negative(distance, out=distance, where=(distance > 0) & outside)
+
+    def _is_above(self, points: np.ndarray, offset: np.ndarray, found: Dict[str, np.ndarray]) -> np.ndarray:
+        """Whether each point lies above or below its nearest triangle, within a part in 10^8 of the triangle's size:
+        (n,) bool. ``offset`` (n, 3) is that from the nearest point."""
+        known = found["primitive_ids"] != INVALID_ID
+        result = np.zeros(len(points), dtype=bool)
+        corners = np.asarray(self.mesh.vertices, dtype=np.float64)[
+            np.asarray(self.mesh.faces)[found["primitive_ids"][known]]]
+        size = np.ptp(corners, axis=1).max(axis=1)
+        # Differences are rounded by parts of the coordinates.
+        rounding = 1e-15 * np.maximum(np.abs(points[known]).max(axis=1), np.abs(corners).max(axis=(1, 2)))
+        normals = found["normals"][known]
+        aside = np.linalg.norm(np.cross(offset[known], normals), axis=1)
+        result[known] = (aside <= 1e-8 * size + rounding) & normals.any(axis=1)
+        return result

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/formats/core/default_conventions.h"
 #include "alhazen/formats/native/read/native_fragment.h"
 #include "alhazen/primitives/primitive_table.h"
@@ -95,8 +96,12 @@ const NearestTriangles& BuiltScene::nearest() const {
                                     table.size() - count, table.size()));
         }
         std::vector<NearestTriangles::Corners> triangles(count);
-        for (std::uint32_t i = 0; i < count; ++i) triangles[i] = table.triangle_vertices(i);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (i % 65536 == 0) interruption_point();
+            triangles[i] = table.triangle_vertices(i);
+        }
         nearest_.emplace(triangles);
+        made_nearest_ = &*nearest_;
     });
     return *nearest_;
 }

@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -56,6 +57,8 @@ class BuiltScene {
     /// The triangles of its aggregate, made on first use. Throws Error (Usage) where it has other
     /// things, too.
     [[nodiscard]] const NearestTriangles& nearest() const;
+    /// The same where they are made, else null.
+    [[nodiscard]] const NearestTriangles* made_nearest() const { return made_nearest_; }
 
   private:
     SceneDescription source_;
@@ -65,6 +68,7 @@ class BuiltScene {
     mutable std::optional<SolidScene> solids_;
     mutable std::once_flag nearest_made_;
     mutable std::optional<NearestTriangles> nearest_;
+    mutable std::atomic<const NearestTriangles*> made_nearest_ = nullptr;
 };
 
 }  // namespace alhazen::python

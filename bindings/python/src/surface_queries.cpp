@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/shapes/meshes/triangle_normal.h"
 #include "array_making.h"
 #include "interruptible.h"
@@ -13,9 +14,14 @@ namespace alhazen::python {
 
 namespace {
 
-/// Builds on first use, without the interpreter's lock.
+/// Builds on first use; Ctrl-C ends it.
 const NearestTriangles& built(const BuiltScene& scene) {
-    const py::gil_scoped_release released;
+    if (const NearestTriangles* made = scene.made_nearest()) return *made;
+    StopFlag stop;
+    run_watched(stop, py::none(), [&](ProgressSink&) {
+        const Interruptible ends(&stop);
+        static_cast<void>(scene.nearest());
+    });
     return scene.nearest();
 }
 

@@ -91,6 +91,27 @@ class Trimesh(unittest.TestCase):
         self.mesh.faces = self.mesh.faces[:0]
         self.assertEqual([a.tolist() for a in near.on_surface([[0.0, 0, 0]])], [[[0, 0, 0]], [np.inf], [-1]])
 
+    def test_signs_of_open_meshes_are_of_the_nearest_normal(self):
+        # As trimesh 4 has them: of the side of the triangle, and aside of it of the crossings of rays.
+        vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64)
+        square = SimpleNamespace(vertices=vertices, faces=np.array([[0, 1, 2], [0, 2, 3]]))
+        points = np.array([[0.3, 0.6, 1], [0.3, 0.6, -1], [0.5, 0.5, -2], [3, 0.5, -0.1], [3, 0.5, 0.1], [1, 0.5, -1]])
+        signed = alhazen.trimesh.ProximityQuery(square).signed_distance(points)
+        np.testing.assert_allclose(signed, [-1, 1, 2, -np.hypot(2, 0.1), -np.hypot(2, 0.1), 1], rtol=1e-15)
+        vertices, faces = cube()
+        top = (vertices[faces][:, :, 2] == 1).all(axis=1)
+        for offset in (0.0, 1e5):
+            box = SimpleNamespace(vertices=vertices + offset, faces=faces[~top])
+            signed = alhazen.trimesh.ProximityQuery(box).signed_distance(
+                np.array([[0.5, 0.4, 0.7], [0.5, 0.5, 0.2], [0.5, 0.5, -1], [3, 0.4, 0.3]]) + offset)
+            np.testing.assert_allclose(signed, [0.4, 0.2, -1, -2], rtol=1e-9)
+        # A closed mesh that is inside out holds what it holds.
+        turned = SimpleNamespace(vertices=vertices, faces=faces[:, ::-1])
+        signed = alhazen.trimesh.ProximityQuery(turned).signed_distance([[0.5, 0.4, 0.7], [0.5, 0.5, 3]])
+        np.testing.assert_allclose(signed, [0.3, -2], rtol=1e-15)
+        empty = SimpleNamespace(vertices=np.zeros((0, 3)), faces=np.zeros((0, 3), dtype=np.int64))
+        self.assertEqual(alhazen.trimesh.ProximityQuery(empty).signed_distance([[0, 0, 0]]).tolist(), [-np.inf])
+
 
 def signed_distance_of_cube(points, half=0.5):
     """Negative inside."""
@@ -167,6 +188,30 @@ class Open3D(unittest.TestCase):
         open_scene = alhazen.raycasting.RaycastingScene()
         open_scene.add_triangles(vertices, faces[:-1])
         self.assertAlmostEqual(open_scene.compute_signed_distance([[-0.1, -0.1, -0.2]], nsamples=5)[0], -0.3, places=12)
+
+    def test_meshes_are_counted_by_parity(self):
+        points = np.array([[1.5, 1.5, 1.4], [0.5, 0.5, 0.5], [5, 5, 5]])
+        far_vertices, far_faces = cube(20, 21)
+        for far in (None, far_faces, far_faces[:-1]):
+            scene = alhazen.raycasting.RaycastingScene()
+            if far is not None:
+                scene.add_triangles(far_vertices, far)
+            for box in (cube(0, 3), cube(1, 2)):
+                scene.add_triangles(*box)
+            np.testing.assert_allclose(scene.compute_signed_distance(points), [0.4, -0.5, np.sqrt(12)], rtol=1e-14)
+            self.assertEqual(scene.compute_occupancy(points.reshape(3, 1, 3)).tolist(), [[0], [1], [0]])
+            # On a surface: in the wall between, and where the inner one begins.
+            self.assertEqual(scene.compute_occupancy([[3, 0.5, 0.5], [1, 1.5, 1.5]]).tolist(), [1, 1])
+        # The far one is open, and is asked by rays; the closed are not.
+        self.assertEqual(scene.compute_occupancy(np.float32([[20.2, 20.3, 20.1], [2.5, 2.5, 2.5]])).tolist(), [1, 1])
+        # An open mesh within a closed one.
+        mixed = alhazen.raycasting.RaycastingScene()
+        mixed.add_triangles(*cube(0, 3))
+        vertices, faces = cube(1, 2)
+        mixed.add_triangles(vertices, faces[:-1])
+        np.testing.assert_array_equal(mixed.compute_occupancy([[1.2, 1.3, 1.1], [0.5, 0.5, 0.5]], nsamples=3), [0, 1])
+        mixed.add_triangles(*cube(-1, 4))  # the meshes are sorted again
+        np.testing.assert_array_equal(mixed.compute_occupancy([[1.2, 1.3, 1.1], [0.5, 0.5, 0.5]]), [1, 0])
 
     def test_what_has_no_nearest_point_is_said(self):
         scene = alhazen.raycasting.RaycastingScene()

@@ -242,6 +242,18 @@ class Running(unittest.TestCase):
         self.check_ends_soon("measure", lambda: scene.measure(error=1e-9, seconds=20))
         self.check_ends_soon("section", lambda: scene.section((0, 0, 1), 0.013, cells=4000))
 
+    def test_ctrl_c_ends_the_first_question_for_nearest_points(self):
+        # Their tree is built by the first question, from 2.9 million triangles.
+        side = 1200
+        x, y = np.meshgrid(np.linspace(0, 1, side + 1), np.linspace(0, 1, side + 1))
+        vertices = np.stack([x, y, np.sin(9 * x) * np.cos(7 * y)], axis=-1).reshape(-1, 3)
+        corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).reshape(-1, 1)
+        faces = np.concatenate([corner + [0, 1, side + 2], corner + [0, side + 2, side + 1]])
+        scene = alhazen.Scene(vertices, faces, quality="fast").build()
+        self.check_ends_soon("closest_points", lambda: scene.closest_points([[0, 0, 1.0]]))
+        # What was given up is built again.
+        self.assertEqual(scene.closest_points(vertices[:1])["distance"].tolist(), [0])
+
     def check_ends_soon(self, name, query):
         with self.subTest(name):
             late = []

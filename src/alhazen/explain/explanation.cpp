@@ -294,7 +294,9 @@ Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& optio
     if (!e.complete) return e;
     name_parts_of(e.tree, loaded.description, e);
     if (e.path) {
-        for (const RecordedVertex& v : e.path->vertices) name_part(v.part, loaded.description, e);
+        for (const RecordedVertex& v : e.path->vertices) {
+            if (v.has_surface) name_part(v.part, loaded.description, e);
+        }
     }
     for (const Material& material : scene.materials) e.material_names.push_back(material.name);
     for (std::size_t i = 0; i < loaded.description.lights.size(); ++i) {

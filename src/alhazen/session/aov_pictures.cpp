@@ -70,7 +70,8 @@ float quantile_of(std::vector<float>& values, double share) {
 
 LayerPicture depth_picture(const PixelBox& crop, const LayerChannel& channel, bool drawn) {
     // Of a ground without end a few pixels see a thousand times farther than all others.
-    constexpr double kMost = 0.9, kFarBeyond = 4.0;
+    constexpr double kMost = 0.9;
+    constexpr double kFarBeyond = 4.0;  // both counted from the nearest point
     std::vector<float> values = finite_values(channel);
     ColorScale scale{
         .low = 0, .high = 0, .colors = ColorScale::Colors::NearGrey, .title = "", .drawn = drawn};

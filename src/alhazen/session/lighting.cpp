@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "alhazen/base/error.h"
 #include "alhazen/session/seen_lights.h"
@@ -51,12 +53,15 @@ std::vector<Switch> switches(const SceneDescription& description) {
                         {},
                         id});
     }
-    std::set<std::string> names;
+    std::unordered_set<std::string> names;
+    std::unordered_map<std::string, std::size_t> next;  // all numbers below are taken
     for (Switch& s : list) {
-        const std::string given = s.choice.name;
-        for (int n = 2; !names.insert(s.choice.name).second; ++n) {
-            s.choice.name = fmt::format("{} ({})", given, n);
-        }
+        if (names.insert(s.choice.name).second) continue;
+        std::size_t& n = next.try_emplace(s.choice.name, 2).first->second;
+        const std::string given = std::move(s.choice.name);
+        do {
+            s.choice.name = fmt::format("{} ({})", given, n++);
+        } while (!names.insert(s.choice.name).second);
     }
     return list;
 }

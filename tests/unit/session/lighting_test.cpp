@@ -70,6 +70,23 @@ TEST(Lighting, LightsHaveNamesOfTheirOwn) {
                                         "material that emits", "material that emits"}));
 }
 
+// Names were tried one after another from 2 on: minutes for as many.
+TEST(Lighting, LightsOfOneNameAreNumberedAtOnce) {
+    constexpr std::size_t kCount = 50000;
+    SceneMaker maker;
+    for (std::size_t i = 0; i < kCount; ++i) maker.light(PointLight{});
+    for (LightDescription& light : maker.description().lights) light.name = "lamp";
+    // Numbers that are names already are left out.
+    maker.description().lights[0].name = "lamp (3)";
+    maker.description().lights[3].name = "lamp (2)";
+    const std::vector<LightChoice> choices = light_choices(maker.description());
+    std::vector<std::string> first;
+    for (std::size_t i = 0; i < 6; ++i) first.push_back(choices[i].name);
+    EXPECT_EQ(first, (std::vector<std::string>{"lamp (3)", "lamp", "lamp (2)", "lamp (2) (2)",
+                                               "lamp (4)", "lamp (5)"}));
+    EXPECT_EQ(choices.back().name, "lamp (49999)");
+}
+
 TEST(Lighting, ALightThatIsOffIsDarkWithItsPartAndItsNumberStays) {
     const Lit lit;
     const Scene dark = lit.without({"lamp (2)"});

@@ -283,7 +283,7 @@ function pathSteps(root, data, path, view) {
     view.draw();
   };
   root.append(
-    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is what of the light at the end of a ray would reach the pixel. The light of all rows adds up to the sample.`),
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. The light of all rows adds up to the sample.`),
     scrolling("The path", element(
       "table",
       {},
@@ -302,7 +302,7 @@ function pathSteps(root, data, path, view) {
   draw();
 }
 function row(v, i) {
-  const met = v.t === null ? "meets nothing" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it` : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
+  const met = v.t === null ? "meets nothing" : v.in_volume && !v.object ? "is scattered in a volume without end" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it` : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
   const light = !v.light ? "none is asked" : isBlack(v.light.arrived) ? `blocked: (${triple(v.light.offered)})` : `(${triple(v.light.arrived)})`;
   const here = add(v.found, v.light?.arrived ?? [0, 0, 0]);
   return element(
@@ -1115,7 +1115,7 @@ function showExplanation(root, data, picture) {
     ),
     data.cones ? section("cones", "Cones and what covers them", cones) : "",
     data.beams ? section("beams", "Pieces of the beams", beams) : "",
-    data.path ? section("path", "One path of the picture", path) : "",
+    data.path ? section("path", `One path of a picture with ${data.samples.length} sample${data.samples.length > 1 ? "s" : ""}`, path) : "",
     section("spans", "Inside which solids the eye ray is", spans),
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",

@@ -172,7 +172,7 @@ export interface Beams {
   pieces: BeamPiece[];
 }
 
-/** A ray of a path, and what happened at its end; colours are in the pixel. */
+/** A ray of a path, and what happened at its end; colours are in the pixel. Without an object it meets no surface. */
 export interface PathVertex {
   kind: Exclude<RayKind, "shadow">;
   origin: Vec3;

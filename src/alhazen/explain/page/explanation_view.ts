@@ -39,7 +39,7 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
           "many rays to be shown. All colours here are those of a picture of that depth."), tree)),
     data.cones ? section("cones", "Cones and what covers them", cones) : "",
     data.beams ? section("beams", "Pieces of the beams", beams) : "",
-    data.path ? section("path", "One path of the picture", path) : "",
+    data.path ? section("path", `One path of a picture with ${data.samples.length} sample${data.samples.length > 1 ? "s" : ""}`, path) : "",
     section("spans", "Inside which solids the eye ray is", spans),
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",

@@ -125,8 +125,8 @@ json path_json(const PathRecord& path, const std::vector<std::string>& part_name
                  {"throughput", to_json(v.throughput)},
                  {"found", to_json(v.found)},
                  {"step", kPathStepNames[static_cast<std::size_t>(v.step)]}};
-        if (std::isfinite(v.t)) {
-            out["in_volume"] = v.in_volume;
+        if (std::isfinite(v.t)) out["in_volume"] = v.in_volume;
+        if (v.has_surface) {
             out["object"] = part_names[v.part];
             out["material"] = material_names[v.material];
             out["normal"] = to_json(v.normal);

@@ -19,7 +19,8 @@ export function pathSteps(root: HTMLElement, data: Explanation, path: PathData, 
   };
   root.append(
     element("p", {class: "soft"}, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. ` +
-      "Carried is what of the light at the end of a ray would reach the pixel. The light of all rows adds up to the sample."),
+      "Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. " +
+      "The light of all rows adds up to the sample."),
     scrolling("The path", element("table", {}, headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
       element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
       element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 5}, "sum"),
@@ -28,7 +29,8 @@ export function pathSteps(root: HTMLElement, data: Explanation, path: PathData, 
   draw();
 }
 function row(v: PathVertex, i: number) {
-  const met = v.t === null ? "meets nothing" : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it`
+  const met = v.t === null ? "meets nothing" : v.in_volume && !v.object ? "is scattered in a volume without end"
+    : v.in_volume ? `is scattered inside \u2018${v.object}\u2019, or what is before it`
     : `meets \u2018${v.object}\u2019 at t = ${number(v.t)}`;
   const light = !v.light ? "none is asked" : isBlack(v.light.arrived) ? `blocked: (${triple(v.light.offered)})`
     : `(${triple(v.light.arrived)})`;

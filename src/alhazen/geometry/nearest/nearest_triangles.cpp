@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "alhazen/base/interruption.h"
+
 namespace alhazen {
 
 namespace {
@@ -58,6 +60,7 @@ NearestTriangles::NearestTriangles(const std::vector<Corners>& triangles) {
 void NearestTriangles::build(std::vector<std::uint32_t>& order,
                              const std::vector<Corners>& triangles, std::uint32_t begin,
                              std::uint32_t end) {
+    interruption_point();
     const std::size_t at = nodes_.size();
     Box3 box;
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -67,7 +70,9 @@ void NearestTriangles::build(std::vector<std::uint32_t>& order,
     if (end - begin <= kLeafSize) return;
     // Halves, whatever the middles are: the depth is that of a full tree.
     const std::uint32_t middle = begin + (end - begin) / 2;
+    interruption_point();
     const int axis = axis_of(triangles, order.data() + begin, order.data() + end);
+    interruption_point();
     if (axis >= 0) {
         std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
                          [&](std::uint32_t a, std::uint32_t b) {

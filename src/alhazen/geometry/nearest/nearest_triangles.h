@@ -34,7 +34,8 @@ class NearestTriangles {
   public:
     using Corners = std::array<Vec3, 3>;
 
-    /// All corners must be finite; less than 2^32 - 1 triangles.
+    /// All corners must be finite; less than 2^32 - 1 triangles. Can be interrupted
+    /// (interruption.h).
     explicit NearestTriangles(const std::vector<Corners>& triangles);
 
     /// The nearest one; none where there are no triangles.

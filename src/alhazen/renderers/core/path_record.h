@@ -32,9 +32,10 @@ inline constexpr const char* kPathStepNames[] = {"scattered", "mirrored", "strai
 struct RecordedVertex {
     RayKind kind = RayKind::Eye;
     Ray ray;
-    double t = std::numeric_limits<double>::infinity();  ///< of the surface; infinite: none
+    double t = std::numeric_limits<double>::infinity();  ///< of the end; infinite: it has none
     Rgb throughput;                                      ///< of the path where the ray begins
     bool in_volume = false;      ///< it was scattered at `t`, before any surface
+    bool has_surface = false;    ///< at `t`, or farther where it was scattered in a volume
     Vec3 normal;                 ///< of the surface, towards the ray
     std::uint32_t part = 0;      ///< Surface::part
     std::uint32_t material = 0;  ///< of the surface

@@ -85,6 +85,7 @@ void PathTracer::record_ray(const EyePath& path, const Ray& ray, const ShadingPo
         vertex.step = PathStep::Escaped;
     } else {
         vertex.t = t;
+        vertex.has_surface = true;
         vertex.normal = point->surface.shading_normal;
         vertex.part = point->surface.part;
         vertex.material = static_cast<std::uint32_t>(point->surface.materials[0]);
