@@ -37,6 +37,14 @@ inline Material smooth_glass(double index = 1.5) {
     m.index.value = index;
     return m;
 }
+/// A volume whose boundary neither bends nor reflects.
+inline Material fog(const Rgb& absorption, const Rgb& scattering, double anisotropy = 0.0) {
+    Material m;
+    m.index.value = 1.0;
+    m.dielectric = Dielectric{absorption};
+    m.scattering = {scattering, anisotropy};
+    return m;
+}
 /// Dispersing glass of the table.
 inline Material glass_named(const std::string& name) {
     const NamedGlass& glass = *find_glass(name);
@@ -100,6 +108,13 @@ inline Sphere ball(const Vec3& center, double radius) {
     s.center = center;
     s.radius = radius;
     return s;
+}
+
+/// Looks along -z from (0, 0, 5) through a pinhole; all pixels see the same.
+inline SceneMaker looking_down() {
+    SceneMaker maker;
+    maker.description().cameras[0].camera = look_along({0, 0, 5}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
+    return maker;
 }
 
 /// A white matt floor seen straight from above, in a picture `side` wide.

@@ -125,7 +125,7 @@ TEST(PhotonRenderers, BothWaysThroughASlabOfGlassAreOneSample) {
                                        "sppm:photons=100,roulette=64,split="}) {
         const Film both = picture_of(scene, renderer + "1e-4", 4, 1);
         for (int i = 0; i < 16; ++i)
-            EXPECT_NEAR(both.at(i % 4, i / 4).g, expected, 1e-3) << renderer;
+            EXPECT_NEAR(both.at(i % 4, i / 4).g, expected, 2e-4) << renderer;
         for (const char* split : {"0.03", "1"}) {
             EXPECT_NEAR(mean_of(picture_of(scene, renderer + split, 4, 1024)).g, expected, 0.01)
                 << renderer << split;

@@ -16,21 +16,6 @@ namespace {
 
 using namespace alhazen::testing;
 
-/// A volume whose boundary neither bends nor reflects.
-Material mist(const Rgb& absorption, const Rgb& scattering, double anisotropy = 0.0) {
-    Material m;
-    m.index.value = 1.0;
-    m.dielectric = Dielectric{absorption};
-    m.scattering = {scattering, anisotropy};
-    return m;
-}
-
-SceneMaker looking_along_z() {
-    SceneMaker maker;
-    maker.description().cameras[0].camera = look_along({0, 0, 5}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
-    return maker;
-}
-
 /// Estimates over balls of one radius.
 constexpr double kRadius = 0.2;
 const std::string kMapped =
@@ -72,9 +57,9 @@ double share_inside(double apart) {
 TEST(PhotonVolumes, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
     for (const double g : {0.0, 0.5}) {
         const Rgb scattering{0.4, 0.8, 1.6};
-        SceneMaker maker = looking_along_z();
+        SceneMaker maker = looking_down();
         maker.description().picture.background = Rgb{1, 1, 1};
-        maker.add(ball({0, 0, 0}, 1), maker.material(mist({}, scattering, g)));
+        maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, scattering, g)));
         Rgb expected;
         constexpr int kSteps = 2000;
         for (int i = 0; i < 3; ++i) {
@@ -96,9 +81,9 @@ TEST(PhotonVolumes, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     const Rgb absorption{0.1, 0.3, 0}, scattering{0.3, 0.2, 0.6};
     constexpr double kThick = 1.5;
     for (const double g : {0.0, -0.4}) {
-        SceneMaker maker = looking_along_z();
+        SceneMaker maker = looking_down();
         maker.add(BoxShape{{-1, -1, -kThick}, {1, 1, 0}},
-                  maker.material(mist(absorption, scattering, g)));
+                  maker.material(fog(absorption, scattering, g)));
         maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
         Rgb expected;
         constexpr int kSteps = 400;
@@ -140,7 +125,7 @@ TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
     maker.add(rectangle({-0.3, -0.1, 1.8}, {0.6, 0, 0}, {0, 0.6, 0}),
               maker.material(shining({6, 6, 5})));
     maker.add(BoxShape{{-3, -3, -3}, {3, 3, 3}},
-              maker.material(mist({0.1, 0.05, 0}, {0.4, 0.5, 0.6}, 0.3)));
+              maker.material(fog({0.1, 0.05, 0}, {0.4, 0.5, 0.6}, 0.3)));
     const Scene scene = maker.compile();
     constexpr double kMost = 5.4, kBias = 0.03;  // as in photon_renderers_test
     const Blocks truth = blocks_of(scene, "path_tracing", 96, 8);
@@ -164,7 +149,7 @@ TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
 TEST(PhotonVolumes, PicturesDependNeitherOnThreadsNorOnTiles) {
     SceneMaker maker;
     maker.description().picture.background = Rgb{0.5, 0.7, 1};
-    maker.add(ball({0, 0, 0}, 1), maker.material(mist({0.1, 0, 0}, {1, 2, 3}, 0.5)));
+    maker.add(ball({0, 0, 0}, 1), maker.material(fog({0.1, 0, 0}, {1, 2, 3}, 0.5)));
     maker.add(rectangle({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}),
               maker.material(matt({0.5, 0.5, 0.5})));
     const Scene scene = maker.compile("wide_bvh");

@@ -16,22 +16,6 @@ namespace {
 
 using namespace alhazen::testing;
 
-/// A volume whose boundary neither bends nor reflects.
-Material fog(const Rgb& absorption, const Rgb& scattering, double anisotropy = 0.0) {
-    Material m;
-    m.index.value = 1.0;
-    m.dielectric = Dielectric{absorption};
-    m.scattering = {scattering, anisotropy};
-    return m;
-}
-
-/// Looks along -z from (0, 0, 5) through a pinhole; all pixels see the same.
-SceneMaker looking_down() {
-    SceneMaker maker;
-    maker.description().cameras[0].camera = look_along({0, 0, 5}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
-    return maker;
-}
-
 BoxShape wide_layer(double bottom, double top) {
     return {{-1000, -1000, bottom}, {1000, 1000, top}};
 }

@@ -1,11 +1,33 @@
 #include "alhazen/renderers/photons/photon_density.h"
 
 #include <algorithm>
+#include <span>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
 namespace alhazen {
+
+namespace {
+
+/// Photons that count for an estimate.
+struct CountedPhotons {
+    std::span<const PhotonTree::Near> photons;
+    double squared = 0;  ///< radius of the estimate; 0: there are none
+};
+
+/// Of the nearest the farthest is the border, and does not count. `found` holds them.
+template <class Accept>
+CountedPhotons counted_photons(const PhotonMap& map, const Vec3& point, const Accept& accept,
+                               std::vector<PhotonTree::Near>& found) {
+    const double most = map.radius * map.radius;
+    map.tree.nearest(point, map.nearest, most, accept, found);
+    if (found.empty()) return {};
+    if (found.size() < map.nearest || map.nearest == 1) return {found, most};
+    return {std::span(found).subspan(1), found.front().squared};
+}
+
+}  // namespace
 
 double filter_weight(DensityFilter filter, double share) {
     constexpr double kCone = 1.1;     // Jensen's k: at the border 1 - 1 / k is left
@@ -39,12 +61,8 @@ Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart
 
 double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal) {
     std::vector<PhotonTree::Near> found;
-    map.tree.nearest(point, map.nearest, map.radius * map.radius, PhotonFits(normal, false), found);
-    if (found.empty()) return 0.0;
-    const bool bounded = found.size() == map.nearest && map.nearest > 1;
-    const double squared = bounded ? found.front().squared : map.radius * map.radius;
-    const double count = static_cast<double>(found.size()) - (bounded ? 1.0 : 0.0);
-    return squared > 0.0 ? count / (kPi * squared) : 0.0;
+    const auto [photons, squared] = counted_photons(map, point, PhotonFits(normal, false), found);
+    return squared > 0.0 ? static_cast<double>(photons.size()) / (kPi * squared) : 0.0;
 }
 
 double usual_radius(const PhotonTree& tree, std::size_t nearest) {
@@ -67,20 +85,12 @@ double usual_radius(const PhotonTree& tree, std::size_t nearest) {
 
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
                                  LightPart part, bool hero_only) {
-    double squared = map.radius * map.radius;
-    map.tree.nearest(point, map.nearest, squared, PhotonFits(at), found_);
-    if (found_.empty()) return {};
-    std::size_t first = 0;
-    if (found_.size() == map.nearest && map.nearest > 1) {
-        squared = found_.front().squared;
-        first = 1;
-    }
+    const auto [photons, squared] = counted_photons(map, point, PhotonFits(at), found_);
     if (!(squared > 0.0)) return {};
     Spectrum sum;
-    for (std::size_t i = first; i < found_.size(); ++i) {
-        const Photon& photon = map.tree.photons()[found_[i].node];
-        sum += filter_weight(map.filter, found_[i].squared / squared) *
-               scattered_light(at, photon, part, hero_only);
+    for (const PhotonTree::Near& near : photons) {
+        sum += filter_weight(map.filter, near.squared / squared) *
+               scattered_light(at, map.tree.photons()[near.node], part, hero_only);
     }
     return (1.0 / (kPi * squared)) * sum;
 }
@@ -92,19 +102,12 @@ Spectrum scattered_light(const VolumePoint& at, const Photon& photon, bool hero_
 }
 
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const VolumePoint& at, bool hero_only) {
-    double squared = map.radius * map.radius;
-    map.tree.nearest(
-        at.point, map.nearest, squared, [](const Photon&) { return true; }, found_);
-    if (found_.empty()) return {};
-    std::size_t first = 0;
-    if (found_.size() == map.nearest && map.nearest > 1) {
-        squared = found_.front().squared;
-        first = 1;
-    }
+    const auto every = [](const Photon&) { return true; };
+    const auto [photons, squared] = counted_photons(map, at.point, every, found_);
     if (!(squared > 0.0)) return {};
     Spectrum sum;
-    for (std::size_t i = first; i < found_.size(); ++i) {
-        sum += scattered_light(at, map.tree.photons()[found_[i].node], hero_only);
+    for (const PhotonTree::Near& near : photons) {
+        sum += scattered_light(at, map.tree.photons()[near.node], hero_only);
     }
     return (3.0 / (4.0 * kPi * squared * std::sqrt(squared))) * sum;
 }

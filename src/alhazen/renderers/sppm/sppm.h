@@ -7,7 +7,7 @@
 /// (radii of the passes without statistics of the pixels).
 /// Differs: the photons of a pass are kept in the grid, not the visible points: the same sum for
 /// each pixel, without writes to shared places. Direct light by shadow rays
-/// (photons/photon_eye.h).
+/// (photons/photon_eye.h). In volumes balls shrink as discs do on surfaces, by their content.
 /// Conventions: a pass for each sample of a pixel, with wavelengths of its own (waves_of_pass).
 /// Pixels depend neither on the threads nor on
 /// tiles nor on the crop. Memory: the photons of one pass.
