@@ -1,7 +1,6 @@
 #include "alhazen/primitives/primitive_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "alhazen/base/error.h"
@@ -42,6 +41,7 @@ PrimitiveTable::~PrimitiveTable() = default;
 void PrimitiveTable::finish() {
     std::uint64_t next = 0;
     std::uint32_t kind = 0;
+    kinds_.clear();
     const auto begin_kind = [&](std::size_t count) {
         first_[kind++] = static_cast<std::uint32_t>(next);
         next += count;
@@ -53,6 +53,7 @@ void PrimitiveTable::finish() {
         [&](auto&... column) {
             const auto seal = [&](auto& c) {
                 for (auto& shape : c.shapes) shape.prepare();
+                kinds_.insert(kinds_.end(), c.shapes.size(), static_cast<std::uint8_t>(kind));
                 begin_kind(c.shapes.size());
             };
             (seal(column), ...);
@@ -102,22 +103,6 @@ RayMask PrimitiveTable::visible_to(PrimitiveId id) const {
         std::upper_bound(masks_.begin(), masks_.end(), static_cast<std::uint32_t>(id),
                          [](std::uint32_t i, const MaskRange& range) { return i < range.first; });
     return (after - 1)->visible_to;
-}
-
-std::uint32_t PrimitiveTable::kind(PrimitiveId id) const {
-    const std::uint32_t i = static_cast<std::uint32_t>(id);
-    if (i >= first_[kTriangleKind])
-        return i < first_[kInstanceKind] ? kTriangleKind : kInstanceKind;
-    // The last kind that begins at or before i; it is not empty.
-    std::uint32_t kind = 0;
-    for (std::uint32_t step = std::bit_floor(kTriangleKind); step > 0; step /= 2) {
-        if (kind + step < kTriangleKind && first_[kind + step] <= i) kind += step;
-    }
-    return kind;
-}
-
-std::uint32_t PrimitiveTable::index(PrimitiveId id) const {
-    return static_cast<std::uint32_t>(id) - first_[kind(id)];
 }
 
 const PlacedMesh& PrimitiveTable::mesh_of(std::uint32_t triangle) const {
@@ -413,8 +398,9 @@ template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&,
 
 std::size_t PrimitiveTable::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    std::size_t total = bytes(meshes) + bytes(mesh_starts_) + bytes(instances) + bytes(placements) +
-                        bytes(material_opacity) + masks_.capacity() * sizeof(MaskRange);
+    std::size_t total = bytes(meshes) + bytes(kinds_) + bytes(mesh_starts_) + bytes(instances) +
+                        bytes(placements) + bytes(material_opacity) +
+                        masks_.capacity() * sizeof(MaskRange);
     std::apply(
         [&](const auto&... c) {
             ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials) + bytes(c.parts) +

@@ -90,6 +90,7 @@ struct Instance {
 inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;
 inline constexpr std::uint32_t kInstanceKind = kTriangleKind + 1;
 inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
+static_assert(kKindCount <= 256, "kinds are kept in bytes");
 
 /// The effect of a material on light at its surface.
 enum class Opacity : std::uint8_t {
@@ -121,11 +122,17 @@ class PrimitiveTable final : public BoundsSource {
 
     // ---- contents
     [[nodiscard]] std::size_t size() const override { return first_[kKindCount]; }
-    [[nodiscard]] std::uint32_t kind(PrimitiveId id) const;
+    [[nodiscard]] std::uint32_t kind(PrimitiveId id) const {
+        const std::uint32_t i = static_cast<std::uint32_t>(id);
+        if (i < first_[kTriangleKind]) return kinds_[i];
+        return i < first_[kInstanceKind] ? kTriangleKind : kInstanceKind;
+    }
     /// First id of a kind; kind + 1 gives its end.
     [[nodiscard]] std::uint32_t first(std::uint32_t kind) const { return first_[kind]; }
     /// Index of a primitive among those of its kind.
-    [[nodiscard]] std::uint32_t index(PrimitiveId id) const;
+    [[nodiscard]] std::uint32_t index(PrimitiveId id) const {
+        return static_cast<std::uint32_t>(id) - first_[kind(id)];
+    }
     /// The mesh that contains the i-th triangle of the table.
     [[nodiscard]] const PlacedMesh& mesh_of(std::uint32_t triangle) const;
     /// Vertices of the i-th triangle of the table.
@@ -214,6 +221,7 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] bool leaves_through_front(PrimitiveId id, const Ray& ray) const;
 
     std::array<std::uint32_t, kKindCount + 1> first_{};
+    std::vector<std::uint8_t> kinds_;         ///< [analytic shape]
     std::vector<std::uint32_t> mesh_starts_;  ///< [mesh] its first triangle: dense, to be searched
     /// Primitives from `first` up to the next entry.
     struct MaskRange {

@@ -107,11 +107,14 @@ void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv,
     surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
 }
 
-void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
-                      const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
-    with_column(table.columns, kind, [&](const auto& column) {
+/// True where texture coordinates are set.
+bool analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
+                      const Ray& ray, const Hit& hit, const CoordinateNeed& need,
+                      Surface& surface) {
+    return with_column(table.columns, kind, [&](const auto& column) {
         surface.is_of_mesh = false;
         const std::uint32_t placement = column.placements[index];
+        const bool with_uv = need.of_material(column.materials[index]);
         if (placement == kNoPlacement) {
             shape_surface(column.shapes[index], ray, hit, with_uv, surface);
         } else {
@@ -122,6 +125,7 @@ void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint
         }
         surface.materials[0] = column.materials[index];
         surface.part = column.parts.empty() ? 0 : column.parts[index];
+        return with_uv;
     });
 }
 
@@ -201,29 +205,35 @@ void moving_triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, c
     triangle_surface(then, 0, hit, surface);
 }
 
-/// Descends the path of instances from level `depth` (outermost = path.size()) inward.
-void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
-                    bool with_uv, float time, Surface& surface) {
+/// Descends the path of instances from level `depth` (outermost = path.size()) inward. True where
+/// texture coordinates are set.
+bool surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
+                    CoordinateNeed need, float time, Surface& surface) {
     const PrimitiveTable& table = aggregate.primitives();
+    // The material of the primitive may not be what is shown.
+    if (need.of_any() && aggregate.changes_materials()) need = CoordinateNeed::all();
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
+        bool with_uv = false;
         if (instance.motion) {
             const Placement placement = instance.motion->at(time);
-            surface_inside(*instance.aggregate, transformed(placement.inner_from_outer, ray), hit,
-                           depth - 1, with_uv, time, surface);
+            with_uv =
+                surface_inside(*instance.aggregate, transformed(placement.inner_from_outer, ray),
+                               hit, depth - 1, need, time, surface);
             carry_outward(placement, with_uv, surface);
         } else {
-            surface_inside(*instance.aggregate, inner_ray(instance, ray), hit, depth - 1, with_uv,
-                           time, surface);
+            with_uv = surface_inside(*instance.aggregate, inner_ray(instance, ray), hit, depth - 1,
+                                     need, time, surface);
             carry_outward(instance.placement, with_uv, surface);
         }
         if (!instance.holds_rest) surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
         aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
-        return;
+        return with_uv;
     }
     const std::uint32_t kind = table.kind(hit.primitive);
     const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
+    bool with_uv = need.of_any();
     if (kind == kTriangleKind) {
         const PlacedMesh& placed = table.mesh_of(index);
         const std::uint32_t triangle = index - placed.first_triangle;
@@ -233,24 +243,25 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
             triangle_surface(placed, triangle, hit, surface);
         }
     } else {
-        analytic_surface(table, kind, index, ray, hit, with_uv, surface);
+        with_uv = analytic_surface(table, kind, index, ray, hit, need, surface);
     }
     surface.instance = surface.part;
     aggregate.complete(ray, hit.t, hit.primitive, surface);
+    return with_uv;
 }
 
 }  // namespace
 
 Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit, float time) {
     Surface surface;
-    set_surface(aggregate, ray, hit, true, surface, time);
+    set_surface(aggregate, ray, hit, CoordinateNeed::all(), surface, time);
     return surface;
 }
 
-void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
-                 Surface& surface, float time) {
+void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
+                 const CoordinateNeed& need, Surface& surface, float time) {
     begin(surface);
-    surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, time, surface);
+    const bool with_uv = surface_inside(aggregate, ray, hit, hit.path.size(), need, time, surface);
     if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
 }
 

@@ -2,7 +2,9 @@
 /// The surface at the nearest hit: computed once per ray.
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
@@ -43,13 +45,35 @@ struct Surface : ShapeSurface {
     std::uint32_t instance = 0;
 };
 
+/// The surfaces whose texture coordinates and their derivatives are wanted: of shapes they cost
+/// more than all else. Those of others are undefined.
+class CoordinateNeed {
+  public:
+    [[nodiscard]] static CoordinateNeed all() { return {true, {}}; }
+    [[nodiscard]] static CoordinateNeed none() { return {false, {}}; }
+    /// Of the materials that read them; `reads`: [material], must outlive the need.
+    [[nodiscard]] static CoordinateNeed of(std::span<const std::uint8_t> reads) {
+        return {!reads.empty(), reads};
+    }
+
+    [[nodiscard]] bool of_any() const { return any_; }
+    [[nodiscard]] bool of_material(MaterialId id) const {
+        return any_ && (reads_.empty() || reads_[static_cast<std::size_t>(id)] != 0);
+    }
+
+  private:
+    CoordinateNeed(bool any, std::span<const std::uint8_t> reads) : any_(any), reads_(reads) {}
+
+    bool any_;
+    std::span<const std::uint8_t> reads_;
+};
+
 /// `ray` is the world-space ray that found `hit` in `aggregate`, at `time` (RayQuery::time).
 [[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
                                  float time = 0.0f);
-/// The same into `surface`, which is large and not copied. Where `with_uv` is false, texture
-/// coordinates and their derivatives are undefined.
-void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
-                 Surface& surface, float time = 0.0f);
+/// The same into `surface`, which is large and not copied.
+void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
+                 const CoordinateNeed& need, Surface& surface, float time = 0.0f);
 
 /// The material of the surface at a hit, where the primitive alone determines it: without vertex
 /// colours, and without a solid around it that shows another material.

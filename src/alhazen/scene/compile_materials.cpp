@@ -1,5 +1,6 @@
 #include "alhazen/scene/compile_materials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -7,6 +8,7 @@
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/shading/lights/environment.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 
 namespace alhazen {
 
@@ -48,6 +50,11 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
             }
         }
         scene.materials.push_back(std::move(m));
+    }
+    if (std::any_of(scene.materials.begin(), scene.materials.end(), reads_coordinates)) {
+        for (const Material& m : scene.materials) {
+            scene.reads_coordinates.push_back(reads_coordinates(m) ? 1 : 0);
+        }
     }
     TextureCompiler compile(scene);
     for (const TextureDescription& t : description.textures) {

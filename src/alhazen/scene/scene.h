@@ -49,6 +49,8 @@ struct Scene {
     bool has_masks = false;    ///< some part is not visible to all rays
     bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
     bool has_solid_textures = false;
+    /// [material] 1: its look depends on texture coordinates; empty: none does.
+    std::vector<std::uint8_t> reads_coordinates;
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
     std::string accelerator;  ///< of the aggregate; empty without
     SceneCensus census;

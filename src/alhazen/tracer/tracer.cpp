@@ -179,10 +179,10 @@ HitIds Tracer::ids(const Hit& hit) const {
 
 void Tracer::surface(const Ray& ray, const Hit& hit, Surface& surface) const {
     const int exponent = unusual_exponent(ray.direction);
-    if (exponent == 0) return set_surface(*aggregate_, ray, hit, false, surface);
+    if (exponent == 0) return set_surface(*aggregate_, ray, hit, CoordinateNeed::none(), surface);
     Hit usual = hit;
     usual.t = std::ldexp(hit.t, exponent);
-    set_surface(*aggregate_, rescaled(ray, exponent), usual, false, surface);
+    set_surface(*aggregate_, rescaled(ray, exponent), usual, CoordinateNeed::none(), surface);
 }
 
 Vec3 Tracer::normal(const Ray& ray, const Hit& hit, Surface& scratch) const {

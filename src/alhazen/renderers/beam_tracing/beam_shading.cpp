@@ -67,7 +67,7 @@ double BeamShading::meet(std::uint32_t facet, const Ray& ray, const Vec3& from, 
     const double t = -plane.at(ray.origin) / dot(plane.normal, ray.direction);
     const Vec3 at = ray.origin + t * ray.direction;
     set_surface_of(facet, ray, t, point_.surface);
-    const PointNeeds needs{.uv = !scene_.textures.empty(), .constant = &constant_};
+    const PointNeeds needs{.constant = &constant_};
     complete_shading_point(scene_, ray, {way.inside, job_.cone.width_at(t)}, needs, point_);
     return length(at - from);
 }

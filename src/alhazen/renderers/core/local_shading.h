@@ -98,7 +98,7 @@ class ExactOptics;
 
 /// Parts of a shading point that the caller needs.
 struct PointNeeds {
-    bool uv = true;                     ///< else texture coordinates may be missing
+    CoordinateNeed coordinates = CoordinateNeed::all();
     MaterialCache* constant = nullptr;  ///< shared samples; may be null
     ExactOptics* optics = nullptr;      ///< in force; null: shares and tints of the equation
 };

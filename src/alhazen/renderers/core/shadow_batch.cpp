@@ -123,6 +123,12 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     return optics_ != nullptr ? tint_by_optics(ray, path) : tint_of_crossings(ray, path);
 }
 
+const Surface& ShadowBatch::crossed(const Ray& ray, const Hit& hit, float time) {
+    set_surface(*scene_.aggregate, ray, hit, CoordinateNeed::of(scene_.reads_coordinates), surface_,
+                time);
+    return surface_;
+}
+
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     Rgb tint{1, 1, 1};
     media_.clear();
@@ -134,7 +140,7 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     for (const Hit& crossing : crossings_) {
         if (crossing.t - met < min_distance) continue;
         met = crossing.t;
-        const Surface surface = surface_at(*scene_.aggregate, ray, crossing, path.time);
+        const Surface& surface = crossed(ray, crossing, path.time);
         MaterialSample material = material_at(scene_, surface);
         if (material.coverage == 0.0) continue;
         bool leaving = dot(ray.direction, surface.normal) >= 0.0;
@@ -175,7 +181,7 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     for (const Hit& crossing : crossings_) {
         if (crossing.t - met < min_distance) continue;
         met = crossing.t;
-        const Surface surface = surface_at(*scene_.aggregate, ray, crossing, path.time);
+        const Surface& surface = crossed(ray, crossing, path.time);
         in_wall = surface.media.before && surface.media.after && !in_wall;
         if (!in_wall && surface.media.before && surface.media.after) continue;
         MaterialSample material = material_at(scene_, surface);

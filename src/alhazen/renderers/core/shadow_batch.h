@@ -57,6 +57,8 @@ class ShadowBatch {
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
+    /// The surface at a crossing, as its material needs it; until the next call.
+    [[nodiscard]] const Surface& crossed(const Ray& ray, const Hit& hit, float time);
     [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
                                     bool leaving, double inside) const;
     [[nodiscard]] Rgb through_medium(double distance) const;
@@ -76,6 +78,7 @@ class ShadowBatch {
     std::vector<Ray> sorted_;
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
+    Surface surface_;         ///< that of `crossed`
     std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last
 };
 

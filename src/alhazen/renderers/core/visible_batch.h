@@ -115,8 +115,9 @@ class VisibleBatch {
     void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
               const AnyPath& path, Tell&& tell) {
         const double t = distance + hit.t;
-        const PointNeeds needs{
-            .uv = !scene_.textures.empty(), .constant = &constant_, .optics = optics_};
+        const PointNeeds needs{.coordinates = CoordinateNeed::of(scene_.reads_coordinates),
+                               .constant = &constant_,
+                               .optics = optics_};
         const bool meets_backs = follows_light_ && path.kind != RayKind::Eye;
         Arrival arrival{path.inside, path.cone.width_at(t), path.time, meets_backs};
         if constexpr (std::is_same_v<AnyPath, Path>) arrival.medium = path.medium;

@@ -155,7 +155,7 @@ Rgb ScanShading::radiance(std::span<const ScanVeil> veils, const ScanSample& see
 void ScanShading::complete_point(std::uint32_t source_index, const Ray& ray) {
     point_.surface.part = scene_.sources[source_index].part;
     point_.surface.instance = scene_.sources[source_index].instance;
-    const PointNeeds needs{.uv = !job_.scene.textures.empty(), .constant = &constant_};
+    const PointNeeds needs{.constant = &constant_};
     complete_shading_point(job_.scene, ray, {false, job_.cone.width_at(t_)}, needs, point_);
 }
 

@@ -179,7 +179,7 @@ class Neighbours {
 
   private:
     [[nodiscard]] Difference set(const Ray& ray, const Hit& hit) {
-        set_surface(aggregate_, ray, hit, false, neighbour_, time_);
+        set_surface(aggregate_, ray, hit, CoordinateNeed::none(), neighbour_, time_);
         const bool turned = dot(neighbour_.shading_normal, surface_.shading_normal) < 0.0;
         return {neighbour_.point, turned ? -neighbour_.shading_normal : neighbour_.shading_normal};
     }

@@ -23,7 +23,8 @@ bool ChainTracer::find(Ray ray, std::uint64_t part, RayKind kind, float time,
             return false;
         }
         ++counters_[kind].hit;
-        set_surface(*scene_.aggregate, ray, vertex.hit, false, vertex.surface, time);
+        set_surface(*scene_.aggregate, ray, vertex.hit, CoordinateNeed::none(), vertex.surface,
+                    time);
         travelled += vertex.hit.t;
         if (part_key(vertex.surface) == part) {
             const Vec3& d = ray.direction;

@@ -1,6 +1,7 @@
 #include "alhazen/shading/lights/light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -34,6 +35,8 @@ Approach approach(const auto& light, const Vec3& point, bool clamp) {
 
 double spot_falloff(const SpotLight& light, const Vec3& to_light) {
     const double cosine = -dot(to_light, light.direction);
+    if (cosine > light.surely_within) return 1.0;
+    if (cosine < light.surely_beyond) return 0.0;
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     if (angle <= light.inner_angle) return 1.0;
     if (angle >= light.outer_angle) return 0.0;
@@ -58,14 +61,20 @@ LightPlace place_of(const Light& light) {
 
 Light ready_to_sample(const Light& light) {
     Light result = light;
-    std::visit(
-        Overloaded{[](AmbientLight&) {},
-                   [](DirectionalLight& l) { l.to_light = normalize(l.to_light); },
-                   [](PointLight&) {}, [](SpotLight& l) { l.direction = normalize(l.direction); },
-                   [](AreaLight& l) {
-                       l.surface = std::make_shared<const LightSurface>(l.extent, l.two_sided);
-                   }},
-        result);
+    std::visit(Overloaded{[](AmbientLight&) {},
+                          [](DirectionalLight& l) { l.to_light = normalize(l.to_light); },
+                          [](PointLight&) {},
+                          [](SpotLight& l) {
+                              constexpr double kMargin = 1e-12;
+                              l.direction = normalize(l.direction);
+                              l.surely_within = std::cos(l.inner_angle) + kMargin;
+                              l.surely_beyond = std::cos(l.outer_angle) - kMargin;
+                          },
+                          [](AreaLight& l) {
+                              l.surface =
+                                  std::make_shared<const LightSurface>(l.extent, l.two_sided);
+                          }},
+               result);
     return result;
 }
 

@@ -80,6 +80,9 @@ struct SpotLight {
     Rgb ambient;
     double range = kNoRange;
     LightProfile profile;
+    /// Cosines beyond which rounding cannot change on which side of the angles a direction is: most
+    /// directions need no arc cosine. Set by `ready_to_sample`; these values decide nothing.
+    double surely_within = 2.0, surely_beyond = -2.0;
 };
 
 /// A surface that shines with the same radiance from everywhere into all directions of its outer

@@ -45,6 +45,11 @@ bool reads_textures(const Material& m) {
            p.film.thickness_texture != kNoTexture;
 }
 
+bool reads_coordinates(const Material& m) {
+    return reads_textures(m) ||
+           (m.metallic_roughness && m.metallic_roughness->anisotropy.strength != 0.0);
+}
+
 double channel_of(const Rgba& texel, Channel channel) {
     switch (channel) {
         case Channel::Red:

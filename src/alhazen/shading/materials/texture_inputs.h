@@ -15,6 +15,8 @@ namespace alhazen {
 
 /// False: the material is the same everywhere, vertex colours apart.
 [[nodiscard]] bool reads_textures(const Material& material);
+/// Whether its look depends on texture coordinates or on their directions in the surface.
+[[nodiscard]] bool reads_coordinates(const Material& material);
 
 /// The metallic-roughness parameters as terms of Whitted's equation; docs/reference/materials.md
 /// derives them.
