@@ -1649,12 +1649,21 @@ function drawScale(place, layer, scales) {
 
 // apps/viewer/page/pace.ts
 var AIM = 46;
+var TOO_SLOW = 1.07;
+var FAST = 0.7;
+var USUAL = 1;
 var Pace = class {
   width;
   depth;
+  tooDeep = Infinity;
+  // was too slow at half the width
+  mean = AIM;
+  // of the costs, late ones more
   /** Another scene or renderer: nothing is known. */
   forget() {
     this.width = this.depth = void 0;
+    this.tooDeep = Infinity;
+    this.mean = AIM;
   }
   /** Width and depth of the next picture. Where nothing is known an eighth as wide, and two generations. */
   next(limits) {
@@ -1665,15 +1674,27 @@ var Pace = class {
   /** `cost`: milliseconds since the picture before, or since it was asked for. */
   learn(cost, facts, limits) {
     if (this.width === void 0 || this.depth === void 0 || Math.abs(facts.width - this.width) > 0.3 * this.width) return;
+    this.mean += 0.3 * (cost - this.mean);
+    const most = limits.full / 2, floor = limits.deepens ? leastWidth(this.depth, limits) : 0;
     const wanted = this.width * clamped(AIM / cost, 0.25, 2.25) ** 0.35;
-    const least = limits.full / 4, most = limits.full / 2;
-    if (limits.deepens && wanted < least && this.depth > 0) {
-      --this.depth;
-      this.width = least;
-    } else if (limits.deepens && cost < 0.6 * AIM && wanted >= most && this.depth < limits.depth) ++this.depth;
-    else this.width = wanted;
+    this.width = Math.min(most, Math.max(wanted, Math.min(this.width, floor)));
+    if (!limits.deepens) return;
+    if (this.mean > TOO_SLOW * AIM && this.depth > 0 && this.width <= floor) {
+      if (this.width === most) this.tooDeep = this.depth;
+      this.change(this.depth - 1);
+    } else if (this.width === most && this.depth < limits.depth) {
+      const fast = this.depth + 1 < this.tooDeep ? FAST : FAST * FAST;
+      if (this.mean < fast * AIM) this.change(this.depth + 1);
+    }
+  }
+  change(depth) {
+    this.depth = depth;
+    this.mean = AIM;
   }
 };
+function leastWidth(depth, limits) {
+  return depth > USUAL ? limits.full / 2 : depth > 0 ? limits.full / 4 : 0;
+}
 function clamped(x, lo, hi) {
   return Math.min(hi, Math.max(lo, x));
 }
