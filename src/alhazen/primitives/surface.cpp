@@ -282,6 +282,32 @@ void set_mesh_surface(const PlacedMesh& mesh, std::uint32_t triangle, const Plac
     if (placement != nullptr) carry_outward(*placement, true, surface);
 }
 
+HitParts parts_of(const Aggregate& aggregate, const Hit& hit) {
+    const PrimitiveTable* table = &aggregate.primitives();
+    const Instance* outermost = nullptr;
+    const Instance* shared_mesh = nullptr;
+    for (std::size_t level = hit.path.size(); level-- > 0;) {
+        const Instance& instance = table->instances[table->index(hit.path[level])];
+        if (outermost == nullptr && !instance.holds_rest) outermost = &instance;
+        shared_mesh = instance.of_shared_mesh ? &instance : nullptr;
+        table = &instance.aggregate->primitives();
+    }
+    const std::uint32_t kind = table->kind(hit.primitive);
+    const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table->first(kind);
+    HitParts parts;
+    if (shared_mesh != nullptr) {
+        parts.part = shared_mesh->part;
+    } else if (kind == kTriangleKind) {
+        parts.part = table->mesh_of(index).part;
+    } else {
+        parts.part = with_column(table->columns, kind, [&](const auto& column) {
+            return column.parts.empty() ? 0 : column.parts[index];
+        });
+    }
+    parts.instance = outermost != nullptr ? outermost->part : parts.part;
+    return parts;
+}
+
 std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit) {
     const Aggregate* innermost = &aggregate;
     for (std::size_t i = hit.path.size(); i-- > 0;) {

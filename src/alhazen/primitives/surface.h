@@ -75,6 +75,13 @@ class CoordinateNeed {
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
                  const CoordinateNeed& need, Surface& surface, float time = 0.0f);
 
+/// Surface::part and Surface::instance of a hit, without its surface.
+struct HitParts {
+    std::uint32_t part = 0, instance = 0;
+    friend bool operator==(const HitParts&, const HitParts&) = default;
+};
+[[nodiscard]] HitParts parts_of(const Aggregate& aggregate, const Hit& hit);
+
 /// The material of the surface at a hit, where the primitive alone determines it: without vertex
 /// colours, and without a solid around it that shows another material.
 [[nodiscard]] std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit);

@@ -151,29 +151,17 @@ Tracer Tracer::of(const Scene& scene) {
 HitIds Tracer::ids(const Hit& hit) const {
     HitIds ids;
     const PrimitiveTable* table = &aggregate_->primitives();
-    const Instance* outermost = nullptr;
-    const Instance* shared_mesh = nullptr;
     for (std::size_t level = hit.path.size(); level-- > 0;) {
         check_id(*table, hit.path[level], true);
-        const Instance& instance = table->instances[table->index(hit.path[level])];
-        if (outermost == nullptr && !instance.holds_rest) outermost = &instance;
-        shared_mesh = instance.of_shared_mesh ? &instance : nullptr;
-        table = &instance.aggregate->primitives();
+        table = &table->instances[table->index(hit.path[level])].aggregate->primitives();
     }
     check_id(*table, hit.primitive, false);
     const std::uint32_t kind = table->kind(hit.primitive);
     const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table->first(kind);
-    if (kind == kTriangleKind) {
-        const PlacedMesh& mesh = table->mesh_of(index);
-        ids.primitive = index - mesh.first_triangle;
-        ids.geometry = GeometryId{mesh.part};
-    } else {
-        ids.geometry = GeometryId{with_column(table->columns, kind, [&](const auto& column) {
-            return column.parts.empty() ? 0 : column.parts[index];
-        })};
-    }
-    if (shared_mesh != nullptr) ids.geometry = GeometryId{shared_mesh->part};
-    ids.outermost = outermost != nullptr ? GeometryId{outermost->part} : ids.geometry;
+    if (kind == kTriangleKind) ids.primitive = index - table->mesh_of(index).first_triangle;
+    const HitParts parts = parts_of(*aggregate_, hit);
+    ids.geometry = GeometryId{parts.part};
+    ids.outermost = GeometryId{parts.instance};
     return ids;
 }
 

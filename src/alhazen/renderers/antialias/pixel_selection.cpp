@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/huge_pages.h"
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/renderers/antialias/answer_pool.h"
 #include "alhazen/renderers/core/antialias_settings.h"
@@ -26,10 +28,10 @@ struct SelectionCell {
 };
 
 /// Number of the part that a ray meets first, and of that which placed it in the scene.
-std::uint64_t thing_of(const Scene& scene, const Ray& ray, const Hit& hit) {
+std::uint64_t thing_of(const Scene& scene, const Hit& hit) {
     if (!hit.found()) return 0;
-    const Surface surface = surface_at(*scene.aggregate, ray, hit);
-    return (std::uint64_t{surface.instance} << 32) + surface.part + 1;
+    const HitParts parts = parts_of(*scene.aggregate, hit);
+    return (std::uint64_t{parts.instance} << 32) + parts.part + 1;
 }
 
 double shown(double channel) {
@@ -43,6 +45,7 @@ bool differ(const Rgb& a, const Rgb& b, double threshold) {
 
 /// The round that traced a pixel, from 1 on; or one of these.
 using PixelRound = std::uint32_t;
+constexpr std::size_t kCellsAtOnce = 256;
 constexpr PixelRound kNoRay = 0, kAskedFor = std::numeric_limits<PixelRound>::max();
 
 /// Renders one film.
@@ -66,16 +69,15 @@ class PixelSelection {
         report.parts = 1;
         ThreadLimit threads(job_.control.threads);
         report.threads = threads.threads();
-        threads.run([&] { select(); });
+        threads.run([&] {
+            select();
+            if (job_.stop_requested()) return;
+            parallel_for(cells_.size(), kCellsAtOnce, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) fill(cells_[i]);
+            });
+        });
         report.counters = pool_.counters();
         if (job_.stop_requested()) return report;
-        for (const SelectionCell& cell : cells_) fill(cell);
-        const PixelBox& crop = film_.crop();
-        for (int y = 0; y < height_; ++y) {
-            for (int x = 0; x < width_; ++x) {
-                film_.set(crop.x0 + x, crop.y0 + y, shades_[at(x, y)]);
-            }
-        }
         report.done = 1;
         return report;
     }
@@ -125,13 +127,19 @@ class PixelSelection {
 
     /// Divides cells that do not agree with their rays. False where there are none.
     bool divide() {
-        const std::vector<SelectionCell> before = std::move(cells_);
+        parallel_for(cells_.size(), kCellsAtOnce, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                SelectionCell& c = cells_[i];
+                c.agreed = (c.x1 - c.x0 <= 1 && c.y1 - c.y0 <= 1) || agrees(c);
+            }
+        });
+        std::swap(cells_, before_);
         cells_.clear();
+        cells_.reserve(2 * before_.size());
         bool any = false;
-        for (const SelectionCell& c : before) {
-            if ((c.x1 - c.x0 <= 1 && c.y1 - c.y0 <= 1) || agrees(c)) {
+        for (const SelectionCell& c : before_) {
+            if (c.agreed) {
                 cells_.push_back(c);
-                cells_.back().agreed = true;
                 continue;
             }
             any = true;
@@ -185,10 +193,15 @@ class PixelSelection {
                v * ((1 - u) * shades_[at(c.x0, c.y1)] + u * shades_[at(c.x1, c.y1)]);
     }
 
+    /// Sets the pixels of a cell; its last column and row are those of its neighbours, where it has
+    /// any.
     void fill(const SelectionCell& c) {
-        for (int y = c.y0; y <= c.y1; ++y) {
-            for (int x = c.x0; x <= c.x1; ++x) {
-                if (rounds_[at(x, y)] == kNoRay) shades_[at(x, y)] = between(c, x, y);
+        const PixelBox& crop = film_.crop();
+        const int x_end = c.x1 + (c.x1 == width_ - 1), y_end = c.y1 + (c.y1 == height_ - 1);
+        for (int y = c.y0; y < y_end; ++y) {
+            Rgb* const row = film_.from(crop.x0, crop.y0 + y);
+            for (int x = c.x0; x < x_end; ++x) {
+                row[x] = rounds_[at(x, y)] == kNoRay ? between(c, x, y) : shades_[at(x, y)];
             }
         }
     }
@@ -209,7 +222,7 @@ class PixelSelection {
                 const bool finite = shades[k].is_finite();
                 counters.non_finite += !finite;
                 shades_[asked[k]] = finite ? shades[k] : Rgb{};
-                things_[asked[k]] = thing_of(job_.scene, rays[k], hits[k]);
+                things_[asked[k]] = thing_of(job_.scene, hits[k]);
                 rounds_[asked[k]] = round_;
             }
         });
@@ -229,12 +242,13 @@ class PixelSelection {
     EyeRays eye_;
     AnswerPool pool_;
     int width_, height_;
-    std::vector<Rgb> shades_;            ///< [pixel of the crop]
-    std::vector<std::uint64_t> things_;  ///< [pixel of the crop] with a ray
+    HugeVector<Rgb> shades_;             ///< [pixel of the crop] with a ray
+    HugeVector<std::uint64_t> things_;   ///< [pixel of the crop] with a ray
     PixelRound round_ = 0;               ///< the last
     std::vector<PixelRound> rounds_;     ///< [pixel of the crop]
     std::vector<std::uint32_t> asked_;   ///< pixels of the next round
     std::vector<SelectionCell> cells_;   ///< without gaps
+    std::vector<SelectionCell> before_;  ///< those of the round before, while they are divided
 };
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace alhazen {
 
 /// RenderJob::antialias must be set, with a step. Throws Error (Usage) for layers, which are for
-/// pixels with rays of their own. After a stop the film is unchanged, and no part is done.
+/// pixels with rays of their own. After a stop no part is done.
 [[nodiscard]] RenderReport render_selected_pixels(const SingleRayRenderer& renderer,
                                                   const RenderJob& job, Film& film);
 
