@@ -1,10 +1,24 @@
 """The interface of Open3D's ``RaycastingScene``, on numpy arrays instead of tensors.
 
-Source: the documentation of Open3D, ``open3d.t.geometry.RaycastingScene``. Differs: results are numpy arrays; all is
-computed in float64, and t_hit, uvs, points and distances are of the type of the rays or points.
+Source: the documentation of Open3D, ``open3d.t.geometry.RaycastingScene``; compared with Open3D 0.16.1 by
+``open3d_parity_test``.
+
+Differs:
+
+- Results are numpy arrays. Arguments may be tensors of Open3D, arrays of any type of numbers, or lists; one ray (6,) or
+  point (3,) will do. All is computed in float64, and t_hit, uvs, points and distances are float32 for float32 rays or
+  points, else float64.
+- Wrong calls are ``UsageError`` (a ``ValueError``) and wrong meshes ``SceneError``, not ``RuntimeError``. Cameras
+  whose rays Open3D makes NaN are errors.
+- ``list_intersections`` sorts the hits of a ray. Triangles in the same place are hits of their own.
+- On an edge or corner a ray hits one of the triangles there, and passes the rim on one side: crossings of a closed mesh
+  are even. Of triangles that are as near to a point the first is named.
+- A point on the surface of a closed mesh is inside. Without triangles distances are infinite; of points that are not
+  finite they are NaN.
 """
 from __future__ import annotations
 
+import operator
 from typing import Any, Dict, Optional, Tuple, overload
 
 import numpy as np
@@ -34,30 +48,39 @@ class RaycastingScene:
         # Of how many meshes: the number of those that are closed, and a scene of the others.
         self._sorted: Optional[Tuple[int, int, Optional[Scene]]] = None
 
-    def add_triangles(self, vertex_positions: Any, triangle_indices: Any = None) -> int:
-        """Adds a mesh and returns its geometry id: vertices (n, 3) and triangles (m, 3), or one object with
-        ``vertices`` and ``triangles`` or ``faces``."""
-        if triangle_indices is None:
-            mesh = vertex_positions
-            vertex_positions = np.asarray(mesh.vertices)
-            triangle_indices = np.asarray(mesh.triangles if hasattr(mesh, "triangles") else mesh.faces)
-        self._scene.add_mesh(vertex_positions, triangle_indices)
+    @overload
+    def add_triangles(self, vertex_positions: Any, triangle_indices: Any) -> int: ...
+
+    @overload
+    def add_triangles(self, mesh: Any, /) -> int: ...
+
+    @overload
+    def add_triangles(self, *, mesh: Any) -> int: ...
+
+    def add_triangles(self, vertex_positions: Any = None, triangle_indices: Any = None, *, mesh: Any = None) -> int:
+        """Adds a mesh and returns its geometry id: vertices (n, 3), scene units, and triangles (m, 3), or one mesh: of
+        Open3D, with tensors or without, or an object with ``vertices`` and ``triangles`` or ``faces``."""
+        if mesh is None and triangle_indices is None:
+            vertex_positions, mesh = None, vertex_positions
+        if (mesh is None) == (vertex_positions is None) or (vertex_positions is None) != (triangle_indices is None):
+            raise UsageError("add_triangles: expected vertex_positions, triangle_indices, or mesh")
+        if mesh is not None:
+            vertex_positions, triangle_indices = _triangles_of(mesh)
+        self._scene.add_mesh(_array(vertex_positions), _array(triangle_indices))
         self._count += 1
         return self._count - 1
 
     def cast_rays(self, rays: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
         """The first hits of rays (..., 6): t_hit, geometry_ids, primitive_ids (uint32), primitive_uvs (..., 2) and
         primitive_normals (..., 3)."""
-        hits = self._scene.intersect(rays, threads=nthreads)
+        hits = self._scene.intersect(_rows(rays, 6, "rays"), threads=nthreads)
         hits["primitive_uvs"] = hits.pop("uvs")
         hits["primitive_normals"] = hits.pop("normals")
         return hits
 
     def test_occlusions(self, rays: Any, tnear: float = 0.0, tfar: float = np.inf, nthreads: int = 0) -> np.ndarray:
         """Whether rays (..., 6) hit anything from tnear to tfar: bool (...)."""
-        rays = np.asarray(rays)
-        if rays.shape[-1:] != (6,):
-            raise UsageError(f"rays: expected the shape (..., 6), found {rays.shape}")
+        rays = _rows(rays, 6, "rays")
         if tnear == 0.0 and tfar == np.inf:
             return self._scene.occluded(rays, threads=nthreads)
         limited = np.empty(rays.shape[:-1] + (8,), dtype=rays.dtype if rays.dtype == np.float32 else np.float64)
@@ -68,25 +91,29 @@ class RaycastingScene:
 
     def count_intersections(self, rays: Any, nthreads: int = 0) -> np.ndarray:
         """The number of hits of each ray (..., 6): int32 (...)."""
-        return self._scene.count_intersections(rays, threads=nthreads).astype(np.int32)
+        return self._scene.count_intersections(_rows(rays, 6, "rays"), threads=nthreads).astype(np.int32)
 
     def list_intersections(self, rays: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
-        """All hits of rays (..., 6), flat: ray_splits (rays + 1), ray_ids (both int64), t_hit (h,), geometry_ids,
-        primitive_ids (uint32), primitive_uvs (h, 2)."""
-        hits = self._scene.all_hits(rays, threads=nthreads)
+        """All hits of rays (..., 6), those of a ray from near to far: ray_splits (rays + 1), ray_ids (h,),
+        geometry_ids, primitive_ids (all uint32), t_hit (h,) and primitive_uvs (h, 2). Hits of ray i are
+        [ray_splits[i], ray_splits[i + 1])."""
+        hits = self._scene.all_hits(_rows(rays, 6, "rays"), threads=nthreads)
+        for name in ("ray_splits", "ray_ids"):
+            hits[name] = hits[name].astype(np.uint32)
         hits["primitive_uvs"] = hits.pop("uvs")
         return hits
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
         """1 for points (..., 3) inside of an odd number of meshes, else 0: float32 (...). Each mesh that is closed is
         asked whether it holds the point; ``nsamples`` (odd) rays vote on those that are open, inside where they cross
-        an odd number of their triangles. Points on the surface of a closed mesh are inside."""
+        an odd number of their triangles. The directions of these rays are those of Open3D 0.17 and later. Points on the
+        surface of a closed mesh are inside."""
         return self._inside(query_points, nthreads, nsamples).astype(np.float32)
 
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
         """The nearest points of the meshes to points (..., 3): points (..., 3), geometry_ids, primitive_ids (uint32),
         primitive_uvs (..., 2) and primitive_normals (..., 3); see ``Scene.closest_points``."""
-        found = self._scene.closest_points(query_points, threads=nthreads)
+        found = self._scene.closest_points(_rows(query_points, 3, "query_points"), threads=nthreads)
         del found["distance"]
         found["primitive_uvs"] = found.pop("uvs")
         found["primitive_normals"] = found.pop("normals")
@@ -94,7 +121,7 @@ class RaycastingScene:
 
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> np.ndarray:
         """The distance of points (..., 3) from the meshes, scene units: real (...)."""
-        return self._scene.closest_points(query_points, threads=nthreads)["distance"]
+        return self._scene.closest_points(_rows(query_points, 3, "query_points"), threads=nthreads)["distance"]
 
     def compute_signed_distance(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
         """The distance of points (..., 3), negative for those inside, as ``compute_occupancy`` has it: real (...)."""
@@ -105,9 +132,7 @@ class RaycastingScene:
     def _inside(self, query_points: Any, nthreads: int, nsamples: int) -> np.ndarray:
         if nsamples < 1 or nsamples % 2 != 1:
             raise UsageError(f"nsamples: expected an odd number from 1, found {nsamples}")
-        points = np.asarray(query_points)
-        if points.shape[-1:] != (3,):
-            raise UsageError(f"query_points: expected the shape (..., 3), found {points.shape}")
+        points = _rows(query_points, 3, "query_points")
         solids, open_meshes = self._closed_and_open()
         if solids == 1 and open_meshes is None:
             return self._scene.inside(points, threads=nthreads)
@@ -156,17 +181,20 @@ class RaycastingScene:
             raise UsageError("create_rays_pinhole: expected " + ", or ".join(map(", ".join, _PINHOLE_ARGUMENTS))
                              + "; " + given)
         values = {**dict(zip(names, arguments)), **named}
-        width, height = (int(values.pop(name)) for name in ("width_px", "height_px"))
-        if width < 1 or height < 1:
-            raise UsageError(f"create_rays_pinhole: {width} x {height} pixels; expected 1 x 1 or more")
+        width, height = (_pixels(values.pop(name), name) for name in ("width_px", "height_px"))
         if "fov_deg" in values:
             intrinsic, extrinsic = _camera_at(width=width, height=height, **values)
         else:
-            intrinsic = _matrix(values["intrinsic_matrix"], 3, "intrinsic_matrix")
-            extrinsic = _matrix(values["extrinsic_matrix"], 4, "extrinsic_matrix")
-        world_from_camera = extrinsic[:3, :3].T
-        world_from_pixel = world_from_camera @ np.linalg.inv(intrinsic)
+            intrinsic = _shaped(values["intrinsic_matrix"], (3, 3), "intrinsic_matrix")
+            extrinsic = _shaped(values["extrinsic_matrix"], (4, 4), "extrinsic_matrix")
         rays = np.empty((height, width, 6), dtype=np.float32)
+        if not rays.size:
+            return rays
+        world_from_camera = extrinsic[:3, :3].T
+        try:
+            world_from_pixel = world_from_camera @ np.linalg.inv(intrinsic)
+        except np.linalg.LinAlgError:
+            raise UsageError("intrinsic_matrix: it has no inverse") from None
         rays[..., :3] = -world_from_camera @ extrinsic[:3, 3]
         x, y = np.arange(width) + 0.5, np.arange(height) + 0.5
         rays[..., 3:] = (x[None, :, None] * world_from_pixel[:, 0] + y[:, None, None] * world_from_pixel[:, 1]
@@ -174,38 +202,87 @@ class RaycastingScene:
         return rays
 
 
+def _array(values: Any) -> Any:
+    """Tensors of Open3D, which numpy does not know, as arrays; others as they are."""
+    return values.numpy() if hasattr(values, "numpy") and not hasattr(values, "__array__") else values
+
+
+def _rows(values: Any, columns: int, name: str) -> np.ndarray:
+    """The array (..., columns)."""
+    try:
+        array = np.asarray(_array(values))
+    except ValueError:
+        raise UsageError(f"{name}: expected an array of numbers") from None
+    if array.shape[-1:] != (columns,):
+        raise UsageError(f"{name}: expected the shape (..., {columns}), found {array.shape}")
+    return array
+
+
+def _triangles_of(mesh: Any) -> Tuple[Any, Any]:
+    """Vertices (n, 3) and triangles (m, 3) of a mesh."""
+    if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):  # of Open3D, with tensors
+        return mesh.vertex["positions"], mesh.triangle["indices"]
+    if not hasattr(mesh, "vertices") or not (hasattr(mesh, "triangles") or hasattr(mesh, "faces")):
+        raise UsageError(f"add_triangles: {type(mesh).__name__} is no mesh: expected vertices and triangles or faces")
+    return np.asarray(mesh.vertices), np.asarray(mesh.triangles if hasattr(mesh, "triangles") else mesh.faces)
+
+
 def _votes(scene: Scene, points: np.ndarray, nthreads: int, nsamples: int) -> np.ndarray:
     """Whether most of ``nsamples`` rays from each point (..., 3) cross an odd number of triangles: bool (...)."""
     points = points.astype(np.float64, copy=False)
     votes = np.zeros(points.shape[:-1], dtype=np.int64)
-    # About the direction (1, 1, 1), the same for each call.
-    for direction in 1 + np.random.default_rng(42).uniform(-0.001, 0.001, (nsamples, 3)):
+    for direction in _vote_directions(nsamples):
         rays = np.concatenate([points, np.broadcast_to(direction, points.shape)], axis=-1)
         votes += scene.count_intersections(rays, threads=nthreads) % 2
     return votes > nsamples // 2
+
+
+def _vote_directions(count: int) -> np.ndarray:
+    """Directions (count, 3), float32, about (1, 1, 1), the same for each call. They are those of Open3D where its C++
+    library is GNU's: std::mt19937 of seed 42, and std::uniform_real_distribution<float> from -0.001 to 0.001."""
+    drawn = np.random.RandomState(42).randint(0, 2**32, (count, 3), dtype=np.uint32)
+    lo, hi, one = np.array([-0.001, 0.001, 1], dtype=np.float32)
+    return one + (drawn.astype(np.float32) / np.float32(2**32) * (hi - lo) + lo)
 
 
 _PINHOLE_ARGUMENTS = (("fov_deg", "center", "eye", "up", "width_px", "height_px"),
                       ("intrinsic_matrix", "extrinsic_matrix", "width_px", "height_px"))
 
 
-def _matrix(numbers: Any, size: int, name: str) -> np.ndarray:
-    matrix = np.asarray(numbers, dtype=np.float64)
-    if matrix.shape != (size, size):
-        raise UsageError(f"{name}: expected the shape ({size}, {size}), found {matrix.shape}")
-    return matrix
+def _shaped(numbers: Any, shape: Tuple[int, ...], name: str) -> np.ndarray:
+    try:
+        array = np.asarray(_array(numbers), dtype=np.float64)
+    except (TypeError, ValueError):
+        raise UsageError(f"{name}: expected an array of numbers") from None
+    if array.shape != shape:
+        raise UsageError(f"{name}: expected the shape {shape}, found {array.shape}")
+    return array
+
+
+def _pixels(number: Any, name: str) -> int:
+    try:
+        count = operator.index(number)
+    except TypeError:
+        count = -1
+    if count < 0:
+        raise UsageError(f"{name}: expected a whole number from 0, found {number!r}")
+    return count
 
 
 def _camera_at(fov_deg: float, center: Any, eye: Any, up: Any, width: int, height: int
                ) -> Tuple[np.ndarray, np.ndarray]:
     """The intrinsic and the extrinsic matrix; the rows of the rotation are the camera's axes."""
-    eye, center, up = (np.asarray(v, dtype=np.float64) for v in (eye, center, up))
-    z = (center - eye) / np.linalg.norm(center - eye)
+    eye, center, up = (_shaped(v, (3,), name) for v, name in ((eye, "eye"), (center, "center"), (up, "up")))
+    z = center - eye
+    if not np.linalg.norm(z) > 0:
+        raise UsageError("create_rays_pinhole: eye and center are the same")
+    z /= np.linalg.norm(z)
     x = np.cross(up, z)
     if not np.linalg.norm(x) > 0:
         raise UsageError("create_rays_pinhole: up is parallel to the view")
     x /= np.linalg.norm(x)
-    focal = 0.5 * width / np.tan(0.5 * np.radians(fov_deg))
+    with np.errstate(divide="ignore"):  # an angle of 0: all rays go along the view
+        focal = 0.5 * width / np.tan(0.5 * np.radians(fov_deg))
     extrinsic = np.eye(4)
     extrinsic[:3, :3] = x, np.cross(z, x), z
     extrinsic[:3, 3] = -extrinsic[:3, :3] @ eye

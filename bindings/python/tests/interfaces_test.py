@@ -192,6 +192,7 @@ class Open3D(unittest.TestCase):
     def test_meshes_are_counted_by_parity(self):
         points = np.array([[1.5, 1.5, 1.4], [0.5, 0.5, 0.5], [5, 5, 5]])
         far_vertices, far_faces = cube(20, 21)
+        far_vertices += (0, 0, 5)  # out of the way of rays that vote
         for far in (None, far_faces, far_faces[:-1]):
             scene = alhazen.raycasting.RaycastingScene()
             if far is not None:
@@ -203,15 +204,15 @@ class Open3D(unittest.TestCase):
             # On a surface: in the wall between, and where the inner one begins.
             self.assertEqual(scene.compute_occupancy([[3, 0.5, 0.5], [1, 1.5, 1.5]]).tolist(), [1, 1])
         # The far one is open, and is asked by rays; the closed are not.
-        self.assertEqual(scene.compute_occupancy(np.float32([[20.2, 20.3, 20.1], [2.5, 2.5, 2.5]])).tolist(), [1, 1])
+        self.assertEqual(scene.compute_occupancy(np.float32([[20.2, 20.3, 25.1], [2.5, 2.5, 2.5]])).tolist(), [1, 1])
         # An open mesh within a closed one.
         mixed = alhazen.raycasting.RaycastingScene()
         mixed.add_triangles(*cube(0, 3))
         vertices, faces = cube(1, 2)
         mixed.add_triangles(vertices, faces[:-1])
-        np.testing.assert_array_equal(mixed.compute_occupancy([[1.2, 1.3, 1.1], [0.5, 0.5, 0.5]], nsamples=3), [0, 1])
+        np.testing.assert_array_equal(mixed.compute_occupancy([[1.2, 1.3, 1.1], [0.5, 0.4, 0.5]], nsamples=3), [0, 1])
         mixed.add_triangles(*cube(-1, 4))  # the meshes are sorted again
-        np.testing.assert_array_equal(mixed.compute_occupancy([[1.2, 1.3, 1.1], [0.5, 0.5, 0.5]]), [1, 0])
+        np.testing.assert_array_equal(mixed.compute_occupancy([[1.2, 1.3, 1.1], [0.5, 0.4, 0.5]]), [1, 0])
 
     def test_what_has_no_nearest_point_is_said(self):
         scene = alhazen.raycasting.RaycastingScene()
@@ -249,6 +250,7 @@ class Open3D(unittest.TestCase):
         self.assertEqual(scene.test_occlusions(rays, tnear=7).tolist(), [[True, False, False]])
         lists = scene.list_intersections(rays)
         self.assertEqual(lists["ray_splits"].tolist(), [0, 2, 4, 4])
+        self.assertEqual((lists["ray_splits"].dtype, lists["ray_ids"].dtype), (np.uint32, np.uint32))
         self.assertEqual(lists["t_hit"].tolist(), [8, 9, 5, 6])
         self.assertEqual(scene.compute_occupancy(np.float32([[0.5, 0.5, 0.5], [2, 2, 2]])).tolist(), [1, 0])
 
@@ -309,8 +311,71 @@ class Open3D(unittest.TestCase):
             pinhole(np.eye(3), np.eye(3), 2, 2)
         with self.assertRaisesRegex(alhazen.UsageError, "parallel"):
             pinhole(60, [0, 0, 0], [0, 0, 1], [0, 0, 1], 2, 2)
-        with self.assertRaisesRegex(alhazen.UsageError, "0 x 2 pixels"):
-            pinhole(60, [0, 0, 0], [0, 0, 1], [0, 1, 0], 0, 2)
+        with self.assertRaisesRegex(alhazen.UsageError, "eye and center are the same"):
+            pinhole(60, [0, 0, 1], [0, 0, 1], [0, 1, 0], 2, 2)
+        for width in (-1, 2.5):
+            with self.assertRaisesRegex(alhazen.UsageError, "width_px: expected a whole number from 0, found"):
+                pinhole(60, [0, 0, 0], [0, 0, 1], [0, 1, 0], width, 2)
+        for center in (0, [0, 0], [[0, 0, 0]], [0, 0, 0, 0]):
+            with self.assertRaisesRegex(alhazen.UsageError, r"center: expected the shape \(3,\)"):
+                pinhole(60, center, [0, 0, 1], [0, 1, 0], 2, 2)
+        with self.assertRaisesRegex(alhazen.UsageError, "up: expected an array of numbers"):
+            pinhole(60, [0, 0, 0], [0, 0, 1], "up", 2, 2)
+        with self.assertRaisesRegex(alhazen.UsageError, "intrinsic_matrix: it has no inverse"):
+            pinhole(np.zeros((3, 3)), np.eye(4), 2, 2)
+
+    def test_cameras_without_pixels_have_no_rays(self):
+        pinhole = alhazen.raycasting.RaycastingScene.create_rays_pinhole
+        self.assertEqual(pinhole(60, [0, 0, 0], [0, 0, 1], [0, 1, 0], 0, 2).shape, (2, 0, 6))
+        self.assertEqual(pinhole(np.eye(3), np.eye(4), 3, 0).shape, (0, 3, 6))
+
+    def test_meshes_and_tensors_of_open3d_are_taken(self):
+        class Tensor:  # numpy does not know Open3D's
+            def __init__(self, numbers):
+                self.numbers = np.asarray(numbers)
+
+            def numpy(self):
+                return self.numbers
+
+        vertices, faces = cube()
+        with_tensors = SimpleNamespace(vertex={"positions": Tensor(vertices)}, triangle={"indices": Tensor(faces)})
+        without = SimpleNamespace(vertices=vertices, triangles=faces)
+        ray, point = Tensor(np.float32([[0.2, 0.3, 9, 0, 0, -1]])), Tensor(np.float32([[0.5, 0.5, 3]]))
+        scene = alhazen.raycasting.RaycastingScene
+        for add in (lambda s: s.add_triangles(with_tensors), lambda s: s.add_triangles(mesh=with_tensors),
+                    lambda s: s.add_triangles(without), lambda s: s.add_triangles(Tensor(vertices), Tensor(faces)),
+                    lambda s: s.add_triangles(vertex_positions=vertices, triangle_indices=faces)):
+            made = scene()
+            self.assertEqual(add(made), 0)
+            self.assertEqual(made.cast_rays(ray)["t_hit"].tolist(), [8])
+            self.assertEqual(made.test_occlusions(ray, tfar=7).tolist(), [False])
+            self.assertEqual(made.count_intersections(ray).tolist(), [2])
+            self.assertEqual(made.list_intersections(ray)["t_hit"].tolist(), [8, 9])
+            self.assertEqual(made.compute_signed_distance(point).tolist(), [2])
+            self.assertEqual(made.compute_closest_points(point)["points"].tolist(), [[0.5, 0.5, 1]])
+        self.assertEqual(scene.create_rays_pinhole(Tensor(np.eye(3)), Tensor(np.eye(4)), 3, 2).shape, (2, 3, 6))
+        for wrong in ({}, {"vertex_positions": vertices, "mesh": without}, {"triangle_indices": faces},
+                      {"mesh": without, "triangle_indices": faces}):
+            with self.assertRaisesRegex(alhazen.UsageError, "expected vertex_positions, triangle_indices, or mesh"):
+                scene().add_triangles(**wrong)
+        with self.assertRaisesRegex(alhazen.UsageError, "ndarray is no mesh"):
+            scene().add_triangles(vertices)
+
+    def test_rays_have_six_columns(self):
+        scene = alhazen.raycasting.RaycastingScene()
+        scene.add_triangles(*cube())
+        for query in (scene.cast_rays, scene.test_occlusions, scene.count_intersections, scene.list_intersections):
+            for wrong in (np.zeros((2, 8)), np.zeros((2, 3)), 0.0):
+                with self.assertRaisesRegex(alhazen.UsageError, r"rays: expected the shape \(\.\.\., 6\), found"):
+                    query(wrong)
+            with self.assertRaisesRegex(alhazen.UsageError, "rays: expected an array of numbers"):
+                query([[0, 0, 0, 0, 0, 1], [0]])
+
+    def test_votes_go_the_ways_of_open3d(self):
+        # std::mt19937 of seed 42, std::uniform_real_distribution<float>(-0.001, 0.001), by GNU's library.
+        expected = [[0.999749064, 1.00059307, 1.00090146], [0.999366879, 1.00046396, 1.00055933],
+                    [1.00019729, 1.00019372, 0.999312043]]
+        np.testing.assert_array_equal(alhazen.raycasting._vote_directions(3), np.float32(expected))
 
 
 if __name__ == "__main__":
