@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "alhazen/base/error.h"
+#include "alhazen/csg/crossing_memo.h"
 #include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/primitives/unused_shear.h"
 
 namespace alhazen {
@@ -18,7 +20,9 @@ constexpr double kOffsetShare = 0x1p-8;
 }  // namespace
 
 CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
-    : table_(std::move(table)), expression_(std::move(expression)) {
+    : table_(std::move(table)),
+      expression_(std::move(expression)),
+      number_(CrossingMemo::number_of_solid()) {
     if (expression_.leaves.size() > kMaxCsgLeaves) {
         throw Error(ErrorKind::Resource, "more than 1073741823 leaves in one solid");
     }
@@ -30,6 +34,7 @@ CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
         solids_.push_back(dynamic_cast<const SolidAggregate*>(instance.aggregate.get()));
     }
     find_media();
+    find_remembered();
     unbounded_ = std::any_of(boxes.begin(), boxes.end(),
                              [](const Box3& box) { return !box.empty() && !box.bounded(); });
     Box3 finite;
@@ -74,6 +79,32 @@ void CsgSolid::find_media() {
     }
 }
 
+/// Those that may have more than two crossings, where hits are asked for their media.
+void CsgSolid::find_remembered() {
+    remembered_.resize(leaf_count(), false);
+    if (!has_media_) return;
+    for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
+        const std::uint32_t kind = table_.kind(expression_.leaves[leaf]);
+        if (kind >= kTriangleKind) continue;
+        remembered_[leaf] = with_column(table_.columns, kind, [](const auto& column) {
+            return ShapeOfColumn<decltype(column)>::Type::kMaxHits > 2;
+        });
+    }
+}
+
+void CsgSolid::intersect(std::uint32_t leaf, const Ray& line, ShapeHits& found) const {
+    const PrimitiveId id = expression_.leaves[leaf];
+    if (!remembered_[leaf]) return table_.intersect(id, line, kUnusedShear, found);
+    const CrossingMemo::Key key(number_, leaf, line);
+    CrossingMemo& memo = CrossingMemo::of_thread();
+    if (const CrossingMemo::Found known = memo.find(key); known.known) {
+        for (const ShapeHit& hit : known.hits) found.push_back(hit);
+        return;
+    }
+    table_.intersect(id, line, kUnusedShear, found);
+    memo.keep(key, {found.begin(), found.end()});
+}
+
 bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
                      std::vector<Hit>& hits, TraversalStats* stats) const {
     const PrimitiveId id = expression_.leaves[leaf];
@@ -81,7 +112,7 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
     const std::uint32_t first_instance = table_.first(kInstanceKind);
     if (static_cast<std::uint32_t>(id) < first_instance) {
         ShapeHits found;
-        table_.intersect(id, ray.line, kUnusedShear, found);
+        intersect(leaf, ray.line, found);
         if (stats != nullptr) {
             ++stats->primitive_tests;
             stats->primitive_hits += !found.empty();

@@ -13,6 +13,7 @@
 /// leaf with the lowest number whose own change, together with that of all nodes above it, makes
 /// the change of the solid.
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -94,6 +95,9 @@ class CsgSolid {
     static constexpr double kPadPerTolerance = 4.0;
 
     void find_media();
+    void find_remembered();
+    /// All crossings of the line with a shape.
+    void intersect(std::uint32_t leaf, const Ray& line, ShapeHits& found) const;
     /// max_component without a call. Precondition: no NaN.
     [[nodiscard]] static double largest(const Vec3& v) {
         const double xy = v.x > v.y ? v.x : v.y;
@@ -105,6 +109,8 @@ class CsgSolid {
     CsgTree tree_;
     std::vector<MaterialId> materials_;  ///< [leaf]
     std::vector<std::uint32_t> media_;   ///< [leaf]
+    std::vector<bool> remembered_;       ///< [leaf] whether CrossingMemo keeps its crossings
+    std::uint64_t number_;               ///< CrossingMemo::number_of_solid
     std::uint32_t only_medium_ = kOpaque;
     bool has_media_ = false;
     bool unbounded_ = false;                     ///< some leaf is unbounded

@@ -149,5 +149,46 @@ TEST(CsgMedia, ACutMayShowWhatItCuts) {
     }
 }
 
+/// A turned glass of that radius around the z axis, with liquid in it.
+Scene turned_glass(double radius, const char* evaluator) {
+    SceneMaker maker;
+    const MaterialId glass = maker.material(clear("glass"));
+    const MaterialId liquid = maker.material(clear("liquid"));
+    const ObjectIndex o = maker.object("filled");
+    maker.description().objects[static_cast<std::size_t>(o)].combine = Combine::Union;
+    Lathe wall;
+    wall.profile.curves = {line_curve({0, -1}, {radius, -1}), line_curve({radius, -1}, {radius, 1}),
+                           line_curve({radius, 1}, {0, 1})};
+    wall.profile.loop_ends = {3};
+    Diagnostics diagnostics;
+    wall.validate({}, diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 0u);
+    // First listed: it fills what both hold.
+    maker.add(Sphere{{0, 0, 0}, 0.25}, liquid, {}, o);
+    maker.add(wall, glass, {}, o);
+    maker.add(o);
+    return compiled(maker, evaluator);
+}
+
+TEST(CsgMedia, CrossingsOfASolidThatIsGoneAreNotTakenForThoseOfTheNext) {
+    // The same lines through solids that may lie where the one before lay in memory.
+    const Ray line{{-4, 0, 0}, {1, 0, 0}};
+    for (const char* evaluator : kEvaluators) {
+        for (const double radius : {1.0, 0.5, 2.0, 0.75}) {
+            const Scene scene = turned_glass(radius, evaluator);
+            for (int again = 0; again < 2; ++again) {
+                const Walls found = walls(scene, line);
+                const double expected[] = {4 - radius, 3.75, 3.75, 4.25, 4.25, 4 + radius};
+                ASSERT_EQ(found.t.size(), 6u) << evaluator << radius;
+                for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found.t[i], expected[i], 1e-12);
+                EXPECT_EQ(found.media[0].before, std::nullopt);
+                EXPECT_EQ(found.media[0].after, MaterialId{0});
+                EXPECT_EQ(found.media[1].after, MaterialId{1});
+                EXPECT_EQ(found.media[5].after, std::nullopt);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE
