@@ -59,6 +59,22 @@ Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart
     return hero_only && photon.hero_only() ? (1.0 / Spectrum::kCount) * light : light;
 }
 
+PhotonScattering::PhotonScattering(const ScatterPoint& at, LightPart part, bool hero_only)
+    : at_(at), part_(part), hero_only_(hero_only) {
+    // Its density is at most 1 / pi: no direction of it is glossy.
+    static_assert(kGlossyDensity > 1.0 / kPi);
+    if (const auto reflectance = at.lambert()) matt_ = (1.0 / kPi) * *reflectance;
+}
+
+Spectrum PhotonScattering::operator()(const Photon& photon) const {
+    if (!matt_) return scattered_light(at_, photon, part_, hero_only_);
+    const Vec3 from = photon.from.vector();
+    const double shading = dot(from, at_.normal()), cosine = dot(from, at_.geometric());
+    if (!(shading > 0.0 && cosine > 0.0)) return {};
+    const double share = hero_only_ && photon.hero_only() ? 1.0 / Spectrum::kCount : 1.0;
+    return (share * (shading / cosine)) * (*matt_ * photon.light());
+}
+
 double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal) {
     std::vector<PhotonTree::Near> found;
     const auto [photons, squared] = counted_photons(map, point, PhotonFits(normal, false), found);
@@ -87,10 +103,11 @@ Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, c
                                  LightPart part, bool hero_only) {
     const auto [photons, squared] = counted_photons(map, point, PhotonFits(at), found_);
     if (!(squared > 0.0)) return {};
+    const PhotonScattering scattered(at, part, hero_only);
     Spectrum sum;
     for (const PhotonTree::Near& near : photons) {
         sum += filter_weight(map.filter, near.squared / squared) *
-               scattered_light(at, map.tree.photons()[near.node], part, hero_only);
+               scattered(map.tree.photons()[near.node]);
     }
     return (1.0 / (kPi * squared)) * sum;
 }

@@ -13,6 +13,7 @@
 /// a whole.
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "alhazen/renderers/light_transport/scatter_point.h"
@@ -56,6 +57,21 @@ enum class LightPart : std::uint8_t { All, NotGlossy };
 /// the path that looks at it; where both are, the hero counts for all wavelengths once.
 [[nodiscard]] Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part,
                                        bool hero_only);
+
+/// `scattered_light` of many photons at one point. Where all that scatters is one matt reflection,
+/// each costs two cosines.
+class PhotonScattering {
+  public:
+    /// `at` must outlive it.
+    PhotonScattering(const ScatterPoint& at, LightPart part, bool hero_only);
+    [[nodiscard]] Spectrum operator()(const Photon& photon) const;
+
+  private:
+    const ScatterPoint& at_;
+    LightPart part_;
+    bool hero_only_;
+    std::optional<Spectrum> matt_;  ///< reflectance over pi
+};
 
 /// A tree of photons and how it is looked at.
 struct PhotonMap {

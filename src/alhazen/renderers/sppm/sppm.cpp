@@ -34,12 +34,11 @@ class PassEye final : public PhotonEye {
   private:
     [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override {
         const PhotonFits fits(at.scatter);
-        const bool hero_only = at.path.waves->hero_only();
+        const PhotonScattering scattered(at.scatter, LightPart::NotGlossy,
+                                         at.path.waves->hero_only());
         Spectrum sum;
         grid_.for_near(at.surface.point, [&](const Photon& photon) {
-            if (fits(photon)) {
-                sum += scattered_light(at.scatter, photon, LightPart::NotGlossy, hero_only);
-            }
+            if (fits(photon)) sum += scattered(photon);
         });
         return (1.0 / (kPi * grid_.radius() * grid_.radius())) * sum;
     }
