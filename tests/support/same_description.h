@@ -261,8 +261,8 @@ inline bool same(const PointLight& a, const PointLight& b) {
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6) && same(profile_a, profile_b);
 }
 inline bool same(const SpotLight& a, const SpotLight& b) {
-    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, profile_a] = a;
-    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, profile_b] = b;
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, profile_a, derived_a] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, profile_b, derived_b] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8) &&
            same(profile_a, profile_b);
 }

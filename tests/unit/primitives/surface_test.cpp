@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/math/constants.h"
 #include "alhazen/sampling/random.h"
 #include "alhazen/scene/scene.h"
 #include "support/scene_maker.h"
@@ -173,6 +174,106 @@ TEST(Surface, VertexMaterialsCarryTheBarycentricWeights) {
     EXPECT_NEAR(s.weights[0], 0.25, 1e-15);
     EXPECT_NEAR(s.weights[1], 0.25, 1e-15);
     EXPECT_NEAR(s.weights[2], 0.5, 1e-15);
+}
+
+Material textured() {
+    Material m;
+    m.diffuse.texture = TextureId{0};
+    return m;
+}
+/// The surface as materials need it, and whole.
+struct Surfaces {
+    Surface needed, whole;
+};
+Surfaces surfaces(const Scene& scene, const Ray& ray) {
+    Surfaces result;
+    Hit hit;
+    EXPECT_TRUE(scene.aggregate->closest(ray, hit, nullptr));
+    result.whole = surface_at(*scene.aggregate, ray, hit);
+    set_surface(*scene.aggregate, ray, hit, CoordinateNeed::of(scene.reads_coordinates),
+                result.needed);
+    EXPECT_EQ(result.needed.point, result.whole.point);
+    EXPECT_EQ(result.needed.normal, result.whole.normal);
+    EXPECT_EQ(result.needed.error, result.whole.error);
+    const HitParts parts = parts_of(*scene.aggregate, hit);
+    EXPECT_EQ(parts.part, result.whole.part);
+    EXPECT_EQ(parts.instance, result.whole.instance);
+    return result;
+}
+
+TEST(Surface, TextureCoordinatesAreThoseOfMaterialsThatReadThem) {
+    SceneMaker maker;
+    maker.description().textures.push_back({"", SolidTexture{}, {}});
+    const MaterialId plain = maker.material({}), read = maker.material(textured());
+    const Affine turned = Affine::rotate({1, 2, 3}, 0.7);
+    const ObjectIndex ball = maker.object("ball");
+    maker.add(Sphere{{0, 0, 0}, 1}, read, turned, ball);
+    maker.add(Sphere{{-4, 0, 0}, 1}, plain, turned);
+    maker.add(Sphere{{0, 0, 0}, 1}, read, turned);
+    maker.add(ball, plain, Affine::translate({4, 0, 0}) * turned);
+    const Scene scene = maker.compile();
+    ASSERT_EQ(scene.reads_coordinates, (std::vector<std::uint8_t>{0, 1}));
+    const auto down = [&](double x) { return surfaces(scene, {{x + 0.3, 0.2, 5}, {0, 0, -1}}); };
+    const Surfaces of_plain = down(-3.0), of_read = down(0.0), placed = down(4.0);
+    EXPECT_EQ(of_plain.needed.dpdu, Vec3{});
+    for (const Surfaces& s : {of_read, placed}) {
+        EXPECT_NE(s.whole.dpdu, Vec3{});
+        EXPECT_EQ(s.needed.uv, s.whole.uv);
+        EXPECT_EQ(s.needed.uv2, s.whole.uv2);
+        EXPECT_EQ(s.needed.dpdu, s.whole.dpdu);
+        EXPECT_EQ(s.needed.dpdv2, s.whole.dpdv2);
+    }
+}
+
+TEST(Surface, ASolidThatShowsTheMaterialOfAnotherPartHasCoordinates) {
+    // Glass first, a textured liquid in it: the wall is the glass's sphere, and may show the
+    // liquid.
+    SceneMaker maker;
+    maker.description().textures.push_back({"", SolidTexture{}, {}});
+    Material glass, liquid = textured();
+    glass.transmissive.color = liquid.transmissive.color = {1, 1, 1};
+    const MaterialId of_glass = maker.material(glass), of_liquid = maker.material(liquid);
+    const ObjectIndex o = maker.object("filled");
+    maker.description().objects[static_cast<std::size_t>(o)].combine = Combine::Union;
+    maker.add(Sphere{{0, 0, 0}, 1}, of_glass, {}, o);
+    maker.add(Sphere{{0, 0, 0}, 2}, of_liquid, {}, o);
+    maker.add(o);
+    const Scene scene = maker.compile();
+    std::vector<Hit> hits;
+    const Ray ray{{0.3, 0.2, 5}, {0, 0, -1}};
+    scene.aggregate->all_hits(ray, hits, nullptr);
+    ASSERT_EQ(hits.size(), 6u);
+    for (const Hit& hit : hits) {
+        Surface needed;
+        set_surface(*scene.aggregate, ray, hit, CoordinateNeed::of(scene.reads_coordinates),
+                    needed);
+        const Surface whole = surface_at(*scene.aggregate, ray, hit);
+        EXPECT_EQ(needed.uv, whole.uv);
+        EXPECT_EQ(needed.dpdu, whole.dpdu);
+        EXPECT_NE(needed.dpdu, Vec3{});
+    }
+}
+
+TEST(Surface, GroovesOfPlacedMeshesTurnWithThem) {
+    TriangleMesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.uvs = {{0, 0}, {1, 0}, {0.5, 1}};
+    SceneMaker maker;
+    Material brushed;
+    brushed.metallic_roughness.emplace().anisotropy.strength = 0.8;
+    const MaterialId m = maker.material(brushed);
+    const MeshIndex shared = maker.mesh(mesh);
+    const ObjectIndex plate = maker.object("plate");
+    maker.add(shared, m, {}, plate);
+    maker.add(plate, m, Affine::translate({-3, 0, 0}));
+    maker.add(plate, m, Affine::translate({3, 0, 0}) * Affine::rotate({0, 0, 1}, kPi / 2));
+    const Scene scene = maker.compile();
+    ASSERT_EQ(scene.reads_coordinates, (std::vector<std::uint8_t>{1}));
+    const Surfaces straight = surfaces(scene, {{-3, 0, 5}, {0, 0, -1}});
+    const Surfaces turned = surfaces(scene, {{3, 0, 5}, {0, 0, -1}});
+    EXPECT_NEAR(length(normalize(straight.needed.dpdu) - Vec3{1, 0, 0}), 0.0, 1e-12);
+    EXPECT_NEAR(length(normalize(turned.needed.dpdu) - Vec3{0, 1, 0}), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "alhazen/math/constants.h"
+
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
@@ -44,6 +48,30 @@ TEST(Light, AmbientLightOnlyHasAnAmbientTerm) {
     EXPECT_FALSE(illuminates(light));
     EXPECT_EQ(ambient_of(light), (Rgb{0.1, 0.2, 0.3}));
     EXPECT_TRUE(illuminates(Light{DirectionalLight{}}));
+}
+
+TEST(Light, CosinesOfASpotDecideAsItsAnglesDo) {
+    for (const auto& [inner, outer] :
+         {std::pair{0.2, 0.5}, {0.0, 0.0}, {0.3, 0.3}, {0.0, kPi}, {kPi, kPi}}) {
+        SpotLight light;
+        light.direction = {0, 0, -1};
+        light.inner_angle = inner;
+        light.outer_angle = outer;
+        const Light prepared = ready_to_sample(light);
+        const auto expect_same = [&](double angle) {
+            const Vec3 point{std::sin(angle), 0, -std::cos(angle)};
+            EXPECT_EQ(sample(prepared, point, true).intensity,
+                      sample(Light{light}, point, true).intensity)
+                << angle;
+        };
+        for (int i = 0; i <= 1000; ++i) expect_same(kPi * i / 1000);
+        for (const double edge : {inner, outer}) {
+            for (double apart = 1e-17; apart < 1e-3; apart *= 3) {
+                expect_same(edge - apart);
+                expect_same(edge + apart);
+            }
+        }
+    }
 }
 
 }  // namespace

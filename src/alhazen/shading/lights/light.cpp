@@ -35,8 +35,8 @@ Approach approach(const auto& light, const Vec3& point, bool clamp) {
 
 double spot_falloff(const SpotLight& light, const Vec3& to_light) {
     const double cosine = -dot(to_light, light.direction);
-    if (cosine > light.surely_within) return 1.0;
-    if (cosine < light.surely_beyond) return 0.0;
+    if (cosine > light.sure.within) return 1.0;
+    if (cosine < light.sure.beyond) return 0.0;
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     if (angle <= light.inner_angle) return 1.0;
     if (angle >= light.outer_angle) return 0.0;
@@ -67,8 +67,8 @@ Light ready_to_sample(const Light& light) {
                           [](SpotLight& l) {
                               constexpr double kMargin = 1e-12;
                               l.direction = normalize(l.direction);
-                              l.surely_within = std::cos(l.inner_angle) + kMargin;
-                              l.surely_beyond = std::cos(l.outer_angle) - kMargin;
+                              l.sure.within = std::cos(l.inner_angle) + kMargin;
+                              l.sure.beyond = std::cos(l.outer_angle) - kMargin;
                           },
                           [](AreaLight& l) {
                               l.surface =

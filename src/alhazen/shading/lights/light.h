@@ -82,7 +82,9 @@ struct SpotLight {
     LightProfile profile;
     /// Cosines beyond which rounding cannot change on which side of the angles a direction is: most
     /// directions need no arc cosine. Set by `ready_to_sample`; these values decide nothing.
-    double surely_within = 2.0, surely_beyond = -2.0;
+    struct SureCosines {
+        double within = 2.0, beyond = -2.0;
+    } sure;
 };
 
 /// A surface that shines with the same radiance from everywhere into all directions of its outer
