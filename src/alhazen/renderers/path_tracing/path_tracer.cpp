@@ -39,7 +39,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         EyePath& path = paths_.emplace_back();
         path.sample = i;
-        if (chance_.is_spectral()) waves_.push_back(chance_.waves(ids[i]));
+        if (chance_.is_spectral()) waves_.push_back(chance_.waves(i));
         path.time = camera_.time(chance_, ids[i]);
         path.cone = job_.cone;
         path.media = camera_.media();

@@ -242,8 +242,9 @@ class HalfTable {
     }
     [[nodiscard]] SmoothReflectance of(const Rgb& color) {
         const int channel = largest_channel(color);
+        const double most = color[channel];
         const auto place = [&](double other) {
-            const double share = std::clamp(other / color[channel], 0.0, 1.0);
+            const double share = std::clamp(other / most, 0.0, 1.0);
             const int before =
                 std::min(static_cast<int>(std::sqrt(share) * (kSide - 1)), kSide - 2);
             const double from = share_at(before), to = share_at(before + 1);
@@ -251,20 +252,19 @@ class HalfTable {
         };
         const auto [i, x] = place(color[(channel + 1) % 3]);
         const auto [j, y] = place(color[(channel + 2) % 3]);
-        for (const int row : {j, j + 1}) {
-            rows_.ensure(static_cast<std::size_t>(channel * kSide + row),
-                         [&] { fill_row(channel, row); });
+        const int first = channel * kSide + j;
+        for (const int row : {first, first + 1}) {
+            rows_.ensure(static_cast<std::size_t>(row), [&] { fill_row(row); });
         }
-        SmoothReflectance sum;
-        for (int corner = 0; corner < 4; ++corner) {
-            const int di = corner & 1, dj = corner >> 1;
-            const double share = (di != 0 ? x : 1.0 - x) * (dj != 0 ? y : 1.0 - y);
-            const SmoothReflectance& r = at(channel, i + di, j + dj);
-            sum.a += share * r.a;
-            sum.b += share * r.b;
-            sum.c += share * r.c;
-        }
-        return sum;
+        const SmoothReflectance* const low = &at(channel, i, j);
+        const SmoothReflectance* const high = low + kSide;
+        const double shares[] = {(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y};
+        const auto mean = [&](double SmoothReflectance::*value) {
+            return shares[0] * low[0].*value + shares[1] * low[1].*value +
+                   shares[2] * high[0].*value + shares[3] * high[1].*value;
+        };
+        return {mean(&SmoothReflectance::a), mean(&SmoothReflectance::b),
+                mean(&SmoothReflectance::c)};
     }
 
   private:
@@ -286,7 +286,8 @@ class HalfTable {
         return at(channel, i, j) = from;
     }
     /// From its last entry on, each from its neighbour.
-    void fill_row(int channel, int j) {
+    void fill_row(int row) {
+        const int channel = row / kSide, j = row % kSide;
         SmoothReflectance r = at(channel, kSide - 1, j);
         for (int i = kSide - 2; i >= 0; --i) r = solved(channel, i, j, r);
     }
