@@ -303,8 +303,17 @@ struct LiftCache {
         Rgb color{-1, -1, -1};
         SmoothReflectance reflectance;
     };
-    std::array<Entry, kPlaces> entries;
+    std::array<Entry, kPlaces> entries{};
 
+    /// `lift`: of a colour that is not there.
+    template <class Lift>
+    [[nodiscard]] SmoothReflectance of(const Rgb& color, const Lift& lift) {
+        Entry& entry = place_of(color);
+        if (!(entry.color == color)) entry = {color, lift(color)};
+        return entry.reflectance;
+    }
+
+  private:
     [[nodiscard]] Entry& place_of(const Rgb& color) {
         const std::uint64_t bits = std::bit_cast<std::uint64_t>(color.r) +
                                    3 * std::bit_cast<std::uint64_t>(color.g) +
@@ -327,15 +336,16 @@ SmoothReflectance lift(const Rgb& color) {
 }  // namespace
 
 SmoothReflectance lifted(const Rgb& color) {
-    thread_local LiftCache cache;
-    LiftCache::Entry& entry = cache.place_of(color);
-    if (!(entry.color == color)) entry = {color, lift(color)};
-    return entry.reflectance;
+    constinit thread_local LiftCache cache;
+    return cache.of(color, lift);
 }
 
 SmoothReflectance lifted_half(const Rgb& color) {
-    static HalfTable table;
-    return table.of(color);
+    constinit thread_local LiftCache cache;
+    return cache.of(color, [](const Rgb& c) {
+        static HalfTable table;
+        return table.of(c);
+    });
 }
 
 Rgb color_of(const SmoothReflectance& reflectance) {

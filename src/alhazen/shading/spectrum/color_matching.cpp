@@ -72,11 +72,14 @@ struct Between {
     std::size_t before;
     double share;
 };
+/// `place`: in steps, 0 to `size` - 1.
+inline Between between_steps(double place, std::size_t size) {
+    const int before = std::min(static_cast<int>(place), static_cast<int>(size) - 2);
+    return {static_cast<std::size_t>(before), place - static_cast<double>(before)};
+}
 Between between(double nm, double step, std::size_t size) {
-    const double place =
-        std::clamp((nm - kShortestWave) / step, 0.0, static_cast<double>(size - 1));
-    const std::size_t before = std::min(static_cast<std::size_t>(place), size - 2);
-    return {before, place - static_cast<double>(before)};
+    return between_steps(
+        std::clamp((nm - kShortestWave) / step, 0.0, static_cast<double>(size - 1)), size);
 }
 
 /// Channels every 5 nm, scaled so that white is 1, and the density of wavelengths by cells of 1 nm.
@@ -130,6 +133,18 @@ double white_light(double nm) {
 
 Rgb response(double nm) {
     return responses().at(nm);
+}
+
+SeenWave seen_wave(double nm) {
+    // A step of white is two of the response, and half of a double is exact.
+    static_assert(kWhiteStep == 2.0 * kResponseStep);
+    const auto& channels = responses().channels;
+    const double place = std::clamp((nm - kShortestWave) / kResponseStep, 0.0,
+                                    static_cast<double>(channels.size() - 1));
+    const Between b = between_steps(place, channels.size());
+    const Between w = between_steps(0.5 * place, std::size(kD65));
+    return {(1.0 - w.share) * kD65[w.before] + w.share * kD65[w.before + 1],
+            (1.0 - b.share) * channels[b.before] + b.share * channels[b.before + 1]};
 }
 
 double luminance_response(double nm) {

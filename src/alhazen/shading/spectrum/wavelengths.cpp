@@ -28,8 +28,9 @@ Spectrum at_each(const Spectrum& nm, F&& f) {
 void Wavelengths::set(int i, double nm, double density) {
     nm_[i] = nm;
     places_[i] = SmoothReflectance::place(nm);
-    white_[i] = white_light(nm);
-    seen_[static_cast<std::size_t>(i)] = (1.0 / (Spectrum::kCount * density)) * response(nm);
+    const SeenWave seen = seen_wave(nm);
+    white_[i] = seen.white;
+    seen_[static_cast<std::size_t>(i)] = (1.0 / (Spectrum::kCount * density)) * seen.response;
 }
 
 Wavelengths Wavelengths::drawn(double u) {
