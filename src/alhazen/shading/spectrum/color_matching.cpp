@@ -72,14 +72,11 @@ struct Between {
     std::size_t before;
     double share;
 };
-/// `place`: in steps, 0 to `size` - 1.
-inline Between between_steps(double place, std::size_t size) {
-    const int before = std::min(static_cast<int>(place), static_cast<int>(size) - 2);
-    return {static_cast<std::size_t>(before), place - static_cast<double>(before)};
-}
 Between between(double nm, double step, std::size_t size) {
-    return between_steps(
-        std::clamp((nm - kShortestWave) / step, 0.0, static_cast<double>(size - 1)), size);
+    const double place =
+        std::clamp((nm - kShortestWave) / step, 0.0, static_cast<double>(size - 1));
+    const std::size_t before = std::min(static_cast<std::size_t>(place), size - 2);
+    return {before, place - static_cast<double>(before)};
 }
 
 /// Channels every 5 nm, scaled so that white is 1, and the density of wavelengths by cells of 1 nm.
@@ -89,6 +86,12 @@ struct Responses {
     std::array<double, kCells + 1> sums{};  ///< of the density: of all cells before
     static constexpr int kGuides = 512;
     std::array<int, kGuides + 1> guides{};  ///< the cell in which the share k / kGuides lies
+    /// All that is drawn is linear within a cell.
+    struct Cell {
+        double over_density, white, white_change;
+        Rgb color, color_change;
+    };
+    std::array<Cell, kCells> cells{};
 
     Responses() {
         for (std::size_t i = 0; i < channels.size(); ++i)
@@ -109,6 +112,12 @@ struct Responses {
         for (int k = 0; k <= kGuides; ++k) {
             while (cell + 1 < kCells && sums[std::size_t(cell) + 1] <= double(k) / kGuides) ++cell;
             guides[std::size_t(k)] = cell;
+        }
+        for (int i = 0; i < kCells; ++i) {
+            const double from = kShortestWave + i, to = from + 1.0;
+            const double over = 1.0 / density[std::size_t(i)];
+            cells[std::size_t(i)] = {over, white_light(from), white_light(to) - white_light(from),
+                                     over * at(from), over * (at(to) - at(from))};
         }
     }
     [[nodiscard]] static double middle(int cell) { return kShortestWave + cell + 0.5; }
@@ -135,18 +144,6 @@ Rgb response(double nm) {
     return responses().at(nm);
 }
 
-SeenWave seen_wave(double nm) {
-    // A step of white is two of the response, and half of a double is exact.
-    static_assert(kWhiteStep == 2.0 * kResponseStep);
-    const auto& channels = responses().channels;
-    const double place = std::clamp((nm - kShortestWave) / kResponseStep, 0.0,
-                                    static_cast<double>(channels.size() - 1));
-    const Between b = between_steps(place, channels.size());
-    const Between w = between_steps(0.5 * place, std::size(kD65));
-    return {(1.0 - w.share) * kD65[w.before] + w.share * kD65[w.before + 1],
-            (1.0 - b.share) * channels[b.before] + b.share * channels[b.before + 1]};
-}
-
 double luminance_response(double nm) {
     const Between b = between(nm, kResponseStep, std::size(kY));
     static const double white = [] {
@@ -167,9 +164,10 @@ DrawnWave draw_wave(double u) {
     const auto guide = static_cast<std::size_t>(u * Responses::kGuides);
     auto cell = static_cast<std::size_t>(all.guides[guide]);
     while (cell + 1 < kCells && all.sums[cell + 1] <= u) ++cell;
-    const double density = all.density[cell];
-    const double share = std::clamp((u - all.sums[cell]) / density, 0.0, 1.0);
-    return {kShortestWave + static_cast<double>(cell) + share, density};
+    const Responses::Cell& c = all.cells[cell];
+    const double share = std::clamp((u - all.sums[cell]) * c.over_density, 0.0, 1.0);
+    return {kShortestWave + static_cast<double>(cell) + share, c.white + share * c.white_change,
+            c.color + share * c.color_change};
 }
 
 }  // namespace alhazen
