@@ -48,8 +48,10 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
 
 void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                         std::span<Rgb> radiance) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    chance_.begin(ids);
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
         if (job_.stop_requested()) return;
+        waves_ = all_waves_ != nullptr ? *all_waves_ : chance_.waves(i);
         const Spectrum light = trace(ids[i], rays[i]);
         radiance[i] = waves_.color(light);
     }
@@ -58,7 +60,6 @@ void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span
 
 Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     Spectrum sum;
-    waves_ = all_waves_ != nullptr ? *all_waves_ : chance_.waves(id);
     const float time = camera_.time(chance_, id);
     const Ray ray = camera_.through_lens(chance_, id, central, time);
     WalkStart start{.ray = ray, .time = time, .media = camera_.media()};

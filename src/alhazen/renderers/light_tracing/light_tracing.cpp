@@ -44,9 +44,14 @@ class LightTiles final : public TileRenderer {
     void render(const PixelBox& tile, Film&, RayCounters& counters) override {
         for (int y = tile.y0; y < tile.y1; ++y) {
             for (int x = tile.x0; x < tile.x1; ++x) {
+                ids_.clear();
+                for (std::uint32_t s = 0; s < job_.round->count; ++s) {
+                    ids_.push_back({{x, y}, job_.round->first + s});
+                }
+                chance_.begin(ids_);
                 for (std::uint32_t s = 0; s < job_.round->count; ++s) {
                     if (job_.stop_requested()) return;
-                    trace({{x, y}, job_.round->first + s});
+                    trace(ids_[s], chance_.waves(s));
                 }
             }
         }
@@ -55,8 +60,7 @@ class LightTiles final : public TileRenderer {
     }
 
   private:
-    void trace(const SampleId& id) {
-        const Wavelengths waves = chance_.waves(id);
+    void trace(const SampleId& id, const Wavelengths& waves) {
         const float time = camera_.time(chance_, id);
         const Vec2 choice = chance_.draw(id, kEmissionPairs);
         const LightRay light = lights_.emit(choice.x, chance_.draw(id, kEmissionPairs + 1),
@@ -98,6 +102,7 @@ class LightTiles final : public TileRenderer {
     RandomWalk walk_;
     LightBatch joins_;
     SplatFilm& splats_;
+    std::vector<SampleId> ids_;  ///< of the pixel at hand
     std::vector<PathVertex> vertices_;
 };
 

@@ -29,7 +29,8 @@ class PathChance {
           spectral_(job.spectral),
           draws_(sampler_, kByHash) {}
 
-    /// `ids`: of the samples from now on, for `draw` by their number in the batch.
+    /// `ids`: of the samples from now on, for `draw` and `waves` by their number in the
+    /// batch.
     void begin(std::span<const SampleId> ids) {
         ids_ = ids;
         draws_.begin(ids);
@@ -53,9 +54,9 @@ class PathChance {
         if (coverage >= 1.0) return true;
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
-    /// Of a sample: channels, or wavelengths where the job asks for them.
-    [[nodiscard]] Wavelengths waves(const SampleId& id) const {
-        return spectral_ ? Wavelengths::drawn(draw(id, kTime).y) : Wavelengths();
+    /// Of a sample of the batch: channels, or wavelengths where the job asks for them.
+    [[nodiscard]] Wavelengths waves(std::uint32_t sample) {
+        return spectral_ ? Wavelengths::drawn(draws_.at(sample, kTime).y) : Wavelengths();
     }
     [[nodiscard]] bool is_spectral() const { return spectral_; }
     /// Where a path scatters inside a volume, by the number of its stretch.

@@ -34,12 +34,11 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     chance_.begin(ids);
     paths_.clear();
     rays_.clear();
-    waves_.clear();
+    if (chance_.is_spectral()) waves_.assign(rays.size(), {});
     polarized_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         EyePath& path = paths_.emplace_back();
         path.sample = i;
-        if (chance_.is_spectral()) waves_.push_back(chance_.waves(ids[i]));
         path.time = camera_.time(chance_, ids[i]);
         path.cone = job_.cone;
         path.media = camera_.media();
@@ -57,8 +56,9 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         if (job_.stop_requested()) return;
         bounce(first);
     }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Wavelengths& waves = chance_.is_spectral() ? waves_[i] : kColorChannels;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        // Where no light was found its wavelengths do not matter.
+        const Wavelengths& waves = light_[i].is_black() ? kColorChannels : waves_of(i);
         radiance[i] = waves.color(light_[i]);
         if (i == recorded_) job_.path->radiance = radiance[i];
         if (layers_ != nullptr) layers_->add(ids[i], parts_[i], waves, radiance[i]);
@@ -104,7 +104,7 @@ Spectrum* PathTracer::record_shadow(const EyePath& path, const Ray& shadow, cons
 }
 
 void PathTracer::record_arrival() {
-    const Wavelengths& waves = chance_.is_spectral() ? waves_[recorded_] : kColorChannels;
+    const Wavelengths& waves = waves_of(recorded_);
     light_[recorded_] += recorded_arrival_;
     job_.path->vertices.back().arrived += waves.color(recorded_arrival_);
     recorded_arrival_ = {};

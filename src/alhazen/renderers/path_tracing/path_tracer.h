@@ -114,12 +114,19 @@ class PathTracer {
         next_paths_.push_back(path);
         next_rays_.push_back(ray);
     }
-    [[nodiscard]] const Wavelengths& waves(const EyePath& path) const {
-        return chance_.is_spectral() ? waves_[path.sample] : kColorChannels;
+    /// Of a sample; drawn when they are asked for: paths that find nothing have none.
+    [[nodiscard]] const Wavelengths& waves_of(std::uint32_t sample) {
+        if (!chance_.is_spectral()) return kColorChannels;
+        Wavelengths& waves = waves_[sample];
+        if (!waves.is_spectral()) waves = chance_.waves(sample);
+        return waves;
     }
+    [[nodiscard]] const Wavelengths& waves(const EyePath& path) { return waves_of(path.sample); }
     /// The path goes on as that of the hero.
     void keep_hero(EyePath& path) {
-        if (chance_.is_spectral()) waves_[path.sample].keep_hero(path.throughput);
+        if (!chance_.is_spectral()) return;
+        static_cast<void>(waves(path));
+        waves_[path.sample].keep_hero(path.throughput);
     }
     /// Light at the end of a path of that many scatterings.
     [[nodiscard]] Spectrum limited(const Spectrum& light, int scatterings) const {
@@ -150,7 +157,7 @@ class PathTracer {
     static constexpr std::uint32_t kNoSample = 0xFFFFFFFFu;
     std::uint32_t recorded_ = kNoSample;  ///< of the batch
     Spectrum recorded_arrival_;
-    std::vector<Wavelengths> waves_;  ///< [sample of the batch]; empty: channels
+    std::vector<Wavelengths> waves_;  ///< [sample of the batch]; of channels: not yet drawn
     std::vector<Spectrum> light_;     ///< [sample of the batch]
     std::vector<EyePath> paths_, next_paths_;
     std::vector<Ray> rays_, next_rays_;

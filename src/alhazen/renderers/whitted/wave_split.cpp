@@ -18,7 +18,7 @@ WaveSplit::WaveSplit(int count) : waves_(static_cast<std::size_t>(count)) {
             const double u = (static_cast<double>(k) + (i + 0.5) / kParts) / count;
             const DrawnWave drawn = draw_wave(u);
             wave.nm += drawn.nm / kParts;
-            color += (white_light(drawn.nm) / drawn.density) * response(drawn.nm);
+            color += drawn.white * drawn.color;
         }
         for (int c = 0; c < 3; ++c) wave.weight[c] = std::max(0.0, color[c]);
         white += wave.weight;

@@ -88,13 +88,15 @@ Bsdf bsdf_of_conductor(const Material& m, const Conductor& c, std::span<const Te
                        const SurfaceLookup& lookup, const BsdfPlace& place) {
     Bsdf bsdf;
     const double roughness = roughness_of(m, textures, lookup);
-    ConductorTerm term{place.waves.optical_constant(c.index),
-                       place.waves.optical_constant(c.extinction)};
-    const Metal* const metal = place.waves.is_spectral() ? find_metal(c.name) : nullptr;
-    for (int i = 0; metal != nullptr && i < Spectrum::kCount; ++i) {
-        const MetalAtWave at = constants_at(*metal, place.waves.nm(i));
-        term.index[i] = at.index;
-        term.extinction[i] = at.extinction;
+    ConductorTerm term;
+    if (const Metal* const metal = place.waves.is_spectral() ? find_metal(c.name) : nullptr) {
+        for (int i = 0; i < Spectrum::kCount; ++i) {
+            const MetalAtWave at = constants_at(*metal, place.waves.nm(i));
+            term.index[i] = at.index;
+            term.extinction[i] = at.extinction;
+        }
+    } else {
+        term = {place.waves.optical_constant(c.index), place.waves.optical_constant(c.extinction)};
     }
     bsdf.add(Spectrum::all(1), reflection_lobe(roughness, term));
     return bsdf;

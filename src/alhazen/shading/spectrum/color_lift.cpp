@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "alhazen/shading/spectrum/color_matching.h"
@@ -121,18 +123,29 @@ int largest_channel(const Rgb& c) {
     return c.r >= c.g ? (c.r >= c.b ? 0 : 2) : (c.g >= c.b ? 1 : 2);
 }
 
-/// Coefficients by the largest channel of a colour, which one it is, and the other two over it.
-class LiftTable {
+/// Which parts of a table are filled: each when it is asked for.
+template <std::size_t Count>
+class FilledParts {
   public:
-    LiftTable() {
-        for (int channel = 0; channel < 3; ++channel) {
-            for (int j = 0; j < kSide; ++j) {
-                for (int i = 0; i < kSide; ++i) fill_column(channel, i, j);
-            }
-        }
+    template <class Fill>
+    void ensure(std::size_t part, const Fill& fill) {
+        if (filled_[part].load(std::memory_order_acquire)) return;
+        const std::lock_guard lock(mutex_);
+        if (filled_[part].load(std::memory_order_relaxed)) return;
+        fill();
+        filled_[part].store(true, std::memory_order_release);
     }
 
-    [[nodiscard]] SmoothReflectance start(const Rgb& color) const {
+  private:
+    std::array<std::atomic<bool>, Count> filled_{};
+    std::mutex mutex_;
+};
+
+/// Coefficients by the largest channel of a colour, which one it is, and the other two over it.
+/// Columns of one ratio are filled when they are asked for: most scenes have few colours.
+class LiftTable {
+  public:
+    [[nodiscard]] SmoothReflectance start(const Rgb& color) {
         const int channel = largest_channel(color);
         const double most = color[channel];
         const auto place = [](double x) {
@@ -143,6 +156,12 @@ class LiftTable {
         const auto [i, x] = place(color[(channel + 1) % 3] / most);
         const auto [j, y] = place(color[(channel + 2) % 3] / most);
         const auto [k, z] = place(level_of(most));
+        for (int corner = 0; corner < 4; ++corner) {
+            const int column_i = i + (corner & 1), column_j = j + (corner >> 1);
+            columns_.ensure(
+                static_cast<std::size_t>((channel * kSide + column_j) * kSide + column_i),
+                [&] { fill_column(channel, column_i, column_j); });
+        }
         SmoothReflectance sum;
         for (int corner = 0; corner < 8; ++corner) {
             const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
@@ -179,10 +198,7 @@ class LiftTable {
         return color;
     }
     [[nodiscard]] SmoothReflectance& at(int channel, int i, int j, int k) {
-        return entries_[static_cast<std::size_t>(((channel * kSide + k) * kSide + j) * kSide + i)];
-    }
-    [[nodiscard]] const SmoothReflectance& at(int channel, int i, int j, int k) const {
-        return entries_[static_cast<std::size_t>(((channel * kSide + k) * kSide + j) * kSide + i)];
+        return entries_[static_cast<std::size_t>(((channel * kSide + j) * kSide + i) * kSide + k)];
     }
     /// From a middle level up and down, each from its neighbour, the middle one by way of greys.
     void fill_column(int channel, int i, int j) {
@@ -210,32 +226,25 @@ class LiftTable {
 
     std::vector<SmoothReflectance> entries_ =
         std::vector<SmoothReflectance>(3 * kSide * kSide * kSide);
+    FilledParts<3 * kSide * kSide> columns_;
 };
 
-/// Colours whose largest channel is 1/2, by the other two; shares lie closer near 0.
+/// Colours whose largest channel is 1/2, by the other two; shares lie closer near 0. Rows are
+/// filled when they are asked for.
 class HalfTable {
   public:
     HalfTable() {
         for (int channel = 0; channel < 3; ++channel) {
-            for (int j = kSide - 1; j >= 0; --j) {
-                // From the grey corner on, each from its neighbour.
-                SmoothReflectance r =
-                    j + 1 < kSide ? at(channel, kSide - 1, j + 1) : SmoothReflectance{};
-                for (int i = kSide - 1; i >= 0; --i) {
-                    Rgb color;
-                    color[channel] = 0.5;
-                    color[(channel + 1) % 3] = std::max(kLeastChannel, 0.5 * share_at(i));
-                    color[(channel + 2) % 3] = std::max(kLeastChannel, 0.5 * share_at(j));
-                    solve(color, r, 40);
-                    at(channel, i, j) = r;
-                }
-            }
+            // From the grey corner on, each from its neighbour.
+            SmoothReflectance r;
+            for (int j = kSide - 1; j >= 0; --j) r = solved(channel, kSide - 1, j, r);
         }
     }
-    [[nodiscard]] SmoothReflectance of(const Rgb& color) const {
+    [[nodiscard]] SmoothReflectance of(const Rgb& color) {
         const int channel = largest_channel(color);
+        const double most = color[channel];
         const auto place = [&](double other) {
-            const double share = std::clamp(other / color[channel], 0.0, 1.0);
+            const double share = std::clamp(other / most, 0.0, 1.0);
             const int before =
                 std::min(static_cast<int>(std::sqrt(share) * (kSide - 1)), kSide - 2);
             const double from = share_at(before), to = share_at(before + 1);
@@ -243,16 +252,19 @@ class HalfTable {
         };
         const auto [i, x] = place(color[(channel + 1) % 3]);
         const auto [j, y] = place(color[(channel + 2) % 3]);
-        SmoothReflectance sum;
-        for (int corner = 0; corner < 4; ++corner) {
-            const int di = corner & 1, dj = corner >> 1;
-            const double share = (di != 0 ? x : 1.0 - x) * (dj != 0 ? y : 1.0 - y);
-            const SmoothReflectance& r = at(channel, i + di, j + dj);
-            sum.a += share * r.a;
-            sum.b += share * r.b;
-            sum.c += share * r.c;
+        const int first = channel * kSide + j;
+        for (const int row : {first, first + 1}) {
+            rows_.ensure(static_cast<std::size_t>(row), [&] { fill_row(row); });
         }
-        return sum;
+        const SmoothReflectance* const low = &at(channel, i, j);
+        const SmoothReflectance* const high = low + kSide;
+        const double shares[] = {(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y};
+        const auto mean = [&](double SmoothReflectance::*value) {
+            return shares[0] * low[0].*value + shares[1] * low[1].*value +
+                   shares[2] * high[0].*value + shares[3] * high[1].*value;
+        };
+        return {mean(&SmoothReflectance::a), mean(&SmoothReflectance::b),
+                mean(&SmoothReflectance::c)};
     }
 
   private:
@@ -264,11 +276,24 @@ class HalfTable {
     [[nodiscard]] SmoothReflectance& at(int channel, int i, int j) {
         return entries_[static_cast<std::size_t>((channel * kSide + j) * kSide + i)];
     }
-    [[nodiscard]] const SmoothReflectance& at(int channel, int i, int j) const {
-        return entries_[static_cast<std::size_t>((channel * kSide + j) * kSide + i)];
+    /// Sets an entry, by Newton's method from `from`.
+    const SmoothReflectance& solved(int channel, int i, int j, SmoothReflectance from) {
+        Rgb color;
+        color[channel] = 0.5;
+        color[(channel + 1) % 3] = std::max(kLeastChannel, 0.5 * share_at(i));
+        color[(channel + 2) % 3] = std::max(kLeastChannel, 0.5 * share_at(j));
+        solve(color, from, 40);
+        return at(channel, i, j) = from;
+    }
+    /// From its last entry on, each from its neighbour.
+    void fill_row(int row) {
+        const int channel = row / kSide, j = row % kSide;
+        SmoothReflectance r = at(channel, kSide - 1, j);
+        for (int i = kSide - 2; i >= 0; --i) r = solved(channel, i, j, r);
     }
 
     std::vector<SmoothReflectance> entries_ = std::vector<SmoothReflectance>(3 * kSide * kSide);
+    FilledParts<3 * kSide> rows_;
 };
 
 /// The late answers of one thread.
@@ -278,8 +303,17 @@ struct LiftCache {
         Rgb color{-1, -1, -1};
         SmoothReflectance reflectance;
     };
-    std::array<Entry, kPlaces> entries;
+    std::array<Entry, kPlaces> entries{};
 
+    /// `lift`: of a colour that is not there.
+    template <class Lift>
+    [[nodiscard]] SmoothReflectance of(const Rgb& color, const Lift& lift) {
+        Entry& entry = place_of(color);
+        if (!(entry.color == color)) entry = {color, lift(color)};
+        return entry.reflectance;
+    }
+
+  private:
     [[nodiscard]] Entry& place_of(const Rgb& color) {
         const std::uint64_t bits = std::bit_cast<std::uint64_t>(color.r) +
                                    3 * std::bit_cast<std::uint64_t>(color.g) +
@@ -290,7 +324,7 @@ struct LiftCache {
 static_assert(LiftCache::kPlaces == 256);
 
 SmoothReflectance lift(const Rgb& color) {
-    static const LiftTable table;
+    static LiftTable table;
     Rgb inside;
     for (int i = 0; i < 3; ++i)
         inside[i] = std::clamp(color[i], kLeastChannel, 1.0 - kLeastChannel);
@@ -302,15 +336,16 @@ SmoothReflectance lift(const Rgb& color) {
 }  // namespace
 
 SmoothReflectance lifted(const Rgb& color) {
-    thread_local LiftCache cache;
-    LiftCache::Entry& entry = cache.place_of(color);
-    if (!(entry.color == color)) entry = {color, lift(color)};
-    return entry.reflectance;
+    constinit thread_local LiftCache cache;
+    return cache.of(color, lift);
 }
 
 SmoothReflectance lifted_half(const Rgb& color) {
-    static const HalfTable table;
-    return table.of(color);
+    constinit thread_local LiftCache cache;
+    return cache.of(color, [](const Rgb& c) {
+        static HalfTable table;
+        return table.of(c);
+    });
 }
 
 Rgb color_of(const SmoothReflectance& reflectance) {

@@ -4,8 +4,8 @@
 /// Source: Jakob and Hanika, "A Low-Dimensional Function Space for Efficient Spectral Upsampling",
 /// Eurographics 2019.
 /// Differs: the coefficients of a colour are found by Newton's method when they are asked for, from
-/// those of a coarse table that is made at the first use: the colour of the reflectance under
-/// white light is that of the argument (kLiftError), not only near it. Integrals are sums over 43
+/// those of a coarse table, made where it is asked for: the colour of the reflectance under white
+/// light is that of the argument (kLiftError), not only near it. Integrals are sums over 43
 /// wavelengths with weights that are exact for parabolas between them.
 /// Conventions: reflectances lie in 0..1, and so do the channels of colours (others are clipped).
 /// A grey has the same reflectance at all wavelengths.
@@ -36,7 +36,7 @@ struct SmoothReflectance {
 [[nodiscard]] SmoothReflectance lifted(const Rgb& color);
 
 /// Of a colour whose largest channel is 1/2, as lights have them: interpolated in a fine table
-/// without more ado, for lights of pictures and skies are all different.
+/// without more ado, for lights of pictures and skies are all different; remembers those of late.
 [[nodiscard]] SmoothReflectance lifted_half(const Rgb& color);
 
 /// The colour of a reflectance under white light, as `lifted` computes it.

@@ -86,6 +86,12 @@ struct Responses {
     std::array<double, kCells + 1> sums{};  ///< of the density: of all cells before
     static constexpr int kGuides = 512;
     std::array<int, kGuides + 1> guides{};  ///< the cell in which the share k / kGuides lies
+    /// All that is drawn is linear within a cell.
+    struct Cell {
+        double over_density, white, white_change;
+        Rgb color, color_change;
+    };
+    std::array<Cell, kCells> cells{};
 
     Responses() {
         for (std::size_t i = 0; i < channels.size(); ++i)
@@ -106,6 +112,12 @@ struct Responses {
         for (int k = 0; k <= kGuides; ++k) {
             while (cell + 1 < kCells && sums[std::size_t(cell) + 1] <= double(k) / kGuides) ++cell;
             guides[std::size_t(k)] = cell;
+        }
+        for (int i = 0; i < kCells; ++i) {
+            const double from = kShortestWave + i, to = from + 1.0;
+            const double over = 1.0 / density[std::size_t(i)];
+            cells[std::size_t(i)] = {over, white_light(from), white_light(to) - white_light(from),
+                                     over * at(from), over * (at(to) - at(from))};
         }
     }
     [[nodiscard]] static double middle(int cell) { return kShortestWave + cell + 0.5; }
@@ -152,9 +164,10 @@ DrawnWave draw_wave(double u) {
     const auto guide = static_cast<std::size_t>(u * Responses::kGuides);
     auto cell = static_cast<std::size_t>(all.guides[guide]);
     while (cell + 1 < kCells && all.sums[cell + 1] <= u) ++cell;
-    const double density = all.density[cell];
-    const double share = std::clamp((u - all.sums[cell]) / density, 0.0, 1.0);
-    return {kShortestWave + static_cast<double>(cell) + share, density};
+    const Responses::Cell& c = all.cells[cell];
+    const double share = std::clamp((u - all.sums[cell]) * c.over_density, 0.0, 1.0);
+    return {kShortestWave + static_cast<double>(cell) + share, c.white + share * c.white_change,
+            c.color + share * c.color_change};
 }
 
 }  // namespace alhazen

@@ -25,7 +25,8 @@ inline constexpr double kShortestWave = 380.0, kLongestWave = 780.0;
 /// A wavelength as `u` in [0, 1) chooses it, by how much of white light is seen there.
 struct DrawnWave {
     double nm = 0;
-    double density = 0;  ///< by nanometre
+    double white = 0;  ///< white_light
+    Rgb color;         ///< response over the density, by nanometre, of the choice
 };
 [[nodiscard]] DrawnWave draw_wave(double u);
 

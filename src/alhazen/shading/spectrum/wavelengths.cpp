@@ -25,11 +25,11 @@ Spectrum at_each(const Spectrum& nm, F&& f) {
 
 }  // namespace
 
-void Wavelengths::set(int i, double nm, double density) {
-    nm_[i] = nm;
-    places_[i] = SmoothReflectance::place(nm);
-    white_[i] = white_light(nm);
-    seen_[static_cast<std::size_t>(i)] = (1.0 / (Spectrum::kCount * density)) * response(nm);
+void Wavelengths::set(int i, const DrawnWave& wave) {
+    nm_[i] = wave.nm;
+    places_[i] = SmoothReflectance::place(wave.nm);
+    white_[i] = wave.white;
+    seen_[static_cast<std::size_t>(i)] = (1.0 / Spectrum::kCount) * wave.color;
 }
 
 Wavelengths Wavelengths::drawn(double u) {
@@ -37,8 +37,7 @@ Wavelengths Wavelengths::drawn(double u) {
     waves.spectral_ = true;
     for (int i = 0; i < Spectrum::kCount; ++i) {
         const double shifted = u + static_cast<double>(i) / Spectrum::kCount;
-        const DrawnWave wave = draw_wave(shifted < 1.0 ? shifted : shifted - 1.0);
-        waves.set(i, wave.nm, wave.density);
+        waves.set(i, draw_wave(shifted < 1.0 ? shifted : shifted - 1.0));
     }
     return waves;
 }
@@ -46,7 +45,7 @@ Wavelengths Wavelengths::drawn(double u) {
 Wavelengths Wavelengths::single(double nm) {
     Wavelengths waves;
     waves.spectral_ = true;
-    for (int i = 0; i < Spectrum::kCount; ++i) waves.set(i, nm, 1.0);
+    for (int i = 0; i < Spectrum::kCount; ++i) waves.set(i, {nm, white_light(nm), response(nm)});
     return waves;
 }
 

@@ -22,6 +22,8 @@
 
 namespace alhazen {
 
+struct DrawnWave;
+
 class Wavelengths {
   public:
     /// The channels of colours.
@@ -86,7 +88,7 @@ class Wavelengths {
     [[nodiscard]] Spectrum spectrum_of(const Illuminant& illuminant, const Rgb& color) const;
     [[nodiscard]] Spectrum between_channels(const Rgb& value) const;
     [[nodiscard]] Rgb seen(const Spectrum& light) const;
-    void set(int i, double nm, double density);
+    void set(int i, const DrawnWave& wave);
 
     bool spectral_ = false, hero_only_ = false;
     Spectrum nm_, places_, white_;
