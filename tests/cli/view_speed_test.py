@@ -4,7 +4,7 @@
 Usage: view_speed_test.py ALHAZEN SCENE [SCENE]... [--measure]
 
 Of the first scene the bounds are tested: the first picture, and pictures a second at what the page chooses, as the
-best of three. --measure tests nothing and prints a table of all scenes, with half the width held as well.
+best of three; and what it chooses for times that are known. --measure tests nothing and prints a table of all scenes, with half the width held as well.
 """
 
 import os
@@ -42,6 +42,26 @@ MOVE = """(async (seconds, fixed) => {
     const text = document.getElementById("status").textContent;
     const late = seen.filter(s => s[0] > 1000), mean = i => late.reduce((sum, s) => sum + s[i], 0) / late.length;
     return {rate: late.length / seconds, width: mean(1), ms: 1000 * mean(2), text};
+})"""
+
+
+# The pace for pictures whose times are known: [generations] ms at half the width, times a power of it. Of 100 pictures
+# after the first 20, one of which something else delays: the usual generations, the mean width, the mean time.
+PACE = """(costs => {
+    const Pace = viewer.pace.constructor, pace = new Pace(), limits = {full: 1280, depth: costs.length - 1, deepens: true};
+    const asked = [], count = costs.map(() => 0);
+    let width = 0, ms = 0;
+    for (let i = 0; i < 120; ++i) {
+        asked.push(pace.next(limits));
+        if (asked.length < 2) asked.push(pace.next(limits));  // one is made while one is on its way
+        const seen = asked.shift(), cost = costs[seen.depth] * (seen.width / 640) ** 1.4 + (i == 60 ? 100 : 0);
+        pace.learn(cost, {width: seen.width}, seen.depth, limits);
+        if (i < 20) continue;
+        ++count[seen.depth];
+        width += seen.width / 100;
+        ms += cost / 100;
+    }
+    return [count.indexOf(Math.max(...count)), width, ms];
 })"""
 
 
@@ -86,7 +106,23 @@ def measure(alhazen, scenes):
                 print(f"    {got['text']}", file=sys.stderr)
 
 
+def test_pace(alhazen, scene):
+    """Generations are given up before pixels, down to one; pixels down to a quarter; a delay changes nothing."""
+    wrong = 0
+    with Visit(alhazen, scene) as visit:
+        for costs, depth, least in (([10, 12, 14, 16], 3, 630), ([30, 35, 44, 60], 2, 630), ([27, 140, 205], 0, 590),
+                                    ([20, 60, 100], 1, 500), ([53, 105, 130], 1, 340), ([900, 1500, 2000], 0, 70)):
+            usual, width, ms = visit.page.value(f"{PACE}({costs})")
+            held = usual == depth and width >= least and ms < 50
+            wrong += not held
+            print(f"{'ok' if held else 'WRONG'}: {costs} ms: {usual} generations, {width:.0f} wide, {ms:.1f} ms; expected "
+                  f"{depth}, at least {least}, less than 50")
+    return wrong
+
+
 def test(alhazen, scene):
+    if test_pace(alhazen, scene):
+        return 1
     first, rate = float("inf"), 0.0
     for _ in range(3):
         with Visit(alhazen, scene) as visit:

@@ -255,7 +255,7 @@ export class Viewer {
     if (moving) {
       // Where the server was never idle: from picture to picture.
       const busy = asked.begin < this.shownAt;
-      this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, this.limits());
+      this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, asked.wish.depth ?? deepest, this.limits());
       this.movingShown = [...this.movingShown.filter(t => t > now - 1000), now];
     }
     this.shownAt = now;

@@ -147,7 +147,7 @@ void CsgSolid::fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, H
 
 std::size_t CsgSolid::memory_bytes() const {
     std::size_t bytes = tree_.memory_bytes() + materials_.capacity() * sizeof(MaterialId) +
-                        media_.capacity() * sizeof(std::uint32_t) +
+                        media_.capacity() * sizeof(std::uint32_t) + remembered_.capacity() / 8 +
                         expression_.leaves.capacity() * sizeof(PrimitiveId) +
                         expression_.nodes.capacity() * sizeof(CsgExpression::Node) +
                         solids_.capacity() * sizeof(void*);

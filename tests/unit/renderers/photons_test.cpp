@@ -442,5 +442,42 @@ TEST(Caustics, ARingHasItsCuspAtHalfItsRadius) {
     EXPECT_NEAR((brightest->first + 0.5) / 25, 0.5, 0.05);
 }
 
+TEST(PhotonScattering, OfMattPointsIsTheSumOfWhatEachPhotonScatters) {
+    // Matt, matt below a mirror, and a coated surface, which has no short cut.
+    Material shiny = matt({0.2, 0.5, 0.8}), coated;
+    shiny.reflective.color = {0.3, 0.2, 0.1};
+    coated.metallic_roughness.emplace().coat.strength.value = 1.0;
+    RandomStream random(7);
+    int lit = 0;
+    for (const Material& material : {matt({0.9, 0.4, 0.1}), shiny, coated}) {
+        SceneMaker maker;
+        maker.add(Sphere{{0, 0, 0}, 1}, maker.material(material));
+        const Scene scene = maker.compile();
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 aim{random.uniform(-1, 1), random.uniform(-1, 1), 0};
+            const Ray ray{{0, 0, 4}, normalize(aim - Vec3{0, 0, 4})};
+            Hit hit;
+            if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+            ShadingPoint point;
+            set_shading_point(scene, ray, hit, {}, {}, point);
+            // The normal of the shading may be another.
+            point.normal = normalize(point.normal + Vec3{0.2 * random.uniform(-1, 1), 0, 0});
+            ScatterPoint at;
+            at.set(scene, point, {}, kColorChannels, false);
+            Photon photon;
+            photon.from = OctahedralVector(normalize(
+                Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}));
+            photon.power = {1.0f, 2.0f, 0.5f};
+            for (const LightPart part : {LightPart::All, LightPart::NotGlossy}) {
+                const Spectrum one = scattered_light(at, photon, part, false),
+                               sum = PhotonScattering(at, part, false)(photon);
+                lit += !one.is_black();
+                for (int k = 0; k < 3; ++k) ASSERT_NEAR(sum[k], one[k], 1e-13 * one[k]) << i;
+            }
+        }
+    }
+    EXPECT_GT(lit, 1000);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -1649,21 +1649,26 @@ function drawScale(place, layer, scales) {
 
 // apps/viewer/page/pace.ts
 var AIM = 46;
-var TOO_SLOW = 1.07;
-var FAST = 0.7;
-var USUAL = 1;
+var GROWTH = 1.6;
+var GUESS = 1.3;
+var LATE = 0.4;
+var FADE = 5e-3;
 var Pace = class {
   width;
   depth;
-  tooDeep = Infinity;
-  // was too slow at half the width
-  mean = AIM;
-  // of the costs, late ones more
+  cost;
+  // mean, at this depth and half the width
+  late = [];
+  // the last costs, three at most, at this depth and half the width
+  ratios = [];
+  // [depth] its cost over that of one less
+  left;
+  // the depth before this one, until a picture has this
   /** Another scene or renderer: nothing is known. */
   forget() {
-    this.width = this.depth = void 0;
-    this.tooDeep = Infinity;
-    this.mean = AIM;
+    this.width = this.depth = this.cost = this.left = void 0;
+    this.ratios = [];
+    this.late = [];
   }
   /** Width and depth of the next picture. Where nothing is known an eighth as wide, and two generations. */
   next(limits) {
@@ -1671,29 +1676,51 @@ var Pace = class {
     this.depth = Math.min(this.depth ?? 2, limits.depth);
     return { width: Math.round(this.width), depth: limits.deepens ? this.depth : limits.depth };
   }
-  /** `cost`: milliseconds since the picture before, or since it was asked for. */
-  learn(cost, facts, limits) {
-    if (this.width === void 0 || this.depth === void 0 || Math.abs(facts.width - this.width) > 0.3 * this.width) return;
-    this.mean += 0.3 * (cost - this.mean);
-    const most = limits.full / 2, floor = limits.deepens ? leastWidth(this.depth, limits) : 0;
-    const wanted = this.width * clamped(AIM / cost, 0.25, 2.25) ** 0.35;
-    this.width = Math.min(most, Math.max(wanted, Math.min(this.width, floor)));
-    if (!limits.deepens) return;
-    if (this.mean > TOO_SLOW * AIM && this.depth > 0 && this.width <= floor) {
-      if (this.width === most) this.tooDeep = this.depth;
-      this.change(this.depth - 1);
-    } else if (this.width === most && this.depth < limits.depth) {
-      const fast = this.depth + 1 < this.tooDeep ? FAST : FAST * FAST;
-      if (this.mean < fast * AIM) this.change(this.depth + 1);
-    }
+  /** `cost`: milliseconds since the picture before, or since it was asked for; `depth`: that of the picture. */
+  learn(cost, facts, depth, limits) {
+    if (this.width === void 0 || this.depth === void 0 || Math.abs(facts.width - this.width) > 0.5 * this.width) return;
+    if (limits.deepens && depth !== this.depth) return;
+    const most = limits.full / 2, whole = cost * (most / facts.width) ** GROWTH;
+    if (this.left) this.compare(whole, facts.width > 0.7 * most);
+    this.late = [...this.late.slice(-2), whole];
+    const median = [...this.late].sort((a, b) => a - b)[this.late.length >> 1], known = this.cost ?? whole;
+    this.cost = known + LATE * (median - known);
+    if (limits.deepens) this.choose(limits);
+    this.width = Math.min(most, widthFor(this.cost, most), 1.5 * facts.width);
   }
-  change(depth) {
-    this.depth = depth;
-    this.mean = AIM;
+  /** The first picture of another depth; `wide`: enough to tell what the depth costs. */
+  compare(whole, wide) {
+    const { depth, cost } = this.left, deeper = Math.max(depth, this.depth);
+    if (wide && Math.abs(depth - this.depth) === 1) {
+      this.ratios[deeper] = clamped(depth < this.depth ? whole / cost : cost / whole, 1, 8);
+    }
+    this.left = void 0;
+    this.cost = whole;
+  }
+  choose(limits) {
+    const most = limits.full / 2, depth = this.depth;
+    this.ratios.forEach((ratio, k) => this.ratios[k] = ratio + FADE * (GUESS - ratio));
+    let best = depth, cost = this.cost;
+    while (best > 0 && widthFor(cost, most) < 0.96 * leastWidth(best, limits)) cost /= this.ratios[best--] ?? GUESS;
+    if (best === depth && depth < limits.depth) {
+      const deeper = cost * (this.ratios[depth + 1] ?? GUESS);
+      if (widthFor(deeper, most) >= leastWidth(depth + 1, limits)) {
+        best = depth + 1;
+        cost = deeper;
+      }
+    }
+    if (best === depth) return;
+    this.left = { depth, cost: this.cost };
+    this.late = [];
+    this.depth = best;
+    this.cost = cost;
   }
 };
+function widthFor(cost, most) {
+  return most * (AIM / Math.max(cost, 0.1)) ** (1 / GROWTH);
+}
 function leastWidth(depth, limits) {
-  return depth > USUAL ? limits.full / 2 : depth > 0 ? limits.full / 4 : 0;
+  return depth > 1 ? limits.full / 2 : depth > 0 ? limits.full / 4 : 0;
 }
 function clamped(x, lo, hi) {
   return Math.min(hi, Math.max(lo, x));
@@ -1961,7 +1988,7 @@ var Viewer = class {
     const now = performance.now(), scene = this.scene, moving = asked.level === 0, deepest = this.controls.number("depth");
     if (moving) {
       const busy = asked.begin < this.shownAt;
-      this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, this.limits());
+      this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, asked.wish.depth ?? deepest, this.limits());
       this.movingShown = [...this.movingShown.filter((t) => t > now - 1e3), now];
     }
     this.shownAt = now;

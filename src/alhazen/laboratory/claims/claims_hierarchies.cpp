@@ -45,6 +45,7 @@ class TimedAggregate final : public Aggregate {
     [[nodiscard]] const PrimitiveTable& primitives() const override { return asked_.primitives(); }
     [[nodiscard]] Box3 box() const override { return asked_.box(); }
     [[nodiscard]] std::size_t memory_bytes() const override { return asked_.memory_bytes(); }
+    [[nodiscard]] bool changes_materials() const override { return asked_.changes_materials(); }
     [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override {
         return timed([&] { return asked_.closest(ray, hit, query); });
     }
