@@ -188,7 +188,10 @@ struct Surfaces {
 Surfaces surfaces(const Scene& scene, const Ray& ray) {
     Surfaces result;
     Hit hit;
-    EXPECT_TRUE(scene.aggregate->closest(ray, hit, nullptr));
+    if (!scene.aggregate->closest(ray, hit, nullptr)) {
+        ADD_FAILURE() << "the ray meets nothing";
+        return result;
+    }
     result.whole = surface_at(*scene.aggregate, ray, hit);
     set_surface(*scene.aggregate, ray, hit, CoordinateNeed::of(scene.reads_coordinates),
                 result.needed);
@@ -208,13 +211,13 @@ TEST(Surface, TextureCoordinatesAreThoseOfMaterialsThatReadThem) {
     const Affine turned = Affine::rotate({1, 2, 3}, 0.7);
     const ObjectIndex ball = maker.object("ball");
     maker.add(Sphere{{0, 0, 0}, 1}, read, turned, ball);
-    maker.add(Sphere{{-4, 0, 0}, 1}, plain, turned);
+    maker.add(Sphere{{0, 0, 0}, 1}, plain, Affine::translate({-4, 0, 0}) * turned);
     maker.add(Sphere{{0, 0, 0}, 1}, read, turned);
     maker.add(ball, plain, Affine::translate({4, 0, 0}) * turned);
     const Scene scene = maker.compile();
     ASSERT_EQ(scene.reads_coordinates, (std::vector<std::uint8_t>{0, 1}));
     const auto down = [&](double x) { return surfaces(scene, {{x + 0.3, 0.2, 5}, {0, 0, -1}}); };
-    const Surfaces of_plain = down(-3.0), of_read = down(0.0), placed = down(4.0);
+    const Surfaces of_plain = down(-4.0), of_read = down(0.0), placed = down(4.0);
     EXPECT_EQ(of_plain.needed.dpdu, Vec3{});
     for (const Surfaces& s : {of_read, placed}) {
         EXPECT_NE(s.whole.dpdu, Vec3{});
