@@ -1,8 +1,8 @@
 /// Building compared with Embree: seconds with one thread and with several, bytes and cost of the
 /// tree.
-/// Usage: alhazen_build_table SCENE... [--rounds N] [--threads N] [--markdown FILE]
+/// Usage: alhazen_build_table SCENE... [--rounds N] [--threads N] [--only TEXT] [--markdown FILE]
 /// SCENE: see kernel_scenes.h; triangles only. Builders take turns; --threads is the larger of the
-/// two thread counts.
+/// two thread counts; --only leaves out builders without TEXT in their names.
 
 #include <fmt/format.h>
 
@@ -107,7 +107,7 @@ std::string row(const KernelScene& scene, const Builder& builder, const Spread& 
         many.min, many.max, 1e-6 * triangles / many.median, bytes / triangles, builder.cost());
 }
 
-std::string run(const KernelScene& scene, int rounds, int threads) {
+std::string run(const KernelScene& scene, int rounds, int threads, const std::string& only) {
     if (scene.mesh.triangles.empty()) throw Error(ErrorKind::Usage, scene.name + ": no triangles");
     const PrimitiveTable table = table_of(scene);
     std::vector<Builder> builders = our_builders(table);
@@ -119,6 +119,8 @@ std::string run(const KernelScene& scene, int rounds, int threads) {
     // as medium; its fast scenes have them.
     builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_HIGH, false, "Embree high, fast"));
 #endif
+    std::erase_if(builders,
+                  [&](const Builder& b) { return b.name.find(only) == std::string::npos; });
     std::vector<std::array<std::vector<double>, 2>> seconds(builders.size());
     std::vector<double> bytes(builders.size());
     for (int round = 0; round < rounds; ++round) {
@@ -154,17 +156,18 @@ std::string head(int rounds, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    const CommandLine line(argc, argv, {"--rounds", "--threads", "--markdown"});
+    const CommandLine line(argc, argv, {"--rounds", "--threads", "--only", "--markdown"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
     }
     const auto rounds = static_cast<int>(line.count("--rounds", 5));
     const auto threads = static_cast<int>(line.count("--threads", 2));
+    const std::string only = line.text("--only", "");
     const std::string file = line.text("--markdown", "");
     std::string text = head(rounds, threads);
     fmt::print("{}", text);
     for (const std::string& spec : line.rest) {
-        const std::string rows = run(make_scene(spec), rounds, threads);
+        const std::string rows = run(make_scene(spec), rounds, threads, only);
         fmt::print("{}", rows);
         std::fflush(stdout);
         text += rows;

@@ -1,6 +1,6 @@
 """Runs within Blender: renders a scene of bench/light_scenes.py with Cycles, or compares pictures.
 
-Usage: blender -b --factory-startup -P bench/cycles.py -- render SCENE.json OUT.exr WIDTH HEIGHT SECONDS SAMPLES SEED
+Usage: blender -b --factory-startup -P bench/cycles.py -- render SCENE OUT.exr WIDTH HEIGHT SECONDS SAMPLES SEED FILTER
        blender -b --factory-startup -P bench/cycles.py -- compare A.exr B.exr
 SECONDS 0: SAMPLES samples. Path tracing alone: no denoising, no clamping, no adaptive sampling, no blurred caustics.
 `compare` prints the root of the mean squared difference, the same of what is cut off at 1, and the means.
@@ -48,7 +48,7 @@ def surround(world, sky):
         links.new(picture.outputs["Color"], background.inputs["Color"])
 
 
-def render(path, out, width, height, seconds, samples, seed):
+def render(path, out, width, height, seconds, samples, seed, pixel_filter):
     with open(path, encoding="ascii") as source:
         given = json.load(source)
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -87,7 +87,8 @@ def render(path, out, width, height, seconds, samples, seed):
     cycles.samples = samples
     cycles.time_limit = seconds
     cycles.seed = seed
-    cycles.pixel_filter_type = "BOX"
+    cycles.pixel_filter_type = pixel_filter
+    cycles.filter_width = 1.5  # of Blackman and Harris: the radius
     cycles.max_bounces = given["depth"]
     cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = given["depth"]
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
@@ -115,6 +116,6 @@ def compare(a, b):
 
 command, *rest = sys.argv[sys.argv.index("--") + 1:]
 if command == "render":
-    render(rest[0], rest[1], int(rest[2]), int(rest[3]), float(rest[4]), int(rest[5]), int(rest[6]))
+    render(rest[0], rest[1], int(rest[2]), int(rest[3]), float(rest[4]), int(rest[5]), int(rest[6]), rest[7])
 else:
     compare(*rest)

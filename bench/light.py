@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Path tracing beside Cycles of Debian's blender: the same scenes, two threads, equal time.
 
-Usage: bench/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--json FILE] [--keep DIR]
+Usage: bench/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--filter NAME] [--json FILE]
+       [--keep DIR]
 Each renders for T seconds, and for N T seconds as the reference that its error is measured against; how far both
 references are apart is told. RMSE is of linear light, whole and cut off at 1 (what a picture shows). Neither denoises,
-clamps or adapts; building the scene is in no time.
+clamps or adapts. Both have the same pixel filter: that of Cycles unless told otherwise (Blackman and Harris, of radius
+1.5), whose samples ours shares between pixels, or a box. Building the scene is in no time.
 """
 
 import argparse
@@ -19,6 +21,8 @@ from light_scenes import SCENES, write_alhazen, write_json
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MANY = 1 << 20
+# Ours by the name of that of Cycles.
+FILTERS = {"blackman_harris": "blackman_harris:radius=1.5,shared=on", "box": "box"}
 
 
 def blender(*arguments):
@@ -55,6 +59,7 @@ def main():
     parser.add_argument("--long", type=float, default=12, help="times the seconds, of references")
     parser.add_argument("--size", default="400x300")
     parser.add_argument("--renderer", default="path_tracing")
+    parser.add_argument("--filter", choices=FILTERS, default="blackman_harris")
     parser.add_argument("--json", help="file for the figures")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
     args = parser.parse_args()
@@ -72,14 +77,14 @@ def main():
         stats = at("stats.json")
         subprocess.run([args.alhazen, "render", at(name + ".alhazen"), "-o", at(out), "--full-float", "--size",
                         args.size, "-t", "2", "-q", "--renderer", f"{args.renderer}:depth={scenes[name].depth + 1}", "--spp",
-                        str(MANY), "--filter", "box", "--time", f"{seconds:g}s", "--seed", str(seed), "--stats", stats,
+                        str(MANY), "--filter", FILTERS[args.filter], "--time", f"{seconds:g}s", "--seed", str(seed), "--stats", stats,
                         "--no-counts"], check=True)
         with open(stats, encoding="utf-8") as source:
             given = json.load(source)
         return given["sampling"]["samples_per_pixel"], given["seconds"]["render"]
 
     def cycles(name, out, seconds, seed):
-        told = blender("render", at(name + ".json"), at(out), width, height, seconds, MANY, seed)
+        told = blender("render", at(name + ".json"), at(out), width, height, seconds, MANY, seed, args.filter.upper())
         return max(int(n) for n in re.findall(r"Sample (\d+)/", told)), seconds
 
     for name, scene in scenes.items():

@@ -342,7 +342,7 @@ void add_render(CLI::App& app, int& exit_status) {
     command
         ->add_option("--filter", args->sampling.filter,
                      "How they become a pixel; see `alhazen list filters`")
-        ->type_name("NAME[:radius=PIXELS]");
+        ->type_name("NAME[:radius=PIXELS,shared=on]");
     command
         ->add_option("--noise", args->sampling.noise,
                      "More samples, in rounds, for pixels whose standard error over the root of "

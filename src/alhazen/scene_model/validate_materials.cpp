@@ -85,6 +85,7 @@ class Checker {
         if (m.metallic_roughness) {
             warn(m.metallic_roughness->base_color, "base colour");
             warn(m.metallic_roughness->sheen.color, "sheen colour");
+            warn(m.metallic_roughness->diffuse_transmission.color, "diffuse transmission colour");
         } else if (!m.conductor && !m.dielectric) {
             warn(m.diffuse, "diffuse");
             warn(m.reflective, "reflective");
@@ -116,6 +117,8 @@ class Checker {
         not_negative(p.film.thinnest_nm, "thickness of the film");
         not_negative(p.film.thickest_nm, "thickness of the film");
         texture_id(p.film.thickness_texture, "thickness of the film");
+        scalar(p.diffuse_transmission.share, "share of the diffuse transmission");
+        color(p.diffuse_transmission.color, "diffuse transmission colour");
         not_negative(p.anisotropy.strength, "strength of the anisotropy");
         texture_id(p.anisotropy.texture, "anisotropy");
         if (!std::isfinite(p.anisotropy.rotation)) {

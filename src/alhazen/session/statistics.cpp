@@ -96,6 +96,7 @@ nlohmann::ordered_json sampling_json(const RenderOptions& options, const RenderR
     return {{"sampler", options.sampling->sampler->name},
             {"filter", options.sampling->filter->name},
             {"filter_radius", options.sampling->radius},
+            {"filter_shared", options.sampling->shared},
             {"rounds", rounds},
             {"samples_per_pixel", mean},
             {"most_samples", r.most_samples},

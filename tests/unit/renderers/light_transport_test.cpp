@@ -10,7 +10,7 @@
 #include "alhazen/renderers/bidirectional/path_weight.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
-#include "alhazen/renderers/light_transport/fixed_sum.h"
+#include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"

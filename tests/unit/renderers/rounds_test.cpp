@@ -88,6 +88,41 @@ TEST(Rounds, PicturesAreTheSameForAnyThreadsAndTiles) {
     }
 }
 
+TEST(Rounds, SharedSamplesGiveThePictureOfTheFilter) {
+    const Scene scene = ball();
+    for (const char* filter : {"tent", "gaussian:radius=1.5", "mitchell"}) {
+        const std::string text = filter;
+        const std::string more = text.find(':') == std::string::npos ? ":" : ",";
+        const SampledPicture own = picture(scene, plan_of("sobol", text), 1024);
+        const SampledPicture shared =
+            picture(scene, plan_of("sobol", text + more + "shared=on"), 1024);
+        // Pixels at the border of the picture know one side only.
+        double squares = 0;
+        for (int y = 4; y < kHeight - 4; ++y) {
+            for (int x = 4; x < kWidth - 4; ++x) {
+                const double d = own.film.at(x, y).r - shared.film.at(x, y).r;
+                squares += d * d;
+            }
+        }
+        // What is left is the noise of samples drawn by the filter.
+        EXPECT_LT(std::sqrt(squares / ((kWidth - 8) * (kHeight - 8))), 1.5e-3) << filter;
+    }
+}
+
+TEST(Rounds, SharedSamplesGiveTheSameBitsForAnyThreadsAndTiles) {
+    const Scene scene = ball();
+    const SamplingPlan plan = plan_of("sobol", "blackman_harris:radius=1.5,shared=on");
+    const SampledPicture one = picture(scene, plan, 9, 1, 32);
+    const SampledPicture four = picture(scene, plan, 9, 4, 7);
+    expect_same_pixels(one.film, four.film);
+}
+
+TEST(Rounds, SharedSamplesAreRefusedWherePixelsDiffer) {
+    EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=on", 0.1)), Error);
+    EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=maybe")), Error);
+    EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=on,radius=5")), Error);
+}
+
 TEST(Rounds, SeveralRoundsAddUpToOneWhereTheSamplerIsProgressive) {
     const Scene scene = ball();
     for (const char* sampler : {"sobol", "halton", "blue_noise", "independent"}) {

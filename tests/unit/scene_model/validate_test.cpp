@@ -135,6 +135,9 @@ TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.film.thickest_nm = -1; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.anisotropy.rotation = kNan; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.dispersion = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.diffuse_transmission.share.value = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.diffuse_transmission.color.texture = missing; }),
+              1u);
     EXPECT_EQ(errors_with([&](auto& m, auto&) { m.conductor = Conductor{}; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.thickness = {inf, missing, {}}; }), 2u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = 0; }), 1u);

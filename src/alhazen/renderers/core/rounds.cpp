@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "alhazen/base/error.h"
@@ -32,11 +33,13 @@ class RoundRender {
           job_(job),
           plan_(*job.sampling),
           film_(film),
-          filter_(*plan_.filter, plan_.radius),
+          filter_(plan_.shared ? *find_filter("box") : *plan_.filter,
+                  plan_.shared ? 0.5 : plan_.radius),
           most_(static_cast<std::uint32_t>(job.samples_per_pixel)),
           begin_(RoundClock::now()) {
         report_.pixels = wanting_ = film.crop().area();
         if (plan_.sampler->progressive) sampler_ = plan_.sampler->make(job.seed, most_);
+        if (plan_.shared) shared_.emplace(*plan_.filter, plan_.radius, film.crop());
         if (plan_.has_rounds()) sums_.resize(film.crop().area());
         if (plan_.noise) {
             wanted_.assign(film.crop().area(), 1);
@@ -79,14 +82,20 @@ class RoundRender {
             if (!first) seed = mix64(job_.seed ^ mix64(samples_));
             sampler_ = plan_.sampler->make(seed, count);
         }
-        const SampleRound round{*sampler_, filter_, plan_.sampler->progressive ? samples_ : 0,
-                                count,     wanted_, sums_,
-                                seed};
+        const SampleRound round{*sampler_,
+                                filter_,
+                                plan_.sampler->progressive ? samples_ : 0,
+                                count,
+                                wanted_,
+                                sums_,
+                                seed,
+                                shared_ ? &*shared_ : nullptr};
         RenderJob part = job_;
         part.round = &round;
         if (!first) part.aovs = nullptr;
         const RenderReport report =
             render_tiles(part, film_, [&] { return renderer_.begin(part); });
+        if (shared_) shared_->write(film_);
         if (!report.complete()) return report;
         samples_ += count;
         last_seconds_ = std::chrono::duration<double>(RoundClock::now() - begin).count();
@@ -173,6 +182,7 @@ class RoundRender {
     std::uint32_t most_;  ///< samples of a pixel
     RoundClock::time_point begin_;
     std::unique_ptr<Sampler> sampler_;
+    std::optional<SharedFilm> shared_;
     std::vector<SampleSum> sums_;       ///< [pixel] with several rounds
     std::vector<std::uint8_t> wanted_;  ///< [pixel] with a limit of the noise
     std::vector<float> noise_;          ///< the same

@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/imaging/film/filter_kernel.h"
 #include "alhazen/imaging/film/sample_sum.h"
+#include "alhazen/imaging/film/shared_film.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/pixel_order.h"
@@ -31,6 +33,8 @@ struct SampleRound {
     /// [pixel of the crop] the samples so far, added to; empty: this round is the only one.
     std::span<SampleSum> sums;
     std::uint64_t seed = 0;  ///< of the sampler
+    /// Takes the samples for all pixels in reach, too; `filter` is then the box of one pixel.
+    SharedFilm* shared = nullptr;
 };
 
 class SampleLoop {
@@ -46,7 +50,12 @@ class SampleLoop {
           signs_(at_once),
           points_(at_once),
           rays_(at_once),
-          radiance_(at_once) {}
+          radiance_(at_once) {
+        if (round_.shared != nullptr) {
+            offsets_.resize(at_once);
+            spread_.emplace(*round_.shared);
+        }
+    }
 
     /// Adds the round to the pixels of the tile. Returns early after a stop, with whole pixels
     /// only.
@@ -98,6 +107,7 @@ class SampleLoop {
                 }
                 const Vec2 p = film_place(film, place, drawn.offset);
                 if (job_.aovs != nullptr) places_.push_back(p);
+                if (spread_) offsets_[gathered_] = drawn.offset;
                 signs_[gathered_] = drawn.sign;
                 sums_[gathered_++] = eye_.column(p.x) + eye_.row(p.y);
             }
@@ -132,7 +142,9 @@ class SampleLoop {
         // A truncated batch is dropped.
         if (job_.stop_requested()) return false;
         for (std::size_t k = 0; k < gathered_; ++k) {
-            counters_.non_finite += !own_.add(found[k], signs_[k]);
+            const bool finite = own_.add(found[k], signs_[k]);
+            counters_.non_finite += !finite;
+            if (spread_ && finite) spread_->add(offsets_[k], found[k]);
             if (++taken_ == round_.count) end_pixel(film);
         }
         gathered_ = 0;
@@ -148,6 +160,7 @@ class SampleLoop {
             own_ = sum;
         }
         film.set(i, j, own_.value(round_.filter.mean_sign()));
+        if (spread_) counters_.non_finite += !round_.shared->add(i, j, *spread_);
         if (job_.aovs != nullptr) {
             // A batch may hold samples of the next pixels.
             const std::span<const Vec2> places = std::span(places_).first(round_.count);
@@ -175,7 +188,9 @@ class SampleLoop {
     std::size_t done_ = 0;           ///< finished pixels
     std::uint32_t taken_ = 0;        ///< samples of the current pixel
     SampleSum own_;                  ///< of the current pixel in this round
-    std::vector<Vec2> places_;       ///< film coordinates of gathered samples, with AOVs only
+    std::vector<Vec2> offsets_;      ///< of gathered samples in their pixels, where they are shared
+    std::optional<SharedFilm::Spread> spread_;  ///< of the current pixel
+    std::vector<Vec2> places_;  ///< film coordinates of gathered samples, with AOVs only
 };
 
 /// Renders a round of tiles by SampleLoop.

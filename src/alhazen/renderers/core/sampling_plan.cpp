@@ -31,10 +31,22 @@ void read_filter(const std::string& text, SamplingPlan& plan) {
     if (plan.filter == nullptr) refuse_name("--filter", given.name(), filters());
     plan.radius = given.number("radius", plan.filter->radius, SamplingPlan::kLeastRadius,
                                SamplingPlan::kLargestRadius);
+    constexpr const char* kOffOn[] = {"off", "on"};
+    plan.shared = given.choice("shared", 0, kOffOn) == 1;
+    if (plan.shared && plan.radius > SamplingPlan::kLargestShared) {
+        throw Error(ErrorKind::Usage,
+                    "--filter " + text + ": samples are shared up to a radius of 4");
+    }
     given.finish();
 }
 
 }  // namespace
+
+void refuse_shared_samples(const SamplingPlan& plan, const char* renderer) {
+    if (!plan.shared) return;
+    throw Error(ErrorKind::Usage, std::string(renderer) +
+                                      " cannot share samples between pixels: leave shared=on out");
+}
 
 SamplingPlan::SamplingPlan()
     : sampler(find_sampler("sobol")), filter(find_filter("box")), radius(filter->radius) {}
@@ -46,6 +58,12 @@ std::optional<SamplingPlan> parse_sampling(const SamplingTexts& texts) {
     if (texts.sampler.empty() && texts.filter.empty() && !plan.has_rounds()) return {};
     if (!texts.sampler.empty()) read_sampler(texts.sampler, plan);
     if (!texts.filter.empty()) read_filter(texts.filter, plan);
+    if (plan.shared && plan.noise) {
+        // Pixels with more samples would outweigh their neighbours.
+        throw Error(ErrorKind::Usage,
+                    "--filter shared=on needs the same number of samples in every pixel: leave "
+                    "--noise out");
+    }
     if (plan.has_rounds() && plan.sampler == find_sampler("regular")) {
         throw Error(ErrorKind::Usage,
                     "--sampler regular has one set of samples only: --noise and --time need "

@@ -8,7 +8,7 @@
 #include "alhazen/imaging/film/film.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/renderers/core/sampling_plan.h"
-#include "alhazen/renderers/light_transport/fixed_sum.h"
+#include "alhazen/imaging/film/fixed_sum.h"
 
 namespace alhazen {
 

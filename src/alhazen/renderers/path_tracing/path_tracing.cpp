@@ -60,7 +60,8 @@ RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
     if (job.aovs != nullptr && LightLayers::has_any(job.aovs->wanted())) {
         const SamplingPlan& plan = *planned.sampling;
         layers.emplace(film.crop(), job.aovs->wanted(),
-                       FilterKernel(*plan.filter, plan.radius).mean_sign());
+                       // Shared samples lie evenly in their pixels.
+                       plan.shared ? 1.0 : FilterKernel(*plan.filter, plan.radius).mean_sign());
     }
     std::optional<ManifoldScene> manifold;
     if (settings.manifold) {

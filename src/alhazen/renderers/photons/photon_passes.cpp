@@ -43,7 +43,9 @@ Wavelengths waves_of_pass(const RenderJob& job, std::uint32_t number) {
 }
 
 void refuse_stop_rules(const RenderJob& job, const char* renderer) {
-    if (job.sampling == nullptr || !job.sampling->has_rounds()) return;
+    if (job.sampling == nullptr) return;
+    refuse_shared_samples(*job.sampling, renderer);
+    if (!job.sampling->has_rounds()) return;
     throw Error(ErrorKind::Usage,
                 fmt::format("{} traces a fixed number of passes: it takes --spp, not --noise or a "
                             "limit of --time",

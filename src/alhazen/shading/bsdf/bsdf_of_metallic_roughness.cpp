@@ -135,7 +135,7 @@ class LayerMaker {
         if (faces > 0.0) bsdf_.add(grey(faces), face_lobe(fresnel), covers_);
         if (f0.max() >= 1.0) return;  // nothing gets past the face
         const Cover cover = face_cover(f0, strength);
-        bsdf_.add(grey(matt), CoveredMatt(base_, cover), covers_);
+        add_body(matt, cover);
         if (!(clear > 0.0)) return;
         if (thin || filmed) {
             // What goes through is covered by the face, as the matt body is.
@@ -153,6 +153,17 @@ class LayerMaker {
                   boundary_lobe(roughness_, place_, index,
                                 place_.waves.reflectance(strength * clipped(tint)), base_),
                   covers_);
+    }
+
+    /// The matt body below a face: what it scatters back, and what it lets through to the other
+    /// side.
+    void add_body(double share, const Cover& cover) {
+        const double through = scalar(p_.diffuse_transmission.share);
+        bsdf_.add(grey(share * (1.0 - through)), CoveredMatt(base_, cover), covers_);
+        if (!(share * through > 0.0)) return;
+        const Rgb color = clipped(color_at(p_.diffuse_transmission.color, textures_, lookup_));
+        bsdf_.add(grey(share * through), LambertTransmission{place_.waves.reflectance(color)},
+                  covers_ | bsdf_.add_cover(cover));
     }
 
     [[nodiscard]] Rgb not_negative_color(const ColorInput& input) const {

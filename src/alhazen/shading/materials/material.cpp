@@ -41,7 +41,8 @@ bool reads_textures(const Material& m) {
     const MetallicRoughness& p = *m.metallic_roughness;
     return any(p.base_color, p.metallic, p.roughness, p.occlusion, p.specular, p.specular_color,
                p.transmission, p.thickness, p.coat.strength, p.coat.roughness, p.coat.normal_map,
-               p.sheen.color, p.sheen.roughness, p.film.strength, p.anisotropy) ||
+               p.sheen.color, p.sheen.roughness, p.film.strength, p.anisotropy,
+               p.diffuse_transmission.share, p.diffuse_transmission.color) ||
            p.film.thickness_texture != kNoTexture;
 }
 

@@ -75,6 +75,13 @@ struct Grooves {
     TextureId texture = kNoTexture;
 };
 
+/// Light that a matt body lets out on its other side: a leaf, paper, wax. `share` of what the body
+/// scatters, tinted by `color` in place of the base colour.
+struct DiffuseTransmission {
+    ScalarInput share{0, kNoTexture, Channel::Alpha};
+    ColorInput color{{1, 1, 1}, kNoTexture};
+};
+
 /// The metallic-roughness parameters, kept as the file gives them. Emission and index of refraction
 /// are those of the Material.
 struct MetallicRoughness {
@@ -94,6 +101,7 @@ struct MetallicRoughness {
     SheenLayer sheen;
     IridescentFilm film;
     Grooves anisotropy;
+    DiffuseTransmission diffuse_transmission;
     double dispersion = 0;  ///< 20 / Abbe number; seen by renderers of wavelengths alone
     bool unlit = false;     ///< shows its base colour whatever the light
 };

@@ -98,7 +98,15 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     s.shininess = 2.0 / (alpha * alpha) - 2.0;
     s.specular = (s.shininess + 2.0) / 8.0 * at_normal;
 
-    const Rgb body = (1.0 - metallic) * (1.0 - transmission) * base;
+    // Whitted's equation has no light from behind: what the body lets through is shown on the side
+    // of the light.
+    const double through = clamped(value_at(p.diffuse_transmission.share, textures, lookup));
+    Rgb matt = base;
+    if (through > 0.0) {
+        matt = (1.0 - through) * base +
+               through * color_at(p.diffuse_transmission.color, textures, lookup);
+    }
+    const Rgb body = (1.0 - metallic) * (1.0 - transmission) * matt;
     // Whitted's equation has no blurred reflection: what the mirror part leaves of a metal's is
     // taken from all around (ambient) and half of it, as the highlight has its share, from lights.
     const Rgb rough_metal = metallic * (1.0 - mirror) * base;

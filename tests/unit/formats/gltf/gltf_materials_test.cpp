@@ -141,7 +141,8 @@ TEST(GltfTextures, FiltersFollowTheSampler) {
 TEST(GltfMaterial, LayersOfTheExtensionsAreKept) {
     const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
         "extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_sheen",
-          "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion"],
+          "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion",
+          "KHR_materials_diffuse_transmission"],
         "materials": [{"extensions": {
             "KHR_materials_clearcoat": {"clearcoatFactor": 0.7, "clearcoatRoughnessFactor": 0.2},
             "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3],
@@ -149,6 +150,8 @@ TEST(GltfMaterial, LayersOfTheExtensionsAreKept) {
             "KHR_materials_iridescence": {"iridescenceFactor": 0.9, "iridescenceIor": 1.4,
                 "iridescenceThicknessMinimum": 50, "iridescenceThicknessMaximum": 600},
             "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 0.25},
+            "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.6,
+                "diffuseTransmissionColorFactor": [0.4, 0.5, 0.6]},
             "KHR_materials_dispersion": {"dispersion": 0.1}}}])"));
     EXPECT_EQ(result.messages().find("left out"), std::string::npos) << result.messages();
     const MetallicRoughness& p = *result.scene.materials.at(0).material.metallic_roughness;
@@ -162,6 +165,8 @@ TEST(GltfMaterial, LayersOfTheExtensionsAreKept) {
     EXPECT_EQ(p.film.thickest_nm, 600);
     EXPECT_EQ(p.anisotropy.strength, 0.5);
     EXPECT_EQ(p.anisotropy.rotation, 0.25);
+    EXPECT_EQ(p.diffuse_transmission.share.value, 0.6);
+    EXPECT_EQ(p.diffuse_transmission.color.color, (Rgb{0.4, 0.5, 0.6}));
     EXPECT_EQ(p.dispersion, 0.1);
 }
 

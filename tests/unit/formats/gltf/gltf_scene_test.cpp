@@ -43,6 +43,27 @@ TEST(GltfScene, TransformsMultiplyAlongTheHierarchy) {
     EXPECT_NEAR_VEC((Vec3{10, 8, 0}), world_positions(result.scene)[1], 1e-12);
 }
 
+TEST(GltfScene, HiddenNodesHideWhatIsBelowThem) {
+    const Imported result = import_gltf(with_nodes(R"(
+        {"name": "a", "mesh": 0, "children": [1, 2], "extensions": {"KHR_node_visibility": {}}},
+        {"name": "b", "mesh": 0, "children": [3], "extensions": {"KHR_node_visibility":
+         {"visible": false}}},
+        {"name": "c", "mesh": 0},
+        {"name": "d", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": true}}},
+        {"name": "e", "camera": 0, "extensions": {"KHR_node_visibility": {"visible": false},
+         "KHR_lights_punctual": {"light": 0}}})",
+                                                   "0, 4", R"(,
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
+        "extensionsUsed": ["KHR_node_visibility", "KHR_lights_punctual"])"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    ASSERT_EQ(result.parts().size(), 2u);
+    EXPECT_EQ(result.parts()[0].name, "a/tri");
+    EXPECT_EQ(result.parts()[1].name, "c/tri");
+    EXPECT_EQ(result.scene.cameras.size(), 1u);
+    EXPECT_TRUE(result.scene.lights.empty());
+}
+
 TEST(GltfScene, RoundedMatricesAreDividedByTheirLastNumberAndToldOnce) {
     const Imported result = import_gltf(with_nodes(R"(
         {"mesh": 0, "matrix": [1, 0, 0, 9e-10, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 0.9999996]},

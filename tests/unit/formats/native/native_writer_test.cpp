@@ -274,6 +274,7 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
             p.film.thickest_nm = n.positive();
             p.anisotropy.strength = n.positive();
             p.anisotropy.rotation = n.positive();
+            p.diffuse_transmission = {scalar(Channel::Alpha), color()};
             p.dispersion = n.positive();
             p.unlit = i % 5 == 3;
         }

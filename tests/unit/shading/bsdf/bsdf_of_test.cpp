@@ -131,6 +131,25 @@ TEST(BsdfOf, GroovesStretchTheHighlightAcrossThem) {
     EXPECT_GT(value(across), 3.0 * value(along));
 }
 
+TEST(BsdfOf, DiffuseTransmissionSharesTheBodyBetweenTheTwoSides) {
+    Material m;
+    MetallicRoughness p;
+    p.metallic.value = p.specular.value = 0;
+    p.base_color.color = {0.8, 0.4, 0.2};
+    p.diffuse_transmission.share.value = 0.25;
+    p.diffuse_transmission.color.color = {0.1, 0.5, 0.9};
+    m.metallic_roughness = p;
+    const Vec3 v = view_at(0.5), front = view_at(0.7), behind{0.6, 0, -0.8};
+    const Spectrum back = of(m).value(v, front, Transport::Radiance);
+    EXPECT_NEAR(back.a, 0.75 * 0.8 / kPi, 1e-12);
+    const Spectrum through = of(m).value(v, behind, Transport::Radiance);
+    EXPECT_NEAR(through.a, 0.25 * 0.1 / kPi, 1e-12);
+    EXPECT_NEAR(through.b, 0.25 * 0.5 / kPi, 1e-12);
+    EXPECT_TRUE(of(m).transmits());
+    m.metallic_roughness->metallic.value = 1;
+    EXPECT_FALSE(of(m).transmits());
+}
+
 TEST(BsdfOf, UnlitScattersNothing) {
     Material m;
     m.metallic_roughness = MetallicRoughness{};

@@ -79,6 +79,11 @@ std::vector<NamedBsdf> white_materials(double roughness) {
     add("plastic", [](auto&) {});
     add("half metal", [](auto& p) { p.metallic.value = 0.5; });
     add("thin glass", [](auto& p) { p.transmission.value = 1; });
+    add("leaf", [](auto& p) { p.diffuse_transmission.share.value = 0.7; });
+    add("coated leaf over thin glass", [](auto& p) {
+        p.diffuse_transmission.share.value = 0.5, p.transmission.value = 0.3;
+        p.coat.strength.value = 0.5;
+    });
     add("frosted volume", [](auto& p) { p.transmission.value = 1, p.thickness.value = 1; });
     add(
         "frosted volume from inside",

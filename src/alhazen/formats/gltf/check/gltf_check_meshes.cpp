@@ -152,7 +152,8 @@ class PrimitiveChecker {
               &material.coat_roughness_texture, &material.coat_normal_texture,
               &material.sheen_color_texture, &material.sheen_roughness_texture,
               &material.iridescence_texture, &material.film_thickness_texture,
-              &material.anisotropy_texture}) {
+              &material.anisotropy_texture, &material.diffuse_transmission_texture,
+              &material.diffuse_transmission_color_texture}) {
             if (*info && !has_coordinates(**info)) return;
         }
         for (const TextureInfo& info : material.ignored_textures) {

@@ -124,6 +124,9 @@ struct Material {
     std::optional<TextureInfo> iridescence_texture, film_thickness_texture;
     double anisotropy = 0, anisotropy_rotation = 0;  ///< KHR_materials_anisotropy, radians
     std::optional<TextureInfo> anisotropy_texture;
+    double diffuse_transmission = 0;  ///< KHR_materials_diffuse_transmission
+    std::array<double, 3> diffuse_transmission_color{1, 1, 1};
+    std::optional<TextureInfo> diffuse_transmission_texture, diffuse_transmission_color_texture;
     double dispersion = 0;                      ///< KHR_materials_dispersion
     std::vector<TextureInfo> ignored_textures;  ///< of extensions that are left out of the look
 };
@@ -165,6 +168,7 @@ struct Node {
     std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
     std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w
     Attributes instances;                        ///< EXT_mesh_gpu_instancing; empty: none
+    bool visible = true;  ///< KHR_node_visibility: false hides all below, too
 };
 struct Scene {
     std::string name;

@@ -17,11 +17,23 @@ constexpr const char* kCollectionNames[kCollectionCount] = {
     "mesh",     "node",   "sampler",    "scene",  "skin",  "texture", "variant"};
 
 constexpr std::string_view kSupported[] = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",        "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat", "KHR_materials_dispersion",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_iridescence",  "KHR_materials_sheen",
-    "KHR_materials_specular",  "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",    "KHR_mesh_quantization",      "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
 };
 
 /// Places of the objects that an extension extends; "N" stands for a position.
@@ -36,6 +48,7 @@ constexpr Extended kExtended[] = {
     {"KHR_lights_punctual", {"#", "#/nodes/N"}},
     {"KHR_materials_anisotropy", {"#/materials/N"}},
     {"KHR_materials_clearcoat", {"#/materials/N"}},
+    {"KHR_materials_diffuse_transmission", {"#/materials/N"}},
     {"KHR_materials_dispersion", {"#/materials/N"}},
     {"KHR_materials_emissive_strength", {"#/materials/N"}},
     {"KHR_materials_ior", {"#/materials/N"}},
@@ -48,6 +61,7 @@ constexpr Extended kExtended[] = {
     {"KHR_materials_variants", {"#", "#/meshes/N/primitives/N"}},
     {"KHR_materials_volume", {"#/materials/N"}},
     {"KHR_mesh_quantization", {}},
+    {"KHR_node_visibility", {"#/nodes/N"}},
 };
 
 /// Place of KHR_texture_transform: any reference of a material to a texture.

@@ -85,6 +85,16 @@ void read_layers(const JsonObject& object, Material& material) {
         extension.number_into("anisotropyRotation", material.anisotropy_rotation, {});
         material.anisotropy_texture = read_texture_info(extension, "anisotropyTexture");
     });
+    object.with_extension("KHR_materials_diffuse_transmission", [&](const JsonObject& extension) {
+        extension.number_into("diffuseTransmissionFactor", material.diffuse_transmission,
+                              kUnitRange);
+        extension.numbers_into("diffuseTransmissionColorFactor",
+                               material.diffuse_transmission_color, kUnitRange);
+        material.diffuse_transmission_texture =
+            read_texture_info(extension, "diffuseTransmissionTexture");
+        material.diffuse_transmission_color_texture =
+            read_texture_info(extension, "diffuseTransmissionColorTexture");
+    });
     object.with_extension("KHR_materials_dispersion", [&](const JsonObject& extension) {
         extension.number_into("dispersion", material.dispersion, kNotNegative);
     });

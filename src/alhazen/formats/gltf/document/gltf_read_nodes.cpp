@@ -84,6 +84,9 @@ Node read_node(const JsonObject& object, bool& told_rounding) {
         extension.require("light");
         node.light = extension.index("light", Collection::Lights);
     });
+    object.with_extension("KHR_node_visibility", [&](const JsonObject& extension) {
+        node.visible = extension.flag("visible", true);
+    });
     node.weights = object.numbers("weights", 0).value_or(std::vector<double>());
     for (const char* key : {"skin", "weights"}) {
         if (object.has(key) && !object.has("mesh")) object.error(key, "not allowed without a mesh");

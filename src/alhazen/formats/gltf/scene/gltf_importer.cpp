@@ -112,11 +112,13 @@ SceneDescription GltfImporter::import(const ImportSource& source, Diagnostics& d
     const std::vector<gltf::Index> nodes =
         gltf::nodes_below(document, shown_nodes(document, source, diagnostics));
 
+    const std::vector<gltf::Index> visible = gltf::visible_nodes(document, nodes);
+
     gltf::add_materials(document, source, scene, diagnostics);
     gltf::NodeBuilder(document, source, pose, budget, scene, diagnostics)
-        .add(nodes, world_from_node);
+        .add(visible, world_from_node);
     gltf::add_cameras(document, nodes, world_from_node, scene);
-    gltf::add_lights(document, nodes, world_from_node, scene);
+    gltf::add_lights(document, visible, world_from_node, scene);
     return scene;
 }
 

@@ -62,6 +62,9 @@ class MaterialMaker {
         p.film.thickness_texture = textures_.use(m.film_thickness_texture, ColorSpace::Linear);
         p.anisotropy = {m.anisotropy, m.anisotropy_rotation,
                         textures_.use(m.anisotropy_texture, ColorSpace::Linear)};
+        p.diffuse_transmission = {
+            scalar(m.diffuse_transmission, m.diffuse_transmission_texture, Channel::Alpha),
+            color(rgb(m.diffuse_transmission_color), m.diffuse_transmission_color_texture)};
         p.dispersion = m.dispersion;
         p.unlit = m.unlit;
         return p;

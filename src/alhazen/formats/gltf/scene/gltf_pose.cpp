@@ -75,6 +75,21 @@ std::vector<Index> nodes_below(const Document& document, const std::vector<Index
     return order;
 }
 
+std::vector<Index> visible_nodes(const Document& document, const std::vector<Index>& nodes) {
+    std::vector<char> hidden(document.nodes.size(), 0);
+    std::vector<Index> visible;
+    for (const Index index : nodes) {
+        const Node& node = document.nodes[index];
+        if (!node.visible) hidden[index] = 1;
+        if (hidden[index] == 0) {
+            visible.push_back(index);
+        } else {
+            for (const Index child : node.children) hidden[child] = 1;
+        }
+    }
+    return visible;
+}
+
 std::vector<Index> root_nodes(const Document& document) {
     std::vector<char> has_parent(document.nodes.size(), 0);
     for (const Node& node : document.nodes) {

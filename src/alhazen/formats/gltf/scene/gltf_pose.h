@@ -43,6 +43,9 @@ using Pose = std::vector<NodePose>;
 /// Nodes of a scene in depth-first order, children in file order, each once.
 [[nodiscard]] std::vector<Index> nodes_below(const Document& document,
                                              const std::vector<Index>& roots);
+/// Those of `nodes`, parents before children, that neither they nor an ancestor hide.
+[[nodiscard]] std::vector<Index> visible_nodes(const Document& document,
+                                               const std::vector<Index>& nodes);
 /// Nodes without a parent.
 [[nodiscard]] std::vector<Index> root_nodes(const Document& document);
 

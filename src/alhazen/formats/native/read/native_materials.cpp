@@ -157,6 +157,10 @@ void read_layers(BlockReader& outer, NativeContext& context, MetallicRoughness& 
         reader.read("rotation", p.anisotropy.rotation);
         read_plain_texture(reader, "texture", context, p.anisotropy.texture);
     });
+    read_layer(outer, "diffuse_transmission", context, [&](BlockReader& reader) {
+        read_scalar(reader, "share", context, p.diffuse_transmission.share);
+        read_color(reader, "color", context, p.diffuse_transmission.color);
+    });
 }
 
 void read_metallic_roughness(BlockReader& outer, NativeContext& context, Material& m) {

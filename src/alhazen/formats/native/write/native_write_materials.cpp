@@ -92,6 +92,10 @@ void add_layers(const NativeWriteContext& context, const MetallicRoughness& p,
         text.add_unless("rotation", p.anisotropy.rotation, usual.anisotropy.rotation);
         inputs.add("texture", p.anisotropy.texture);
     });
+    layer("diffuse_transmission", [&](NativeBlockText&, MaterialText& inputs) {
+        inputs.add("share", p.diffuse_transmission.share, usual.diffuse_transmission.share);
+        inputs.add("color", p.diffuse_transmission.color, usual.diffuse_transmission.color);
+    });
 }
 
 void add_metallic_roughness(const NativeWriteContext& context, const MetallicRoughness& p,
