@@ -189,7 +189,7 @@ TEST(NearestTriangles, IsBruteForceBesideSurfacesThatAreNearlyAsNearEverywhere) 
         const double bend = seed % 4 == 0 ? 0.0 : random.log_uniform(1e-9, 1.0);
         const double scale = seed % 5 == 0 ? 1e-60 : random.log_uniform(1e-6, 1e6);
         const Vec3 place = scale * random.in_cube(seed % 3 == 0 ? 1e5 : 0.0);
-        const Vec3 normal = random.direction(), u = perpendicular(normal), v = cross(normal, u);
+        const Vec3 normal = random.unit_vector(), u = perpendicular(normal), v = cross(normal, u);
         constexpr int kSide = 24;
         const auto point = [&](int i, int j) {
             const double x = 2.0 * i / kSide - 1.0, y = 2.0 * j / kSide - 1.0;
