@@ -348,7 +348,7 @@ class ViewServer(ServerTest):
             # What the file says changes nothing; a file that says the same shows the same.
             self.assertEqual(png({k: v for k, v in key.items() if k != "what"}, spot), png())
             status, _, body = server.ask("/blocks", {"lights": [changes[0]]})
-            self.assertEqual(json.loads(body)["text"], 'point_light "key" { position = (-3, 5, 4); color = (1, 1, 1) }\n')
+            self.assertEqual(json.loads(body)["text"], 'point_light "key" { position = (-3, 5, 4) }\n')
             moved = png(changes[0])
             scene.write_text(LIGHTS.replace("position = (3, 5, 4)", "position = (-3, 5, 4)"), encoding="utf-8")
             server.wait_for(lambda state: state["version"] == 2)

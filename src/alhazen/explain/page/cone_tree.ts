@@ -10,7 +10,7 @@ const CONE_NAMES = {eye: "cone of the pixel", reflection: "reflected cone", refr
 function nameOf(c: Cone, from: string | undefined) {
   const whence = from === undefined ? "" : ` from \u2018${from}\u2019`;
   if (c.kind !== "shadow") return CONE_NAMES[c.kind] + whence;
-  const part = c.part_count > 1 ? `, part ${c.part} of ${c.part_count} of the piece (${number(100 * c.weight)} %)` : "";
+  const part = c.part_count > 1 ? `, part ${c.part} of ${c.part_count} (${number(100 * c.weight)} %)` : "";
   return `cone to \u2018${c.light}\u2019${whence}${part}`;
 }
 
