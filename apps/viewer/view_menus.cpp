@@ -31,14 +31,17 @@ double distance_in_middle(const Scene& scene, const Camera& camera) {
     return found && std::isfinite(hit.t) ? hit.t : 0.0;
 }
 
+json list_of(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
 json camera_json(const Scene& scene, const CameraDescription& described) {
     const PicturePlane plane = picture_plane(described.camera);
-    const auto list = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
     return {{"name", described.name},
-            {"eye", list(plane.eye)},
-            {"look", list(plane.forward)},
-            {"right", list(plane.right)},
-            {"up", list(plane.up)},
+            {"eye", list_of(plane.eye)},
+            {"look", list_of(plane.forward)},
+            {"right", list_of(plane.right)},
+            {"up", list_of(plane.up)},
             {"aspect", described.aspect},
             {"parallel", std::holds_alternative<OrthographicCamera>(described.camera)},
             {"distance", distance_in_middle(scene, described.camera)}};
@@ -87,7 +90,12 @@ json menu_of(const Table& table) {
 json view_menus(const LoadedScene& loaded) {
     json lights = json::array();
     for (const LightChoice& light : light_choices(loaded.description)) {
-        lights.push_back({{"name", light.name}, {"what", light.kind}});
+        json entry{{"name", light.name},
+                   {"what", light.kind},
+                   {"color", {light.color.r, light.color.g, light.color.b}}};
+        if (light.position) entry["position"] = list_of(*light.position);
+        if (light.direction) entry["direction"] = list_of(*light.direction);
+        lights.push_back(std::move(entry));
     }
     static const json kRenderers = renderer_menu();
     const Scene& scene = loaded.scene;

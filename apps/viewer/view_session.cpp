@@ -199,6 +199,13 @@ Response ViewSession::explain(const json& request, Turn& turn) {
     return {200, "application/json", explanation_json(explanation, -1), "", ""};
 }
 
+Response ViewSession::blocks(const json& wish) {
+    const StopFlag never;
+    const auto here = scenes_.with("", never);
+    const std::string text = changed_light_blocks(here->scene.description, light_changes(wish));
+    return {200, "application/json", text_of({{"text", text}}), "", ""};
+}
+
 Response ViewSession::stop(const json& wish) {
     scenes_.stop();
     const std::lock_guard lock(turns_mutex_);
@@ -228,6 +235,7 @@ Response ViewSession::answer(const Request& request) {
         };
         if (request.path == "/frame") return in_turn("drawing", &ViewSession::frame);
         if (request.path == "/explain") return in_turn("explaining", &ViewSession::explain);
+        if (request.path == "/blocks") return blocks(wish);
         if (request.path == "/stop") return stop(wish);
         if (request.path == "/read") {
             scenes_.read_again();

@@ -39,6 +39,7 @@ class ViewSession {
     [[nodiscard]] Response state(const std::string& known) const;
     [[nodiscard]] Response frame(const Json& wish, Turn& turn);
     [[nodiscard]] Response explain(const Json& wish, Turn& turn);
+    [[nodiscard]] Response blocks(const Json& wish);
     [[nodiscard]] Response stop(const Json& wish);
     /// The scene as it is to be lit; none: as it is.
     [[nodiscard]] std::optional<Scene> lit(const LoadedScene& loaded, Lighting lighting);

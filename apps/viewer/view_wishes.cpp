@@ -17,9 +17,12 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-Vec3 vector_in(const json& wish, const char* key) {
+Vec3 numbers_in(const json& wish, const char* key) {
     const json& v = wish.at(key);
-    const Vec3 vector{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+    return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+}
+Vec3 vector_in(const json& wish, const char* key) {
+    const Vec3 vector = numbers_in(wish, key);
     if (!is_finite(vector)) throw Error(ErrorKind::Usage, "the camera is not finite");
     return vector;
 }
@@ -71,6 +74,7 @@ void select_pixels(RenderOptions& options) {
 Lighting lighting_in(const json& wish, const std::string& renderer) {
     Lighting lighting;
     lighting.off = wish.value("lights_off", std::vector<std::string>());
+    lighting.changes = light_changes(wish);
     const std::string name = wish.value("environment", "");
     if (name.empty()) return lighting;
     std::string known;
@@ -96,6 +100,21 @@ const AovEntry* layer_in(const json& wish) {
 }
 
 }  // namespace
+
+std::vector<LightChange> light_changes(const json& wish) {
+    std::vector<LightChange> changes;
+    if (!wish.contains("lights")) return changes;
+    for (const json& light : wish.at("lights")) {
+        LightChange& change = changes.emplace_back();
+        change.name = light.at("name").get<std::string>();
+        if (light.contains("position")) change.position = numbers_in(light, "position");
+        if (light.contains("direction")) change.direction = numbers_in(light, "direction");
+        if (!light.contains("color")) continue;
+        const Vec3 color = numbers_in(light, "color");
+        change.color = Rgb{color.x, color.y, color.z};
+    }
+    return changes;
+}
 
 int whole_in(const json& wish, const char* key, std::optional<int> fallback, int least, int most) {
     if (fallback && !wish.contains(key)) return *fallback;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/scene/scene.h"
@@ -27,6 +28,9 @@ struct FrameWish {
 /// A number of a request; without a fallback it must be there. 3.0 is whole, too.
 [[nodiscard]] int whole_in(const nlohmann::ordered_json& wish, const char* key,
                            std::optional<int> fallback, int least, int most);
+
+/// What the lights of a request are changed to.
+[[nodiscard]] std::vector<LightChange> light_changes(const nlohmann::ordered_json& wish);
 
 [[nodiscard]] FrameWish frame_wish(const nlohmann::ordered_json& wish);
 

@@ -105,11 +105,11 @@ class BrowserSession:
     def mouse(self, kind, x, y, buttons=0):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=buttons, clickCount=1)
 
-    def key(self, key):
+    def key(self, key, modifiers=0):
         # What these do to a field that has the focus needs their texts.
         text = {"Enter": {"text": "\r", "windowsVirtualKeyCode": 13}, " ": {"text": " ", "windowsVirtualKeyCode": 32}}.get(key, {})
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key, **text)
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, modifiers=modifiers, **text)
 
     def screenshot(self, path):
         path.parent.mkdir(parents=True, exist_ok=True)

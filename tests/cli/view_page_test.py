@@ -102,8 +102,13 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: page.value("[...document.querySelectorAll('button')].find(b => b.textContent === 'Undo').click()"))
         self.assertEqual(self.picture(), first)
         page.value("viewer.image.focus()")
-        for key in ("ArrowLeft", "+", "w"):
+        for key in ("ArrowLeft", "+", "w", "D"):
             self.changes(lambda: page.key(key))
+        # With shift arrows move, and do not turn.
+        look = page.value("viewer.camera.look.join()")
+        for key in ("ArrowLeft", "ArrowUp"):
+            self.changes(lambda: page.key(key, modifiers=8))
+        self.assertEqual(page.value("viewer.camera.look.join()"), look)
         self.changes(lambda: self.choose("renderer", "ray_casting"))
         self.changes(lambda: self.choose("camera", "1"))
         self.choose("accelerator", "octree")
@@ -191,9 +196,14 @@ class ViewPage(unittest.TestCase):
         self.assertEqual(page.value("document.activeElement.name"), "key")
         self.changes(lambda: self.edit(LIGHTS))
         # Surroundings are for renderers that follow light.
-        self.assertTrue(page.value("document.querySelector('[name=environment]').disabled"))
+        menu = "document.querySelector('[name=environment]')"
+        why = f"document.getElementById({menu}.getAttribute('aria-describedby'))"
+        self.assertTrue(page.value(f"{menu}.disabled"))
+        self.assertIn("those that follow light", page.value(f"{why}.textContent"))
+        self.assertGreater(page.value(f"{why}.getBoundingClientRect().height"), 0)
         self.changes(lambda: self.choose("renderer", "path_tracing"))
-        self.assertFalse(page.value("document.querySelector('[name=environment]').disabled"))
+        self.assertFalse(page.value(f"{menu}.disabled"))
+        self.assertFalse(page.value(f"{menu}.hasAttribute('aria-describedby') || document.querySelector('.why') !== null"))
         self.changes(lambda: self.choose("environment", "studio"))
         self.shoot("view_environment")
         off = "[...document.querySelectorAll('#lights button')].find(b => b.textContent === 'All off').click()"
@@ -207,6 +217,109 @@ class ViewPage(unittest.TestCase):
                                         "viewer.controls.lights.off().join()"), state)
         self.assertEqual(self.picture(), first)
         self.assertEqual(page.value(f"{boxes}.filter(b => b.checked).length"), 4)
+        self.check_quiet()
+
+    def test_undo_keeps_a_light_dark_that_was_missing_from_the_file_for_a_while(self):
+        self.scene.write_text(LIGHTS, encoding="utf-8")
+        self.open("900,700")
+        page = self.page
+        dark = "viewer.controls.lights.off().join()"
+        page.value("document.getElementById('lights').open = true")
+        self.changes(lambda: page.value("document.querySelector('#lights [name=key]').click()"))
+        without = LIGHTS.replace('point_light "key"', 'point_light "other"')
+        self.changes(lambda: self.edit(without))
+        self.assertEqual(page.value(dark), "")
+        self.changes(lambda: self.choose("exposure", "1"))
+        self.changes(lambda: page.value("viewer.undo()"))
+        self.changes(lambda: self.edit(LIGHTS))
+        self.assertEqual(page.value(dark), "key")
+        self.changes(lambda: page.value("viewer.undo()"))
+        self.assertEqual(page.value(dark), "")
+        self.check_quiet()
+
+    def test_the_focus_stays_in_the_lights_where_the_file_changes(self):
+        self.scene.write_text(LIGHTS, encoding="utf-8")
+        self.open("900,700")
+        page = self.page
+        page.value("document.getElementById('lights').open = true")
+        page.value("document.querySelector('#lights [aria-label=\"Change key\"]').click()")
+        key = "document.activeElement.dataset.key"
+        for i, place in enumerate(("summary", "on key", "change key", "key position 1", "key times", "All off", "blocks")):
+            page.value(f"[...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{place}').focus()")
+            self.edit(LIGHTS.replace("radius = 1;", f"radius = 0.{i + 2};"))
+            self.assertEqual(page.value(key), place)
+        # Of a light that is gone the list's.
+        page.value("document.querySelector('#lights [name=key]').focus()")
+        self.edit(LIGHTS.replace('point_light "key"', 'point_light "other"'))
+        self.assertEqual(page.value(key), "summary")
+        self.check_quiet()
+
+    def test_lights_are_moved_and_coloured_and_written_as_blocks(self):
+        self.scene.write_text(LIGHTS, encoding="utf-8")
+        self.open("1300,900")
+        page = self.page
+        first = self.picture()
+        page.value("document.getElementById('lights').open = true")
+
+        def field(name):
+            return f"[...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{name}')"
+
+        def type_in(name, text):
+            page.value(f"{field(name)}.focus()")
+            page.value(f"{field(name)}.select()")
+            page.call("Input.insertText", text=text)
+
+        def button(text):
+            return f"[...document.querySelectorAll('button')].find(b => b.textContent === '{text}').click()"
+
+        summary = "document.querySelector('#lights summary').textContent"
+        page.value(f"{field('change key')}.click()")
+        # What is typed is seen at once; a field left as it is not.
+        self.changes(lambda: type_in("key position 0", "-3"))
+        moved = self.picture()
+        self.assertEqual(page.value(summary), "lights: all of 4 on, 1 changed")
+        self.changes(lambda: type_in("key color 2", "0.25"))
+        self.changes(lambda: type_in("key times", "2.5"))
+        for text in ("", "-1"):
+            type_in("key times", text)
+            self.assertEqual(page.value(f"{field('key times')}.getAttribute('aria-invalid')"), "true")
+        page.value("document.activeElement.blur()")
+        self.assertEqual(page.value(f"{field('key times')}.value + {field('key times')}.getAttribute('aria-invalid')"), "2.5null")
+        # A spot light turns, a lamp and a material are dimmed.
+        for name in ("spot light 1", "lamp", "ember"):
+            page.value(f"{field(f'change {name}')}.click()")
+        self.assertIsNone(page.value(f"{field('lamp position 0')}?.value ?? null"))
+        self.changes(lambda: type_in("spot light 1 direction 0", "1"))
+        self.changes(lambda: type_in("lamp times", "0.5"))
+        self.changes(lambda: type_in("ember color 0", "0.2"))
+        changed = self.picture()
+        self.shoot("view_lights_changed")
+        # The blocks for the file.
+        page.value(button("Light blocks"))
+        page.wait("document.getElementById('light-blocks').value.includes('ember')")
+        blocks = page.value("document.getElementById('light-blocks').value")
+        for part in ('point_light "key"', "position = (-3, 5, 4)", "color = (2.5, 2.5, 0.625)", "spot_light", 'disc_light "lamp"',
+                     "radiance = (1, 1, 0.5)", '// material "ember": emission = (0.2, 0.3, 0.05)'):
+            self.assertIn(part, blocks)
+        # It stays where the file changes, and is undone step by step; a field counts once.
+        self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
+        self.changes(lambda: self.edit(LIGHTS))
+        self.assertEqual(self.picture(), changed)
+        for i in range(5):
+            self.changes(lambda: page.value("viewer.undo()"))
+        self.assertEqual(self.picture(), moved)
+        self.changes(lambda: page.value("viewer.undo()"))
+        self.assertEqual(self.picture(), first)
+        self.assertEqual(page.value(summary), "lights: all of 4 on")
+        self.assertEqual(page.value("viewer.controls.lights.changes().length"), 0)
+        # The file with the blocks shows what was seen.
+        kept = [line for line in LIGHTS.split("\n") if not line.startswith(("spot_light", "disc_light", "point_light"))]
+        self.changes(lambda: self.edit("\n".join(kept).replace("emission = (0.9, 0.3, 0.05)", "emission = (0.2, 0.3, 0.05)") + blocks))
+        self.assertEqual(self.picture(), changed)
+        # As in the file.
+        self.changes(lambda: type_in("key times", "0"))
+        self.changes(lambda: page.value(f"{field('reset key')}.click()"))
+        self.assertEqual(self.picture(), changed)
         self.check_quiet()
 
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
@@ -262,7 +375,7 @@ class ViewPage(unittest.TestCase):
         self.server.process.wait()
         again = Server(ALHAZEN, self.scene, "--port", str(self.server.port))
         self.addCleanup(again.close)
-        page.wait(MESSAGE + ".includes('no key')")
+        page.wait(MESSAGE + ".startsWith('Another server') && " + MESSAGE + ".includes('no key')")
 
     def test_the_policy_allows_this_server_alone(self):
         self.open("900,700")
@@ -346,6 +459,11 @@ class ViewPage(unittest.TestCase):
             page.value("viewer.explain(0.26, 0.8)")
             page.wait(f"document.querySelectorAll('{place}').length > 0")
             page.value("document.querySelector('#cones, #beams').scrollIntoView()")
+            if renderer == "cone_tracing":
+                names = page.value("[...document.querySelectorAll('#cones summary')].map(s => s.textContent)")
+                shadows = [name for name in names if "cone to" in name]
+                self.assertIn("cone to \u2018key\u2019 from \u2018", shadows[0])
+                self.assertEqual(len(set(shadows)), len(shadows))
             self.shoot(f"view_{renderer}")
         # A refused scene is said, and stays said.
         self.check_quiet()

@@ -324,6 +324,48 @@ class ViewServer(ServerTest):
         finally:
             server.close()
 
+    def test_lights_are_moved_and_coloured_and_told_as_blocks(self):
+        scene = self.scene.with_name("changed.alhazen")
+        scene.write_text(LIGHTS, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+
+        def png(*lights, renderer="whitted"):
+            status, _, body = server.ask("/frame", {**WISH, "png": True, "renderer": renderer, "lights": lights})
+            self.assertEqual(status, 200, body)
+            return body
+
+        try:
+            lights = {light["name"]: light for light in server.state()["lights"]}
+            key, spot = lights["key"], lights["spot light 1"]
+            self.assertEqual((key["position"], key["color"], "direction" in key), ([3, 5, 4], [1, 1, 1], False))
+            self.assertEqual((spot["position"], spot["direction"]), ([-3, 5, 4], [3, -5, -4]))
+            self.assertEqual((lights["lamp"]["color"], "position" in lights["lamp"]), ([2, 2, 1], False))
+            changes = [{"name": "key", "position": [-3, 5, 4]}, {"name": "key", "color": [3, 0, 0]},
+                       {"name": "spot light 1", "direction": [1, -5, -4]}, {"name": "lamp", "color": [9, 9, 9]},
+                       {"name": "ember", "color": [0, 5, 0]}]
+            for renderer in ("whitted", "path_tracing"):
+                self.assertEqual(len({png(renderer=renderer), *(png(c, renderer=renderer) for c in changes)}), 6)
+            # What the file says changes nothing; a file that says the same shows the same.
+            self.assertEqual(png({k: v for k, v in key.items() if k != "what"}, spot), png())
+            status, _, body = server.ask("/blocks", {"lights": [changes[0]]})
+            self.assertEqual(json.loads(body)["text"], 'point_light "key" { position = (-3, 5, 4) }\n')
+            moved = png(changes[0])
+            scene.write_text(LIGHTS.replace("position = (3, 5, 4)", "position = (-3, 5, 4)"), encoding="utf-8")
+            server.wait_for(lambda state: state["version"] == 2)
+            self.assertEqual(png(), moved)
+            explained = json.loads(server.ask("/explain", {**WISH, "x": 40, "y": 58, "steps": "list",
+                                                           "lights": [{"name": "key", "color": [0, 0, 0]}]})[2])
+            self.assertNotIn("key", [light["light"] for light in explained["tree"]["surfaces"][0]["lights"]
+                                     if any(light["intensity"])])
+            for path in ("/frame", "/blocks"):
+                for wrong in ({"name": "moon", "color": [1, 1, 1]}, {"name": "lamp", "position": [0, 0, 0]}, {"name": "key", "color": [-1, 0, 0]},
+                              {"name": "spot light 1", "direction": [0, 0, 0]}, {"name": "key", "position": [1, 2]},
+                              {"name": "key", "color": [None, 0, 0]}, {"color": [1, 1, 1]}, "key"):
+                    status, _, body = server.ask(path, {**WISH, "lights": [wrong]})
+                    self.assertEqual(status, 400, (path, wrong, body))
+        finally:
+            server.close()
+
     def test_a_newer_frame_ends_an_older_one(self):
         long = {**WISH, "width": 2000, "height": 1500, "samples": 1024}
         status = self.server.in_hand("/frame", long)

@@ -2,7 +2,8 @@
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 import {LightList} from "./lights";
-import type {Choice, Scene} from "./state";
+import type {LightState} from "./lights";
+import type {Choice, LightChange, Scene} from "./state";
 
 const MOVING: Choice[] = [
   {name: "steady", what: "the same renderer, 20 pictures a second: fewer pixels, then fewer generations of rays; shades between " +
@@ -14,25 +15,30 @@ const NUMBERS = ["samples", "depth", "exposure"] as const;
 
 export type MenuKey = typeof MENUS[number];
 export type NumberKey = typeof NUMBERS[number];
-export type Key = MenuKey | NumberKey | "lights";
+/** "lights": which are on; "light": how one is. */
+export type Key = MenuKey | NumberKey | "lights" | "light";
 type FieldKey = MenuKey | NumberKey;
 /** All that is chosen, to come back to. */
 export interface Settings {
   values: Map<FieldKey, string>;
   wishes: Set<NumberKey>;
-  off: string[];
+  lights: LightState;
 }
 
 export class Controls {
   readonly form = element("form", {class: "controls", "aria-label": "Settings", submit: e => e.preventDefault()});
-  readonly lights = new LightList(() => this.tell("lights"));
+  readonly lights: LightList;
   private readonly fields = new Map<FieldKey, HTMLSelectElement | HTMLInputElement>();
   private readonly usual = new Map<NumberKey, number>();
   private readonly wishes = new Set<NumberKey>();  // numbers that were chosen; others are the usual ones
+  private readonly reasons = new Map<MenuKey, HTMLElement>();  // why menus have no effect
   private last: Settings | undefined;
 
-  /** `changed` has what was chosen before, too. */
-  constructor(private readonly changed: (key: Key, before: Settings) => void) {}
+  /** `changed` has what was chosen before, too, unless it goes on with the change before. */
+  constructor(private readonly changed: (key: Key, before: Settings | undefined) => void,
+              blocks: (changes: LightChange[]) => Promise<string>) {
+    this.lights = new LightList({changed: (which, mark) => this.tell(which, mark), blocks});
+  }
 
   get(key: MenuKey) {
     return this.fields.get(key)?.value ?? "";
@@ -65,14 +71,21 @@ export class Controls {
     const field = this.fields.get(key);
     if (!field) return;
     field.disabled = off;
-    field.title = off ? why : "";
+    this.reasons.get(key)?.remove();
+    this.reasons.delete(key);
+    field.removeAttribute("aria-describedby");
+    if (!off) return;
+    const reason = element("p", {class: "why", id: `why-${key}`}, why);
+    this.reasons.set(key, reason);
+    field.closest("label")?.after(reason);
+    field.setAttribute("aria-describedby", reason.id);
   }
   settings(): Settings {
     const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
-    return {values, wishes: new Set(this.wishes), off: this.lights.off()};
+    return {values, wishes: new Set(this.wishes), lights: this.lights.state()};
   }
   /** What the scene no longer has stays as it is. */
-  restore({values, wishes, off}: Settings) {
+  restore({values, wishes, lights}: Settings) {
     for (const [key, field] of this.fields) {
       const now = field.value;
       field.value = values.get(key) ?? now;
@@ -80,13 +93,13 @@ export class Controls {
     }
     this.wishes.clear();
     for (const key of wishes) this.wishes.add(key);
-    this.lights.setOff(off);
+    this.lights.restore(lights);
     this.last = this.settings();
   }
-  private tell(key: Key) {
+  private tell(key: Key, mark = true) {
     const before = this.last;
     this.last = this.settings();
-    this.changed(key, before ?? this.last);
+    this.changed(key, mark ? before ?? this.last : undefined);
   }
   options(key: MenuKey) {
     const field = this.fields.get(key);
@@ -107,7 +120,7 @@ export class Controls {
   /** What was chosen stays where it still is. */
   fill(scene: Scene) {
     const focus = [...this.fields].find(([, field]) => field === document.activeElement)?.[0];
-    const light = this.lights.focused();
+    const place = this.lights.place();
     const chosen = new Map([...this.fields].map(([key, field]) => [key, field.value]));
     this.form.replaceChildren();
     const add = (key: FieldKey, label: string, field: HTMLSelectElement | HTMLInputElement, value: string) => {
@@ -140,7 +153,7 @@ export class Controls {
     menu("curve", "tone curve", scene.curves.map(name => ({name})), "none");
     menu("steps", "steps of", scene.steps.split(", ").map(name => ({name})), "kay_kajiya");
     if (focus) this.fields.get(focus)?.focus();
-    if (light) this.lights.focus(light);
+    this.lights.comeBack(place);
     this.last = this.settings();
   }
 }

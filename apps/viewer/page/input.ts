@@ -15,6 +15,9 @@ const KEYS: Record<string, (camera: ViewCamera) => void> = {
   ArrowLeft: c => c.orbit(-0.1, 0), ArrowRight: c => c.orbit(0.1, 0), ArrowUp: c => c.orbit(0, 0.1),
   ArrowDown: c => c.orbit(0, -0.1), "+": c => c.zoom(0.87), "-": c => c.zoom(1 / 0.87), w: c => c.walk(0, 0, 0.07),
   s: c => c.walk(0, 0, -0.07), a: c => c.walk(-0.07, 0, 0), d: c => c.walk(0.07, 0, 0)};
+const WITH_SHIFT: Record<string, (camera: ViewCamera) => void> = {
+  ArrowLeft: c => c.walk(-0.07, 0, 0), ArrowRight: c => c.walk(0.07, 0, 0), ArrowUp: c => c.walk(0, 0.07, 0),
+  ArrowDown: c => c.walk(0, -0.07, 0)};
 const CLICK = 4;  // pixels that a click may move
 
 export function listen(image: HTMLElement, target: InputTarget) {
@@ -57,8 +60,10 @@ export function listen(image: HTMLElement, target: InputTarget) {
     if (e.key === "Escape") return target.stop();
     const held = e.ctrlKey || e.metaKey;
     if (e.key === "z" && held) return target.undo();
-    if (!(e.key in KEYS) || held) return;
+    const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;  // of letters, whatever Caps Lock says
+    const change = (e.shiftKey ? WITH_SHIFT[key] : undefined) ?? KEYS[key];
+    if (!change || held || e.altKey) return;
     e.preventDefault();
-    target.move(KEYS[e.key], true);
+    target.move(change, true);
   });
 }

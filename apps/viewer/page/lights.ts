@@ -1,57 +1,146 @@
-// The lights of the scene, each of which can be turned off.
+// The lights of the scene, each of which can be turned off, moved and given another colour.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
-import type {Choice} from "./state";
+import type {Vec3} from "../../../src/alhazen/explain/page/basics";
+import {LightFields} from "./light_fields";
+import type {LightValues} from "./light_fields";
+import type {LightChange, LightEntry} from "./state";
+
+/** All that is other than in the file, of lights that the scene no longer has, too. */
+export interface LightState {
+  dark: Set<string>;
+  values: Map<string, LightValues>;
+}
+export interface LightListener {
+  /** `mark`: undo comes back to what was before; `which` are on, or how they are. */
+  changed(which: "lights" | "light", mark: boolean): void;
+  /** The blocks of these lights for the scene file. */
+  blocks(changes: LightChange[]): Promise<string>;
+}
 
 export class LightList {
-  private readonly summary = element("summary");
+  private readonly summary = element("summary", {"data-key": "summary"});
   private readonly list = element("div", {class: "lights"});
-  readonly element = element("details", {id: "lights"}, this.summary, this.list);
-  private readonly dark = new Set<string>();  // names; of lights that the scene no longer has, too
+  private readonly block = element("textarea", {id: "light-blocks", rows: 6, readonly: true, hidden: true, "data-key": "text",
+                                                "aria-label": "Blocks of the changed lights"});
+  private readonly blockButton = element("button", {type: "button", "aria-expanded": "false", "aria-controls": "light-blocks",
+                                                    "data-key": "blocks", click: () => this.toggleBlocks()}, "Light blocks");
+  private readonly buttons = element("div", {class: "row"}, this.all("All on", true), this.all("All off", false), this.blockButton);
+  readonly element = element("details", {id: "lights"}, this.summary, this.list, this.buttons, this.block);
+  private dark = new Set<string>();  // names
+  private values = new Map<string, LightValues>();
+  private readonly open = new Set<string>();  // whose fields are shown
+  private lights: LightEntry[] = [];
   private boxes: HTMLInputElement[] = [];
+  private readonly fields = new Map<string, LightFields>();  // of those that are open: there may be very many lights
 
-  constructor(private readonly changed: () => void) {}
+  constructor(private readonly listener: LightListener) {}
 
   /** Names of those that are off. */
   off() {
     return this.boxes.filter(b => !b.checked).map(b => b.name);
   }
-  setOff(names: string[]) {
-    this.dark.clear();
-    for (const name of names) this.dark.add(name);
+  /** Those that are other than in the file. */
+  changes(): LightChange[] {
+    return this.lights.flatMap(light => {
+      const values = this.values.get(light.name);
+      if (!values) return [];
+      const {position, direction, color, times} = values;
+      return [{name: light.name, ...(light.position && position ? {position} : {}),
+               ...(light.direction && direction ? {direction} : {}), color: color.map(c => c * times) as Vec3}];
+    });
+  }
+  state(): LightState {
+    return {dark: new Set(this.dark), values: new Map(this.values)};
+  }
+  restore({dark, values}: LightState) {
+    this.dark = new Set(dark);
+    this.values = new Map(values);
     for (const box of this.boxes) box.checked = !this.dark.has(box.name);
-    this.count();
+    for (const [name, fields] of this.fields) fields.show(this.values.get(name));
+    this.tell();
   }
-  focused() {
-    return this.boxes.find(b => b === document.activeElement)?.name;
+  /** What has the focus, and how far the list is scrolled, to come back to. */
+  place() {
+    const active = document.activeElement;
+    const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset.key : undefined;
+    return {key, top: this.list.scrollTop};
   }
-  focus(name: string) {
-    this.boxes.find(b => b.name === name)?.focus();
+  comeBack({key, top}: {key?: string; top: number}) {
+    this.list.scrollTop = top;
+    if (key === undefined) return;
+    const all = [...this.element.querySelectorAll<HTMLElement>("[data-key]")];
+    (all.find(e => e.dataset.key === key) ?? this.summary).focus({preventScroll: true});
   }
-  /** What was turned off stays off where it still is. */
-  fill(lights: Choice[]) {
+  /** What was chosen stays where it still is. */
+  fill(lights: LightEntry[]) {
+    this.lights = lights;
     this.boxes = lights.map(light => element("input", {type: "checkbox", name: light.name, checked: !this.dark.has(light.name),
-                                                      change: () => this.turned()}));
-    const all = (text: string, on: boolean) => element("button", {type: "button", click: () => {
+                                                      "data-key": `on ${light.name}`, change: () => this.turned()}));
+    this.fields.clear();
+    this.list.replaceChildren(...lights.flatMap((light, i) => this.row(light, i)));
+    this.element.hidden = lights.length === 0;
+    this.tell();
+  }
+  private row(light: LightEntry, i: number) {
+    const name = light.name, id = `light-${i}`;
+    const button = element("button", {
+      type: "button", class: "link", "aria-expanded": String(this.open.has(name)), "aria-controls": id,
+      "aria-label": `Change ${name}`, "data-key": `change ${name}`, click: () => {
+        const shown = !this.open.delete(name);
+        if (shown) {
+          this.open.add(name);
+          row.after(this.fieldsOf(light, id));
+        } else {
+          this.fields.get(name)?.element.remove();
+          this.fields.delete(name);
+        }
+        button.setAttribute("aria-expanded", String(shown));
+      }}, "Change");
+    const label = element("label", {title: light.what ?? ""}, this.boxes[i], element("span", {}, name));
+    const row = element("div", {class: "light"}, label, button);
+    return this.open.has(name) ? [row, this.fieldsOf(light, id)] : [row];
+  }
+  private fieldsOf(light: LightEntry, id: string) {
+    const fields = new LightFields(light, id, (values, mark) => this.edited(light.name, values, mark));
+    fields.show(this.values.get(light.name));
+    this.fields.set(light.name, fields);
+    return fields.element;
+  }
+  private all(text: string, on: boolean) {
+    return element("button", {type: "button", "data-key": text, click: () => {
       for (const box of this.boxes) box.checked = on;
       this.turned();
     }}, text);
-    this.list.replaceChildren(
-      ...lights.map((light, i) => element("label", {title: light.what ?? ""}, this.boxes[i], element("span", {}, light.name))),
-      ...(lights.length > 1 ? [element("div", {class: "row"}, all("All on", true), all("All off", false))] : []));
-    this.element.hidden = lights.length === 0;
-    this.count();
   }
   private turned() {
     for (const box of this.boxes) {
       if (box.checked) this.dark.delete(box.name);
       else this.dark.add(box.name);
     }
-    this.count();
-    this.changed();
+    this.tell();
+    this.listener.changed("lights", true);
   }
-  private count() {
-    const on = this.boxes.filter(b => b.checked).length;
-    this.summary.textContent = `lights: ${on === this.boxes.length ? "all" : on} of ${this.boxes.length} on`;
+  private edited(name: string, values: LightValues | undefined, mark: boolean) {
+    if (values) this.values.set(name, values);
+    else this.values.delete(name);
+    this.tell();
+    this.listener.changed("light", mark);
+  }
+  private toggleBlocks() {
+    this.block.hidden = !this.block.hidden;
+    this.blockButton.setAttribute("aria-expanded", String(!this.block.hidden));
+    this.tell();
+  }
+  // In the summary, and in the blocks where they are shown.
+  private tell() {
+    const on = this.boxes.filter(b => b.checked).length, changes = this.changes();
+    const changed = changes.length ? `, ${changes.length} changed` : "";
+    this.summary.textContent = `lights: ${on === this.boxes.length ? "all" : on} of ${this.boxes.length} on${changed}`;
+    this.buttons.children[0].toggleAttribute("hidden", this.boxes.length < 2);
+    this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
+    if (this.block.hidden) return;
+    if (!changes.length) this.block.value = "// No light is other than in the file.\n";
+    else void this.listener.blocks(changes).then(text => this.block.value = text);
   }
 }

@@ -22,6 +22,19 @@ export interface RendererChoice extends Choice {
   follows_light: boolean;
   depth?: number;  // where nothing is wished; undefined: that of the scene
 }
+/** A light; what it has not is left out. */
+export interface LightEntry extends Choice {
+  position?: Vec3;
+  direction?: Vec3;  // into the scene
+  color: Vec3;       // or radiance, ambient term, emission
+}
+/** What a light is to be instead of what the file says. */
+export interface LightChange {
+  name: string;
+  position?: Vec3;
+  direction?: Vec3;
+  color: Vec3;
+}
 /** What changes with the file only. */
 export interface Menus {
   scene: string;
@@ -32,7 +45,7 @@ export interface Menus {
   cameras: CameraData[];
   renderers: RendererChoice[];
   accelerators: Choice[];
-  lights: Choice[];
+  lights: LightEntry[];
   environments: Choice[];
   layers: Choice[];
   scales: Record<"heat" | "grey", string[]>;
@@ -93,6 +106,7 @@ export interface Wish {
   curve: string;
   environment: string;  // empty: that of the scene
   lights_off: string[];
+  lights: LightChange[];
   samples: number;
   selected?: boolean;
 }

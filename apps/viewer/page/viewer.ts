@@ -10,12 +10,14 @@ import {listen} from "./input";
 import {FrameLink} from "./link";
 import {Messages, WorkLine, drawScale, statusText} from "./notices";
 import {Pace} from "./pace";
-import type {CameraData, FrameFacts, FrameHead, Scene, State, Wish} from "./state";
+import type {CameraData, FrameFacts, FrameHead, LightChange, Scene, State, Wish} from "./state";
 
 const WIDEST = 4096;          // that the server draws
 const MOST_RAW = 1.5e6;       // pixels that come as they are; more as JPEG
 const STOPPED = "Reading the file was ended.";
 const NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
+const OTHER_SERVER = "Another server has come in place of this page\u2019s, and the page has no key to it: open the address that " +
+  "`alhazen view` printed.";
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 
 interface Asked {
@@ -32,7 +34,7 @@ export class Viewer {
   readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "The scene",
                                       "aria-describedby": "help"});
   readonly scale = element("div", {class: "scale", hidden: true});
-  readonly controls = new Controls((key, before) => this.chosen(key, before));
+  readonly controls = new Controls((key, before) => this.chosen(key, before), changes => this.lightBlocks(changes));
   scene: Scene | undefined;
   camera: ViewCamera | undefined;
   frames = 0;
@@ -45,6 +47,7 @@ export class Viewer {
   private readonly messages = new Messages(document.getElementById("message")!);
   private readonly work = new WorkLine();
   private readonly status = element("p", {id: "status"});
+  private readonly block = element("textarea", {id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true});
   private readonly readAgain = element("button", {type: "button", hidden: true, click: () => void this.ask("/read")}, "Read again");
   private readonly g = this.image.getContext("2d")!;
   private readonly pace = new Pace();
@@ -78,11 +81,11 @@ export class Viewer {
         this.work.show(undefined);
         this.messages.say("server", "The server does not answer: waiting for it.");
       },
-      refused: () => this.messages.say("server", NO_KEY)});
+      refused: () => this.messages.say("server", this.scene ? OTHER_SERVER : NO_KEY)});
   }
 
   private build() {
-    const block = element("textarea", {id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true});
+    const block = this.block;
     const button = (text: string, click: () => void) => element("button", {type: "button", click}, text);
     const camera = element("button", {type: "button", "aria-expanded": "false", "aria-controls": "block", click: () => {
       block.value = this.camera?.block() ?? "";
@@ -103,6 +106,13 @@ export class Viewer {
   private ask(path: string, wish: object = {}) {
     return fetch(path, {method: "POST", body: JSON.stringify({...wish, client: this.client}),
                         headers: {Authorization: `Bearer ${this.token}`}}).catch(() => null);
+  }
+
+  private async lightBlocks(lights: LightChange[]) {
+    const answer = await this.ask("/blocks", {lights});
+    if (!answer) return "// The server does not answer.\n";
+    const {text, error} = await answer.json() as {text?: string; error?: string};
+    return text ?? `// ${error}\n`;
   }
 
   // ---- the scene
@@ -146,8 +156,8 @@ export class Viewer {
     this.camera = new ViewCamera(camera, this.scene?.up ?? "y");
     this.changed();
   }
-  private chosen(key: Key, before: Settings) {
-    this.remember(before);
+  private chosen(key: Key, before: Settings | undefined) {
+    if (before) this.remember(before);
     if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
     if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
     if (key === "camera") this.seeChosen();
@@ -166,7 +176,7 @@ export class Viewer {
     return {camera: {eye, look, right, up, parallel}, width, height: Math.max(1, Math.round(width / camera.aspect)),
             renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
             depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1,
-            environment: controls.get("environment"), lights_off: controls.lights.off()};
+            environment: controls.get("environment"), lights_off: controls.lights.off(), lights: controls.lights.changes()};
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
   private selects() {
@@ -193,6 +203,7 @@ export class Viewer {
   // The view is another one: coarse at first, and finer with each picture.
   changed() {
     if (!this.camera || !this.scene) return;
+    if (!this.block.hidden) this.block.value = this.camera.block();
     ++this.generation;
     this.level = 0;
     this.halted = false;

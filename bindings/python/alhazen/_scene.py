@@ -265,7 +265,8 @@ class Scene:
 
         Real is float32 for float32 points, else float64; all is computed in float64, and the distance is exact within
         4e-15 of the largest coordinate. Without triangles distances are infinite, of points that are not finite NaN;
-        ids are then INVALID_ID. Shapes, solids and instances in the scene are an error.
+        ids are then INVALID_ID. Instances count at each of their places, with at most 2^25 triangles in all; shapes and
+        solids in the scene are an error, which names the first.
         """
         return self._scene().closest_points(points, self._at_most(threads))
 

@@ -1,14 +1,10 @@
 #include "built_scene.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <utility>
 
-#include "alhazen/base/interruption.h"
 #include "alhazen/formats/core/default_conventions.h"
 #include "alhazen/formats/native/read/native_fragment.h"
-#include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen::python {
 
@@ -81,26 +77,16 @@ std::shared_ptr<BuiltScene> BuiltScene::load(const std::string& path, const Buil
 }
 
 const SolidScene& BuiltScene::solids() const {
-    std::call_once(solids_made_, [this] { solids_.emplace(loaded_.description, loaded_.scene); });
+    std::call_once(solids_made_, [this] {
+        solids_.emplace(loaded_.description, loaded_.scene);
+        found_solids_ = &*solids_;
+    });
     return *solids_;
 }
 
-const NearestTriangles& BuiltScene::nearest() const {
-    std::call_once(nearest_made_, [&] {
-        const PrimitiveTable& table = tracer_.aggregate().primitives();
-        const std::uint32_t count = table.first(kInstanceKind) - table.first(kTriangleKind);
-        if (count != table.size()) {
-            throw Error(ErrorKind::Usage,
-                        fmt::format("the nearest points are those of triangle meshes: {} of the {} "
-                                    "primitives are shapes, solids or instances",
-                                    table.size() - count, table.size()));
-        }
-        std::vector<NearestTriangles::Corners> triangles(count);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (i % 65536 == 0) interruption_point();
-            triangles[i] = table.triangle_vertices(i);
-        }
-        nearest_.emplace(triangles);
+const PlacedTriangles& BuiltScene::nearest() const {
+    std::call_once(nearest_made_, [this] {
+        nearest_.emplace(tracer_, loaded_.description);
         made_nearest_ = &*nearest_;
     });
     return *nearest_;

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/geometry/nearest/nearest_triangles.h"
 #include "alhazen/session/load.h"
 #include "alhazen/solids/solid_scene.h"
 #include "alhazen/tracer/tracer.h"
 #include "array_mesh.h"
 #include "errors.h"
+#include "placed_triangles.h"
 
 namespace alhazen::python {
 
@@ -54,11 +54,12 @@ class BuiltScene {
     [[nodiscard]] const Tracer& tracer() const { return tracer_; }
     /// Made on first use: finds which geometry is closed.
     [[nodiscard]] const SolidScene& solids() const;
-    /// The triangles of its aggregate, made on first use. Throws Error (Usage) where it has other
-    /// things, too.
-    [[nodiscard]] const NearestTriangles& nearest() const;
+    /// The same where they are found, else null.
+    [[nodiscard]] const SolidScene* found_solids() const { return found_solids_; }
+    /// Its triangles, made on first use; throws what PlacedTriangles does.
+    [[nodiscard]] const PlacedTriangles& nearest() const;
     /// The same where they are made, else null.
-    [[nodiscard]] const NearestTriangles* made_nearest() const { return made_nearest_; }
+    [[nodiscard]] const PlacedTriangles* made_nearest() const { return made_nearest_; }
 
   private:
     SceneDescription source_;
@@ -66,9 +67,10 @@ class BuiltScene {
     Tracer tracer_;
     mutable std::once_flag solids_made_;
     mutable std::optional<SolidScene> solids_;
+    mutable std::atomic<const SolidScene*> found_solids_ = nullptr;
     mutable std::once_flag nearest_made_;
-    mutable std::optional<NearestTriangles> nearest_;
-    mutable std::atomic<const NearestTriangles*> made_nearest_ = nullptr;
+    mutable std::optional<PlacedTriangles> nearest_;
+    mutable std::atomic<const PlacedTriangles*> made_nearest_ = nullptr;
 };
 
 }  // namespace alhazen::python

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 
 namespace py = pybind11;
@@ -122,6 +123,14 @@ void run_watched(StopFlag& stop, const py::object& progress,
     if (wish) std::rethrow_exception(wish);
     if (failure) std::rethrow_exception(failure);
     if (!progress.is_none()) latest.tell(progress);
+}
+
+void run_interruptible(const std::function<void()>& work) {
+    StopFlag stop;
+    run_watched(stop, py::none(), [&](ProgressSink&) {
+        const Interruptible ends(&stop);
+        work();
+    });
 }
 
 }  // namespace alhazen::python

@@ -25,4 +25,7 @@ void run_in_blocks(std::size_t count, int threads,
 void run_watched(StopFlag& stop, const pybind11::object& progress,
                  const std::function<void(ProgressSink& sink)>& work);
 
+/// The same of work that ends by itself at a point of interruption (interruption.h).
+void run_interruptible(const std::function<void()>& work);
+
 }  // namespace alhazen::python

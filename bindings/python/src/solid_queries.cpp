@@ -22,9 +22,10 @@ namespace {
 /// More solids are measured only when named.
 constexpr std::uint64_t kMostSolids = 64;
 
-/// Finds the solids without the interpreter's lock.
+/// Finds the solids on first use; Ctrl-C ends it.
 const SolidScene& found_solids(const BuiltScene& scene) {
-    const py::gil_scoped_release released;
+    if (const SolidScene* found = scene.found_solids()) return *found;
+    run_interruptible([&] { static_cast<void>(scene.solids()); });
     return scene.solids();
 }
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "alhazen/base/interruption.h"
-#include "alhazen/shapes/meshes/triangle_normal.h"
 #include "array_making.h"
 #include "interruptible.h"
 #include "ray_array.h"
@@ -15,13 +13,9 @@ namespace alhazen::python {
 namespace {
 
 /// Builds on first use; Ctrl-C ends it.
-const NearestTriangles& built(const BuiltScene& scene) {
-    if (const NearestTriangles* made = scene.made_nearest()) return *made;
-    StopFlag stop;
-    run_watched(stop, py::none(), [&](ProgressSink&) {
-        const Interruptible ends(&stop);
-        static_cast<void>(scene.nearest());
-    });
+const PlacedTriangles& built(const BuiltScene& scene) {
+    if (const PlacedTriangles* made = scene.made_nearest()) return *made;
+    run_interruptible([&] { static_cast<void>(scene.nearest()); });
     return scene.nearest();
 }
 
@@ -29,8 +23,7 @@ const NearestTriangles& built(const BuiltScene& scene) {
 
 py::dict closest_points(const BuiltScene& scene, const py::object& points_object, int threads) {
     const NumberArray points(points_object, {3}, "points");
-    const NearestTriangles& triangles = built(scene);
-    const PrimitiveTable& table = scene.tracer().aggregate().primitives();
+    const PlacedTriangles& triangles = built(scene);
     const RealArray distance(points.single(), points.shape(), 0);
     const RealArray nearest(points.single(), points.shape(), 3);
     const RealArray uvs(points.single(), points.shape(), 2);
@@ -39,23 +32,16 @@ py::dict closest_points(const BuiltScene& scene, const py::object& points_object
     run_in_blocks(points.count(), threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Vec3 from = points.vector(i, 0);
-            const NearestTriangle found = triangles.nearest(from);
+            const PlacedTriangles::Found found = triangles.nearest(from);
             // Of what is no point nothing is known.
             distance.set(i, is_finite(from) ? std::sqrt(found.squared)
                                             : std::numeric_limits<double>::quiet_NaN());
             nearest.set(i, found.point);
             uvs.set(2 * i, found.u);
             uvs.set(2 * i + 1, found.v);
-            geometry[i] = primitive[i] = NearestTriangle::kNone;
-            Vec3 normal;
-            if (found.found()) {
-                const PlacedMesh& mesh = table.mesh_of(found.triangle);
-                geometry[i] = mesh.part;
-                primitive[i] = found.triangle - mesh.first_triangle;
-                normal = triangle_normal(*mesh.mesh, primitive[i]);
-                if (mesh.mirrored) normal = -normal;
-            }
-            normals.set(i, normal);
+            geometry[i] = found.geometry;
+            primitive[i] = found.primitive;
+            normals.set(i, found.normal);
         }
     });
     py::dict result;

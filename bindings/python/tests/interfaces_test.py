@@ -1,4 +1,6 @@
 """The interfaces of trimesh and Open3D."""
+import pathlib
+import tempfile
 import unittest
 from types import SimpleNamespace
 
@@ -231,8 +233,55 @@ class Open3D(unittest.TestCase):
         self.assertEqual((found["distance"], found["points"].tolist(), found["normals"].tolist()),
                          (3, [-1.5, 0.5, 2], placed.intersect([-1.5, 0.5, 5, 0, 0, -1])["normals"].tolist()))
         mixed = alhazen.Scene(*cube()).add(alhazen.sphere(center=(5, 0, 0), radius=1))
-        with self.assertRaisesRegex(alhazen.UsageError, "1 of the 13 primitives are shapes"):
+        with self.assertRaisesRegex(alhazen.UsageError, "'sphere', a sphere is not: 1 of the 13 primitives are shapes"):
             mixed.closest_points([0, 0, 0])
+        for name, what in (("ball", alhazen.sphere("ball", center=(5, 0, 0), radius=1)),
+                           ("hole", alhazen.difference("hole", alhazen.sphere(radius=2), alhazen.sphere(radius=1)))):
+            with self.assertRaisesRegex(alhazen.UsageError, f"'{name}', a s"):
+                alhazen.Scene(*cube()).add(what).closest_points([0, 0, 0])
+
+    def test_nearest_points_of_instances_are_those_of_their_copies(self):
+        # Turned, mirrored and stretched, in each other, beside a mesh that is no instance.
+        vertices, faces = cube(-0.5, 0.5)
+        points = np.random.default_rng(11).uniform(-6, 6, (400, 3))
+        lists = "points = [{}]; faces = [{}]".format(
+            ", ".join(str(tuple(map(float, v))) for v in vertices), ", ".join(str(tuple(map(int, f))) for f in faces))
+        transforms = {"row": ["translate(3, 0, 0)", "scale(1, -2, 0.5)"],
+                      "scene": ["[rotate((1, 2, 3), 40), translate(0, 1, 0)]", "[scale(0.3), translate(0, -4, 2)]"]}
+        text = (f'alhazen 1\nobject "pair" {{ mesh "box" {{ {lists} }} mesh "small" {{ {lists}; transform = [scale(0.2), '
+                f'translate(0, 0, 2)] }} }}\nobject "row" {{ {" ".join(f"""instance "pair" {{ transform = {t} }}""" for t in transforms["row"])} }}\n'
+                + "".join(f'instance "row" {{ transform = {t} }}\n' for t in transforms["scene"])
+                + f'mesh "alone" {{ {lists}; transform = translate(-4, -4, 0) }}\n')
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.alhazen"
+            path.write_text(text, encoding="utf-8")
+            scene = alhazen.load(path)
+            flat = path.with_suffix(".obj")
+            scene.save(flat)
+            copies = alhazen.load(flat)
+        # Beside the faces, too: most points are nearest to a corner.
+        hits = scene.intersect(np.concatenate([points, np.random.default_rng(12).uniform(-3, 3, points.shape) - points], axis=1),
+                               fields=("t_hit", "points", "normals"))
+        met = np.isfinite(hits["t_hit"])
+        points = np.concatenate([points, hits["points"][met] + 0.01 * hits["normals"][met]])
+        found, expected = scene.closest_points(points), copies.closest_points(points)
+        self.assertGreater(scene.info["instances"], 0)
+        self.assertEqual(copies.info["instances"], 0)
+        for key in ("distance", "points"):
+            np.testing.assert_allclose(found[key], expected[key], atol=1e-6)
+        # On an edge rounding decides which of its triangles is named.
+        inside = np.ones(len(points), dtype=bool)
+        for answer in (found, expected):
+            weights = np.c_[answer["uvs"], 1 - answer["uvs"].sum(axis=1)]
+            inside &= weights.min(axis=1) > 1e-4
+        self.assertGreater(inside.sum(), 50)
+        np.testing.assert_allclose(found["normals"][inside], expected["normals"][inside], atol=1e-6)
+        # Parts and triangles are those of a ray that is shot there.
+        rays = np.concatenate([points, found["points"] - points], axis=1)[inside]
+        hits = scene.intersect(rays)
+        for ids in ("geometry_ids", "primitive_ids"):
+            np.testing.assert_array_equal(hits[ids], found[ids][inside])
+        np.testing.assert_allclose(hits["t_hit"], 1, rtol=1e-9)
 
     def test_two_cubes_have_ids_and_all_queries_agree(self):
         scene = alhazen.raycasting.RaycastingScene()

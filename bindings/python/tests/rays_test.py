@@ -254,6 +254,20 @@ class Running(unittest.TestCase):
         # What was given up is built again.
         self.assertEqual(scene.closest_points(vertices[:1])["distance"].tolist(), [0])
 
+    def test_ctrl_c_ends_the_search_for_closed_meshes(self):
+        # The first question about solids sorts the edges of 1.6 million triangles.
+        side = 900
+        x, y = np.meshgrid(np.arange(side + 1), np.arange(side + 1))
+        vertices = np.random.default_rng(5).permutation(np.stack([x, y, x * y % 7], axis=-1).reshape(-1, 3)).astype(float)
+        corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).reshape(-1, 1)
+        faces = np.concatenate([corner + [0, 1, side + 2], corner + [0, side + 2, side + 1]])
+        for name in ("inside", "spans", "solid_names"):
+            scene = alhazen.Scene(vertices, faces, quality="fast").build()
+            given = {"inside": ([[0, 0, 1.0]],), "spans": ([[0, 0, 9.0, 0, 0, -1]],), "solid_names": ()}[name]
+            self.check_ends_soon(name, lambda: scene.solid_names if name == "solid_names" else getattr(scene, name)(*given))
+            # What was given up is searched again.
+            self.assertEqual(scene.solid_names, [])
+
     def check_ends_soon(self, name, query):
         with self.subTest(name):
             late = []

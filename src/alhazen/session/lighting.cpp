@@ -7,8 +7,13 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/overloaded.h"
+#include "alhazen/formats/native/write/native_writer.h"
 #include "alhazen/session/seen_lights.h"
+#include "alhazen/shading/lights/direction_picture.h"
+#include "alhazen/shapes/core/shape_numerics.h"
 
 namespace alhazen {
 
@@ -28,6 +33,81 @@ void turn_off(Material& material) {
     material.illuminant.reset();
 }
 
+/// Where the light is, where it shines, and its colour.
+void describe(const Light& light, LightChoice& choice) {
+    std::visit(Overloaded{[&](const AmbientLight& l) { choice.color = l.ambient; },
+                          [&](const DirectionalLight& l) {
+                              choice.direction = Vec3{} - l.to_light;
+                              choice.color = l.color;
+                          },
+                          [&](const PointLight& l) {
+                              choice.position = l.position;
+                              choice.color = l.color;
+                          },
+                          [&](const SpotLight& l) {
+                              choice.position = l.position;
+                              choice.direction = l.direction;
+                              choice.color = l.color;
+                          },
+                          [&](const AreaLight& l) { choice.color = l.radiance; }},
+               light);
+}
+
+void check(const LightChange& change, const LightChoice& choice) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(ErrorKind::Usage, fmt::format("the light '{}' {}", change.name, what));
+    };
+    if (change.position && !choice.position) refuse("has no position");
+    if (change.direction && !choice.direction) refuse("has no direction");
+    const auto fits = [](const Vec3& v) {
+        return is_finite(v) && max_component(abs(v)) <= kMaxCoordinate;
+    };
+    if (change.position && !fits(*change.position)) {
+        refuse("must be at three finite numbers below 1e70");
+    }
+    if (change.direction && !(fits(*change.direction) && length_squared(*change.direction) > 0)) {
+        refuse("must have a direction of three finite numbers, one of which is not 0");
+    }
+    if (!change.color) return;
+    for (int i = 0; i < 3; ++i) {
+        const double c = (*change.color)[i];
+        if (!(c >= 0.0 && c <= kLargestRadiance)) refuse("must have a colour of 0 to 1e15");
+    }
+}
+
+void apply(const LightChange& change, Light& light) {
+    std::visit(
+        [&]<class L>(L& l) {
+            if constexpr (requires { l.position; }) {
+                if (change.position) l.position = *change.position;
+            }
+            if constexpr (std::is_same_v<L, DirectionalLight>) {
+                if (change.direction) l.to_light = Vec3{} - *change.direction;
+            } else if constexpr (requires { l.direction; }) {
+                if (change.direction) {
+                    // The profile of a spot hangs along its axis unless the file says otherwise.
+                    if (l.profile.down == l.direction) l.profile.down = *change.direction;
+                    l.direction = *change.direction;
+                }
+            }
+            if (!change.color) return;
+            if constexpr (std::is_same_v<L, AmbientLight>) {
+                l.ambient = *change.color;
+            } else if constexpr (std::is_same_v<L, AreaLight>) {
+                l.radiance = *change.color;
+            } else {
+                l.color = *change.color;
+            }
+        },
+        light);
+}
+
+void apply(const LightChange& change, Material& material) {
+    if (!change.color) return;
+    material.emission.color = *change.color;
+    material.illuminant.reset();
+}
+
 /// What a choice stands for.
 struct Switch {
     LightChoice choice;
@@ -42,16 +122,19 @@ std::vector<Switch> switches(const SceneDescription& description) {
         const char* const kind = kLightKinds[description.lights[i].light.index()];
         const std::optional<MaterialId> material = material_of_light(description, i);
         if (material) of_lights.insert(*material);
-        list.push_back({{light_name(description, i), kind}, i, material});
+        LightChoice choice{.name = light_name(description, i), .kind = kind};
+        describe(description.lights[i].light, choice);
+        list.push_back({std::move(choice), i, material});
     }
     for (std::size_t i = 0; i < description.materials.size(); ++i) {
         const Material& material = description.materials[i].material;
         const auto id = static_cast<MaterialId>(i);
         if (!emits(material) || of_lights.contains(id)) continue;
-        list.push_back({{material.name.empty() ? fmt::format("material {}", i + 1) : material.name,
-                         "material that emits"},
-                        {},
-                        id});
+        LightChoice choice{
+            .name = material.name.empty() ? fmt::format("material {}", i + 1) : material.name,
+            .kind = "material that emits",
+            .color = material.emission.color};
+        list.push_back({std::move(choice), {}, id});
     }
     std::unordered_set<std::string> names;
     std::unordered_map<std::string, std::size_t> next;  // all numbers below are taken
@@ -64,6 +147,16 @@ std::vector<Switch> switches(const SceneDescription& description) {
         } while (!names.insert(s.choice.name).second);
     }
     return list;
+}
+
+const Switch& find(const std::vector<Switch>& all, const std::string& name) {
+    for (const Switch& s : all) {
+        if (s.choice.name == name) return s;
+    }
+    std::string known;
+    for (const Switch& s : all) known += (known.empty() ? "" : ", ") + s.choice.name;
+    throw Error(ErrorKind::Usage, fmt::format("there is no light '{}'; expected one of: {}", name,
+                                              known.empty() ? "none" : known));
 }
 
 }  // namespace
@@ -83,28 +176,52 @@ std::vector<LightChoice> light_choices(const SceneDescription& description) {
 Scene with_lighting(const Scene& scene, const SceneDescription& description,
                     const Lighting& lighting) {
     Scene result = scene;
-    if (!lighting.off.empty()) {
-        const std::vector<Switch> all = switches(description);
-        for (const std::string& name : lighting.off) {
-            const auto found = std::find_if(all.begin(), all.end(),
-                                            [&](const Switch& s) { return s.choice.name == name; });
-            if (found == all.end()) {
-                std::string known;
-                for (const Switch& s : all) known += (known.empty() ? "" : ", ") + s.choice.name;
-                throw Error(ErrorKind::Usage,
-                            fmt::format("there is no light '{}'; expected one of: {}", name,
-                                        known.empty() ? "none" : known));
-            }
-            if (found->light) result.lights[*found->light] = AmbientLight{};
-            if (found->material) {
-                turn_off(result.materials[static_cast<std::size_t>(*found->material)]);
-            }
+    const std::vector<Switch> all = switches(description);
+    const auto material_of = [&](const Switch& s) -> Material& {
+        return result.materials[static_cast<std::size_t>(*s.material)];
+    };
+    std::unordered_map<std::size_t, Light> changed;
+    for (const LightChange& change : lighting.changes) {
+        const Switch& s = find(all, change.name);
+        check(change, s.choice);
+        if (s.light) {
+            Light& light =
+                changed.try_emplace(*s.light, description.lights[*s.light].light).first->second;
+            apply(change, light);
+            result.lights[*s.light] = ready_to_sample(light);
         }
+        if (s.material) apply(change, material_of(s));
+    }
+    for (const std::string& name : lighting.off) {
+        const Switch& s = find(all, name);
+        if (s.light) result.lights[*s.light] = AmbientLight{};
+        if (s.material) turn_off(material_of(s));
     }
     if (lighting.environment.empty()) return result;
     result.environment = lighting.surroundings;
     if (lighting.environment == "none") result.background = {};
     return result;
+}
+
+std::string changed_light_blocks(const SceneDescription& description,
+                                 const std::vector<LightChange>& changes) {
+    const std::vector<Switch> all = switches(description);
+    std::string text;
+    for (const LightChange& change : changes) {
+        const Switch& s = find(all, change.name);
+        check(change, s.choice);
+        if (!s.light) {
+            const Rgb c = change.color.value_or(s.choice.color);
+            text += fmt::format("// material \"{}\": emission = ({}, {}, {})\n",
+                                escape_controls(change.name), c.r, c.g, c.b);
+            continue;
+        }
+        LightDescription light = description.lights[*s.light];
+        apply(change, light.light);
+        if (auto* area = std::get_if<AreaLight>(&light.light)) area->seen |= area->is_part;
+        text += native_light_text(light);
+    }
+    return text;
 }
 
 }  // namespace alhazen

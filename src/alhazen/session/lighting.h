@@ -6,6 +6,7 @@
 /// one. A light that is off is one without intensity, so that numbers of lights stay what they are.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,23 +20,42 @@ namespace alhazen {
 struct LightChoice {
     std::string name;
     std::string kind;  ///< "point light", "material that emits"
+    std::optional<Vec3> position;
+    std::optional<Vec3> direction;  ///< from the light into the scene, of any length
+    Rgb color;                      ///< or radiance, ambient term, emission; what it has
 };
 [[nodiscard]] std::vector<LightChoice> light_choices(const SceneDescription& description);
 
+/// What is other than in the file: fields that the choice has.
+struct LightChange {
+    std::string name;
+    std::optional<Vec3> position, direction;  ///< the direction of any length but 0
+    std::optional<Rgb> color;
+};
+
 struct Lighting {
     std::vector<std::string> off;  ///< names of `light_choices`
+    std::vector<LightChange> changes;
     /// Instead of that of the scene; an entry of `environments()`, or empty. Only renderers that
     /// follow light are to be given one.
     std::string environment;
     /// Of `environment`, as `make_environment` makes it; null for "none".
     std::shared_ptr<const Environment> surroundings;
 
-    [[nodiscard]] bool is_that_of_the_scene() const { return off.empty() && environment.empty(); }
+    [[nodiscard]] bool is_that_of_the_scene() const {
+        return off.empty() && changes.empty() && environment.empty();
+    }
 };
 
-/// The scene with that lighting; all geometry is shared. Throws Error (Usage) for a light that
-/// there is not, listing those that there are.
+/// The scene with that lighting; all geometry is shared, so that surfaces of lights stay where they
+/// are. Throws Error (Usage) for a light that there is not, listing those that there are, for a
+/// field that a light has not, and for numbers that no light can have.
 [[nodiscard]] Scene with_lighting(const Scene& scene, const SceneDescription& description,
                                   const Lighting& lighting);
+
+/// Blocks of the native format of the lights that are changed, as they are then; a line of comment
+/// with its emission for a material. Throws as `with_lighting`.
+[[nodiscard]] std::string changed_light_blocks(const SceneDescription& description,
+                                               const std::vector<LightChange>& changes);
 
 }  // namespace alhazen

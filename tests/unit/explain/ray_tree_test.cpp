@@ -6,7 +6,9 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/explain/explanation.h"
+#include "alhazen/explain/page/explanation_json.h"
 #include "alhazen/laboratory/traversal_trace.h"
+#include "alhazen/renderers/core/local_shading.h"
 #include "support/scene_maker.h"
 #include "support/test_data.h"
 #include "unit/laboratory/small_scene.h"
@@ -186,6 +188,88 @@ TEST(RayTree, TellsWhatBlocksALightAndWhatTintsIt) {
     const RayCensus census = census_of(e.tree);
     EXPECT_EQ(census.eye, 1u);
     EXPECT_EQ(census.shadow, 2u);
+}
+
+/// A wall behind more surfaces that cover in part than a ray may pass.
+SceneDescription many_veils(double coverage, int count) {
+    SceneMaker scene;
+    Material veil, wall;
+    veil.alpha.value = coverage;
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.emission.color = wall.emission.color = {1, 1, 1};
+    const MaterialId veil_id = scene.material(veil), wall_id = scene.material(wall);
+    for (int i = 0; i < count; ++i) {
+        scene.add(Rectangle{{-9, -9, -0.001 * i}, {18, 0, 0}, {0, 18, 0}}, veil_id);
+    }
+    scene.add(Plane{.point = {0, 0, -6}, .normal = {0, 0, 1}}, wall_id);
+    return scene.description();
+}
+
+TEST(RayTree, SaysThatARayHasPassedTheMostSurfaces) {
+    ExplainOptions options;
+    options.render.width = options.render.height = 1;
+    options.accelerator = "";
+    options.with_picture = false;
+    for (const int count : {10, kMaxPassedSurfaces, kMaxPassedSurfaces + 10}) {
+        SCOPED_TRACE(count);
+        const LoadedScene loaded = loaded_of(many_veils(1e-4, count));
+        options.render.renderer = "whitted";
+        const RayNode tree = explain_pixel(loaded, options).tree;
+        const bool ends = count >= kMaxPassedSurfaces;
+        EXPECT_EQ(tree.given_up, ends);
+        EXPECT_FALSE(tree.escaped);
+        EXPECT_EQ(tree.surfaces.size(), std::size_t(ends ? kMaxPassedSurfaces : count + 1));
+        const double left = ends ? std::pow(1 - 1e-4, kMaxPassedSurfaces) : 0.0;
+        EXPECT_NEAR(tree.left.g, left, 1e-9);
+    }
+    // A path passes a surface or ends there, by chance: nearly none ends at these.
+    for (const int count : {10, kMaxPassedSurfaces + 10}) {
+        SCOPED_TRACE(count);
+        options.render.renderer = "path_tracing";
+        const Explanation e = explain_pixel(loaded_of(many_veils(1e-9, count)), options);
+        ASSERT_TRUE(e.path);
+        const bool ends = count > kMaxPassedSurfaces;
+        EXPECT_EQ(e.path->vertices.size(), std::size_t(ends ? kMaxPassedSurfaces : count + 1));
+        EXPECT_EQ(e.path->vertices.front().step, PathStep::Straight);
+        EXPECT_EQ(e.path->vertices.back().step, ends ? PathStep::PassedMost : PathStep::Absorbed);
+    }
+}
+
+TEST(RayTree, ConesAreNamedByTheirLights) {
+    SceneMaker scene;
+    scene.light(PointLight{.position = {-4, 0, 4}, .color = {1, 1, 1}});
+    scene.light(AmbientLight{{0.1, 0.1, 0.1}});
+    scene.light(PointLight{.position = {-5, 0, 4}, .color = {1, 1, 1}});
+    scene.description().lights[0].name = "lamp";
+    scene.description().lights[2].name = "window";
+    Material matt;
+    matt.diffuse.color = {0.5, 0.5, 0.5};
+    scene.material(matt);
+    // Seen at a small angle: a long piece, which asks in parts.
+    scene.add(Rectangle{{-2, -9, -18}, {4, 0, 36}, {0, 18, 0}});
+    ExplainOptions options;
+    options.render.width = options.render.height = 1;
+    options.render.renderer = "cone_tracing";
+    options.accelerator = "";
+    options.with_picture = false;
+    const Explanation e = explain_pixel(loaded_of(scene.description()), options);
+    ASSERT_TRUE(e.cones && e.cones->unavailable.empty());
+    ASSERT_EQ(e.cones->tree.parts.size(), 1u);
+    double weights[3] = {0, 0, 0};
+    int counts[3] = {0, 0, 0};
+    for (const ConeNode& cone : e.cones->tree.parts.front().cones) {
+        ASSERT_EQ(cone.kind, RayKind::Shadow);
+        EXPECT_EQ(cone.to.part, counts[cone.to.light]++);
+        weights[cone.to.light] += cone.to.weight;
+    }
+    for (const std::size_t light : {0u, 2u}) {
+        EXPECT_GT(counts[light], 1);
+        EXPECT_NEAR(weights[light], 1.0, 1e-12);
+    }
+    EXPECT_EQ(counts[1], 0);
+    const std::string json = explanation_json(e, 0);
+    EXPECT_NE(json.find("\"light\": \"lamp\""), std::string::npos) << json;
+    EXPECT_NE(json.find("\"light\": \"window\""), std::string::npos);
 }
 
 TEST(RayTree, StepsAndWorkAgreeForEveryTraceableAccelerator) {

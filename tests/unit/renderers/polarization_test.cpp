@@ -254,6 +254,27 @@ TEST(Polarization, LayersShowTheDegreeAndTheAngleOfAReflection) {
     }
 }
 
+TEST(Polarization, AReflectiveCoefficientIsThatOfAClearBodyAtNormalIncidence) {
+    Material coefficient = matt({0, 0, 0});
+    coefficient.reflective.color = {0.04, 0.04, 0.04};  // index 1.5
+    for (const double degrees : {20.0, std::atan(1.5) / kDegree, 75.0}) {
+        const double incidence = degrees * kDegree;
+        const Layers seen =
+            layers_of(one_mirror(incidence, coefficient), "path_tracing:polarization=on", 2, 256);
+        const FresnelAmplitudes r = dielectric_reflection(std::cos(incidence), 1.0 / 1.5);
+        const double across = std::norm(r.across), along = std::norm(r.along);
+        EXPECT_NEAR(seen.at("polarization.degree", 1, 0), (across - along) / (across + along),
+                    1e-6);
+        // How much it reflects is what the scene says, at every angle.
+        EXPECT_NEAR(seen.film.at(1, 0).g, 0.04, 1e-12);
+    }
+    const double brewster = std::atan(1.5);
+    const Scene crossed = two_mirrors(brewster, 90 * kDegree, coefficient);
+    EXPECT_GT(mean_of(picture_of(crossed, "path_tracing:depth=2", 4, 256)).g, 0.0);
+    const Rgb on = mean_of(picture_of(crossed, "path_tracing:depth=2,polarization=on", 4, 256));
+    EXPECT_NEAR(on.g, 0.0, 1e-9);
+}
+
 TEST(Polarization, LightThatIsScatteredOnceIsThatWithoutPolarisation) {
     SceneMaker maker;
     Material glossy = matt({0.4, 0.3, 0.2});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "alhazen/base/error.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/seen_lights.h"
@@ -85,6 +87,83 @@ TEST(Lighting, LightsOfOneNameAreNumberedAtOnce) {
     EXPECT_EQ(first, (std::vector<std::string>{"lamp (3)", "lamp", "lamp (2)", "lamp (2) (2)",
                                                "lamp (4)", "lamp (5)"}));
     EXPECT_EQ(choices.back().name, "lamp (49999)");
+}
+
+TEST(Lighting, LightsAreMovedTurnedAndColoured) {
+    SceneMaker maker;
+    maker.light(PointLight{.position = {1, 2, 3}});
+    maker.light(SpotLight{.position = {1, 1, 1}, .direction = {0, 0, -1}});
+    maker.light(DirectionalLight{.to_light = {0, 0, 1}});
+    maker.light(AmbientLight{{1, 1, 1}});
+    maker.add(Sphere{});
+    const Scene scene = maker.compile();
+    const SceneDescription& description = maker.description();
+    const std::vector<LightChoice> choices = light_choices(description);
+    EXPECT_EQ(*choices[0].position, (Vec3{1, 2, 3}));
+    EXPECT_FALSE(choices[0].direction);
+    EXPECT_EQ(*choices[1].direction, (Vec3{0, 0, -1}));
+    EXPECT_EQ(*choices[2].direction, (Vec3{0, 0, -1}));
+    EXPECT_FALSE(choices[2].position || choices[3].position || choices[3].direction);
+    Lighting lighting;
+    lighting.changes = {{"point light 1", Vec3{4, 5, 6}, {}, Rgb{2, 0, 1}},
+                        {"spot light 2", Vec3{7, 8, 9}, Vec3{0, 3, 4}, {}},
+                        {"directional light 3", {}, Vec3{0, -2, 0}, Rgb{3, 3, 3}},
+                        {"ambient light 4", {}, {}, Rgb{0.5, 0.5, 0.5}}};
+    EXPECT_FALSE(lighting.is_that_of_the_scene());
+    const Scene lit = with_lighting(scene, description, lighting);
+    const auto& point = std::get<PointLight>(lit.lights[0]);
+    EXPECT_EQ(point.position, (Vec3{4, 5, 6}));
+    EXPECT_EQ(point.color, (Rgb{2, 0, 1}));
+    const auto& spot = std::get<SpotLight>(lit.lights[1]);
+    EXPECT_EQ(spot.position, (Vec3{7, 8, 9}));
+    EXPECT_EQ(spot.direction, (Vec3{0, 0.6, 0.8}));
+    EXPECT_EQ(spot.color, (Rgb{1, 1, 1}));
+    const auto& sun = std::get<DirectionalLight>(lit.lights[2]);
+    EXPECT_EQ(sun.to_light, (Vec3{0, 1, 0}));
+    EXPECT_EQ(sun.color, (Rgb{3, 3, 3}));
+    EXPECT_EQ(ambient_of(lit.lights[3]), (Rgb{0.5, 0.5, 0.5}));
+    EXPECT_EQ(lit.aggregate, scene.aggregate);
+    const std::string blocks = changed_light_blocks(description, lighting.changes);
+    for (const char* part : {"point_light", "position = (4, 5, 6)", "direction = (0, 3, 4)",
+                             "to_light = (0, 2, 0)", "color = (0.5, 0.5, 0.5)"}) {
+        EXPECT_NE(blocks.find(part), std::string::npos) << part << blocks;
+    }
+    lighting.off = {"point light 1"};
+    EXPECT_FALSE(illuminates(with_lighting(scene, description, lighting).lights[0]));
+}
+
+TEST(Lighting, AnAreaLightIsColouredWithItsPart) {
+    const Lit lit;
+    Lighting lighting;
+    lighting.changes = {{"lamp", {}, {}, Rgb{7, 8, 9}}, {"material 2", {}, {}, Rgb{1, 2, 3}}};
+    const Scene other = with_lighting(lit.scene, lit.description, lighting);
+    EXPECT_EQ(std::get<AreaLight>(other.lights[1]).radiance, (Rgb{7, 8, 9}));
+    EXPECT_EQ(other.materials[3].emission.color, (Rgb{7, 8, 9}));
+    EXPECT_EQ(other.materials[1].emission.color, (Rgb{1, 2, 3}));
+    const std::string blocks = changed_light_blocks(lit.description, lighting.changes);
+    EXPECT_NE(blocks.find("disc_light \"lamp\""), std::string::npos) << blocks;
+    EXPECT_NE(blocks.find("radiance = (7, 8, 9)"), std::string::npos);
+    EXPECT_EQ(blocks.find("seen"), std::string::npos);
+    EXPECT_NE(blocks.find("// material \"material 2\": emission = (1, 2, 3)"), std::string::npos);
+}
+
+TEST(Lighting, WhatALightCannotBeIsRefused) {
+    const Lit lit;
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    const LightChange wrong[] = {{"nobody", {}, {}, {}},
+                                 {"lamp", Vec3{1, 2, 3}, {}, {}},
+                                 {"point light 1", {}, Vec3{1, 0, 0}, {}},
+                                 {"point light 1", Vec3{kNan, 0, 0}, {}, {}},
+                                 {"point light 1", Vec3{1e71, 0, 0}, {}, {}},
+                                 {"point light 1", {}, {}, Rgb{-1, 0, 0}},
+                                 {"point light 1", {}, {}, Rgb{0, kNan, 0}},
+                                 {"point light 1", {}, {}, Rgb{0, 1e16, 0}}};
+    for (const LightChange& change : wrong) {
+        Lighting lighting;
+        lighting.changes = {change};
+        EXPECT_THROW((void)with_lighting(lit.scene, lit.description, lighting), Error);
+        EXPECT_THROW((void)changed_light_blocks(lit.description, lighting.changes), Error);
+    }
 }
 
 TEST(Lighting, ALightThatIsOffIsDarkWithItsPartAndItsNumberStays) {

@@ -148,7 +148,13 @@ var BeamPieces = class {
 };
 
 // src/alhazen/explain/page/cone_tree.ts
-var CONE_NAMES = { eye: "cone of the pixel", shadow: "cone to a light", reflection: "reflected cone", refraction: "refracted cone" };
+var CONE_NAMES = { eye: "cone of the pixel", reflection: "reflected cone", refraction: "refracted cone" };
+function nameOf(c, from) {
+  const whence = from === void 0 ? "" : ` from \u2018${from}\u2019`;
+  if (c.kind !== "shadow") return CONE_NAMES[c.kind] + whence;
+  const part = c.part_count > 1 ? `, part ${c.part} of ${c.part_count} (${number(100 * c.weight)} %)` : "";
+  return `cone to \u2018${c.light}\u2019${whence}${part}`;
+}
 var ConeTree = class {
   constructor(root, cones, view) {
     this.view = view;
@@ -162,10 +168,10 @@ var ConeTree = class {
     view.cones = [cones.tree];
     view.draw();
   }
-  cone(c) {
+  cone(c, from) {
     const shadow = c.kind === "shadow", color = shadow ? c.through : c.radiance;
     const value = shadow ? `(${triple(color)}) of the light comes through` : `radiance (${triple(color)})`;
-    const summary = element("summary", { class: c.kind }, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(color));
+    const summary = element("summary", { class: c.kind }, ` ${nameOf(c, from)}: ${value} `, swatch(color));
     const show = () => {
       this.view.cones = [c];
       this.view.draw();
@@ -179,7 +185,7 @@ var ConeTree = class {
       summary,
       element("p", { class: "soft" }, `radius ${number(c.radius)} where it starts, ` + (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\xB0)`) + (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : ""))
     );
-    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap((p) => p.cones.map((k) => this.cone(k))));
+    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap((p) => p.cones.map((k) => this.cone(k, p.object))));
     return body;
   }
   pieces(c) {
@@ -273,7 +279,8 @@ var STEPS = {
   escaped: "leaves the scene",
   deepest: "ends: no more scatterings are asked for",
   absorbed: "ends: no light goes on",
-  roulette: "ends by chance: it carries little"
+  roulette: "ends by chance: it carries little",
+  passed_most: "ends: it has passed straight through as many surfaces as a path may"
 };
 var isBlack = (c) => c.every((x) => x === 0);
 function pathSteps(root, data, path, view) {
@@ -452,7 +459,7 @@ var RayOutline = class {
     summary.addEventListener("focus", () => this.onSelect(ray, false));
     this.places.set(ray, summary);
     ray.surfaces.forEach((s) => body.append(this.surface(s)));
-    if (ray.left) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
+    if (ray.left) body.append(element("p", {}, ray.given_up ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.` : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
   surface(s) {
@@ -1270,63 +1277,268 @@ var ViewCamera = class _ViewCamera {
   }
 };
 
+// apps/viewer/page/light_fields.ts
+var AXES = {
+  position: ["x", "y", "z"],
+  direction: ["x", "y", "z"],
+  color: ["red", "green", "blue"]
+};
+var LABELS = { position: "position", direction: "direction", color: "colour" };
+var MOST = 1e15;
+var LightFields = class {
+  // since a field got the focus
+  /** `changed` has no values where they are those of the file. */
+  constructor(light, id, changed) {
+    this.light = light;
+    this.changed = changed;
+    this.values = this.ofFile();
+    const keys = ["position", "direction", "color"].filter((key) => light[key]);
+    this.vectors = keys.map((key) => ({ key, fields: AXES[key].map((axis2, i) => this.field(`${axis2} of the ${LABELS[key]} of ${light.name}`, `${key} ${i}`)) }));
+    this.times = this.field(`Strength of ${light.name}, times its colour`, "times");
+    this.reset = element("button", { type: "button", class: "link", "data-key": `reset ${light.name}`, click: () => {
+      this.values = this.ofFile();
+      this.show(void 0);
+      this.changed(void 0, true);
+    } }, "As in the file");
+    const line = (label, ...fields) => element("div", { class: "numbers" }, element("span", { "aria-hidden": "true" }, label), ...fields);
+    this.element = element(
+      "fieldset",
+      { id },
+      element("legend", {}, `${light.name}: ${light.what ?? "light"}`),
+      ...this.vectors.map((v) => line(LABELS[v.key], ...v.fields)),
+      line("strength", this.times, this.reset)
+    );
+    this.show(void 0);
+  }
+  element;
+  values;
+  vectors;
+  times;
+  reset;
+  marked = false;
+  /** Undefined: those of the file. */
+  show(values) {
+    const file = this.ofFile();
+    this.values = {
+      position: values?.position ?? file.position,
+      direction: values?.direction ?? file.direction,
+      color: values?.color ?? file.color,
+      times: values?.times ?? 1
+    };
+    for (const { key, fields } of this.vectors) {
+      fields.forEach((field, i) => this.set(field, this.values[key][i]));
+    }
+    this.set(this.times, this.values.times);
+    this.reset.disabled = values === void 0;
+  }
+  ofFile() {
+    const { position, direction, color } = this.light;
+    return { position, direction, color, times: 1 };
+  }
+  set(field, x) {
+    field.removeAttribute("aria-invalid");
+    if (field === document.activeElement && Number(field.value) === x && field.value) return;
+    field.value = String(Number(x.toPrecision(7)));
+  }
+  field(label, key) {
+    const field = element("input", {
+      type: "number",
+      step: "any",
+      "aria-label": label,
+      "data-key": `${this.light.name} ${key}`,
+      focus: () => this.marked = false,
+      input: () => this.typed(field),
+      change: () => {
+        this.marked = false;
+        this.show(this.isOfFile() ? void 0 : this.values);
+      }
+    });
+    return field;
+  }
+  typed(field) {
+    const x = Number(field.value), values = { ...this.values };
+    let good = field.value !== "" && Number.isFinite(x) && Math.abs(x) <= MOST;
+    if (field === this.times) {
+      good &&= x >= 0;
+      values.times = x;
+    }
+    for (const { key, fields } of this.vectors) {
+      const i = fields.indexOf(field);
+      if (i < 0) continue;
+      const vector = [...this.values[key]];
+      vector[i] = x;
+      values[key] = vector;
+      good &&= key === "color" ? x >= 0 : key !== "direction" || vector.some((c) => c !== 0);
+    }
+    if (good) field.removeAttribute("aria-invalid");
+    else field.setAttribute("aria-invalid", "true");
+    if (!good) return;
+    this.values = values;
+    this.reset.disabled = this.isOfFile();
+    const mark = !this.marked;
+    this.marked = true;
+    this.changed(this.isOfFile() ? void 0 : values, mark);
+  }
+  isOfFile() {
+    const file = this.ofFile();
+    return this.values.times === 1 && this.vectors.every(({ key }) => this.values[key].every((x, i) => x === file[key][i]));
+  }
+};
+
 // apps/viewer/page/lights.ts
 var LightList = class {
-  constructor(changed) {
-    this.changed = changed;
+  // of those that are open: there may be very many lights
+  constructor(listener) {
+    this.listener = listener;
   }
-  summary = element("summary");
+  summary = element("summary", { "data-key": "summary" });
   list = element("div", { class: "lights" });
-  element = element("details", { id: "lights" }, this.summary, this.list);
+  block = element("textarea", {
+    id: "light-blocks",
+    rows: 6,
+    readonly: true,
+    hidden: true,
+    "data-key": "text",
+    "aria-label": "Blocks of the changed lights"
+  });
+  blockButton = element("button", {
+    type: "button",
+    "aria-expanded": "false",
+    "aria-controls": "light-blocks",
+    "data-key": "blocks",
+    click: () => this.toggleBlocks()
+  }, "Light blocks");
+  buttons = element("div", { class: "row" }, this.all("All on", true), this.all("All off", false), this.blockButton);
+  element = element("details", { id: "lights" }, this.summary, this.list, this.buttons, this.block);
   dark = /* @__PURE__ */ new Set();
-  // names; of lights that the scene no longer has, too
+  // names
+  values = /* @__PURE__ */ new Map();
+  open = /* @__PURE__ */ new Set();
+  // whose fields are shown
+  lights = [];
   boxes = [];
+  fields = /* @__PURE__ */ new Map();
   /** Names of those that are off. */
   off() {
     return this.boxes.filter((b) => !b.checked).map((b) => b.name);
   }
-  setOff(names) {
-    this.dark.clear();
-    for (const name of names) this.dark.add(name);
+  /** Those that are other than in the file. */
+  changes() {
+    return this.lights.flatMap((light) => {
+      const values = this.values.get(light.name);
+      if (!values) return [];
+      const { position, direction, color, times } = values;
+      return [{
+        name: light.name,
+        ...light.position && position ? { position } : {},
+        ...light.direction && direction ? { direction } : {},
+        color: color.map((c) => c * times)
+      }];
+    });
+  }
+  state() {
+    return { dark: new Set(this.dark), values: new Map(this.values) };
+  }
+  restore({ dark, values }) {
+    this.dark = new Set(dark);
+    this.values = new Map(values);
     for (const box of this.boxes) box.checked = !this.dark.has(box.name);
-    this.count();
+    for (const [name, fields] of this.fields) fields.show(this.values.get(name));
+    this.tell();
   }
-  focused() {
-    return this.boxes.find((b) => b === document.activeElement)?.name;
+  /** What has the focus, and how far the list is scrolled, to come back to. */
+  place() {
+    const active = document.activeElement;
+    const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset.key : void 0;
+    return { key, top: this.list.scrollTop };
   }
-  focus(name) {
-    this.boxes.find((b) => b.name === name)?.focus();
+  comeBack({ key, top }) {
+    this.list.scrollTop = top;
+    if (key === void 0) return;
+    const all = [...this.element.querySelectorAll("[data-key]")];
+    (all.find((e) => e.dataset.key === key) ?? this.summary).focus({ preventScroll: true });
   }
-  /** What was turned off stays off where it still is. */
+  /** What was chosen stays where it still is. */
   fill(lights) {
+    this.lights = lights;
     this.boxes = lights.map((light) => element("input", {
       type: "checkbox",
       name: light.name,
       checked: !this.dark.has(light.name),
+      "data-key": `on ${light.name}`,
       change: () => this.turned()
     }));
-    const all = (text, on) => element("button", { type: "button", click: () => {
+    this.fields.clear();
+    this.list.replaceChildren(...lights.flatMap((light, i) => this.row(light, i)));
+    this.element.hidden = lights.length === 0;
+    this.tell();
+  }
+  row(light, i) {
+    const name = light.name, id = `light-${i}`;
+    const button = element("button", {
+      type: "button",
+      class: "link",
+      "aria-expanded": String(this.open.has(name)),
+      "aria-controls": id,
+      "aria-label": `Change ${name}`,
+      "data-key": `change ${name}`,
+      click: () => {
+        const shown = !this.open.delete(name);
+        if (shown) {
+          this.open.add(name);
+          row2.after(this.fieldsOf(light, id));
+        } else {
+          this.fields.get(name)?.element.remove();
+          this.fields.delete(name);
+        }
+        button.setAttribute("aria-expanded", String(shown));
+      }
+    }, "Change");
+    const label = element("label", { title: light.what ?? "" }, this.boxes[i], element("span", {}, name));
+    const row2 = element("div", { class: "light" }, label, button);
+    return this.open.has(name) ? [row2, this.fieldsOf(light, id)] : [row2];
+  }
+  fieldsOf(light, id) {
+    const fields = new LightFields(light, id, (values, mark) => this.edited(light.name, values, mark));
+    fields.show(this.values.get(light.name));
+    this.fields.set(light.name, fields);
+    return fields.element;
+  }
+  all(text, on) {
+    return element("button", { type: "button", "data-key": text, click: () => {
       for (const box of this.boxes) box.checked = on;
       this.turned();
     } }, text);
-    this.list.replaceChildren(
-      ...lights.map((light, i) => element("label", { title: light.what ?? "" }, this.boxes[i], element("span", {}, light.name))),
-      ...lights.length > 1 ? [element("div", { class: "row" }, all("All on", true), all("All off", false))] : []
-    );
-    this.element.hidden = lights.length === 0;
-    this.count();
   }
   turned() {
     for (const box of this.boxes) {
       if (box.checked) this.dark.delete(box.name);
       else this.dark.add(box.name);
     }
-    this.count();
-    this.changed();
+    this.tell();
+    this.listener.changed("lights", true);
   }
-  count() {
-    const on = this.boxes.filter((b) => b.checked).length;
-    this.summary.textContent = `lights: ${on === this.boxes.length ? "all" : on} of ${this.boxes.length} on`;
+  edited(name, values, mark) {
+    if (values) this.values.set(name, values);
+    else this.values.delete(name);
+    this.tell();
+    this.listener.changed("light", mark);
+  }
+  toggleBlocks() {
+    this.block.hidden = !this.block.hidden;
+    this.blockButton.setAttribute("aria-expanded", String(!this.block.hidden));
+    this.tell();
+  }
+  // In the summary, and in the blocks where they are shown.
+  tell() {
+    const on = this.boxes.filter((b) => b.checked).length, changes = this.changes();
+    const changed = changes.length ? `, ${changes.length} changed` : "";
+    this.summary.textContent = `lights: ${on === this.boxes.length ? "all" : on} of ${this.boxes.length} on${changed}`;
+    this.buttons.children[0].toggleAttribute("hidden", this.boxes.length < 2);
+    this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
+    if (this.block.hidden) return;
+    if (!changes.length) this.block.value = "// No light is other than in the file.\n";
+    else void this.listener.blocks(changes).then((text) => this.block.value = text);
   }
 };
 
@@ -1337,16 +1549,19 @@ var MOVING = [
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
 var Controls = class {
-  /** `changed` has what was chosen before, too. */
-  constructor(changed) {
+  /** `changed` has what was chosen before, too, unless it goes on with the change before. */
+  constructor(changed, blocks) {
     this.changed = changed;
+    this.lights = new LightList({ changed: (which, mark) => this.tell(which, mark), blocks });
   }
   form = element("form", { class: "controls", "aria-label": "Settings", submit: (e) => e.preventDefault() });
-  lights = new LightList(() => this.tell("lights"));
+  lights;
   fields = /* @__PURE__ */ new Map();
   usual = /* @__PURE__ */ new Map();
   wishes = /* @__PURE__ */ new Set();
   // numbers that were chosen; others are the usual ones
+  reasons = /* @__PURE__ */ new Map();
+  // why menus have no effect
   last;
   get(key) {
     return this.fields.get(key)?.value ?? "";
@@ -1379,14 +1594,21 @@ var Controls = class {
     const field = this.fields.get(key);
     if (!field) return;
     field.disabled = off;
-    field.title = off ? why : "";
+    this.reasons.get(key)?.remove();
+    this.reasons.delete(key);
+    field.removeAttribute("aria-describedby");
+    if (!off) return;
+    const reason = element("p", { class: "why", id: `why-${key}` }, why);
+    this.reasons.set(key, reason);
+    field.closest("label")?.after(reason);
+    field.setAttribute("aria-describedby", reason.id);
   }
   settings() {
     const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
-    return { values, wishes: new Set(this.wishes), off: this.lights.off() };
+    return { values, wishes: new Set(this.wishes), lights: this.lights.state() };
   }
   /** What the scene no longer has stays as it is. */
-  restore({ values, wishes, off }) {
+  restore({ values, wishes, lights }) {
     for (const [key, field] of this.fields) {
       const now = field.value;
       field.value = values.get(key) ?? now;
@@ -1394,13 +1616,13 @@ var Controls = class {
     }
     this.wishes.clear();
     for (const key of wishes) this.wishes.add(key);
-    this.lights.setOff(off);
+    this.lights.restore(lights);
     this.last = this.settings();
   }
-  tell(key) {
+  tell(key, mark = true) {
     const before = this.last;
     this.last = this.settings();
-    this.changed(key, before ?? this.last);
+    this.changed(key, mark ? before ?? this.last : void 0);
   }
   options(key) {
     const field = this.fields.get(key);
@@ -1420,7 +1642,7 @@ var Controls = class {
   /** What was chosen stays where it still is. */
   fill(scene) {
     const focus = [...this.fields].find(([, field2]) => field2 === document.activeElement)?.[0];
-    const light = this.lights.focused();
+    const place = this.lights.place();
     const chosen = new Map([...this.fields].map(([key, field2]) => [key, field2.value]));
     this.form.replaceChildren();
     const add2 = (key, label, field2, value) => {
@@ -1450,7 +1672,7 @@ var Controls = class {
     menu("curve", "tone curve", scene.curves.map((name) => ({ name })), "none");
     menu("steps", "steps of", scene.steps.split(", ").map((name) => ({ name })), "kay_kajiya");
     if (focus) this.fields.get(focus)?.focus();
-    if (light) this.lights.focus(light);
+    this.lights.comeBack(place);
     this.last = this.settings();
   }
 };
@@ -1467,6 +1689,12 @@ var KEYS = {
   s: (c) => c.walk(0, 0, -0.07),
   a: (c) => c.walk(-0.07, 0, 0),
   d: (c) => c.walk(0.07, 0, 0)
+};
+var WITH_SHIFT = {
+  ArrowLeft: (c) => c.walk(-0.07, 0, 0),
+  ArrowRight: (c) => c.walk(0.07, 0, 0),
+  ArrowUp: (c) => c.walk(0, 0.07, 0),
+  ArrowDown: (c) => c.walk(0, -0.07, 0)
 };
 var CLICK = 4;
 function listen(image, target) {
@@ -1509,9 +1737,11 @@ function listen(image, target) {
     if (e.key === "Escape") return target.stop();
     const held = e.ctrlKey || e.metaKey;
     if (e.key === "z" && held) return target.undo();
-    if (!(e.key in KEYS) || held) return;
+    const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
+    const change = (e.shiftKey ? WITH_SHIFT[key] : void 0) ?? KEYS[key];
+    if (!change || held || e.altKey) return;
     e.preventDefault();
-    target.move(KEYS[e.key], true);
+    target.move(change, true);
   });
 }
 
@@ -1731,6 +1961,7 @@ var WIDEST = 4096;
 var MOST_RAW = 15e5;
 var STOPPED = "Reading the file was ended.";
 var NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
+var OTHER_SERVER = "Another server has come in place of this page\u2019s, and the page has no key to it: open the address that `alhazen view` printed.";
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
   // What tests look at, too.
@@ -1743,7 +1974,7 @@ var Viewer = class {
     "aria-describedby": "help"
   });
   scale = element("div", { class: "scale", hidden: true });
-  controls = new Controls((key, before) => this.chosen(key, before));
+  controls = new Controls((key, before) => this.chosen(key, before), (changes) => this.lightBlocks(changes));
   scene;
   camera;
   frames = 0;
@@ -1758,6 +1989,7 @@ var Viewer = class {
   messages = new Messages(document.getElementById("message"));
   work = new WorkLine();
   status = element("p", { id: "status" });
+  block = element("textarea", { id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true });
   readAgain = element("button", { type: "button", hidden: true, click: () => void this.ask("/read") }, "Read again");
   g = this.image.getContext("2d");
   pace = new Pace();
@@ -1794,11 +2026,11 @@ var Viewer = class {
         this.work.show(void 0);
         this.messages.say("server", "The server does not answer: waiting for it.");
       },
-      refused: () => this.messages.say("server", NO_KEY)
+      refused: () => this.messages.say("server", this.scene ? OTHER_SERVER : NO_KEY)
     });
   }
   build() {
-    const block = element("textarea", { id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true });
+    const block = this.block;
     const button = (text, click) => element("button", { type: "button", click }, text);
     const camera = element("button", { type: "button", "aria-expanded": "false", "aria-controls": "block", click: () => {
       block.value = this.camera?.block() ?? "";
@@ -1829,6 +2061,13 @@ var Viewer = class {
       body: JSON.stringify({ ...wish, client: this.client }),
       headers: { Authorization: `Bearer ${this.token}` }
     }).catch(() => null);
+  }
+  async lightBlocks(lights) {
+    const answer = await this.ask("/blocks", { lights });
+    if (!answer) return "// The server does not answer.\n";
+    const { text, error } = await answer.json();
+    return text ?? `// ${error}
+`;
   }
   // ---- the scene
   take(state) {
@@ -1872,7 +2111,7 @@ var Viewer = class {
     this.changed();
   }
   chosen(key, before) {
-    this.remember(before);
+    if (before) this.remember(before);
     if (["renderer", "accelerator", "lights", "environment", "layer", "moving"].includes(key)) this.pace.forget();
     if (key === "renderer" && this.scene) this.fitRenderer(this.scene);
     if (key === "camera") this.seeChosen();
@@ -1899,7 +2138,8 @@ var Viewer = class {
       curve: controls.get("curve"),
       samples: 1,
       environment: controls.get("environment"),
-      lights_off: controls.lights.off()
+      lights_off: controls.lights.off(),
+      lights: controls.lights.changes()
     };
   }
   // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
@@ -1926,6 +2166,7 @@ var Viewer = class {
   // The view is another one: coarse at first, and finer with each picture.
   changed() {
     if (!this.camera || !this.scene) return;
+    if (!this.block.hidden) this.block.value = this.camera.block();
     ++this.generation;
     this.level = 0;
     this.halted = false;

@@ -4,7 +4,6 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/pixel_cones.h"
-#include "alhazen/renderers/cone_tracing/cone_tracer.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/aov_pictures.h"
 
@@ -54,13 +53,15 @@ class ConeRecorder final : public ConeWatcher {
         if (!node.parts.empty() && left < 0.5) node.length = node.parts.back().t;
         add(std::move(node));
     }
-    void shadow_cone(const ConeRay& cone, double distance, const Rgb& through) override {
+    void shadow_cone(const ConeRay& cone, double distance, const Rgb& through,
+                     const ConeToLight& to) override {
         ConeNode node;
         node.kind = RayKind::Shadow;
         node.depth = open_.back().depth + 1;
         node.cone = cone;
         node.length = distance;
         node.radiance = through;
+        node.to = to;
         add(std::move(node));
     }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "alhazen/geometry/cones/cone_ray.h"
+#include "alhazen/renderers/cone_tracing/cone_tracer.h"
 #include "alhazen/renderers/core/renderer.h"
 
 namespace alhazen {
@@ -40,6 +41,7 @@ struct ConeNode {
     std::vector<ConePart> parts;
     double left = 1;  ///< of the cone, that nothing covers
     Rgb radiance;     ///< of a shadow cone: of the light, what comes through
+    ConeToLight to;   ///< of a shadow cone
 };
 
 struct ConeExplanation {

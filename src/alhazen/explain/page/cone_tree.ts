@@ -4,7 +4,15 @@ import {css, element, headRow, number, scrolling, swatch, triple} from "./basics
 import type {Cone, Cones, SeeingCone, Unavailable} from "./explanation_data";
 import type {SceneView} from "./scene_view";
 
-const CONE_NAMES = {eye: "cone of the pixel", shadow: "cone to a light", reflection: "reflected cone", refraction: "refracted cone"};
+const CONE_NAMES = {eye: "cone of the pixel", reflection: "reflected cone", refraction: "refracted cone"};
+
+/** `from`: the object that it leaves, if any. A large piece asks for each light in parts. */
+function nameOf(c: Cone, from: string | undefined) {
+  const whence = from === undefined ? "" : ` from \u2018${from}\u2019`;
+  if (c.kind !== "shadow") return CONE_NAMES[c.kind] + whence;
+  const part = c.part_count > 1 ? `, part ${c.part} of ${c.part_count} (${number(100 * c.weight)} %)` : "";
+  return `cone to \u2018${c.light}\u2019${whence}${part}`;
+}
 
 export class ConeTree {
   constructor(root: HTMLElement, cones: Cones | Unavailable, private readonly view: SceneView) {
@@ -19,10 +27,10 @@ export class ConeTree {
     view.cones = [cones.tree];
     view.draw();
   }
-  private cone(c: Cone): HTMLElement {
+  private cone(c: Cone, from?: string): HTMLElement {
     const shadow = c.kind === "shadow", color = shadow ? c.through : c.radiance;
     const value = shadow ? `(${triple(color)}) of the light comes through` : `radiance (${triple(color)})`;
-    const summary = element("summary", {class: c.kind}, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(color));
+    const summary = element("summary", {class: c.kind}, ` ${nameOf(c, from)}: ${value} `, swatch(color));
     const show = () => { this.view.cones = [c]; this.view.draw(); };
     summary.addEventListener("click", show);
     summary.addEventListener("focus", show);
@@ -31,7 +39,7 @@ export class ConeTree {
       element("p", {class: "soft"}, `radius ${number(c.radius)} where it starts, ` +
         (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\u00b0)`) +
         (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : "")));
-    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap(p => p.cones.map(k => this.cone(k))));
+    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap(p => p.cones.map(k => this.cone(k, p.object))));
     return body;
   }
   private pieces(c: SeeingCone) {

@@ -59,6 +59,7 @@ export interface TreeRay {
   weight: Vec3;
   in_pixel: Vec3;
   escaped: boolean;
+  given_up?: boolean;  // `left` of it had passed as many surfaces as a ray may
   left?: Vec3;
   surfaces: SurfacePoint[];
 }
@@ -132,6 +133,10 @@ interface AnyCone {
 export interface ShadowCone extends AnyCone {
   kind: "shadow";
   through: Vec3;
+  light: string;
+  part: number;  // from 1 on, of `part_count`
+  part_count: number;
+  weight: number;  // of the part
 }
 export interface SeeingCone extends AnyCone {
   kind: Exclude<RayKind, "shadow">;
@@ -180,7 +185,7 @@ export interface PathVertex {
   t: number | null;
   throughput: Vec3;
   found: Vec3;
-  step: "scattered" | "mirrored" | "straight" | "escaped" | "deepest" | "absorbed" | "roulette";
+  step: "scattered" | "mirrored" | "straight" | "escaped" | "deepest" | "absorbed" | "roulette" | "passed_most";
   in_volume?: boolean;
   object?: string;
   material?: string;

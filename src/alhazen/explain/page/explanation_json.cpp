@@ -34,7 +34,8 @@ class TreeWriter {
                  {"weight", to_json(weight)},
                  {"in_pixel", to_json(weight * ray.radiance)},
                  {"escaped", ray.escaped}};
-        if (ray.escaped) out["left"] = to_json(ray.left);
+        if (ray.given_up) out["given_up"] = true;
+        if (ray.escaped || ray.given_up) out["left"] = to_json(ray.left);
         out["surfaces"] = json::array();
         for (const SurfaceNode& s : ray.surfaces) out["surfaces"].push_back(surface(s, weight));
         return out;
@@ -237,7 +238,7 @@ std::string explanation_json(const Explanation& e, int indent) {
     out["solids"] = solids_json(e.spans);
     out["polynomials"] = polynomials_json(e.polynomials);
     out["patches"] = patches_json(e.patches);
-    if (e.cones) out["cones"] = cones_json(*e.cones);
+    if (e.cones) out["cones"] = cones_json(*e.cones, e.light_names);
     if (e.beams) out["beams"] = beams_json(*e.beams, e.light_names);
     if (e.path) out["path"] = path_json(*e.path, e.part_names, e.material_names);
     if (!e.traversal.accelerator.empty()) out["traversal"] = traversal_json(e);

@@ -6,11 +6,11 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json cone_json(const ConeNode& node);
+json cone_json(const ConeNode& node, const std::vector<std::string>& lights);
 
-json cone_part_json(const ConePart& part) {
+json cone_part_json(const ConePart& part, const std::vector<std::string>& lights) {
     json cones = json::array();
-    for (const ConeNode& cone : part.cones) cones.push_back(cone_json(cone));
+    for (const ConeNode& cone : part.cones) cones.push_back(cone_json(cone, lights));
     return {{"object", part.object},        {"t", part.t},
             {"point", to_json(part.point)}, {"at", {rounded(part.at.x), rounded(part.at.y)}},
             {"share", part.share},          {"weight", part.weight},
@@ -18,7 +18,7 @@ json cone_part_json(const ConePart& part) {
             {"cones", std::move(cones)}};
 }
 
-json cone_json(const ConeNode& node) {
+json cone_json(const ConeNode& node, const std::vector<std::string>& lights) {
     json out{{"kind", kRayKindNames[static_cast<std::size_t>(node.kind)]},
              {"depth", node.depth},
              {"origin", to_json(node.cone.origin)},
@@ -29,12 +29,18 @@ json cone_json(const ConeNode& node) {
              {"length", node.length}};
     if (node.kind == RayKind::Shadow) {
         out["through"] = to_json(node.radiance);
+        out["light"] = node.to.light < lights.size() ? lights[node.to.light] : std::string();
+        out["part"] = node.to.part + 1;
+        out["part_count"] = node.to.parts;
+        out["weight"] = node.to.weight;
         return out;
     }
     out["radiance"] = to_json(node.radiance);
     out["left"] = node.left;
     out["parts"] = json::array();
-    for (const ConePart& part : node.parts) out["parts"].push_back(cone_part_json(part));
+    for (const ConePart& part : node.parts) {
+        out["parts"].push_back(cone_part_json(part, lights));
+    }
     return out;
 }
 
@@ -74,9 +80,9 @@ json beam_part_json(const BeamPart& part, const std::vector<std::string>& lights
 
 }  // namespace
 
-json cones_json(const ConeExplanation& cones) {
+json cones_json(const ConeExplanation& cones, const std::vector<std::string>& lights) {
     if (!cones.unavailable.empty()) return {{"unavailable", cones.unavailable}};
-    return {{"cut", cones.cut}, {"tree", cone_json(cones.tree)}};
+    return {{"cut", cones.cut}, {"tree", cone_json(cones.tree, lights)}};
 }
 
 json patches_json(const std::vector<PatchSubdivision>& patches) {

@@ -25,7 +25,8 @@ inline double rounded(double x) {
     return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : 0.0;
 }
 
-[[nodiscard]] nlohmann::ordered_json cones_json(const ConeExplanation& cones);
+[[nodiscard]] nlohmann::ordered_json cones_json(const ConeExplanation& cones,
+                                                const std::vector<std::string>& lights);
 [[nodiscard]] nlohmann::ordered_json patches_json(const std::vector<PatchSubdivision>& patches);
 /// `lights`: [light] name.
 [[nodiscard]] nlohmann::ordered_json beams_json(const BeamExplanation& beams,

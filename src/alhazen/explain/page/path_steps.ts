@@ -8,7 +8,8 @@ import type {DrawnLine, SceneView} from "./scene_view";
 const STEPS: Record<PathVertex["step"], string> = {
   scattered: "scattered, in a direction drawn at random", mirrored: "goes on in the one direction of a mirror or of smooth glass",
   straight: "goes straight on", escaped: "leaves the scene", deepest: "ends: no more scatterings are asked for",
-  absorbed: "ends: no light goes on", roulette: "ends by chance: it carries little"};
+  absorbed: "ends: no light goes on", roulette: "ends by chance: it carries little",
+  passed_most: "ends: it has passed straight through as many surfaces as a path may"};
 const isBlack = (c: Vec3) => c.every(x => x === 0);
 
 export function pathSteps(root: HTMLElement, data: Explanation, path: PathData, view: SceneView) {

@@ -77,7 +77,9 @@ export class RayOutline {
     summary.addEventListener("focus", () => this.onSelect(ray, false));
     this.places.set(ray, summary);
     ray.surfaces.forEach(s => body.append(this.surface(s)));
-    if (ray.left) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
+    if (ray.left) body.append(element("p", {}, ray.given_up
+      ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.`
+      : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
 

@@ -85,6 +85,7 @@ struct RayNode {
     bool inside = false;                ///< it starts inside something transparent
     std::vector<SurfaceNode> surfaces;  ///< more than one behind surfaces that cover in part
     bool escaped = false;               ///< `left` of it met nothing
+    bool given_up = false;              ///< `left` of it had passed kMaxPassedSurfaces
     Rgb left;
     Rgb radiance;  ///< as the renderer has it
 };

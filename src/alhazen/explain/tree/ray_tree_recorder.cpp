@@ -164,6 +164,15 @@ void RayTreeRecorder::gather(const Wavefront& front, int depth) {
     here.met.clear();
 }
 
+void RayTreeRecorder::give_up(const Wavefront& front, int depth) {
+    Level& here = level(depth);
+    for (const std::uint32_t ray : front.active) {
+        RayNode& node = here.rays[here.base + ray];
+        node.given_up = true;
+        node.left = front.left[ray];
+    }
+}
+
 void RayTreeRecorder::end_rays(const GenerationPart& part, int depth) {
     Level& here = level(depth);
     for (std::size_t i = 0; i < part.size(); ++i) {

@@ -29,6 +29,7 @@ class RayTreeRecorder : public NoChance {
               const MetSurface& met);
     void miss(std::uint32_t ray, const Rgb& left, int depth);
     void gather(const Wavefront& front, int depth);
+    void give_up(const Wavefront& front, int depth);
     void end_rays(const GenerationPart& part, int depth);
 
     /// `enough`: the stop flag of the job. `stop`: that of the user, may be null.

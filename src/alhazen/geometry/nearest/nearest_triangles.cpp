@@ -1,6 +1,7 @@
 #include "alhazen/geometry/nearest/nearest_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "alhazen/base/interruption.h"
@@ -24,6 +25,12 @@ double least_squared(const Box3& box, const Vec3& p) {
     return kLess * sum;
 }
 
+/// Not below `x`.
+float rounded_up(double x) {
+    const auto f = static_cast<float>(x);
+    return double{f} >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
+}
+
 /// Twice the middle of the box of a triangle.
 double doubled_middle(const NearestTriangles::Corners& c, int axis) {
     return std::min({c[0][axis], c[1][axis], c[2][axis]}) +
@@ -44,6 +51,54 @@ int axis_of(const std::vector<NearestTriangles::Corners>& triangles, const std::
 }
 
 }  // namespace
+
+void NearestTriangles::set_cylinder(Node& node, const std::vector<Corners>& triangles,
+                                    std::span<const std::uint32_t> ids) {
+    Vec3 sum;
+    for (const std::uint32_t id : ids) {
+        const auto& [a, b, c] = triangles[id];
+        const Vec3 normal = cross(b - a, c - a);
+        // Neighbours may turn the other way.
+        sum += dot(normal, sum) < 0.0 ? -normal : normal;
+    }
+    const double length = std::sqrt(length_squared(sum));
+    if (!(length > 0.0) || !std::isfinite(length)) return;
+    const Vec3 axis = (1.0 / length) * sum, middle = node.box.center();
+    if (!(std::abs(length_squared(axis) - 1.0) < 2e-15)) return;
+    double half = 0.0, squared = 0.0;
+    for (const std::uint32_t id : ids) {
+        for (const Vec3& corner : triangles[id]) {
+            const Vec3 offset = corner - middle;
+            const double along = dot(axis, offset);
+            half = std::max(half, std::abs(along));
+            squared = std::max(squared, length_squared(offset - along * axis));
+        }
+    }
+    // Of what is as high as it is wide the box will do.
+    constexpr double kFlat = 0.25;
+    if (half * half > kFlat * kFlat * squared) return;
+    const double largest =
+        std::max(max_component(abs(node.box.lo)), max_component(abs(node.box.hi)));
+    const double margin = 4.0 * kBoxMargin * largest;
+    node.axis = axis;
+    node.half_height = rounded_up(half + margin);
+    node.radius = rounded_up(std::sqrt(squared) + margin);
+}
+
+/// Not above the squared distance to its triangles, as it is computed.
+double NearestTriangles::least_to_cylinder(const Node& node, const Vec3& point) {
+    // Of a squared length, and more than the rounding of what is subtracted from it.
+    constexpr double kSlack = 8e-15;
+    const Vec3 offset = point - node.box.center();
+    const double squared = length_squared(offset), along = std::abs(dot(node.axis, offset));
+    const double across = std::sqrt(std::max(0.0, squared - along * along - kSlack * squared));
+    const double above = along - kSlack * std::sqrt(squared) - double{node.half_height};
+    const double beside = (1.0 - kSlack) * across - double{node.radius};
+    double sum = 0.0;
+    if (above > 0.0) sum += above * above;
+    if (beside > 0.0) sum += beside * beside;
+    return kLess * sum;
+}
 
 NearestTriangles::NearestTriangles(const std::vector<Corners>& triangles) {
     const auto count = static_cast<std::uint32_t>(triangles.size());
@@ -66,7 +121,14 @@ void NearestTriangles::build(std::vector<std::uint32_t>& order,
     for (std::uint32_t i = begin; i < end; ++i) {
         for (const Vec3& corner : triangles[order[i]]) box.include(corner);
     }
-    nodes_.push_back({padded(box, kBoxMargin), begin, end - begin});
+    Node& node = nodes_.emplace_back();
+    node.box = padded(box, kBoxMargin);
+    node.first = begin;
+    node.count = end - begin;
+    constexpr std::uint32_t kMostInCylinder = 1024;
+    if (end - begin <= kMostInCylinder) {
+        set_cylinder(node, triangles, std::span(order).subspan(begin, end - begin));
+    }
     if (end - begin <= kLeafSize) return;
     // Halves, whatever the middles are: the depth is that of a full tree.
     const std::uint32_t middle = begin + (end - begin) / 2;
@@ -101,6 +163,10 @@ NearestTriangle NearestTriangles::nearest(const Vec3& point) const {
         const Waiting top = stack[--size];
         if (top.least > best.squared) continue;
         const Node& node = nodes_[top.node];
+        if (node.radius < std::numeric_limits<float>::infinity() &&
+            least_to_cylinder(node, point) > best.squared) {
+            continue;
+        }
         if (node.count > 0) {
             for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
                 const PointOnTriangle found = nearest_on_triangle(point, corners_[i]);

@@ -1,9 +1,10 @@
 #include "alhazen/geometry/polygon/merged_positions.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+
+#include "alhazen/base/interruptible_sort.h"
 
 namespace alhazen {
 
@@ -25,7 +26,7 @@ std::vector<std::uint32_t> merged_positions(std::span<const Vec3> positions) {
                     std::bit_cast<std::uint64_t>(p.z)},
                    static_cast<std::uint32_t>(i)};
     }
-    std::sort(keys.begin(), keys.end(), [](const PositionKey& a, const PositionKey& b) {
+    interruptible_sort(keys.begin(), keys.end(), [](const PositionKey& a, const PositionKey& b) {
         return a.bits != b.bits ? a.bits < b.bits : a.vertex < b.vertex;
     });
     std::vector<std::uint32_t> merged(positions.size());

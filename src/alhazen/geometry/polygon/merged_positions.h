@@ -2,7 +2,7 @@
 /// Vertices of equal position as one.
 ///
 /// Derivation: sorting. Conventions: 0 and -0 are alike; NaN equals a NaN of the same bits.
-/// Complexity: O(n log n) for any input.
+/// Complexity: O(n log n) for any input. Can be interrupted.
 
 #include <cstdint>
 #include <span>

@@ -243,20 +243,21 @@ Rgb ConeTracer::color_of(const Seen& seen, const ShadingPoint& point) {
 
 Rgb ConeTracer::direct_light(const Seen& seen, const ShadingPoint& point) {
     Rgb sum;
-    for (const Light& light : scene_.lights) {
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+        const Light& light = scene_.lights[i];
         if (!illuminates(light)) continue;
         const LightSample l = sample(light, point.surface.point, conventions_.clamp_attenuation);
         const double cosine = dot(point.normal, l.to_light);
         if (!(cosine > 0.0) || l.intensity.is_black()) continue;
         const Rgb fraction = reflected_fraction(conventions_, point, l, cosine);
         if (fraction.is_black()) continue;
-        sum += fraction * l.intensity * shadow_at(seen, point, l, radius_of(light, l.to_light));
+        sum += fraction * l.intensity * shadow_at(seen, point, i, l, radius_of(light, l.to_light));
     }
     return sum;
 }
 
-Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, const LightSample& light,
-                          double light_radius) {
+Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size_t number,
+                          const LightSample& light, double light_radius) {
     if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
     const bool towards = dot(point.geometric, light.to_light) > 0.0;
     const bool closed = geometry_.sources[seen.piece.source].closed;
@@ -284,19 +285,19 @@ Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, const Lig
         start.kind = RayKind::Shadow;
         start.range.z_max = distance;
         if (closed) set_inside(start, seen.piece.source, within);
-        sum += disc.weight * let_through(cone, start);
+        sum += disc.weight * let_through(cone, start, {number, k, discs.count, disc.weight});
     }
     return sum;
 }
 
-Rgb ConeTracer::let_through(const ConeRay& cone, const ConeStart& start) {
+Rgb ConeTracer::let_through(const ConeRay& cone, const ConeStart& start, const ConeToLight& to) {
     ++counters_[RayKind::Shadow].cast;
     ConeRay part = cone;
     Rgb left;
     for (int k = 0; !find_blocked(part, start, left) && k < kMostNarrowings; ++k) {
         part = narrowed(part);
     }
-    if (watcher_ != nullptr) watcher_->shadow_cone(part, start.range.z_max, left);
+    if (watcher_ != nullptr) watcher_->shadow_cone(part, start.range.z_max, left, to);
     return left;
 }
 

@@ -26,6 +26,13 @@ struct ConePath {
     Rgb absorption;             ///< of the medium it starts in
 };
 
+/// Which of the cones to a light this is: a large piece is asked in parts.
+struct ConeToLight {
+    std::size_t light = 0;  ///< of Scene::lights
+    int part = 0, parts = 1;
+    double weight = 1;  ///< of the part
+};
+
 /// Watches cones while they are traced, in the order of the calls: a piece is shaded between
 /// `begin_piece` and `end_piece`, with the cones that leave it in between.
 class ConeWatcher {
@@ -40,8 +47,9 @@ class ConeWatcher {
     virtual void end_piece(const Rgb& color) = 0;
     /// `left`: of the cone, what nothing covers.
     virtual void end_cone(double left, const Rgb& radiance) = 0;
-    /// `distance`: of the light.
-    virtual void shadow_cone(const ConeRay& cone, double distance, const Rgb& through) = 0;
+    /// A cone of a part of the piece; `distance`: of the light.
+    virtual void shadow_cone(const ConeRay& cone, double distance, const Rgb& through,
+                             const ConeToLight& to) = 0;
 };
 
 /// The cone from a point that just holds a sphere of light.
@@ -56,7 +64,8 @@ class ConeTracer {
     [[nodiscard]] Rgb trace(const ConeRay& cone, const ConePath& path, int depth,
                             PixelGeometry* geometry = nullptr);
     /// What is left of the light that comes down a cone. The light beyond `start.range.z_max`.
-    [[nodiscard]] Rgb let_through(const ConeRay& cone, const ConeStart& start);
+    [[nodiscard]] Rgb let_through(const ConeRay& cone, const ConeStart& start,
+                                  const ConeToLight& to = {});
     /// May be null; must outlive the calls of `trace`.
     void set_watcher(ConeWatcher* watcher) { watcher_ = watcher; }
 
@@ -83,7 +92,7 @@ class ConeTracer {
     [[nodiscard]] double least_contribution() const;
     [[nodiscard]] Rgb color_of(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb direct_light(const Seen& seen, const ShadingPoint& point);
-    [[nodiscard]] Rgb shadow_at(const Seen& seen, const ShadingPoint& point,
+    [[nodiscard]] Rgb shadow_at(const Seen& seen, const ShadingPoint& point, std::size_t number,
                                 const LightSample& light, double light_radius);
     [[nodiscard]] Rgb reflected(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb transmitted(const Seen& seen, const ShadingPoint& point);

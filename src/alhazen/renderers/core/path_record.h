@@ -17,16 +17,18 @@ namespace alhazen {
 
 /// How a path went on from a vertex, or why not.
 enum class PathStep : std::uint8_t {
-    Scattered,  ///< into all directions, by a density
-    Mirrored,   ///< into the one direction of a mirror or of smooth glass
-    Straight,   ///< through a thin sheet, a surface that is not there, or a volume
-    Escaped,    ///< it met nothing
-    Deepest,    ///< no more scatterings are asked for
-    Absorbed,   ///< no light goes on
-    Roulette,   ///< ended by chance, for it carried little
+    Scattered,   ///< into all directions, by a density
+    Mirrored,    ///< into the one direction of a mirror or of smooth glass
+    Straight,    ///< through a thin sheet, a surface that is not there, or a volume
+    Escaped,     ///< it met nothing
+    Deepest,     ///< no more scatterings are asked for
+    Absorbed,    ///< no light goes on
+    Roulette,    ///< ended by chance, for it carried little
+    PassedMost,  ///< it passed straight through kMaxPassedSurfaces surfaces
 };
-inline constexpr const char* kPathStepNames[] = {"scattered", "mirrored", "straight", "escaped",
-                                                 "deepest",   "absorbed", "roulette"};
+inline constexpr const char* kPathStepNames[] = {"scattered", "mirrored",   "straight",
+                                                 "escaped",   "deepest",    "absorbed",
+                                                 "roulette",  "passed_most"};
 
 /// A ray of the path, and what happened where it ended.
 struct RecordedVertex {

@@ -228,6 +228,8 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         if (path.met < kMaxPassedSurfaces) {
             record_step(path, PathStep::Straight);
             go_on(path, leaving_ray(point.surface, ray.direction));
+        } else {
+            record_step(path, PathStep::PassedMost);
         }
         return;
     }
@@ -379,7 +381,10 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
                                         : PathStep::Scattered);
     if (drawn->straight) {
         // Shadow rays pass thin sheets, too: the densities remain those of the last scattering.
-        if (++path.met > kMaxPassedSurfaces) return;
+        if (++path.met > kMaxPassedSurfaces) {
+            record_step(path, PathStep::PassedMost);
+            return;
+        }
     } else {
         ++path.scatterings;
         if (settings_.polarization) {

@@ -38,8 +38,8 @@ struct NoChance {
 /// A chance that watches the tree grow, at no cost for others. In the order of the calls, for some
 /// rays of a generation: `use` once, where there are exact optics; `begin_rays`; for each surface
 /// `see_light` for the lights it faces, then `meet`; `miss` for rays that meet nothing; `gather`,
-/// after the next generation, with the surfaces in the order of `meet`; `end_rays`, when the
-/// radiance is known.
+/// after the next generation, with the surfaces in the order of `meet`; `give_up` where rays have
+/// passed kMaxPassedSurfaces; `end_rays`, when the radiance is known.
 template <class Chance>
 concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
                                const ShadingPoint& point, const Path& path, const MetSurface& met,
@@ -51,6 +51,7 @@ concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
     chance.meet(point, t, path, depth, met);
     chance.miss(ray, left, depth);
     chance.gather(front, depth);
+    chance.give_up(front, depth);
     chance.end_rays(part, depth);
 };
 
@@ -133,7 +134,10 @@ class RecursiveEstimator {
             if (optics_) optics_->release(media);
             front.go_on();
         }
-        if constexpr (TreeWatcher<Chance>) chance_.end_rays(part, depth);
+        if constexpr (TreeWatcher<Chance>) {
+            if (!front.active.empty()) chance_.give_up(front, depth);
+            chance_.end_rays(part, depth);
+        }
     }
 
     Wavefront& front_at(int depth) {

@@ -76,7 +76,10 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
     add(diffuse, Lambert{});
     if (!highlight.is_black()) add(highlight, BlinnPhong(exponent));
     const double roughness = roughness_of(m, textures, lookup);
-    if (!mirror.is_black()) add(mirror, reflection_lobe(roughness, SchlickTerm{}));
+    if (!mirror.is_black()) {
+        const ConstantTerm all{place.waves.reflectance(scale * mirror)};
+        add(mirror, reflection_lobe(roughness, all));
+    }
     if (!refracted.is_black()) {
         const double eta = eta_at(place, value_at(m.index, textures, lookup));
         add(refracted, SmoothDielectric{.eta = eta, .fresnel = false, .etas = etas_at(place)});

@@ -13,6 +13,9 @@ namespace {
 Spectrum at(const SchlickTerm& t, double cosine) {
     return t.f0 + schlick_weight(cosine) * (t.f90 - t.f0);
 }
+Spectrum at(const ConstantTerm&, double) {
+    return Spectrum::all(1);
+}
 Spectrum at(const ConductorTerm& t, double cosine) {
     Spectrum result;
     for (int i = 0; i < Spectrum::kCount; ++i) {
@@ -62,6 +65,7 @@ Spectrum reflectance(const FresnelTerm& term, double cosine) {
 
 SchlickTerm schlick_fit(const FresnelTerm& term, double cosine) {
     return std::visit(Overloaded{[](const SchlickTerm& t) { return t; },
+                                 [](const ConstantTerm&) { return SchlickTerm{}; },
                                  [&](const FilmTerm& t) {
                                      // A film's colour at the view says more than that at normal
                                      // incidence: it changes with the angle.
@@ -92,7 +96,8 @@ Spectrum mean_reflectance(const FresnelTerm& term) {
         for (int i = 0; i < 3; ++i) sum += 2.0 * kPoints[i] * kWeights[i] * at(t, kPoints[i]);
         return sum;
     };
-    return std::visit(Overloaded{of_schlick, by_quadrature}, term);
+    const auto of_constant = [](const ConstantTerm&) { return Spectrum::all(1); };
+    return std::visit(Overloaded{of_schlick, of_constant, by_quadrature}, term);
 }
 
 }  // namespace alhazen

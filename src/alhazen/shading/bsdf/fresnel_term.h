@@ -13,6 +13,11 @@ namespace alhazen {
 struct SchlickTerm {
     Spectrum f0{1, 1, 1, 1}, f90{1, 1, 1, 1};
 };
+/// 1 at every angle: the weight of the lobe is all of the reflectance. `normal` has that weight:
+/// polarisation is that of a clear body which reflects it at normal incidence.
+struct ConstantTerm {
+    Spectrum normal{1, 1, 1, 1};
+};
 /// Exact, of a complex index relative to the medium outside.
 struct ConductorTerm {
     Spectrum index, extinction;
@@ -28,7 +33,8 @@ struct FilmTerm {
     Spectrum nm;  ///< the wavelengths; 0: channels of colour
 };
 
-using FresnelTerm = std::variant<SchlickTerm, ConductorTerm, DielectricTerm, FilmTerm>;
+using FresnelTerm =
+    std::variant<SchlickTerm, ConductorTerm, DielectricTerm, FilmTerm, ConstantTerm>;
 
 /// Share reflected at this cosine to the normal (of the microfacet).
 [[nodiscard]] Spectrum reflectance(const FresnelTerm& term, double cosine);

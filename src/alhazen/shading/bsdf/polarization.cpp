@@ -19,12 +19,19 @@ BoundaryMueller mueller_by_normal_reflectance(double reflectance, double cosine)
     return mueller_of(dielectric_reflection(cosine, (1.0 - root) / (1.0 + root)));
 }
 
-PlaneMueller polarization_at(const SchlickTerm& t, double cosine) {
+PlaneMueller by_normal_reflectance(const Spectrum& reflectance, double cosine) {
     PlaneMueller m;
     for (int i = 0; i < Spectrum::kCount; ++i) {
-        m.set(i, mueller_by_normal_reflectance(t.f0[i], cosine));
+        m.set(i, mueller_by_normal_reflectance(reflectance[i], cosine));
     }
     return m;
+}
+
+PlaneMueller polarization_at(const SchlickTerm& t, double cosine) {
+    return by_normal_reflectance(t.f0, cosine);
+}
+PlaneMueller polarization_at(const ConstantTerm& t, double cosine) {
+    return by_normal_reflectance(t.normal, cosine);
 }
 PlaneMueller polarization_at(const ConductorTerm& t, double cosine) {
     PlaneMueller m;

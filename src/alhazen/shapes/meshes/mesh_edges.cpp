@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "alhazen/base/interruptible_sort.h"
 #include "alhazen/geometry/polygon/merged_positions.h"
 
 namespace alhazen {
@@ -19,9 +20,11 @@ struct DirectedEdge {
 
 std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
     const std::vector<std::uint32_t> merged = merged_positions(mesh.positions);
+    constexpr std::size_t kOften = 1u << 16;
     std::vector<DirectedEdge> edges;
     edges.reserve(3 * mesh.triangles.size());
     for (const auto& triangle : mesh.triangles) {
+        if (edges.size() % kOften < 3) interruption_point();
         const std::uint32_t v[3] = {merged[triangle[0]], merged[triangle[1]], merged[triangle[2]]};
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;  // a segment: never hit
         for (int k = 0; k < 3; ++k) {
@@ -30,8 +33,9 @@ std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
             edges.push_back({std::uint64_t{lo} << 32 | hi, from < to});
         }
     }
-    std::sort(edges.begin(), edges.end(),
-              [](const DirectedEdge& a, const DirectedEdge& b) { return a.vertices < b.vertices; });
+    interruptible_sort(
+        edges.begin(), edges.end(),
+        [](const DirectedEdge& a, const DirectedEdge& b) { return a.vertices < b.vertices; });
     return edges;
 }
 

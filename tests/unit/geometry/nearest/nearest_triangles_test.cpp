@@ -181,6 +181,41 @@ TEST(NearestTriangles, IsBruteForceOnALatticeWhereManyAreAsNear) {
     }
 }
 
+TEST(NearestTriangles, IsBruteForceBesideSurfacesThatAreNearlyAsNearEverywhere) {
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        // A flat or curved sheet, a sphere among them, anywhere and of any size, facing anywhere.
+        const double bend = seed % 4 == 0 ? 0.0 : random.log_uniform(1e-9, 1.0);
+        const double scale = seed % 5 == 0 ? 1e-60 : random.log_uniform(1e-6, 1e6);
+        const Vec3 place = scale * random.in_cube(seed % 3 == 0 ? 1e5 : 0.0);
+        const Vec3 normal = random.unit_vector(), u = perpendicular(normal), v = cross(normal, u);
+        constexpr int kSide = 24;
+        const auto point = [&](int i, int j) {
+            const double x = 2.0 * i / kSide - 1.0, y = 2.0 * j / kSide - 1.0;
+            const Vec3 flat = x * u + y * v + bend * (x * x + y * y) * normal;
+            return place + scale * (seed % 4 == 1 ? normalize(flat + normal) : flat);
+        };
+        std::vector<Corners> triangles;
+        for (int i = 0; i < kSide; ++i) {
+            for (int j = 0; j < kSide; ++j) {
+                const Vec3 a = point(i, j), b = point(i + 1, j + 1);
+                triangles.push_back({a, point(i + 1, j), b});
+                triangles.push_back(random.coin() ? Corners{a, b, point(i, j + 1)}
+                                                  : Corners{a, point(i, j + 1), b});
+            }
+        }
+        std::vector<Vec3> points;
+        for (int i = 0; i < 60; ++i) {
+            points.push_back(place + scale * random.in_cube(1.5));
+            const double height = random.uniform(-2, 2);
+            points.push_back(place + scale * height * normal);  // foci
+            points.push_back(point(i % kSide, (7 * i) % kSide) + scale * height * 1e-9 * normal);
+        }
+        compare(triangles, points);
+    }
+}
+
 TEST(NearestTriangles, OneManyTimesIsTheFirst) {
     const Corners c{Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     compare(std::vector<Corners>(1), {{1, 2, 3}});

@@ -148,7 +148,13 @@ var BeamPieces = class {
 };
 
 // src/alhazen/explain/page/cone_tree.ts
-var CONE_NAMES = { eye: "cone of the pixel", shadow: "cone to a light", reflection: "reflected cone", refraction: "refracted cone" };
+var CONE_NAMES = { eye: "cone of the pixel", reflection: "reflected cone", refraction: "refracted cone" };
+function nameOf(c, from) {
+  const whence = from === void 0 ? "" : ` from \u2018${from}\u2019`;
+  if (c.kind !== "shadow") return CONE_NAMES[c.kind] + whence;
+  const part = c.part_count > 1 ? `, part ${c.part} of ${c.part_count} (${number(100 * c.weight)} %)` : "";
+  return `cone to \u2018${c.light}\u2019${whence}${part}`;
+}
 var ConeTree = class {
   constructor(root2, cones, view) {
     this.view = view;
@@ -162,10 +168,10 @@ var ConeTree = class {
     view.cones = [cones.tree];
     view.draw();
   }
-  cone(c) {
+  cone(c, from) {
     const shadow = c.kind === "shadow", color = shadow ? c.through : c.radiance;
     const value = shadow ? `(${triple(color)}) of the light comes through` : `radiance (${triple(color)})`;
-    const summary = element("summary", { class: c.kind }, ` ${CONE_NAMES[c.kind]}: ${value} `, swatch(color));
+    const summary = element("summary", { class: c.kind }, ` ${nameOf(c, from)}: ${value} `, swatch(color));
     const show = () => {
       this.view.cones = [c];
       this.view.draw();
@@ -179,7 +185,7 @@ var ConeTree = class {
       summary,
       element("p", { class: "soft" }, `radius ${number(c.radius)} where it starts, ` + (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\xB0)`) + (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : ""))
     );
-    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap((p) => p.cones.map((k) => this.cone(k))));
+    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap((p) => p.cones.map((k) => this.cone(k, p.object))));
     return body;
   }
   pieces(c) {
@@ -273,7 +279,8 @@ var STEPS = {
   escaped: "leaves the scene",
   deepest: "ends: no more scatterings are asked for",
   absorbed: "ends: no light goes on",
-  roulette: "ends by chance: it carries little"
+  roulette: "ends by chance: it carries little",
+  passed_most: "ends: it has passed straight through as many surfaces as a path may"
 };
 var isBlack = (c) => c.every((x) => x === 0);
 function pathSteps(root2, data, path, view) {
@@ -452,7 +459,7 @@ var RayOutline = class {
     summary.addEventListener("focus", () => this.onSelect(ray, false));
     this.places.set(ray, summary);
     ray.surfaces.forEach((s) => body.append(this.surface(s)));
-    if (ray.left) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
+    if (ray.left) body.append(element("p", {}, ray.given_up ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.` : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
   surface(s) {

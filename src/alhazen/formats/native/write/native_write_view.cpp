@@ -36,15 +36,14 @@ void add_angle(NativeBlockText& block, const std::string& key, double radians) {
     }
 }
 
-/// The file is written beside the scene.
-void add_profile(NativeWriteContext& context, NativeBlockText& block, const LightProfile& p,
-                 std::size_t number, const Vec3& usual_down) {
+/// `name_of`: gives the name of its file.
+template <class NameOf>
+void add_profile(NativeBlockText& block, const LightProfile& p, const Vec3& usual_down,
+                 const NameOf& name_of) {
     if (!p.profile) return;
     block.add_unless("profile_down", p.down, usual_down);
     block.add_unless("profile_front", p.front, LightProfile{}.front);
-    const std::span<const char> text(p.profile->text());
-    block.add("profile", native_string(context.write_file(
-                             "light_" + std::to_string(number) + ".ies", std::as_bytes(text))));
+    block.add("profile", native_string(name_of(p)));
 }
 
 NativeBlockText block_of(const std::string& name, const AmbientLight& light) {
@@ -265,18 +264,34 @@ void write_native_cameras(NativeWriteContext& context) {
     }
 }
 
+namespace {
+
+template <class NameOf>
+NativeBlockText light_block(const LightDescription& light, const NameOf& name_of) {
+    NativeBlockText block =
+        std::visit([&](const auto& l) { return block_of(light.name, l); }, light.light);
+    if (const auto* point = std::get_if<PointLight>(&light.light)) {
+        add_profile(block, point->profile, LightProfile{}.down, name_of);
+    } else if (const auto* spot = std::get_if<SpotLight>(&light.light)) {
+        add_profile(block, spot->profile, spot->direction, name_of);
+    }
+    return block;
+}
+
+}  // namespace
+
 void write_native_lights(NativeWriteContext& context) {
     for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {
-        const LightDescription& light = context.scene.lights[i];
-        NativeBlockText block =
-            std::visit([&](const auto& l) { return block_of(light.name, l); }, light.light);
-        if (const auto* point = std::get_if<PointLight>(&light.light)) {
-            add_profile(context, block, point->profile, i, LightProfile{}.down);
-        } else if (const auto* spot = std::get_if<SpotLight>(&light.light)) {
-            add_profile(context, block, spot->profile, i, spot->direction);
-        }
-        context.append(block);
+        // The file of a profile is written beside the scene.
+        context.append(light_block(context.scene.lights[i], [&](const LightProfile& p) {
+            const std::span<const char> text(p.profile->text());
+            return context.write_file("light_" + std::to_string(i) + ".ies", std::as_bytes(text));
+        }));
     }
+}
+
+std::string native_light_text(const LightDescription& light) {
+    return light_block(light, [](const LightProfile& p) { return p.file; }).text(0) + '\n';
 }
 
 }  // namespace alhazen

@@ -32,4 +32,8 @@ using NativeFileSink =
                                             const std::string& folder,
                                             const NativeFileSink& write_beside);
 
+/// The block of a light alone; a profile is called as its file was. Throws Error (Scene) for
+/// numbers that are not finite.
+[[nodiscard]] std::string native_light_text(const LightDescription& light);
+
 }  // namespace alhazen

@@ -1,0 +1,109 @@
+// The numbers of a light: where it is, where it shines, its colour.
+
+import {element} from "../../../src/alhazen/explain/page/basics";
+import type {Vec3} from "../../../src/alhazen/explain/page/basics";
+import type {LightEntry} from "./state";
+
+/** What a light has instead of what the file says; its colour is `times` `color`. */
+export interface LightValues {
+  position?: Vec3;
+  direction?: Vec3;
+  color: Vec3;
+  times: number;
+}
+type VectorKey = "position" | "direction" | "color";
+const AXES: Record<VectorKey, string[]> = {
+  position: ["x", "y", "z"], direction: ["x", "y", "z"], color: ["red", "green", "blue"]};
+const LABELS: Record<VectorKey, string> = {position: "position", direction: "direction", color: "colour"};
+const MOST = 1e15;
+
+export class LightFields {
+  readonly element: HTMLElement;
+  private values: LightValues;
+  private readonly vectors: {key: VectorKey; fields: HTMLInputElement[]}[];
+  private readonly times: HTMLInputElement;
+  private readonly reset: HTMLButtonElement;
+  private marked = false;  // since a field got the focus
+
+  /** `changed` has no values where they are those of the file. */
+  constructor(readonly light: LightEntry, id: string,
+              private readonly changed: (values: LightValues | undefined, mark: boolean) => void) {
+    this.values = this.ofFile();
+    const keys = (["position", "direction", "color"] as const).filter(key => light[key]);
+    this.vectors = keys.map(key => ({key, fields: AXES[key].map((axis, i) =>
+      this.field(`${axis} of the ${LABELS[key]} of ${light.name}`, `${key} ${i}`))}));
+    this.times = this.field(`Strength of ${light.name}, times its colour`, "times");
+    this.reset = element("button", {type: "button", class: "link", "data-key": `reset ${light.name}`, click: () => {
+      this.values = this.ofFile();
+      this.show(undefined);
+      this.changed(undefined, true);
+    }}, "As in the file");
+    const line = (label: string, ...fields: HTMLElement[]) =>
+      element("div", {class: "numbers"}, element("span", {"aria-hidden": "true"}, label), ...fields);
+    this.element = element("fieldset", {id}, element("legend", {}, `${light.name}: ${light.what ?? "light"}`),
+      ...this.vectors.map(v => line(LABELS[v.key], ...v.fields)), line("strength", this.times, this.reset));
+    this.show(undefined);
+  }
+  /** Undefined: those of the file. */
+  show(values: LightValues | undefined) {
+    const file = this.ofFile();
+    // The file may have given the light another kind meanwhile.
+    this.values = {position: values?.position ?? file.position, direction: values?.direction ?? file.direction,
+                   color: values?.color ?? file.color, times: values?.times ?? 1};
+    for (const {key, fields} of this.vectors) {
+      fields.forEach((field, i) => this.set(field, this.values[key]![i]));
+    }
+    this.set(this.times, this.values.times);
+    this.reset.disabled = values === undefined;
+  }
+
+  private ofFile(): LightValues {
+    const {position, direction, color} = this.light;
+    return {position, direction, color, times: 1};
+  }
+  private set(field: HTMLInputElement, x: number) {
+    field.removeAttribute("aria-invalid");
+    // What is being typed stays as it is.
+    if (field === document.activeElement && Number(field.value) === x && field.value) return;
+    field.value = String(Number(x.toPrecision(7)));
+  }
+  private field(label: string, key: string) {
+    const field = element("input", {
+      type: "number", step: "any", "aria-label": label, "data-key": `${this.light.name} ${key}`,
+      focus: () => this.marked = false, input: () => this.typed(field),
+      change: () => {
+        this.marked = false;
+        // What is no such number is as before.
+        this.show(this.isOfFile() ? undefined : this.values);
+      }});
+    return field;
+  }
+  private typed(field: HTMLInputElement) {
+    const x = Number(field.value), values = {...this.values};
+    let good = field.value !== "" && Number.isFinite(x) && Math.abs(x) <= MOST;
+    if (field === this.times) {
+      good &&= x >= 0;
+      values.times = x;
+    }
+    for (const {key, fields} of this.vectors) {
+      const i = fields.indexOf(field);
+      if (i < 0) continue;
+      const vector = [...this.values[key]!] as Vec3;
+      vector[i] = x;
+      values[key] = vector;
+      good &&= key === "color" ? x >= 0 : key !== "direction" || vector.some(c => c !== 0);
+    }
+    if (good) field.removeAttribute("aria-invalid");
+    else field.setAttribute("aria-invalid", "true");
+    if (!good) return;
+    this.values = values;
+    this.reset.disabled = this.isOfFile();
+    const mark = !this.marked;
+    this.marked = true;
+    this.changed(this.isOfFile() ? undefined : values, mark);
+  }
+  private isOfFile() {
+    const file = this.ofFile();
+    return this.values.times === 1 && this.vectors.every(({key}) => this.values[key]!.every((x, i) => x === file[key]![i]));
+  }
+}
