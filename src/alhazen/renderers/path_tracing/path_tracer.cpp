@@ -139,6 +139,7 @@ void PathTracer::bounce(bool first) {
     if (joins_apart()) add_joined();
     paths_.swap(next_paths_);
     rays_.swap(next_rays_);
+    chance_.keep(paths_);
 }
 
 void PathTracer::add(const EyePath& path, const Spectrum& light, Spectrum& sum) {

@@ -22,11 +22,19 @@ class SobolSampler final : public Sampler {
     SobolSampler(std::uint64_t seed, std::uint32_t count);
     void points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                 std::span<Vec2> out) const override;
+    void points_of(std::span<const SampleRun> runs, std::uint32_t pair,
+                   std::span<Vec2> out) const override;
 
     /// The place of a pixel on the curve that `key` shuffles.
     [[nodiscard]] static std::uint32_t curve_place(const SamplePixel& pixel, std::uint64_t key);
 
   private:
+    class CurveWalk;
+    /// `scramble_x`, `scramble_y`: the nested scrambling of each dimension.
+    template <class ScrambleX, class ScrambleY>
+    void points(const SampleRun& run, std::uint32_t pair, std::uint64_t key, CurveWalk& walk,
+                const ScrambleX& scramble_x, const ScrambleY& scramble_y, Vec2* out) const;
+
     std::uint64_t key_;
     int sample_bits_;
 };
