@@ -27,12 +27,8 @@ class SampleDraws {
         for (std::uint32_t i = 0; i < ids.size(); ++i) left_[i] = i;
         for (std::vector<Vec2>& pair : together_) pair.clear();
     }
-    /// The samples of the batch that ask from now on, fewer and fewer: `sample_of(path)` of each.
-    template <class Paths, class SampleOf>
-    void keep(const Paths& paths, SampleOf&& sample_of) {
-        left_.clear();
-        for (const auto& path : paths) left_.push_back(sample_of(path));
-    }
+    /// `left`: the samples of the batch that ask from now on, fewer and fewer.
+    void keep(std::span<const std::uint32_t> left) { left_.assign(left.begin(), left.end()); }
     [[nodiscard]] Vec2 at(std::uint32_t sample, std::uint32_t pair) {
         if (pair >= together_.size()) {
             return sampler_.at(ids_[sample].pixel, pair, ids_[sample].number);

@@ -35,11 +35,8 @@ class PathChance {
         ids_ = ids;
         draws_.begin(ids);
     }
-    /// The paths that go on, `path.sample` of the batch: no others ask `draw` from now on.
-    template <class Paths>
-    void keep(const Paths& paths) {
-        draws_.keep(paths, [](const auto& path) { return path.sample; });
-    }
+    /// `left`: the samples of the batch that ask `draw` and `waves` from now on.
+    void keep(std::span<const std::uint32_t> left) { draws_.keep(left); }
     [[nodiscard]] Vec2 draw(std::uint32_t sample, int bounce, BouncePair pair) {
         const std::uint32_t p = pair_of(bounce, pair);
         return p < kByHash ? draws_.at(sample, p) : draw(ids_[sample], p);

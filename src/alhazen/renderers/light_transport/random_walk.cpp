@@ -85,7 +85,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
                 }
             }
         }
-        v.scatter.set(scene_, point_, media, waves, true);
+        v.scatter.set(scene_, point_, media, waves, true, &bsdfs_);
         if (v.scatter.needs_hero()) {
             waves.keep_hero(throughput);
             v.throughput = throughput;

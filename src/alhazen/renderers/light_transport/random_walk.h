@@ -63,7 +63,7 @@ class RandomWalk {
   public:
     RandomWalk(const Scene& scene, const Illumination& lights, RayCounters& counters,
                TraversalStats* stats)
-        : scene_(scene), lights_(lights), counters_(counters), stats_(stats) {}
+        : scene_(scene), lights_(lights), counters_(counters), stats_(stats), bsdfs_(scene) {}
 
     /// Sets `vertices`. A path from the eye that leaves the scene sets `escaped`; its direction and
     /// density by solid angle are those of the last ray.
@@ -86,6 +86,7 @@ class RandomWalk {
     const Illumination& lights_;
     RayCounters& counters_;
     TraversalStats* stats_;
+    BsdfCache bsdfs_;
     ShadingPoint point_;
     Hit hit_;
     double travelled_ = 0;  ///< since the last vertex

@@ -13,7 +13,10 @@ std::uint64_t part_of(const Surface& surface) {
 }
 
 /// The BSDF at the point; of blended materials their weighted sum.
-Bsdf bsdf_at(const Scene& scene, const Surface& surface, const BsdfPlace& place) {
+Bsdf bsdf_at(const Scene& scene, const Surface& surface, const BsdfPlace& place, BsdfCache* known) {
+    if (known != nullptr && !surface.has_extras) {
+        if (const Bsdf* const shared = known->find(surface.materials[0], place)) return *shared;
+    }
     const SurfaceLookup lookup{
         {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
     const auto of = [&](std::size_t i) {
@@ -29,7 +32,7 @@ Bsdf bsdf_at(const Scene& scene, const Surface& surface, const BsdfPlace& place)
 }  // namespace
 
 void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-                       const Wavelengths& waves, bool both_ways) {
+                       const Wavelengths& waves, bool both_ways, BsdfCache* known) {
     const Surface& surface = point.surface;
     const MaterialSample& material = *point.material;
     geometric_ = point.geometric;
@@ -56,18 +59,18 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
                     .from_inside = !entering_,
                     .etas = disperses ? &all : nullptr,
                     .waves = waves};
-    bsdf_ = bsdf_at(scene, surface, place);
+    bsdf_ = bsdf_at(scene, surface, place, known);
     needs_hero_ = disperses && bsdf_.has_rough_boundary();
     if (needs_hero_) {
         place.etas = nullptr;
-        bsdf_ = bsdf_at(scene, surface, place);
+        bsdf_ = bsdf_at(scene, surface, place, known);
     }
     from_behind_.reset();
     if (!both_ways || !bsdf_.has_density() || !bsdf_.transmits()) return;
     place.etas = nullptr;
     place.from_inside = entering_;
     if (place.eta > 0.0) place.eta = 1.0 / place.eta;
-    from_behind_ = bsdf_at(scene, surface, place);
+    from_behind_ = bsdf_at(scene, surface, place, known);
 }
 
 Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const MediumStack& media,

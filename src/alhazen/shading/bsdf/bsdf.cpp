@@ -4,6 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "alhazen/shading/microfacets/local_directions.h"
+
 namespace alhazen {
 
 namespace {
@@ -57,6 +59,7 @@ void Bsdf::add(const Spectrum& weight, const Lobe& lobe, CoverSet covers) {
     const Part part{weight, covers, lobe};
     if (!parts_.full()) {
         parts_.push_back(part);
+        set_traits();
         return;
     }
     const auto importance = [](const Part& p) {
@@ -64,6 +67,29 @@ void Bsdf::add(const Spectrum& weight, const Lobe& lobe, CoverSet covers) {
     };
     Part* least = std::ranges::min_element(parts_, {}, importance);
     if (importance(*least) < importance(part)) *least = part;
+    set_traits();
+}
+
+void Bsdf::set_traits() {
+    traits_ = {};
+    for (const Part& part : parts_) {
+        std::visit(
+            [&]<class L>(const L&) {
+                traits_.has_density |= !L::kSingular;
+                traits_.has_singular |= L::kSingular;
+                traits_.transmits |= !L::kSingular && L::kTransmits;
+                traits_.lets_through |= L::kTransmits;
+            },
+            part.lobe);
+    }
+    matt_ = {};
+    const auto* const matt = std::get_if<Lambert>(&parts_[0].lobe);
+    if (parts_.size() != 1 || matt == nullptr || parts_[0].covers != 0) return;
+    matt_.is = true;
+    const double share = (parts_[0].weight * matt->color).max();
+    matt_.is_chosen = share > 0.0 && std::isfinite(share);
+    const Spectrum value = parts_[0].weight * ((1.0 / kPi) * matt->color);
+    if (is_usable(value)) matt_.value = value;
 }
 
 CoverSet Bsdf::add_cover(const Cover& cover) {
@@ -128,6 +154,7 @@ Spectrum Bsdf::diffuse_share(const Vec3& view, const Vec3& direction) const {
 Spectrum Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport,
                      bool only_matt) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return {};
+    if (matt_.is) return direction.z > 0.0 ? matt_.value : Spectrum{};
     const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
     Spectrum sum;
     for (const Part& part : parts_) {
@@ -151,6 +178,7 @@ double Bsdf::density(const Choice& choice, const Vec3& view, const Vec3& directi
 
 double Bsdf::density(const Vec3& view, const Vec3& direction) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return 0.0;
+    if (matt_.is) return matt_.is_chosen ? cosine_density(direction) : 0.0;
     const Choice choice = choose(view);
     return choice.any ? density(choice, view, direction) : 0.0;
 }
@@ -158,6 +186,7 @@ double Bsdf::density(const Vec3& view, const Vec3& direction) const {
 std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Vec2& u,
                                        Transport transport) const {
     if (!(view.z > 0.0)) return std::nullopt;
+    if (matt_.is) return sample_matt(u);
     const Choice shares = choose(view);
     if (!shares.any) return std::nullopt;
     std::size_t i = 0;
@@ -190,6 +219,16 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     return sample;
 }
 
+std::optional<BsdfSample> Bsdf::sample_matt(const Vec2& u) const {
+    if (!matt_.is_chosen) return std::nullopt;
+    const Vec3 direction = cosine_direction(u);
+    const double density = cosine_density(direction);
+    if (!(density > 0.0)) return std::nullopt;
+    const Spectrum weight = (direction.z / density) * matt_.value;
+    if (!is_usable(weight)) return std::nullopt;
+    return BsdfSample{direction, weight, density};
+}
+
 Spectrum Bsdf::albedo(const Vec3& view) const {
     if (!(view.z > 0.0)) return {};
     Spectrum sum;
@@ -201,10 +240,6 @@ Spectrum Bsdf::albedo(const Vec3& view) const {
     return sum;
 }
 
-bool Bsdf::has_density() const {
-    return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
-}
-
 std::optional<Spectrum> Bsdf::lambert() const {
     Spectrum sum;
     for (const Part& part : parts_) {
@@ -214,10 +249,6 @@ std::optional<Spectrum> Bsdf::lambert() const {
         sum += part.weight * matt->color;
     }
     return sum;
-}
-
-bool Bsdf::has_singular() const {
-    return std::ranges::any_of(parts_, [](const Part& p) { return is_singular(p.lobe); });
 }
 
 Spectrum Bsdf::straight(const Vec3& view) const {
@@ -282,21 +313,8 @@ PlaneMueller Bsdf::polarization(const Vec3& view, const Vec3& direction, bool si
     return sum;
 }
 
-bool Bsdf::transmits() const {
-    return std::ranges::any_of(parts_, [](const Part& p) {
-        return std::visit([]<class L>(const L&) { return !L::kSingular && L::kTransmits; }, p.lobe);
-    });
-}
-
 bool Bsdf::has_rough_boundary() const {
     return std::ranges::any_of(
         parts_, [](const Part& p) { return std::holds_alternative<RoughDielectric>(p.lobe); });
 }
-
-bool Bsdf::lets_through() const {
-    return std::ranges::any_of(parts_, [](const Part& p) {
-        return std::visit([]<class L>(const L&) { return L::kTransmits; }, p.lobe);
-    });
-}
-
 }  // namespace alhazen
