@@ -65,7 +65,7 @@ void Bsdf::add(const Spectrum& weight, const Lobe& lobe, CoverSet covers) {
     const auto importance = [](const Part& p) {
         return (p.weight * albedo_of(p.lobe, {0, 0, 1})).max();
     };
-    Part* least = std::ranges::min_element(parts_, {}, importance);
+    Unmade<Part>* least = std::ranges::min_element(parts_, {}, importance);
     if (importance(*least) < importance(part)) *least = part;
     set_traits();
 }
@@ -83,13 +83,31 @@ void Bsdf::set_traits() {
             part.lobe);
     }
     matt_ = {};
-    const auto* const matt = std::get_if<Lambert>(&parts_[0].lobe);
-    if (parts_.size() != 1 || matt == nullptr || parts_[0].covers != 0) return;
+    chosen_alone_ = is_chosen_alone();
+    const Part& first = parts_[0];
+    const auto* const matt = std::get_if<Lambert>(&first.lobe);
+    if (parts_.size() != 1 || matt == nullptr || first.covers != 0) return;
     matt_.is = true;
-    const double share = (parts_[0].weight * matt->color).max();
+    const double share = (first.weight * matt->color).max();
     matt_.is_chosen = share > 0.0 && std::isfinite(share);
-    const Spectrum value = parts_[0].weight * ((1.0 / kPi) * matt->color);
+    const Spectrum value = first.weight * ((1.0 / kPi) * matt->color);
     if (is_usable(value)) matt_.value = value;
+}
+
+bool Bsdf::is_chosen_alone() const {
+    const Part& first = parts_[0];
+    const auto* const rough = std::get_if<RoughReflection>(&first.lobe);
+    if (parts_.size() != 1 || rough == nullptr || first.covers != 0) return false;
+    const auto* const term = std::get_if<SchlickTerm>(&rough->fresnel());
+    if (term == nullptr) return false;
+    const Spectrum f0 = first.weight * term->f0, f90 = first.weight * term->f90;
+    bool some = false, sane = f0.is_finite() && f90.is_finite();
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        sane = sane && f0[i] >= 0.0 && f90[i] >= 0.0;
+        some = some || (f0[i] > 0.0 && f90[i] > 0.0);
+    }
+    // Then the albedo is above 0 and finite for every view.
+    return some && sane;
 }
 
 CoverSet Bsdf::add_cover(const Cover& cover) {
@@ -116,13 +134,18 @@ void Bsdf::add(const Bsdf& other, double weight) {
 double Bsdf::through(CoverSet covers, double cosine) const {
     double share = 1.0;
     for (std::size_t i = 0; covers >> i != 0; ++i) {
-        if ((covers >> i & 1) != 0) share *= covers_[i].transmittance(cosine);
+        if ((covers >> i & 1) != 0) share *= covers_[i].value.transmittance(cosine);
     }
     return share;
 }
 
 Bsdf::Choice Bsdf::choose(const Vec3& view) const {
     Choice choice;
+    if (chosen_alone_) {
+        choice.share[0] = 1.0;
+        choice.any = true;
+        return choice;
+    }
     double sum = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
@@ -170,7 +193,7 @@ double Bsdf::density(const Choice& choice, const Vec3& view, const Vec3& directi
     double sum = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         if (!(choice.share[i] > 0.0)) continue;
-        const double density = density_of(parts_[i].lobe, view, direction);
+        const double density = density_of(parts_[i].value.lobe, view, direction);
         if (density > 0.0 && std::isfinite(density)) sum += choice.share[i] * density;
     }
     return sum;
@@ -202,8 +225,18 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     const double rest = std::clamp((choice - (below - share)) / share, 0.0, 0x1.fffffffffffffp-1);
 
     const Part& part = parts_[i];
-    auto sample =
-        std::visit([&](const auto& l) { return l.sample(view, rest, u, transport); }, part.lobe);
+    // Of a lobe that is not singular the direction is all that is used.
+    auto sample = std::visit(
+        [&]<class L>(const L& l) -> std::optional<BsdfSample> {
+            if constexpr (requires { l.direction(view, rest, u); }) {
+                const std::optional<Vec3> direction = l.direction(view, rest, u);
+                if (!direction) return std::nullopt;
+                return BsdfSample{.direction = *direction};
+            } else {
+                return l.sample(view, rest, u, transport);
+            }
+        },
+        part.lobe);
     if (!sample || sample->direction.z == 0.0) return std::nullopt;
     if (sample->singular) {
         const double cosine =
@@ -265,7 +298,7 @@ double Bsdf::straight_probability(const Vec3& view) const {
     const Choice choice = choose(view);
     double sum = 0;
     for (std::size_t i = 0; choice.any && i < parts_.size(); ++i) {
-        if (std::holds_alternative<ThinSheet>(parts_[i].lobe)) sum += choice.share[i];
+        if (std::holds_alternative<ThinSheet>(parts_[i].value.lobe)) sum += choice.share[i];
     }
     return sum;
 }

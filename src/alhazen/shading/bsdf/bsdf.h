@@ -19,6 +19,7 @@
 #include <span>
 
 #include "alhazen/base/inline_vector.h"
+#include "alhazen/base/unmade.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/shading/bsdf/cover.h"
 #include "alhazen/shading/bsdf/lobe.h"
@@ -100,6 +101,8 @@ class Bsdf {
         bool has_density = false, has_singular = false, transmits = false, lets_through = false;
     };
     void set_traits();
+    /// Whether the only lobe is sure to be chosen for all views.
+    [[nodiscard]] bool is_chosen_alone() const;
     /// Of a single matt reflection below no cover, for which nothing is asked of its lobe.
     struct Matt {
         bool is = false;
@@ -124,9 +127,10 @@ class Bsdf {
                                  const Vec3& direction) const;
 
     Traits traits_;
+    bool chosen_alone_ = false;
     Matt matt_;
-    InlineVector<Part, kMaxLobes> parts_;
-    InlineVector<Cover, 9> covers_;
+    InlineVector<Unmade<Part>, kMaxLobes> parts_;
+    InlineVector<Unmade<Cover>, 9> covers_;
 };
 
 /// Where a BSDF is asked for.
