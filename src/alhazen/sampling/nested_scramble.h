@@ -25,8 +25,8 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 256> kThreeFlips = [] {
     for (unsigned flips = 0; flips < 256; ++flips) {
         for (unsigned digits = 0; digits < 4; ++digits) {
             const unsigned flip[] = {flips >> 1, flips >> (2 | digits >> 1), flips >> (4 | digits)};
-            table[flips][digits] = static_cast<std::uint8_t>(
-                (flip[0] & 1u) << 2 | (flip[1] & 1u) << 1 | (flip[2] & 1u));
+            table[flips][digits] = static_cast<std::uint8_t>((flip[0] & 1u) << 2 |
+                                                             (flip[1] & 1u) << 1 | (flip[2] & 1u));
         }
     }
     return table;
@@ -44,26 +44,21 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 256> kThreeFlips = [] {
                   kThreeFlips[below][six >> 1 & 3u]);
 }
 
-/// Flips of the six digits behind `done` others. The digits above select the subtree; their number
-/// separates the levels.
-[[nodiscard]] constexpr std::uint64_t flips_behind(std::uint64_t tree, std::uint64_t digits,
-                                                   int done) {
-    const std::uint64_t above = done == 0 ? 0 : digits >> (64 - done);
-    return mix64(tree ^ (above | std::uint64_t(done + 1) << 32));
-}
+}  // namespace nested_scramble_detail
 
-[[nodiscard]] constexpr std::uint32_t six_behind(std::uint64_t digits, int done) {
-    return static_cast<std::uint32_t>(digits >> (64 - kLevels - done)) & 63u;
-}
-
-/// Goes on from `scrambled`, the first `done` digits.
+/// Scrambles the first 53 digits; the highest bit of `digits` is the first. `tree` selects the
+/// flips. The result is in [0, 1).
 template <int kTreeDigits>
-[[nodiscard]] constexpr double scramble_rest(std::uint64_t tree, std::uint64_t digits, int done,
-                                             std::uint64_t scrambled) {
+[[nodiscard]] constexpr double nested_scramble(std::uint64_t tree, std::uint64_t digits) {
+    using namespace nested_scramble_detail;
     static_assert(kTreeDigits % kLevels == 0 && kTreeDigits <= 30);
-    for (; done < kTreeDigits; done += kLevels) {
-        scrambled = scrambled << kLevels |
-                    flipped(flips_behind(tree, digits, done), six_behind(digits, done));
+    std::uint64_t scrambled = 0;
+    for (int done = 0; done < kTreeDigits; done += kLevels) {
+        // The digits above select the subtree; their number separates the levels.
+        const std::uint64_t above = done == 0 ? 0 : digits >> (64 - done);
+        const std::uint64_t flips = mix64(tree ^ (above | std::uint64_t(done + 1) << 32));
+        const std::uint32_t six = static_cast<std::uint32_t>(digits >> (64 - kLevels - done)) & 63u;
+        scrambled = scrambled << kLevels | flipped(flips, six);
     }
     // The remaining digits are drawn for this point alone.
     const std::uint64_t rest =
@@ -71,43 +66,5 @@ template <int kTreeDigits>
     scrambled = scrambled << (53 - kTreeDigits) | rest >> (64 - (53 - kTreeDigits));
     return static_cast<double>(scrambled) * 0x1p-53;
 }
-
-}  // namespace nested_scramble_detail
-
-/// Scrambles the first 53 digits; the highest bit of `digits` is the first. `tree` selects the
-/// flips. The result is in [0, 1).
-template <int kTreeDigits>
-[[nodiscard]] constexpr double nested_scramble(std::uint64_t tree, std::uint64_t digits) {
-    return nested_scramble_detail::scramble_rest<kTreeDigits>(tree, digits, 0, 0);
-}
-
-/// The same for many points: the hashes of the first twelve digits are computed once. Worth it from
-/// some 64 points on.
-template <int kTreeDigits>
-class NestedScrambles {
-  public:
-    explicit constexpr NestedScrambles(std::uint64_t tree) : tree_(tree) {
-        using namespace nested_scramble_detail;
-        static_assert(kTreeDigits >= 2 * kLevels);
-        const std::uint64_t flips = flips_behind(tree, 0, 0);
-        for (std::uint32_t six = 0; six < 64; ++six) {
-            first_[six] = static_cast<std::uint8_t>(flipped(flips, six));
-            second_[six] = flips_behind(tree, std::uint64_t{six} << (64 - kLevels), kLevels);
-        }
-    }
-
-    [[nodiscard]] constexpr double operator()(std::uint64_t digits) const {
-        using namespace nested_scramble_detail;
-        const std::uint32_t six = six_behind(digits, 0);
-        const std::uint64_t twelve = std::uint64_t{first_[six]} << kLevels |
-                                     flipped(second_[six], six_behind(digits, kLevels));
-        return scramble_rest<kTreeDigits>(tree_, digits, 2 * kLevels, twelve);
-    }
-
-  private:
-    std::uint64_t tree_;
-    std::array<std::uint8_t, 64> first_{};    ///< [first six digits] the same scrambled
-    std::array<std::uint64_t, 64> second_{};  ///< [first six digits] flips of the next six
-};
 
 }  // namespace alhazen

@@ -14,6 +14,7 @@
 #include "alhazen/sampling/random.h"
 #include "alhazen/sampling/samplers/point_sets.h"
 #include "alhazen/sampling/samplers/sampler.h"
+#include "alhazen/sampling/samplers/sobol_points.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -91,13 +92,33 @@ TEST(Samplers, GiveRunsOfManyPixelsTheValuesOfEach) {
     }
 }
 
-TEST(Samplers, NestedScramblesOfManyPointsAreThoseOfOne) {
+TEST(Samplers, PointsInLanesAreThoseOneByOne) {
+    std::vector<std::uint64_t> numbers;
+    for (std::uint64_t i = 0; i < 503; ++i) numbers.push_back(i < 8 ? i - 4 : mix64(i) >> i % 64);
     for (std::uint64_t tree = 0; tree < 20; ++tree) {
-        const NestedScrambles<24> many(mix64(tree));
-        for (std::uint64_t i = 0; i < 500; ++i) {
-            const std::uint64_t digits = i < 3 ? 0 - i : mix64(i);
-            EXPECT_EQ(many(digits), nested_scramble<24>(mix64(tree), digits));
+        const ScrambleTrees trees{mix64(tree), mix64(tree + 100)};
+        for (const std::size_t count :
+             {std::size_t{0}, std::size_t{1}, std::size_t{6}, numbers.size()}) {
+            std::vector<Vec2> lanes(count), alone(count);
+            scrambled_points(trees, std::span(numbers).first(count), lanes.data());
+            scrambled_points_one_by_one(trees, std::span(numbers).first(count), alone.data());
+            EXPECT_EQ(lanes, alone);
         }
+    }
+}
+
+TEST(Samplers, SobolsSecondDimensionIsPascalsTriangle) {
+    // Digit j of number i is the sum of the binomials (k over j) of the bits k of i, modulo two;
+    // the digits of the scrambled point are those, by nested_scramble.
+    std::uint64_t column = std::uint64_t{1} << 63;
+    for (int bit = 0; bit < 64; ++bit) {
+        const std::uint64_t number = std::uint64_t{1} << bit;
+        Vec2 point;
+        scrambled_points_one_by_one({3, 4}, {&number, 1}, &point);
+        EXPECT_EQ(point.y, nested_scramble<kSobolScrambledDigits>(4, column)) << bit;
+        EXPECT_EQ(point.x,
+                  nested_scramble<kSobolScrambledDigits>(3, std::uint64_t{1} << (63 - bit)));
+        column ^= column >> 1;
     }
 }
 

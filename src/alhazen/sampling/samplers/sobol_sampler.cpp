@@ -4,39 +4,12 @@
 #include <array>
 #include <bit>
 
-#include "alhazen/sampling/nested_scramble.h"
+#include "alhazen/sampling/random.h"
+#include "alhazen/sampling/samplers/sobol_points.h"
 
 namespace alhazen {
 
 namespace {
-
-/// Two samples of a pixel, or of neighbours, share no more digits.
-constexpr int kScrambledDigits = 24;
-
-/// Columns of the second dimension's matrix: the digits of the powers of two.
-constexpr std::array<std::uint64_t, 64> kSecond = [] {
-    std::array<std::uint64_t, 64> v{};
-    v[0] = std::uint64_t{1} << 63;
-    for (std::size_t i = 1; i < v.size(); ++i) v[i] = v[i - 1] ^ (v[i - 1] >> 1);
-    return v;
-}();
-
-std::uint64_t second_digits(std::uint64_t index) {
-    std::uint64_t x = 0;
-    for (; index != 0; index &= index - 1) {
-        x ^= kSecond[static_cast<std::size_t>(std::countr_zero(index))];
-    }
-    return x;
-}
-
-std::uint64_t reversed_bits(std::uint64_t x) {
-    x = (x >> 32) | (x << 32);
-    x = ((x >> 16) & 0x0000FFFF0000FFFFu) | ((x & 0x0000FFFF0000FFFFu) << 16);
-    x = ((x >> 8) & 0x00FF00FF00FF00FFu) | ((x & 0x00FF00FF00FF00FFu) << 8);
-    x = ((x >> 4) & 0x0F0F0F0F0F0F0F0Fu) | ((x & 0x0F0F0F0F0F0F0F0Fu) << 4);
-    x = ((x >> 2) & 0x3333333333333333u) | ((x & 0x3333333333333333u) << 2);
-    return ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
-}
 
 /// The bit of each of the four quadrants goes where the permutation says: all 24, two bits each.
 constexpr std::array<std::uint8_t, 24> kOrders = [] {
@@ -128,23 +101,6 @@ std::uint32_t SobolSampler::curve_place(const SamplePixel& pixel, std::uint64_t 
     return CurveWalk(key).place(pixel);
 }
 
-template <class ScrambleX, class ScrambleY>
-void SobolSampler::points(const SampleRun& run, std::uint32_t pair, std::uint64_t key,
-                          CurveWalk& walk, const ScrambleX& scramble_x, const ScrambleY& scramble_y,
-                          Vec2* out) const {
-    const std::uint64_t place = std::uint64_t{walk.place(run.pixel)} << sample_bits_;
-    const std::uint64_t second = second_digits(place);
-    const auto point = [&](std::uint32_t s) {
-        return Vec2{scramble_x(reversed_bits(place | s)), scramble_y(second ^ second_digits(s))};
-    };
-    if (pair == 0) {
-        for (std::uint32_t k = 0; k < run.count; ++k) out[k] = point(run.first + k);
-        return;
-    }
-    ShuffledNumbers numbers(run.first, sample_bits_, mix64(key ^ mix64(run.pixel.id())));
-    for (std::uint32_t k = 0; k < run.count; ++k) out[k] = point(numbers.next());
-}
-
 void SobolSampler::points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                           std::span<Vec2> out) const {
     const SampleRun run{pixel, first, static_cast<std::uint32_t>(out.size())};
@@ -153,27 +109,27 @@ void SobolSampler::points(const SamplePixel& pixel, std::uint32_t pair, std::uin
 
 void SobolSampler::points_of(std::span<const SampleRun> runs, std::uint32_t pair,
                              std::span<Vec2> out) const {
-    constexpr std::size_t kManyPoints = 128;
     const std::uint64_t key = mix64(key_ ^ pair);
-    const std::uint64_t trees[] = {mix64(key + 1), mix64(key + 2)};
+    const ScrambleTrees trees{mix64(key + 1), mix64(key + 2)};
     CurveWalk walk(key);
-    const auto all = [&](const auto& scramble_x, const auto& scramble_y) {
-        for (Vec2* next = out.data(); const SampleRun& run : runs) {
-            points(run, pair, key, walk, scramble_x, scramble_y, next);
-            next += run.count;
-        }
+    std::array<std::uint64_t, 128> numbers;  // in the sequence
+    std::size_t waiting = 0;
+    Vec2* next = out.data();
+    const auto write = [&] {
+        scrambled_points(trees, std::span(numbers).first(waiting), next);
+        next += waiting;
+        waiting = 0;
     };
-    if (out.size() >= kManyPoints) {
-        all(NestedScrambles<kScrambledDigits>(trees[0]),
-            NestedScrambles<kScrambledDigits>(trees[1]));
-    } else {
-        const auto one = [&](std::uint64_t tree) {
-            return [tree](std::uint64_t digits) {
-                return nested_scramble<kScrambledDigits>(tree, digits);
-            };
-        };
-        all(one(trees[0]), one(trees[1]));
+    for (const SampleRun& run : runs) {
+        const std::uint64_t place = std::uint64_t{walk.place(run.pixel)} << sample_bits_;
+        ShuffledNumbers shuffled(run.first, pair > 0 ? sample_bits_ : 0,
+                                 mix64(key ^ mix64(run.pixel.id())));
+        for (std::uint32_t k = 0; k < run.count; ++k) {
+            numbers[waiting++] = place | shuffled.next();
+            if (waiting == numbers.size()) write();
+        }
     }
+    write();
 }
 
 }  // namespace alhazen

@@ -30,11 +30,6 @@ class SobolSampler final : public Sampler {
 
   private:
     class CurveWalk;
-    /// `scramble_x`, `scramble_y`: the nested scrambling of each dimension.
-    template <class ScrambleX, class ScrambleY>
-    void points(const SampleRun& run, std::uint32_t pair, std::uint64_t key, CurveWalk& walk,
-                const ScrambleX& scramble_x, const ScrambleY& scramble_y, Vec2* out) const;
-
     std::uint64_t key_;
     int sample_bits_;
 };
