@@ -25,6 +25,9 @@ class MediumStack {
   public:
     static constexpr std::size_t kMost = 8;
 
+    /// Not defaulted: the room for media would be zeroed first.
+    MediumStack() {}  // NOLINT(modernize-use-equals-default)
+
     [[nodiscard]] bool empty() const { return media_.empty(); }
     /// Null outside all volumes.
     [[nodiscard]] const Medium* here() const {

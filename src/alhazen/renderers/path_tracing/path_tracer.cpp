@@ -39,7 +39,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     if (chance_.is_spectral()) waves_.assign(rays.size(), {});
     polarized_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        EyePath& path = paths_[i] = EyePath{};
+        EyePath& path = paths_[i] = EyePath();
         path.sample = i;
         alive_.push_back(i);
         path.time = camera_.time(chance_, ids[i]);

@@ -22,6 +22,9 @@ namespace alhazen {
 
 /// A path so far, and the ray that continues it.
 struct EyePath {
+    /// Not defaulted: all of it would be zeroed first.
+    EyePath() {}  // NOLINT(modernize-use-equals-default)
+
     // Read by VisibleBatch.
     RayKind kind = RayKind::Eye;
     bool inside = false;
