@@ -107,17 +107,14 @@ RayMask PrimitiveTable::visible_to(PrimitiveId id) const {
 
 const PlacedMesh& PrimitiveTable::mesh_of(std::uint32_t triangle) const {
     if (meshes.size() == 1) return meshes.front();
-    constexpr std::size_t kFew = 32;
-    std::size_t after = 0;
-    if (meshes.size() <= kFew) {
-        // Without a branch that depends on the triangle.
-        for (const std::uint32_t start : mesh_starts_) after += start <= triangle;
-    } else {
-        after = static_cast<std::size_t>(
-            std::upper_bound(mesh_starts_.begin(), mesh_starts_.end(), triangle) -
-            mesh_starts_.begin());
+    // By halves, without a branch that depends on the triangle.
+    const std::uint32_t* found = mesh_starts_.data();
+    for (std::size_t left = mesh_starts_.size(); left > 1;) {
+        const std::size_t half = left / 2;
+        found += found[half] <= triangle ? half : 0;
+        left -= half;
     }
-    return meshes[after - 1];
+    return meshes[static_cast<std::size_t>(found - mesh_starts_.data())];
 }
 
 std::array<Vec3, 3> PrimitiveTable::triangle_vertices(std::uint32_t triangle) const {

@@ -175,7 +175,9 @@ void triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hi
     // 0.
     double reach = 0.0;
     for (const std::uint32_t corner : corners) {
-        reach = std::fmax(reach, max_component(abs(mesh.positions[corner] - surface.point)));
+        // Comparisons, for fmax is a call.
+        const Vec3 away = abs(mesh.positions[corner] - surface.point);
+        for (int k = 0; k < 3; ++k) reach = away[k] > reach ? away[k] : reach;
     }
     const double rounding = 12 * kEpsilon * reach;
     surface.error += Vec3{rounding, rounding, rounding};

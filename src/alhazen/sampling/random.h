@@ -23,10 +23,17 @@ constexpr double unit_double(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
+/// What the numbers of a sample have in common.
+constexpr std::uint64_t random_key(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample) {
+    return mix64(mix64(mix64(seed) ^ pixel) ^ sample);
+}
+constexpr double random_at(std::uint64_t key, std::uint64_t dimension) {
+    return unit_double(mix64(key ^ dimension));
+}
 /// Uniform in [0, 1) from the coordinates of a sample.
 constexpr double random_at(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample,
                            std::uint64_t dimension) {
-    return unit_double(mix64(mix64(mix64(mix64(seed) ^ pixel) ^ sample) ^ dimension));
+    return random_at(random_key(seed, pixel, sample), dimension);
 }
 
 /// A sequence of random numbers for tests and checks.

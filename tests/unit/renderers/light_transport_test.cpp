@@ -9,6 +9,7 @@
 
 #include "alhazen/renderers/bidirectional/path_weight.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/light_transport/bsdf_cache.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
@@ -53,6 +54,40 @@ TEST(LightTransport, PunctualLightsShowWhatWhittedShows) {
     const Rgb paths = mean_of(picture_of(scene, "path_tracing", 4, 256));
     EXPECT_NEAR(paths.r, direct.r, 0.01 * direct.r);
     EXPECT_NEAR(paths.b, direct.b, 0.01 * direct.b);
+}
+
+TEST(LightTransport, KeptBsdfsAreThoseOfTheirMaterials) {
+    SceneMaker maker = floor_from_above(0.2);
+    std::vector<MaterialId> ids;
+    for (int i = 0; i < 50; ++i) {
+        Material m;
+        m.diffuse.color = {0.01 * i, 0.5, 0.3};
+        if (i % 2 == 1) m.dielectric.emplace();
+        m.index.value = 1.0 + 0.02 * i;
+        ids.push_back(maker.material(m));
+    }
+    const Scene scene = maker.compile();
+    BsdfCache kept(scene);
+    RandomStream random(4);
+    const Vec3 view = normalize(Vec3{0.3, 0.2, 0.8});
+    for (int n = 0; n < 2000; ++n) {
+        const MaterialId id = ids[random.below(n % 3 == 0 ? 50 : 4)];
+        const BsdfPlace place{.eta = random.below(2) == 0 ? 0.0 : 1.0 + 0.1 * (n % 4),
+                              .from_inside = random.below(2) == 0};
+        const Bsdf* const found = kept.find(id, place);
+        ASSERT_NE(found, nullptr);
+        const Bsdf made = bsdf_of(scene.materials[static_cast<std::size_t>(id)], {}, {}, place);
+        const Vec2 u{random.uniform(), random.uniform()};
+        const double choice = random.uniform();
+        const auto drawn = found->sample(view, choice, u, Transport::Radiance);
+        const auto own = made.sample(view, choice, u, Transport::Radiance);
+        ASSERT_EQ(drawn.has_value(), own.has_value());
+        if (!drawn) continue;
+        EXPECT_EQ(drawn->direction, own->direction);
+        EXPECT_EQ(drawn->weight, own->weight);
+    }
+    const Wavelengths waves = Wavelengths::drawn(0.5);
+    EXPECT_EQ(kept.find(ids[0], {.waves = waves}), nullptr);
 }
 
 /// A closed sphere of albedo a that glows with e shows e / (1 - a) everywhere.

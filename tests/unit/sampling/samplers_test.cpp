@@ -10,8 +10,11 @@
 
 #include "alhazen/sampling/analysis/discrepancy.h"
 #include "alhazen/sampling/analysis/periodogram.h"
+#include "alhazen/sampling/nested_scramble.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/sampling/samplers/point_sets.h"
 #include "alhazen/sampling/samplers/sampler.h"
+#include "alhazen/sampling/samplers/sobol_points.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -55,6 +58,83 @@ TEST(Samplers, GiveTheSameValuesInAnyPiecesAndOrder) {
                         << entry.name;
                 }
             }
+        }
+    }
+}
+
+TEST(Samplers, GiveRunsOfManyPixelsTheValuesOfEach) {
+    for (const SamplerEntry& entry : samplers()) {
+        for (const std::uint32_t count : {1u, 5u, 16u, 1u << 17}) {
+            if (count > 16 && !entry.progressive) continue;
+            const auto sampler = entry.make(7, count);
+            // Neighbours, jumps, a pixel twice, parts of sets; enough for the ways of many points.
+            std::vector<SampleRun> runs;
+            for (int i = 0; i < 60; ++i) {
+                const SamplePixel pixel{i < 40 ? i % 8 : 65535 - 97 * i, i < 40 ? i / 8 : i * i};
+                const std::uint32_t first = count > 16 ? 977u * static_cast<std::uint32_t>(i) : 0u;
+                const std::uint32_t skipped = i % 3 == 0 ? 0 : std::min(count - 1, 2u);
+                runs.push_back({pixel, first + skipped, std::min(count - skipped, 37u)});
+                if (i % 7 == 0) runs.push_back(runs.back());
+            }
+            std::size_t size = 0;
+            for (const SampleRun& run : runs) size += run.count;
+            for (const std::uint32_t pair : {0u, 2u, 40u}) {
+                std::vector<Vec2> points(size);
+                sampler->points_of(runs, pair, points);
+                for (std::size_t next = 0; const SampleRun& run : runs) {
+                    for (std::uint32_t k = 0; k < run.count; ++k) {
+                        EXPECT_EQ(points[next++], sampler->at(run.pixel, pair, run.first + k))
+                            << entry.name << " " << run.first + k << " of " << count;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Samplers, PointsInLanesAreThoseOneByOne) {
+    std::vector<std::uint64_t> numbers;
+    for (std::uint64_t i = 0; i < 503; ++i) numbers.push_back(i < 8 ? i - 4 : mix64(i) >> i % 64);
+    for (std::uint64_t tree = 0; tree < 20; ++tree) {
+        const ScrambleTrees trees{mix64(tree), mix64(tree + 100)};
+        for (const std::size_t count :
+             {std::size_t{0}, std::size_t{1}, std::size_t{6}, numbers.size()}) {
+            std::vector<Vec2> lanes(count), alone(count);
+            scrambled_points(trees, std::span(numbers).first(count), lanes.data());
+            scrambled_points_one_by_one(trees, std::span(numbers).first(count), alone.data());
+            EXPECT_EQ(lanes, alone);
+        }
+    }
+}
+
+TEST(Samplers, SobolsSecondDimensionIsPascalsTriangle) {
+    // Digit j of number i is the sum of the binomials (k over j) of the bits k of i, modulo two;
+    // the digits of the scrambled point are those, by nested_scramble.
+    std::uint64_t column = std::uint64_t{1} << 63;
+    for (int bit = 0; bit < 64; ++bit) {
+        const std::uint64_t number = std::uint64_t{1} << bit;
+        Vec2 point;
+        scrambled_points_one_by_one({3, 4}, {&number, 1}, &point);
+        EXPECT_EQ(point.y, nested_scramble<kSobolScrambledDigits>(4, column)) << bit;
+        EXPECT_EQ(point.x,
+                  nested_scramble<kSobolScrambledDigits>(3, std::uint64_t{1} << (63 - bit)));
+        column ^= column >> 1;
+    }
+}
+
+TEST(Samplers, NestedScramblesFlipEachDigitByTheDigitsAbove) {
+    // Six digits: the flip of a digit is the bit of its node in a tree whose root is 1.
+    for (std::uint64_t tree = 0; tree < 50; ++tree) {
+        const std::uint64_t flips = mix64(tree ^ std::uint64_t{1} << 32);
+        for (std::uint32_t six = 0; six < 64; ++six) {
+            std::uint32_t expected = 0, node = 1;
+            for (int bit = 5; bit >= 0; --bit) {
+                const std::uint32_t digit = six >> bit & 1u;
+                expected = expected << 1 | (digit ^ static_cast<std::uint32_t>(flips >> node & 1u));
+                node = 2 * node + digit;
+            }
+            const double scrambled = nested_scramble<6>(tree, std::uint64_t{six} << 58);
+            EXPECT_EQ(static_cast<std::uint32_t>(scrambled * 64.0), expected);
         }
     }
 }

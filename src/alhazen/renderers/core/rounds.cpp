@@ -68,9 +68,21 @@ class RoundRender {
     [[nodiscard]] std::uint32_t next_count() const {
         if (!plan_.has_rounds()) return most_;
         std::uint32_t count = std::max(samples_, plan_.seconds ? 1u : kLeastSamples / 2);
-        // Smaller steps use the time better.
-        if (plan_.seconds && samples_ >= 4) count = std::bit_floor(samples_) / 4;
+        if (plan_.seconds && samples_ > 0) count = count_in_time();
         return std::min(count, most_ - samples_);
+    }
+
+    /// The largest power of two, up to the next doubling, for which there is time.
+    [[nodiscard]] std::uint32_t count_in_time() const {
+        const std::uint32_t doubled = std::bit_ceil(samples_ + 1);
+        std::uint32_t count = std::bit_floor(doubled - samples_);
+        while (count > 1 && !has_time_for(count)) count /= 2;
+        return count;
+    }
+    [[nodiscard]] bool has_time_for(std::uint32_t count) const {
+        const double spent = std::chrono::duration<double>(RoundClock::now() - begin_).count();
+        const double work = static_cast<double>(count) * static_cast<double>(wanting_);
+        return spent + last_seconds_ * work / last_work_ <= *plan_.seconds;
     }
 
     RenderReport render_round() {
@@ -168,9 +180,7 @@ class RoundRender {
     [[nodiscard]] bool is_done() {
         if (samples_ >= most_ || wanting_ == 0) return true;
         if (!plan_.seconds) return false;
-        const double spent = std::chrono::duration<double>(RoundClock::now() - begin_).count();
-        const double work = static_cast<double>(next_count()) * static_cast<double>(wanting_);
-        report_.out_of_time = spent + last_seconds_ * work / last_work_ > *plan_.seconds;
+        report_.out_of_time = !has_time_for(next_count());
         return report_.out_of_time;
     }
 

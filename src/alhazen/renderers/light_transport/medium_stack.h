@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "alhazen/base/inline_vector.h"
+#include "alhazen/base/unmade.h"
 #include "alhazen/imaging/image/rgb.h"
 
 namespace alhazen {
@@ -24,14 +25,19 @@ class MediumStack {
   public:
     static constexpr std::size_t kMost = 8;
 
+    /// Not defaulted: the room for media would be zeroed first.
+    MediumStack() {}  // NOLINT(modernize-use-equals-default)
+
     [[nodiscard]] bool empty() const { return media_.empty(); }
     /// Null outside all volumes.
-    [[nodiscard]] const Medium* here() const { return media_.empty() ? nullptr : &media_.back(); }
+    [[nodiscard]] const Medium* here() const {
+        return media_.empty() ? nullptr : &media_.back().value;
+    }
     /// The medium where the volume has been left; null outside.
     [[nodiscard]] const Medium* without(const Medium& volume) const {
         const std::size_t left = place_of(volume);
         for (std::size_t i = media_.size(); i-- > 0;) {
-            if (i != left) return &media_[i];
+            if (i != left) return &media_[i].value;
         }
         return nullptr;
     }
@@ -47,10 +53,10 @@ class MediumStack {
   private:
     [[nodiscard]] std::size_t place_of(const Medium& volume) const {
         for (std::size_t i = media_.size(); i-- > 0;) {
-            if (media_[i].part == volume.part) return i;
+            if (media_[i].value.part == volume.part) return i;
         }
         for (std::size_t i = media_.size(); i-- > 0;) {
-            if (media_[i].material == volume.material) return i;
+            if (media_[i].value.material == volume.material) return i;
         }
         return media_.size();
     }
@@ -59,7 +65,7 @@ class MediumStack {
         media_.pop_back();
     }
 
-    InlineVector<Medium, kMost> media_;
+    InlineVector<Unmade<Medium>, kMost> media_;
 };
 
 }  // namespace alhazen

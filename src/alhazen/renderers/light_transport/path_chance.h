@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/sample_draws.h"
@@ -34,17 +35,18 @@ class PathChance {
     void begin(std::span<const SampleId> ids) {
         ids_ = ids;
         draws_.begin(ids);
+        keys_.clear();
     }
+    /// `left`: the samples of the batch that ask `draw` and `waves` from now on.
+    void keep(std::span<const std::uint32_t> left) { draws_.keep(left); }
     [[nodiscard]] Vec2 draw(std::uint32_t sample, int bounce, BouncePair pair) {
         const std::uint32_t p = pair_of(bounce, pair);
-        return p < kByHash ? draws_.at(sample, p) : draw(ids_[sample], p);
+        return p < kByHash ? draws_.at(sample, p) : by_hash(key_of(sample), p);
     }
 
     [[nodiscard]] Vec2 draw(const SampleId& id, std::uint32_t pair) const {
         if (pair < kByHash) return sampler_.at(id.pixel, pair, id.number);
-        const std::uint64_t pixel = id.pixel.id();
-        return {random_at(seed_, pixel, id.number, 2 * std::uint64_t{pair}),
-                random_at(seed_, pixel, id.number, 2 * std::uint64_t{pair} + 1)};
+        return by_hash(random_key(seed_, id.pixel.id(), id.number), pair);
     }
     [[nodiscard]] Vec2 draw(const SampleId& id, int bounce, BouncePair pair) const {
         return draw(id, pair_of(bounce, pair));
@@ -87,11 +89,26 @@ class PathChance {
         return kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair;
     }
 
+    [[nodiscard]] static Vec2 by_hash(std::uint64_t key, std::uint32_t pair) {
+        return {random_at(key, 2 * std::uint64_t{pair}),
+                random_at(key, 2 * std::uint64_t{pair} + 1)};
+    }
+    /// Of a sample of the batch.
+    [[nodiscard]] std::uint64_t key_of(std::uint32_t sample) {
+        if (keys_.empty()) {
+            for (const SampleId& id : ids_) {
+                keys_.push_back(random_key(seed_, id.pixel.id(), id.number));
+            }
+        }
+        return keys_[sample];
+    }
+
     const Sampler& sampler_;
     std::uint64_t seed_;
     bool spectral_;
     SampleDraws draws_;
     std::span<const SampleId> ids_;
+    std::vector<std::uint64_t> keys_;  ///< [sample of the batch] of its hashes; empty: none asked
 };
 
 }  // namespace alhazen

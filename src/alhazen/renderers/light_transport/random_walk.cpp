@@ -15,8 +15,8 @@ bool RandomWalk::find(Ray& ray, const WalkLuck& luck, float time, bool inside) {
         hit_ = Hit();
         if (!scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), time})) return false;
         ++counters_[kind_].hit;
-        set_shading_point(scene_, ray, hit_, {inside, 0.0, time, kind_ != RayKind::Eye}, {},
-                          point_);
+        set_shading_point(scene_, ray, hit_, {inside, 0.0, time, kind_ != RayKind::Eye},
+                          {.constant = &constant_}, point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (luck.chance.stops(luck.id, luck.first_pair << 16 | met_++, point_.material->coverage)) {
@@ -85,7 +85,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
                 }
             }
         }
-        v.scatter.set(scene_, point_, media, waves, true);
+        v.scatter.set(scene_, point_, media, waves, true, &bsdfs_);
         if (v.scatter.needs_hero()) {
             waves.keep_hero(throughput);
             v.throughput = throughput;

@@ -19,6 +19,9 @@ namespace alhazen {
 
 /// A surface where a subpath scatters, or where it ends at a light.
 struct PathVertex {
+    /// Not defaulted: all of it, which is large, would be zeroed first.
+    PathVertex() {}  // NOLINT(modernize-use-equals-default)
+
     ShapeSurface surface;
     ScatterPoint scatter;
     Spectrum throughput;     ///< of the path up to the vertex
@@ -63,7 +66,12 @@ class RandomWalk {
   public:
     RandomWalk(const Scene& scene, const Illumination& lights, RayCounters& counters,
                TraversalStats* stats)
-        : scene_(scene), lights_(lights), counters_(counters), stats_(stats) {}
+        : scene_(scene),
+          lights_(lights),
+          counters_(counters),
+          stats_(stats),
+          constant_(scene),
+          bsdfs_(scene) {}
 
     /// Sets `vertices`. A path from the eye that leaves the scene sets `escaped`; its direction and
     /// density by solid angle are those of the last ray.
@@ -86,6 +94,8 @@ class RandomWalk {
     const Illumination& lights_;
     RayCounters& counters_;
     TraversalStats* stats_;
+    MaterialCache constant_;
+    BsdfCache bsdfs_;
     ShadingPoint point_;
     Hit hit_;
     double travelled_ = 0;  ///< since the last vertex

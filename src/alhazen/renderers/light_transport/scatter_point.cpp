@@ -12,24 +12,33 @@ std::uint64_t part_of(const Surface& surface) {
     return std::uint64_t{surface.instance} << 32 | surface.part;
 }
 
-/// The BSDF at the point; of blended materials their weighted sum.
-Bsdf bsdf_at(const Scene& scene, const Surface& surface, const BsdfPlace& place) {
+/// Sets the BSDF at the point; of blended materials their weighted sum.
+void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, BsdfCache* known,
+              Bsdf& bsdf) {
+    if (known != nullptr && !surface.has_extras) {
+        if (const Bsdf* const shared = known->find(surface.materials[0], place)) {
+            bsdf = *shared;
+            return;
+        }
+    }
     const SurfaceLookup lookup{
         {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
     const auto of = [&](std::size_t i) {
         return bsdf_of(scene.materials[static_cast<std::size_t>(surface.materials[i])],
                        scene.textures, lookup, place);
     };
-    if (surface.material_count == 1) return of(0);
-    Bsdf sum;
-    for (std::size_t i = 0; i < 3; ++i) sum.add(of(i), surface.weights[i]);
-    return sum;
+    if (surface.material_count == 1) {
+        bsdf = of(0);
+        return;
+    }
+    bsdf = {};
+    for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
 }
 
 }  // namespace
 
 void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-                       const Wavelengths& waves, bool both_ways) {
+                       const Wavelengths& waves, bool both_ways, BsdfCache* known) {
     const Surface& surface = point.surface;
     const MaterialSample& material = *point.material;
     geometric_ = point.geometric;
@@ -56,18 +65,18 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
                     .from_inside = !entering_,
                     .etas = disperses ? &all : nullptr,
                     .waves = waves};
-    bsdf_ = bsdf_at(scene, surface, place);
+    set_bsdf(scene, surface, place, known, bsdf_);
     needs_hero_ = disperses && bsdf_.has_rough_boundary();
     if (needs_hero_) {
         place.etas = nullptr;
-        bsdf_ = bsdf_at(scene, surface, place);
+        set_bsdf(scene, surface, place, known, bsdf_);
     }
     from_behind_.reset();
     if (!both_ways || !bsdf_.has_density() || !bsdf_.transmits()) return;
     place.etas = nullptr;
     place.from_inside = entering_;
     if (place.eta > 0.0) place.eta = 1.0 / place.eta;
-    from_behind_ = bsdf_at(scene, surface, place);
+    set_bsdf(scene, surface, place, known, from_behind_.emplace());
 }
 
 Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const MediumStack& media,

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/light_transport/bsdf_cache.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/renderers/light_transport/shading_frame.h"
 #include "alhazen/shading/bsdf/bsdf.h"
@@ -31,8 +32,9 @@ struct Scattered {
 class ScatterPoint {
   public:
     /// `media`: around the path before the surface. `both_ways`: `reverse_density` will be asked.
+    /// `known`: BSDFs that many points share; null: there are none.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-             const Wavelengths& waves, bool both_ways = false);
+             const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr);
 
     /// Whether the point is that of the hero alone: Wavelengths::keep_hero is due before anything
     /// is asked.

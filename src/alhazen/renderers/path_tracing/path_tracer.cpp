@@ -22,6 +22,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+      bsdfs_(scene_),
       media_(scene_),
       layers_(layers),
       manifold_(manifold) {
@@ -32,13 +33,15 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
                                std::span<Rgb> radiance) {
     ids_ = ids;
     chance_.begin(ids);
-    paths_.clear();
+    paths_.resize(rays.size());
+    alive_.clear();
     rays_.clear();
     if (chance_.is_spectral()) waves_.assign(rays.size(), {});
     polarized_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        EyePath& path = paths_.emplace_back();
+        EyePath& path = paths_[i] = EyePath();
         path.sample = i;
+        alive_.push_back(i);
         path.time = camera_.time(chance_, ids[i]);
         path.cone = job_.cone;
         path.media = camera_.media();
@@ -52,7 +55,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     light_.assign(rays.size(), {});
     begin_record();
     if (layers_ != nullptr) parts_.assign(rays.size(), {});
-    for (bool first = true; !paths_.empty(); first = false) {
+    for (bool first = true; !alive_.empty(); first = false) {
         if (job_.stop_requested()) return;
         bounce(first);
     }
@@ -111,17 +114,17 @@ void PathTracer::record_arrival() {
 }
 
 void PathTracer::bounce(bool first) {
-    next_paths_.clear();
+    next_alive_.clear();
     next_rays_.clear();
     joined_.clear();
-    joined_.reserve(joins_apart() ? paths_.size() : 0);
+    joined_.reserve(joins_apart() ? alive_.size() : 0);
     joined_to_eye_.clear();
-    for (const EyePath& path : paths_) ++counters_[path.kind].cast;
+    for (const std::uint32_t i : alive_) ++counters_[paths_[i].kind].cast;
     visible_.find(
         rays_, first ? Coherence::Coherent : Coherence::Any,
-        [&](std::size_t k) -> const EyePath& { return paths_[k]; },
+        [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },
         [&](std::size_t k, const ShadingPoint* point, double t) {
-            EyePath& path = paths_[k];
+            EyePath& path = paths_[alive_[k]];
             Spectrum& sum = light_[path.sample];
             if (path.sample == recorded_) record_ray(path, rays_[k], point, t);
             if (point == nullptr) {
@@ -137,8 +140,9 @@ void PathTracer::bounce(bool first) {
     shadows_.finish();
     if (recorded_ != kNoSample) record_arrival();
     if (joins_apart()) add_joined();
-    paths_.swap(next_paths_);
+    alive_.swap(next_alive_);
     rays_.swap(next_rays_);
+    chance_.keep(alive_);
 }
 
 void PathTracer::add(const EyePath& path, const Spectrum& light, Spectrum& sum) {
@@ -238,7 +242,7 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }
-    scatter_.set(scene_, point, path.media, waves(path));
+    scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
     if (scatter_.needs_hero()) keep_hero(path);
     if (scatter_.has_density()) {
         add_direct_light(path, point, sum);
@@ -276,9 +280,12 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
         weight *= power_heuristic(drawn.density, scatter_.density(drawn.to_light));
     }
     light = path.throughput * (weight * light);
-    MediumStack media = path.media;
-    if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
-    const Medium* const medium = media.here();
+    const Medium* medium = path.media.here();
+    if (dot(drawn.to_light, scatter_.geometric()) < 0.0) {
+        behind_ = path.media;
+        scatter_.cross(behind_);
+        medium = behind_.here();
+    }
     const Ray shadow = leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance);
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
     Spectrum* const waiting = record_shadow(path, shadow, shown);

@@ -22,6 +22,9 @@ namespace alhazen {
 
 /// A path so far, and the ray that continues it.
 struct EyePath {
+    /// Not defaulted: all of it would be zeroed first.
+    EyePath() {}  // NOLINT(modernize-use-equals-default)
+
     // Read by VisibleBatch.
     RayKind kind = RayKind::Eye;
     bool inside = false;
@@ -111,7 +114,7 @@ class PathTracer {
     [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
     [[nodiscard]] bool survives(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
-        next_paths_.push_back(path);
+        next_alive_.push_back(path.sample);
         next_rays_.push_back(ray);
     }
     /// Of a sample; drawn when they are asked for: paths that find nothing have none.
@@ -144,8 +147,10 @@ class PathTracer {
     CameraRays camera_;
     VisibleBatch visible_;
     LightBatch shadows_;
+    BsdfCache bsdfs_;
     ScatterPoint scatter_;
     ScatteringMedia media_;
+    MediumStack behind_;             ///< the surface at hand
     LightLayers* layers_;            ///< null: none is wanted
     const ManifoldScene* manifold_;  ///< null: no chains are sought
     std::optional<ManifoldLight> chains_;
@@ -159,8 +164,9 @@ class PathTracer {
     Spectrum recorded_arrival_;
     std::vector<Wavelengths> waves_;  ///< [sample of the batch]; of channels: not yet drawn
     std::vector<Spectrum> light_;     ///< [sample of the batch]
-    std::vector<EyePath> paths_, next_paths_;
-    std::vector<Ray> rays_, next_rays_;
+    std::vector<EyePath> paths_;      ///< [sample of the batch]
+    std::vector<std::uint32_t> alive_, next_alive_;  ///< samples of the batch whose paths go on
+    std::vector<Ray> rays_, next_rays_;              ///< [alive]
 };
 
 }  // namespace alhazen

@@ -9,6 +9,7 @@
 /// others each set of `count` samples is drawn anew. Threads: all functions may be called from
 /// many.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,6 +29,12 @@ struct SamplePixel {
     }
 };
 
+/// Successive samples of a pixel.
+struct SampleRun {
+    SamplePixel pixel;
+    std::uint32_t first = 0, count = 0;
+};
+
 class Sampler {
   public:
     virtual ~Sampler() = default;
@@ -36,6 +43,15 @@ class Sampler {
     /// progressive.
     virtual void points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                         std::span<Vec2> out) const = 0;
+    /// The same of many pixels, one run behind the other. Fastest where successive runs are of
+    /// neighbouring pixels.
+    virtual void points_of(std::span<const SampleRun> runs, std::uint32_t pair,
+                           std::span<Vec2> out) const {
+        for (std::size_t done = 0; const SampleRun& run : runs) {
+            points(run.pixel, pair, run.first, out.subspan(done, run.count));
+            done += run.count;
+        }
+    }
 
     [[nodiscard]] Vec2 at(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t s) const {
         Vec2 p;

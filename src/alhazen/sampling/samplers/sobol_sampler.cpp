@@ -4,39 +4,12 @@
 #include <array>
 #include <bit>
 
-#include "alhazen/sampling/nested_scramble.h"
+#include "alhazen/sampling/random.h"
+#include "alhazen/sampling/samplers/sobol_points.h"
 
 namespace alhazen {
 
 namespace {
-
-/// Two samples of a pixel, or of neighbours, share no more digits.
-constexpr int kScrambledDigits = 24;
-
-/// Columns of the second dimension's matrix: the digits of the powers of two.
-constexpr std::array<std::uint64_t, 64> kSecond = [] {
-    std::array<std::uint64_t, 64> v{};
-    v[0] = std::uint64_t{1} << 63;
-    for (std::size_t i = 1; i < v.size(); ++i) v[i] = v[i - 1] ^ (v[i - 1] >> 1);
-    return v;
-}();
-
-std::uint64_t second_digits(std::uint64_t index) {
-    std::uint64_t x = 0;
-    for (; index != 0; index &= index - 1) {
-        x ^= kSecond[static_cast<std::size_t>(std::countr_zero(index))];
-    }
-    return x;
-}
-
-std::uint64_t reversed_bits(std::uint64_t x) {
-    x = (x >> 32) | (x << 32);
-    x = ((x >> 16) & 0x0000FFFF0000FFFFu) | ((x & 0x0000FFFF0000FFFFu) << 16);
-    x = ((x >> 8) & 0x00FF00FF00FF00FFu) | ((x & 0x00FF00FF00FF00FFu) << 8);
-    x = ((x >> 4) & 0x0F0F0F0F0F0F0F0Fu) | ((x & 0x0F0F0F0F0F0F0F0Fu) << 4);
-    x = ((x >> 2) & 0x3333333333333333u) | ((x & 0x3333333333333333u) << 2);
-    return ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
-}
 
 /// The bit of each of the four quadrants goes where the permutation says: all 24, two bits each.
 constexpr std::array<std::uint8_t, 24> kOrders = [] {
@@ -54,52 +27,109 @@ constexpr std::array<std::uint8_t, 24> kOrders = [] {
     return orders;
 }();
 
-/// Bits [least, bits) of the number of a sample, flipped by hashes of the bits above: each first
-/// 2^k numbers stay an aligned block.
-std::uint32_t shuffled_number(std::uint32_t s, int bits, int least, std::uint64_t key) {
-    std::uint32_t out = 0;
-    for (int bit = bits - 1; bit >= least; --bit) {
-        const std::uint64_t above = std::uint64_t{s >> bit >> 1} | std::uint64_t(bit + 1) << 32;
-        out |= (((s >> bit) & 1u) ^ static_cast<std::uint32_t>(mix64(key ^ above) >> 63)) << bit;
-    }
-    return out;
+/// The flip of a bit of the number of a sample, by a hash of the bits above.
+std::uint32_t flip_of(std::uint32_t s, int bit, std::uint64_t key) {
+    const std::uint64_t above = std::uint64_t{s >> bit >> 1} | std::uint64_t(bit + 1) << 32;
+    return static_cast<std::uint32_t>(mix64(key ^ above) >> 63) << bit;
 }
+
+/// Numbers of samples, each bit flipped by a hash of the bits above: each first 2^k numbers stay an
+/// aligned block. Of successive numbers only flips of changed bits are hashed again.
+class ShuffledNumbers {
+  public:
+    ShuffledNumbers(std::uint32_t first, int bits, std::uint64_t key) : key_(key), next_(first) {
+        for (int bit = 0; bit < bits; ++bit) flips_ |= flip_of(first, bit, key);
+        bits_ = bits;
+    }
+    [[nodiscard]] std::uint32_t next() {
+        const std::uint32_t shuffled = next_ ^ flips_;
+        ++next_;
+        // Those below the lowest bit that became one.
+        for (int bit = std::min(std::countr_zero(next_), bits_) - 1; bit >= 0; --bit) {
+            flips_ = (flips_ & ~(1u << bit)) | flip_of(next_, bit, key_);
+        }
+        return shuffled;
+    }
+
+  private:
+    std::uint64_t key_;
+    std::uint32_t next_, flips_ = 0;
+    int bits_ = 0;
+};
 
 }  // namespace
 
 SobolSampler::SobolSampler(std::uint64_t seed, std::uint32_t count)
     : key_(mix64(seed)), sample_bits_(std::bit_width(count - 1)) {}
 
-std::uint32_t SobolSampler::curve_place(const SamplePixel& pixel, std::uint64_t key) {
-    const auto x = static_cast<std::uint32_t>(pixel.x), y = static_cast<std::uint32_t>(pixel.y);
-    std::uint32_t place = 0;
-    std::uint64_t above = 1;  // the quadrants so far, behind a one that tells their number
-    for (int bit = 15; bit >= 0; --bit) {
-        const unsigned quadrant = ((x >> bit) & 1u) | ((y >> bit) & 1u) << 1;
-        const std::uint64_t order = (mix64(key ^ above) >> 32) % kOrders.size();
-        place = place << 2 | ((unsigned{kOrders[order]} >> (2 * quadrant)) & 3u);
-        above = above << 2 | quadrant;
+/// The places of pixels on the curve: of a pixel near the last one only the digits that differ are
+/// found.
+class SobolSampler::CurveWalk {
+  public:
+    explicit CurveWalk(std::uint64_t key) : key_(key) {}
+
+    [[nodiscard]] std::uint32_t place(const SamplePixel& pixel) {
+        const auto x = static_cast<std::uint32_t>(pixel.x), y = static_cast<std::uint32_t>(pixel.y);
+        const int known = std::bit_width((x ^ x_) | (y ^ y_));
+        const int from = began_ ? known : kBits;
+        place_ >>= 2 * from;
+        above_ >>= 2 * from;
+        for (int bit = from - 1; bit >= 0; --bit) {
+            const unsigned quadrant = ((x >> bit) & 1u) | ((y >> bit) & 1u) << 1;
+            const std::uint64_t order = (mix64(key_ ^ above_) >> 32) % kOrders.size();
+            place_ = place_ << 2 | ((unsigned{kOrders[order]} >> (2 * quadrant)) & 3u);
+            above_ = above_ << 2 | quadrant;
+        }
+        x_ = x;
+        y_ = y;
+        began_ = true;
+        return static_cast<std::uint32_t>(place_);
     }
-    return place;
+
+  private:
+    static constexpr int kBits = 16;
+
+    std::uint64_t key_;
+    std::uint64_t place_ = 0;
+    /// The quadrants of the last pixel, behind a one that tells their number.
+    std::uint64_t above_ = std::uint64_t{1} << (2 * kBits);
+    std::uint32_t x_ = 0, y_ = 0;
+    bool began_ = false;
+};
+
+std::uint32_t SobolSampler::curve_place(const SamplePixel& pixel, std::uint64_t key) {
+    return CurveWalk(key).place(pixel);
 }
 
 void SobolSampler::points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                           std::span<Vec2> out) const {
+    const SampleRun run{pixel, first, static_cast<std::uint32_t>(out.size())};
+    points_of({&run, 1}, pair, out);
+}
+
+void SobolSampler::points_of(std::span<const SampleRun> runs, std::uint32_t pair,
+                             std::span<Vec2> out) const {
     const std::uint64_t key = mix64(key_ ^ pair);
-    const std::uint64_t trees[] = {mix64(key + 1), mix64(key + 2)};
-    const std::uint64_t place = std::uint64_t{curve_place(pixel, key)} << sample_bits_;
-    const std::uint64_t order = mix64(key ^ mix64(pixel.id()));
-    const std::uint64_t second = second_digits(place);
-    // Bits that are zero in all of these numbers are flipped alike.
-    const auto end = static_cast<std::uint32_t>(first + out.size());
-    const int low = std::min(sample_bits_, static_cast<int>(std::bit_width(end - 1)));
-    const std::uint32_t high = pair > 0 ? shuffled_number(0, sample_bits_, low, order) : 0;
-    for (std::uint32_t k = 0; k < out.size(); ++k) {
-        std::uint32_t s = first + k;
-        if (pair > 0) s = high | shuffled_number(s, low, 0, order);
-        out[k] = {nested_scramble<kScrambledDigits>(trees[0], reversed_bits(place | s)),
-                  nested_scramble<kScrambledDigits>(trees[1], second ^ second_digits(s))};
+    const ScrambleTrees trees{mix64(key + 1), mix64(key + 2)};
+    CurveWalk walk(key);
+    std::array<std::uint64_t, 128> numbers;  // in the sequence
+    std::size_t waiting = 0;
+    Vec2* next = out.data();
+    const auto write = [&] {
+        scrambled_points(trees, std::span(numbers).first(waiting), next);
+        next += waiting;
+        waiting = 0;
+    };
+    for (const SampleRun& run : runs) {
+        const std::uint64_t place = std::uint64_t{walk.place(run.pixel)} << sample_bits_;
+        ShuffledNumbers shuffled(run.first, pair > 0 ? sample_bits_ : 0,
+                                 mix64(key ^ mix64(run.pixel.id())));
+        for (std::uint32_t k = 0; k < run.count; ++k) {
+            numbers[waiting++] = place | shuffled.next();
+            if (waiting == numbers.size()) write();
+        }
     }
+    write();
 }
 
 }  // namespace alhazen

@@ -22,11 +22,14 @@ class SobolSampler final : public Sampler {
     SobolSampler(std::uint64_t seed, std::uint32_t count);
     void points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                 std::span<Vec2> out) const override;
+    void points_of(std::span<const SampleRun> runs, std::uint32_t pair,
+                   std::span<Vec2> out) const override;
 
     /// The place of a pixel on the curve that `key` shuffles.
     [[nodiscard]] static std::uint32_t curve_place(const SamplePixel& pixel, std::uint64_t key);
 
   private:
+    class CurveWalk;
     std::uint64_t key_;
     int sample_bits_;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "alhazen/shading/microfacets/local_directions.h"
+
 namespace alhazen {
 
 namespace {
@@ -57,13 +59,55 @@ void Bsdf::add(const Spectrum& weight, const Lobe& lobe, CoverSet covers) {
     const Part part{weight, covers, lobe};
     if (!parts_.full()) {
         parts_.push_back(part);
+        set_traits();
         return;
     }
     const auto importance = [](const Part& p) {
         return (p.weight * albedo_of(p.lobe, {0, 0, 1})).max();
     };
-    Part* least = std::ranges::min_element(parts_, {}, importance);
+    Unmade<Part>* least = std::ranges::min_element(parts_, {}, importance);
     if (importance(*least) < importance(part)) *least = part;
+    set_traits();
+}
+
+void Bsdf::set_traits() {
+    traits_ = {};
+    for (const Part& part : parts_) {
+        std::visit(
+            [&]<class L>(const L&) {
+                traits_.has_density |= !L::kSingular;
+                traits_.has_singular |= L::kSingular;
+                traits_.transmits |= !L::kSingular && L::kTransmits;
+                traits_.lets_through |= L::kTransmits;
+            },
+            part.lobe);
+    }
+    matt_ = {};
+    chosen_alone_ = is_chosen_alone();
+    const Part& first = parts_[0];
+    const auto* const matt = std::get_if<Lambert>(&first.lobe);
+    if (parts_.size() != 1 || matt == nullptr || first.covers != 0) return;
+    matt_.is = true;
+    const double share = (first.weight * matt->color).max();
+    matt_.is_chosen = share > 0.0 && std::isfinite(share);
+    const Spectrum value = first.weight * ((1.0 / kPi) * matt->color);
+    if (is_usable(value)) matt_.value = value;
+}
+
+bool Bsdf::is_chosen_alone() const {
+    const Part& first = parts_[0];
+    const auto* const rough = std::get_if<RoughReflection>(&first.lobe);
+    if (parts_.size() != 1 || rough == nullptr || first.covers != 0) return false;
+    const auto* const term = std::get_if<SchlickTerm>(&rough->fresnel());
+    if (term == nullptr) return false;
+    const Spectrum f0 = first.weight * term->f0, f90 = first.weight * term->f90;
+    bool some = false, sane = f0.is_finite() && f90.is_finite();
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        sane = sane && f0[i] >= 0.0 && f90[i] >= 0.0;
+        some = some || (f0[i] > 0.0 && f90[i] > 0.0);
+    }
+    // Then the albedo is above 0 and finite for every view.
+    return some && sane;
 }
 
 CoverSet Bsdf::add_cover(const Cover& cover) {
@@ -90,13 +134,18 @@ void Bsdf::add(const Bsdf& other, double weight) {
 double Bsdf::through(CoverSet covers, double cosine) const {
     double share = 1.0;
     for (std::size_t i = 0; covers >> i != 0; ++i) {
-        if ((covers >> i & 1) != 0) share *= covers_[i].transmittance(cosine);
+        if ((covers >> i & 1) != 0) share *= covers_[i].value.transmittance(cosine);
     }
     return share;
 }
 
 Bsdf::Choice Bsdf::choose(const Vec3& view) const {
     Choice choice;
+    if (chosen_alone_) {
+        choice.share[0] = 1.0;
+        choice.any = true;
+        return choice;
+    }
     double sum = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
@@ -128,6 +177,7 @@ Spectrum Bsdf::diffuse_share(const Vec3& view, const Vec3& direction) const {
 Spectrum Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport,
                      bool only_matt) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return {};
+    if (matt_.is) return direction.z > 0.0 ? matt_.value : Spectrum{};
     const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
     Spectrum sum;
     for (const Part& part : parts_) {
@@ -143,7 +193,7 @@ double Bsdf::density(const Choice& choice, const Vec3& view, const Vec3& directi
     double sum = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         if (!(choice.share[i] > 0.0)) continue;
-        const double density = density_of(parts_[i].lobe, view, direction);
+        const double density = density_of(parts_[i].value.lobe, view, direction);
         if (density > 0.0 && std::isfinite(density)) sum += choice.share[i] * density;
     }
     return sum;
@@ -151,6 +201,7 @@ double Bsdf::density(const Choice& choice, const Vec3& view, const Vec3& directi
 
 double Bsdf::density(const Vec3& view, const Vec3& direction) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return 0.0;
+    if (matt_.is) return matt_.is_chosen ? cosine_density(direction) : 0.0;
     const Choice choice = choose(view);
     return choice.any ? density(choice, view, direction) : 0.0;
 }
@@ -158,6 +209,7 @@ double Bsdf::density(const Vec3& view, const Vec3& direction) const {
 std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Vec2& u,
                                        Transport transport) const {
     if (!(view.z > 0.0)) return std::nullopt;
+    if (matt_.is) return sample_matt(u);
     const Choice shares = choose(view);
     if (!shares.any) return std::nullopt;
     std::size_t i = 0;
@@ -173,8 +225,18 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     const double rest = std::clamp((choice - (below - share)) / share, 0.0, 0x1.fffffffffffffp-1);
 
     const Part& part = parts_[i];
-    auto sample =
-        std::visit([&](const auto& l) { return l.sample(view, rest, u, transport); }, part.lobe);
+    // Of a lobe that is not singular the direction is all that is used.
+    auto sample = std::visit(
+        [&]<class L>(const L& l) -> std::optional<BsdfSample> {
+            if constexpr (requires { l.direction(view, rest, u); }) {
+                const std::optional<Vec3> direction = l.direction(view, rest, u);
+                if (!direction) return std::nullopt;
+                return BsdfSample{.direction = *direction};
+            } else {
+                return l.sample(view, rest, u, transport);
+            }
+        },
+        part.lobe);
     if (!sample || sample->direction.z == 0.0) return std::nullopt;
     if (sample->singular) {
         const double cosine =
@@ -190,6 +252,16 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     return sample;
 }
 
+std::optional<BsdfSample> Bsdf::sample_matt(const Vec2& u) const {
+    if (!matt_.is_chosen) return std::nullopt;
+    const Vec3 direction = cosine_direction(u);
+    const double density = cosine_density(direction);
+    if (!(density > 0.0)) return std::nullopt;
+    const Spectrum weight = (direction.z / density) * matt_.value;
+    if (!is_usable(weight)) return std::nullopt;
+    return BsdfSample{direction, weight, density};
+}
+
 Spectrum Bsdf::albedo(const Vec3& view) const {
     if (!(view.z > 0.0)) return {};
     Spectrum sum;
@@ -201,10 +273,6 @@ Spectrum Bsdf::albedo(const Vec3& view) const {
     return sum;
 }
 
-bool Bsdf::has_density() const {
-    return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
-}
-
 std::optional<Spectrum> Bsdf::lambert() const {
     Spectrum sum;
     for (const Part& part : parts_) {
@@ -214,10 +282,6 @@ std::optional<Spectrum> Bsdf::lambert() const {
         sum += part.weight * matt->color;
     }
     return sum;
-}
-
-bool Bsdf::has_singular() const {
-    return std::ranges::any_of(parts_, [](const Part& p) { return is_singular(p.lobe); });
 }
 
 Spectrum Bsdf::straight(const Vec3& view) const {
@@ -234,7 +298,7 @@ double Bsdf::straight_probability(const Vec3& view) const {
     const Choice choice = choose(view);
     double sum = 0;
     for (std::size_t i = 0; choice.any && i < parts_.size(); ++i) {
-        if (std::holds_alternative<ThinSheet>(parts_[i].lobe)) sum += choice.share[i];
+        if (std::holds_alternative<ThinSheet>(parts_[i].value.lobe)) sum += choice.share[i];
     }
     return sum;
 }
@@ -282,21 +346,8 @@ PlaneMueller Bsdf::polarization(const Vec3& view, const Vec3& direction, bool si
     return sum;
 }
 
-bool Bsdf::transmits() const {
-    return std::ranges::any_of(parts_, [](const Part& p) {
-        return std::visit([]<class L>(const L&) { return !L::kSingular && L::kTransmits; }, p.lobe);
-    });
-}
-
 bool Bsdf::has_rough_boundary() const {
     return std::ranges::any_of(
         parts_, [](const Part& p) { return std::holds_alternative<RoughDielectric>(p.lobe); });
 }
-
-bool Bsdf::lets_through() const {
-    return std::ranges::any_of(parts_, [](const Part& p) {
-        return std::visit([]<class L>(const L&) { return L::kTransmits; }, p.lobe);
-    });
-}
-
 }  // namespace alhazen

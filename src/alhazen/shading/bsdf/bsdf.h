@@ -19,6 +19,7 @@
 #include <span>
 
 #include "alhazen/base/inline_vector.h"
+#include "alhazen/base/unmade.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/shading/bsdf/cover.h"
 #include "alhazen/shading/bsdf/lobe.h"
@@ -66,19 +67,19 @@ class Bsdf {
     /// Share of the light from all directions that goes to `view`, or a close approximation.
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
     /// False: only singular lobes, or none: lights need not be sampled.
-    [[nodiscard]] bool has_density() const;
+    [[nodiscard]] bool has_density() const { return traits_.has_density; }
     /// The reflectance where all that is not singular is one matt reflection; else none.
     [[nodiscard]] std::optional<Spectrum> lambert() const;
     /// Whether light comes back or goes on in single directions.
-    [[nodiscard]] bool has_singular() const;
+    [[nodiscard]] bool has_singular() const { return traits_.has_singular; }
     /// What mirrors and smooth glass do with light that goes to `view`, all such lobes together.
     [[nodiscard]] SingularLight singular(const Vec3& view, Transport transport) const;
     /// Whether `value` may be above 0 below the surface.
-    [[nodiscard]] bool transmits() const;
+    [[nodiscard]] bool transmits() const { return traits_.transmits; }
     /// Whether some lobe is a rough boundary between clear media.
     [[nodiscard]] bool has_rough_boundary() const;
     /// Whether some lobe transmits, singular ones too.
-    [[nodiscard]] bool lets_through() const;
+    [[nodiscard]] bool lets_through() const { return traits_.lets_through; }
     /// What it does to polarised light from `direction`: by all singular lobes or by all others, as
     /// `value` weighs them for radiance, over the unpolarised light that they give.
     [[nodiscard]] PlaneMueller polarization(const Vec3& view, const Vec3& direction,
@@ -95,6 +96,22 @@ class Bsdf {
         CoverSet covers = 0;
         Lobe lobe;
     };
+    /// What some lobe is.
+    struct Traits {
+        bool has_density = false, has_singular = false, transmits = false, lets_through = false;
+    };
+    void set_traits();
+    /// Whether the only lobe is sure to be chosen for all views.
+    [[nodiscard]] bool is_chosen_alone() const;
+    /// Of a single matt reflection below no cover, for which nothing is asked of its lobe.
+    struct Matt {
+        bool is = false;
+        bool is_chosen = false;  ///< else all is absorbed
+        Spectrum value;  ///< into all directions above the surface; 0 where it is not usable
+    };
+
+    [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec2& u) const;
+
     /// `value` of the lobes that are matt, or of all.
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction, Transport transport,
                                  bool only_matt) const;
@@ -109,8 +126,11 @@ class Bsdf {
     [[nodiscard]] double density(const Choice& choice, const Vec3& view,
                                  const Vec3& direction) const;
 
-    InlineVector<Part, kMaxLobes> parts_;
-    InlineVector<Cover, 9> covers_;
+    Traits traits_;
+    bool chosen_alone_ = false;
+    Matt matt_;
+    InlineVector<Unmade<Part>, kMaxLobes> parts_;
+    InlineVector<Unmade<Cover>, 9> covers_;
 };
 
 /// Where a BSDF is asked for.

@@ -5,6 +5,7 @@
 ///   - kSingular: light comes back in single directions, which have no density; kTransmits: it may
 ///     come from below;
 ///   - sample(view, choice, u, transport) and albedo(view), as class Bsdf has them;
+///   - where that is cheaper, direction(view, choice, u): that of `sample`, unless singular;
 ///   - unless singular, value(view, direction, transport) and density(view, direction).
 /// Conventions: those of bsdf.h; a view has z > 0, a direction z != 0. The density integrates to 1,
 /// or to the share of samples that are not absorbed, and is above 0 where the value is.

@@ -50,15 +50,21 @@ double RoughReflection::density(const Vec3& view, const Vec3& direction) const {
     return share * one + (1.0 - share) * cosine_density(l);
 }
 
-std::optional<BsdfSample> RoughReflection::sample(const Vec3& view, double choice, const Vec2& u,
-                                                  Transport transport) const {
+std::optional<Vec3> RoughReflection::direction(const Vec3& view, double choice,
+                                               const Vec2& u) const {
     const Vec3 v = turned(view);
     const Vec3 l =
         choice < single(v.z) ? mirrored(v, ggx_.sample_visible(v, u)) : cosine_direction(u);
     if (!(l.z > 0.0)) return std::nullopt;
-    const Vec3 direction = turned_back(l);
-    const double p = density(view, direction);
-    return BsdfSample{direction, (direction.z / p) * value(view, direction, transport), p};
+    return turned_back(l);
+}
+
+std::optional<BsdfSample> RoughReflection::sample(const Vec3& view, double choice, const Vec2& u,
+                                                  Transport transport) const {
+    const std::optional<Vec3> drawn = direction(view, choice, u);
+    if (!drawn) return std::nullopt;
+    const double p = density(view, *drawn);
+    return BsdfSample{*drawn, (drawn->z / p) * value(view, *drawn, transport), p};
 }
 
 Spectrum RoughReflection::albedo(const Vec3& view) const {

@@ -29,6 +29,9 @@ class RoughReflection {
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
+    /// Of `sample`; none where the light is absorbed.
+    [[nodiscard]] std::optional<Vec3> direction(const Vec3& view, double choice,
+                                                const Vec2& u) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
     /// The part of `value` that met one facet, and the cosine to that facet's normal.

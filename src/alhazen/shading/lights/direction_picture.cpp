@@ -55,17 +55,16 @@ void DirectionPicture::blacken_bad_texels() {
     }
 }
 
-double DirectionPicture::height(int border) const {
-    return std::cos(kPi * border / picture_.height);
-}
-
 Rgb DirectionPicture::texel(int x, int y) const {
     const int w = picture_.width;
-    return picture_.rgb((x % w + w) % w, std::clamp(y, 0, picture_.height - 1));
+    return picture_.rgb(x < 0 ? x + w : x < w ? x : x - w, std::clamp(y, 0, picture_.height - 1));
 }
 
 void DirectionPicture::make_distribution() {
     const int w = picture_.width, h = picture_.height;
+    for (int border = 0; border <= h; ++border) {
+        heights_.push_back(std::cos(kPi * border / h));
+    }
     rows_.assign(1, 0.0);
     columns_.reserve(std::size_t(h) * std::size_t(w + 1));
     std::vector<Rgb> row(std::size_t(w) + 2);

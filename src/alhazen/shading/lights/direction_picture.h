@@ -43,13 +43,15 @@ class DirectionPicture {
   private:
     void blacken_bad_texels();
     void make_distribution();
+    /// `x`: at most a picture's width beside it.
     [[nodiscard]] Rgb texel(int x, int y) const;
     /// Between the heights (cosines to the zenith) of its borders.
-    [[nodiscard]] double height(int border) const;
+    [[nodiscard]] double height(int border) const { return heights_[std::size_t(border)]; }
 
     Image picture_;
-    std::vector<double> rows_;    ///< [row + 1] weight of all rows above
-    std::vector<float> columns_;  ///< [row][column + 1] share of the row's texels up to it
+    std::vector<double> heights_;  ///< [row + 1] of its upper border
+    std::vector<double> rows_;     ///< [row + 1] weight of all rows above
+    std::vector<float> columns_;   ///< [row][column + 1] share of the row's texels up to it
     Rgb mean_;
     std::size_t bad_texels_ = 0;
 };

@@ -1,12 +1,44 @@
 #include "alhazen/shading/microfacets/albedo_table.h"
 
+#include <array>
+#include <atomic>
+#include <bit>
+
 #include "alhazen/math/constants.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 
-AlbedoTable::AlbedoTable(const Function& albedo, Axis axis) : axis_(axis) {
-    constexpr int kX = 44, kY = 32, kMeans = 257;
-    table_ = CubicTable<2>({kX, kY}, [&](const std::array<double, 2>& p) {
+namespace {
+
+constexpr int kCosines = 44, kAlphas = 32, kMeans = 257;
+
+/// The values of a table at one alpha, once they have been asked for twice, and the last answers.
+struct AlphaSlice {
+    std::uint64_t table = 0;  ///< AlbedoTable::id_; 0: none
+    double alpha = 0;
+    bool is_made = false;
+    std::uint32_t next = 0;      ///< of the answers, to be replaced
+    std::array<double, 2> mu{};  ///< 0: none
+    std::array<double, 2> answer{};
+    std::array<double, kCosines> values{};
+};
+
+AlphaSlice& slice_of(std::uint64_t table, double alpha) {
+    constexpr std::size_t kSlices = 16;
+    thread_local std::array<AlphaSlice, kSlices> slices;
+    return slices[mix64(std::bit_cast<std::uint64_t>(alpha) ^ table) % kSlices];
+}
+
+std::uint64_t new_id() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+}  // namespace
+
+AlbedoTable::AlbedoTable(const Function& albedo, Axis axis) : id_(new_id()), axis_(axis) {
+    table_ = CubicTable<2>({kCosines, kAlphas}, [&](const std::array<double, 2>& p) {
         const double alpha = AlbedoAxes::alpha_of(p[1]);
         return albedo(axis == Axis::Shadow ? AlbedoAxes::mu_of(p[0], alpha)
                                            : std::max(p[0] * p[0], AlbedoAxes::kLeastMu),
@@ -22,8 +54,27 @@ AlbedoTable::AlbedoTable(const Function& albedo, Axis axis) : axis_(axis) {
 double AlbedoTable::at(double mu, double alpha) const {
     const double a = std::clamp(alpha, AlbedoAxes::kLeastAlpha, 1.0);
     const double m = std::clamp(mu, AlbedoAxes::kLeastMu, 1.0);
-    const double x = axis_ == Axis::Shadow ? AlbedoAxes::x_of(m, a) : std::sqrt(m);
-    return std::clamp(table_.at({x, AlbedoAxes::y_of(a)}), 0.0, 1.0);
+    AlphaSlice& slice = slice_of(id_, a);
+    if (slice.table != id_ || slice.alpha != a) {
+        slice.table = id_;
+        slice.alpha = a;
+        slice.is_made = false;
+        return std::clamp(table_.at({place_of(m, a), AlbedoAxes::y_of(a)}), 0.0, 1.0);
+    }
+    if (!slice.is_made) {
+        table_.get_slice(AlbedoAxes::y_of(a), slice.values);
+        slice.mu = {};
+        slice.is_made = true;
+    }
+    for (std::size_t i = 0; i < slice.mu.size(); ++i) {
+        if (slice.mu[i] == m) return slice.answer[i];
+    }
+    const double found = std::clamp(
+        CubicTable<2>::at(std::span<const double>(slice.values), place_of(m, a)), 0.0, 1.0);
+    slice.mu[slice.next] = m;
+    slice.answer[slice.next] = found;
+    slice.next = 1 - slice.next;
+    return found;
 }
 
 double AlbedoTable::mean(double alpha) const {

@@ -8,16 +8,33 @@
 /// Differs: an axis follows the shadow that a grazing view casts, mu / (mu + alpha), so that few
 /// values are exact.
 /// Conventions: mu is the cosine of the view, 0..1; alpha the roughness, 0..1. Both are clamped.
-/// Complexity and threads: const functions may be called from many threads.
+/// Complexity and threads: const functions may be called from many threads. Each thread keeps the
+/// values of the alphas that it asks for again and again.
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include "alhazen/shading/microfacets/cubic_table.h"
 #include "alhazen/shading/microfacets/gauss_legendre.h"
 
 namespace alhazen {
+
+/// The axes of a table of albedos: 0..1 each.
+struct AlbedoAxes {
+    static constexpr double kBend = 0.7, kLeastAlpha = 1e-6, kLeastMu = 1e-7;
+
+    [[nodiscard]] static double x_of(double mu, double alpha) {
+        return std::pow(mu * (1.0 + alpha) / (mu + alpha), kBend);
+    }
+    [[nodiscard]] static double mu_of(double x, double alpha) {
+        const double y = std::pow(x, 1.0 / kBend);
+        return std::clamp(alpha * y / (1.0 + alpha - y), kLeastMu, 1.0);
+    }
+    [[nodiscard]] static double y_of(double alpha) { return std::sqrt(alpha); }
+    [[nodiscard]] static double alpha_of(double y) { return std::max(y * y, kLeastAlpha); }
+};
 
 class AlbedoTable {
   public:
@@ -33,24 +50,14 @@ class AlbedoTable {
     [[nodiscard]] double mean(double alpha) const;
 
   private:
+    [[nodiscard]] double place_of(double mu, double alpha) const {
+        return axis_ == Axis::Shadow ? AlbedoAxes::x_of(mu, alpha) : std::sqrt(mu);
+    }
+
+    std::uint64_t id_;  ///< other tables have others
     Axis axis_;
     CubicTable<2> table_;
     CubicTable<1> mean_;
-};
-
-/// The axes of such a table: 0..1 each.
-struct AlbedoAxes {
-    static constexpr double kBend = 0.7, kLeastAlpha = 1e-6, kLeastMu = 1e-7;
-
-    [[nodiscard]] static double x_of(double mu, double alpha) {
-        return std::pow(mu * (1.0 + alpha) / (mu + alpha), kBend);
-    }
-    [[nodiscard]] static double mu_of(double x, double alpha) {
-        const double y = std::pow(x, 1.0 / kBend);
-        return std::clamp(alpha * y / (1.0 + alpha - y), kLeastMu, 1.0);
-    }
-    [[nodiscard]] static double y_of(double alpha) { return std::sqrt(alpha); }
-    [[nodiscard]] static double alpha_of(double y) { return std::max(y * y, kLeastAlpha); }
 };
 
 /// Mean of f(mu) over the hemisphere, weighted by mu. By the root of mu: finer where it is small.

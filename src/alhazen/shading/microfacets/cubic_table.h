@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace alhazen {
@@ -37,6 +38,16 @@ class CubicTable {
     }
 
     [[nodiscard]] double at(const Point& p) const { return along<0>(p, 0); }
+    /// The values along the first of two axes where the second number is `y`: interpolated between,
+    /// they are those of the table.
+    void get_slice(double y, std::span<double> out) const requires(D == 2) {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = along<1>({0, y}, i);
+    }
+    /// In such a slice.
+    [[nodiscard]] static double at(std::span<const double> slice, double x) {
+        return interpolated(static_cast<int>(slice.size()), x,
+                            [&](int i) { return slice[static_cast<std::size_t>(i)]; });
+    }
 
   private:
     /// Value of the cubic through four neighbours, at t in [0, 1] between the middle ones.
@@ -49,10 +60,7 @@ class CubicTable {
     template <std::size_t Axis>
     [[nodiscard]] double along(const Point& p, std::size_t start) const {
         const int size = sizes_[Axis];
-        // NaN reads the first value.
-        const double x = (p[Axis] > 0.0 ? std::min(p[Axis], 1.0) : 0.0) * (size - 1);
-        const int cell = std::min(static_cast<int>(x), size - 2);
-        const auto value = [&](int i) {
+        return interpolated(size, p[Axis], [&](int i) {
             const std::size_t index =
                 start * static_cast<std::size_t>(size) + static_cast<std::size_t>(i);
             if constexpr (Axis + 1 == D) {
@@ -60,7 +68,15 @@ class CubicTable {
             } else {
                 return along<Axis + 1>(p, index);
             }
-        };
+        });
+    }
+
+    /// Between `size` values, `place` of the way from the first to the last.
+    template <class Value>
+    [[nodiscard]] static double interpolated(int size, double place, const Value& value) {
+        // NaN reads the first value.
+        const double x = (place > 0.0 ? std::min(place, 1.0) : 0.0) * (size - 1);
+        const int cell = std::min(static_cast<int>(x), size - 2);
         const double b = value(cell), c = value(cell + 1);
         const double a = cell > 0 ? value(cell - 1) : 3.0 * b - 3.0 * c + value(cell + 2);
         const double d = cell + 2 < size ? value(cell + 2) : 3.0 * c - 3.0 * b + a;

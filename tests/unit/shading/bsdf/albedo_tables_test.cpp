@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "alhazen/shading/microfacets/albedo_table.h"
 #include "alhazen/shading/microfacets/dielectric_albedo.h"
 #include "alhazen/shading/microfacets/gauss_legendre.h"
 #include "alhazen/shading/microfacets/ggx_albedo.h"
@@ -18,6 +19,33 @@ TEST(AlbedoTables, GgxIsItsIntegral) {
                               exact = integrate_ggx_albedo(mu, r * r);
             EXPECT_NEAR(table.sum(), exact.sum(), 5e-4) << r << " " << mu;
             EXPECT_NEAR(table.at_f90, exact.at_f90, 2e-3) << r << " " << mu;
+        }
+    }
+}
+
+TEST(AlbedoTables, GiveTheSameBitsHoweverOftenTheyAreAsked) {
+    // Two tables, whose slices take turns: each alpha is asked for once, then again and again.
+    const auto albedo = [](double mu, double alpha) { return 0.2 + 0.7 * mu * (1.0 - alpha); };
+    const auto other = [](double mu, double alpha) { return 0.9 - 0.5 * mu * alpha; };
+    const AlbedoTable first(albedo), second(other, AlbedoTable::Axis::Angle);
+    for (const AlbedoTable* table : {&first, &second}) {
+        for (const double mu : kCosines) {
+            for (const double r : kRoughnesses) {
+                // The same values by a table that has never been asked.
+                const AlbedoTable fresh = table == &first
+                                              ? AlbedoTable(albedo)
+                                              : AlbedoTable(other, AlbedoTable::Axis::Angle);
+                const double once = fresh.at(mu, r);
+                for (int time = 0; time < 3; ++time) {
+                    EXPECT_EQ(fresh.at(mu, r), once) << mu << " " << r;
+                    EXPECT_EQ(table->at(mu, r), once) << mu << " " << r;
+                    // Takes the place of the last answers.
+                    if (r < 1.0) {
+                        EXPECT_NE(table->at(0.5 * mu, r), once);
+                        EXPECT_NE(table->at(0.7 * mu, r), once);
+                    }
+                }
+            }
         }
     }
 }

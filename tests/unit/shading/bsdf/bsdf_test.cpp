@@ -209,6 +209,52 @@ TEST(Bsdf, BlendedMaterialsHaveTheMeanOfTheirValues) {
     }
 }
 
+/// What is asked of a single lobe without its variant is what the lobe says.
+template <class L>
+void expect_lobe_alone(const L& lobe, const Spectrum& weight) {
+    Bsdf bsdf;
+    bsdf.add(weight, lobe);
+    RandomStream random(5);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 view = view_at(i == 0 ? 1.0 : random.uniform(0.001, 1));
+        const Vec3 direction = any_direction(random);
+        const Vec2 u{random.uniform(), random.uniform()};
+        const double choice = random.uniform();
+        EXPECT_EQ(bsdf.value(view, direction, Transport::Radiance),
+                  weight * lobe.value(view, direction, Transport::Radiance));
+        EXPECT_EQ(bsdf.density(view, direction), lobe.density(view, direction));
+        const auto drawn = bsdf.sample(view, choice, u, Transport::Radiance);
+        const auto own = lobe.sample(view, choice, u, Transport::Radiance);
+        ASSERT_EQ(drawn.has_value(), own.has_value());
+        if (!drawn) continue;
+        EXPECT_EQ(drawn->direction, own->direction);
+        EXPECT_EQ(drawn->density, lobe.density(view, drawn->direction));
+        const Spectrum expected = (std::abs(drawn->direction.z) / drawn->density) *
+                                  bsdf.value(view, drawn->direction, Transport::Radiance);
+        EXPECT_EQ(drawn->weight, expected);
+    }
+}
+
+TEST(Bsdf, ALobeAloneIsThatLobe) {
+    expect_lobe_alone(Lambert{{0.2, 0.5, 0.7, 0.7}}, {0.9, 0.8, 0.7, 0.7});
+    for (const double f0 : {0.04, 0.9, 1.0}) {
+        expect_lobe_alone(RoughReflection({0.2, 0.2}, SchlickTerm{{f0, 0.5, 0.1, 0.1}}),
+                          {0.9, 0.8, 0.7, 0.7});
+    }
+    expect_lobe_alone(RoughReflection({0.6, 0.1}, SchlickTerm{}, {0.6, 0.8}), Spectrum::all(1));
+    expect_lobe_alone(LambertTransmission{}, Spectrum::all(0.5));
+}
+
+TEST(Bsdf, ALobeThatTakesAllLightIsNeverDrawn) {
+    for (const Spectrum& color : {Spectrum{}, Spectrum::all(kNan)}) {
+        Bsdf bsdf;
+        bsdf.add(Spectrum::all(1), Lambert{color});
+        EXPECT_FALSE(bsdf.sample(view_at(0.5), 0.5, {0.5, 0.5}, Transport::Radiance));
+        EXPECT_EQ(bsdf.density(view_at(0.5), {0, 0, 1}), 0.0);
+        EXPECT_EQ(bsdf.value(view_at(0.5), {0, 0, 1}, Transport::Radiance), Spectrum{});
+    }
+}
+
 TEST(Bsdf, MoreLobesThanItHoldsLeaveOutTheLeast) {
     Bsdf bsdf;
     for (int i = 0; i < 30; ++i) bsdf.add(Spectrum::all(1) * (i == 3 ? 0.001 : 0.03), Lambert{});

@@ -1,0 +1,132 @@
+#include "alhazen/sampling/samplers/sobol_points.h"
+
+#include <algorithm>
+
+#include "alhazen/sampling/nested_scramble.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define ALHAZEN_SOBOL_LANES 1
+#else
+#define ALHAZEN_SOBOL_LANES 0
+#endif
+
+namespace alhazen {
+
+namespace {
+
+// Of one word or of lanes of words. Inlined into functions of any instruction set.
+#if ALHAZEN_SOBOL_LANES
+#define ALHAZEN_SOBOL_INLINE [[gnu::always_inline]] inline
+#else
+#define ALHAZEN_SOBOL_INLINE inline
+#endif
+
+/// The bits in reverse: the digits of the first dimension.
+template <class Word>
+ALHAZEN_SOBOL_INLINE Word with_reversed_bits(Word x) {
+    x = (x >> 32) | (x << 32);
+    x = ((x >> 16) & 0x0000FFFF0000FFFFu) | ((x & 0x0000FFFF0000FFFFu) << 16);
+    x = ((x >> 8) & 0x00FF00FF00FF00FFu) | ((x & 0x00FF00FF00FF00FFu) << 8);
+    x = ((x >> 4) & 0x0F0F0F0F0F0F0F0Fu) | ((x & 0x0F0F0F0F0F0F0F0Fu) << 4);
+    x = ((x >> 2) & 0x3333333333333333u) | ((x & 0x3333333333333333u) << 2);
+    return ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
+}
+
+/// The digits of the second dimension in reverse. Its matrix is Pascal's triangle modulo two: digit
+/// j is the sum of the bits i of the number whose i contains all bits of j (Lucas' theorem).
+template <class Word>
+ALHAZEN_SOBOL_INLINE Word with_sums_of_bits_above(Word x) {
+    x ^= (x >> 1) & 0x5555555555555555u;
+    x ^= (x >> 2) & 0x3333333333333333u;
+    x ^= (x >> 4) & 0x0F0F0F0F0F0F0F0Fu;
+    x ^= (x >> 8) & 0x00FF00FF00FF00FFu;
+    x ^= (x >> 16) & 0x0000FFFF0000FFFFu;
+    return x ^ (x >> 32);
+}
+
+}  // namespace
+
+void scrambled_points_one_by_one(const ScrambleTrees& trees, std::span<const std::uint64_t> numbers,
+                                 Vec2* out) {
+    for (const std::uint64_t number : numbers) {
+        const std::uint64_t y = with_reversed_bits(with_sums_of_bits_above(number));
+        *out++ = {nested_scramble<kSobolScrambledDigits>(trees.x, with_reversed_bits(number)),
+                  nested_scramble<kSobolScrambledDigits>(trees.y, y)};
+    }
+}
+
+#if ALHAZEN_SOBOL_LANES
+
+namespace {
+
+constexpr std::size_t kSobolLanes = 4;
+using Words = std::uint64_t __attribute__((vector_size(8 * kSobolLanes)));
+
+/// `mix64` of each lane.
+ALHAZEN_SOBOL_INLINE Words mixed(Words x) {
+    x += 0x9E3779B97F4A7C15u;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return x ^ (x >> 31);
+}
+
+/// The first 53 digits of `nested_scramble` of each lane.
+ALHAZEN_SOBOL_INLINE Words scrambled_digits(std::uint64_t tree, Words digits) {
+    using namespace nested_scramble_detail;
+    constexpr int kTree = kSobolScrambledDigits;
+    Words scrambled = {};
+    for (int done = 0; done < kTree; done += kLevels) {
+        const Words above = done == 0 ? Words{} : digits >> (64 - done);
+        const Words flips = mixed(tree ^ (above | std::uint64_t(done + 1) << 32));
+        const Words six = (digits >> (64 - kLevels - done)) & 63u;
+        // The node of a level is the beginning of the digits behind a one.
+        const Words way = six | 64u;
+        Words flipped = six;
+        for (int level = 0; level < kLevels; ++level) {
+            flipped ^= ((flips >> (way >> (level + 1))) & 1u) << level;
+        }
+        scrambled = scrambled << kLevels | flipped;
+    }
+    const Words rest = mixed(tree ^ (digits >> (64 - kTree) | std::uint64_t{63} << 32));
+    return scrambled << (53 - kTree) | rest >> (64 - (53 - kTree));
+}
+
+__attribute__((target("avx2"))) void scrambled_points_in_lanes(
+    const ScrambleTrees& trees, std::span<const std::uint64_t> numbers, Vec2* out) {
+    for (std::size_t i = 0; i < numbers.size(); i += kSobolLanes) {
+        const std::size_t count = std::min(kSobolLanes, numbers.size() - i);
+        Words number = {};
+        for (std::size_t k = 0; k < count; ++k) number[k] = numbers[i + k];
+        const Words x = scrambled_digits(trees.x, with_reversed_bits(number));
+        const Words y =
+            scrambled_digits(trees.y, with_reversed_bits(with_sums_of_bits_above(number)));
+        for (std::size_t k = 0; k < count; ++k) {
+            // Below 2^53: signed integers are converted faster.
+            out[i + k] = {static_cast<double>(static_cast<std::int64_t>(x[k])) * 0x1p-53,
+                          static_cast<double>(static_cast<std::int64_t>(y[k])) * 0x1p-53};
+        }
+    }
+}
+
+}  // namespace
+
+void scrambled_points(const ScrambleTrees& trees, std::span<const std::uint64_t> numbers,
+                      Vec2* out) {
+    static const bool has_lanes = __builtin_cpu_supports("avx2") != 0;
+    if (has_lanes) {
+        scrambled_points_in_lanes(trees, numbers, out);
+    } else {
+        scrambled_points_one_by_one(trees, numbers, out);
+    }
+}
+
+#else
+
+void scrambled_points(const ScrambleTrees& trees, std::span<const std::uint64_t> numbers,
+                      Vec2* out) {
+    scrambled_points_one_by_one(trees, numbers, out);
+}
+
+#endif
+
+}  // namespace alhazen
