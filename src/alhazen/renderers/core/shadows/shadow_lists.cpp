@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/base/overloaded.h"
 #include "alhazen/primitives/bounded_primitives.h"
 #include "alhazen/primitives/primitive_columns.h"
@@ -23,31 +26,47 @@ constexpr auto kSide = static_cast<std::size_t>(kResolution);
 constexpr double kDeviation = 1e-10, kRoom = 1e-5;
 /// Widens cells: far more than their rounding.
 constexpr double kSlack = 1e-9;
-/// Origins farther away round too much.
-constexpr double kFarthest = 100;
-/// Rounding of heights above a flat body: leaving_ray starts farther away.
+/// Lights and origins farther away, in units of the largest coordinate of the bodies, round too
+/// much.
+constexpr double kFarthest = 16;
+/// Of heights above flat bodies, in the units of Body::rounded.
 constexpr double kHeightSlack = 64 * 0x1p-53;
 
 const DirectionCube kCube(kResolution);
 
-/// The unit normal of a flat primitive; zero of others.
-Vec3 normal_of(const PrimitiveTable& table, PrimitiveId id) {
-    const std::uint32_t kind = table.kind(id), i = table.index(id);
-    if (kind == kInstanceKind) return {};
-    if (kind == kTriangleKind) {
-        const auto [a, b, c] = table.triangle_vertices(i);
-        return unit_or(cross(b - a, c - a), {});
-    }
-    const Vec3 normal = with_column(table.columns, kind, [&](const auto& column) {
-        if constexpr (requires { column.shapes[i].unit_normal; }) {
+/// The unit normal of a flat shape in its own frame; zero of others.
+Vec3 own_normal_of(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t i) {
+    return with_column(table.columns, kind, [&](const auto& column) {
+        using S = std::remove_cvref_t<decltype(column.shapes[i])>;
+        if constexpr (requires(const S& s) { s.unit_normal; }) {
             return column.shapes[i].unit_normal;
+        } else if constexpr (std::is_same_v<S, Polygon>) {
+            return column.shapes[i].normal;
         } else {
             return Vec3{};
         }
     });
-    const Placement* placement = table.placement_of(id);
-    if (placement == nullptr) return normal;
-    return unit_or(transpose_times(placement->inner_from_outer.linear, normal), {});
+}
+
+/// Whether all coordinates are within `most` of 0; not where one is not a number.
+bool is_within(const Vec3& v, double most) {
+    return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
+}
+
+/// DirectionCube::cell_of, up to rounding.
+std::size_t cell_of(const Vec3& d) {
+    const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+    const auto index = [](double slope) {
+        const int i = static_cast<int>(0.5 * (slope + 1.0) * kResolution);
+        return static_cast<std::size_t>(i < kResolution ? i : kResolution - 1);
+    };
+    const auto number = [&](std::size_t axis, double depth, double u, double v) {
+        const std::size_t face = 2 * axis + (depth > 0.0 ? 0 : 1);
+        const double inverse = 1.0 / std::abs(depth);
+        return (face * kSide + index(v * inverse)) * kSide + index(u * inverse);
+    };
+    if (x >= y && x >= z) return number(0, d.x, d.y, d.z);
+    return y >= z ? number(1, d.y, d.z, d.x) : number(2, d.z, d.x, d.y);
 }
 
 double largest(const Vec3& v) {
@@ -65,7 +84,9 @@ std::unique_ptr<ShadowLists> ShadowLists::make(const Scene& scene) {
     const bool suits = scene.aggregate != nullptr && scene.accelerator == "wide_bvh" &&
                        !scene.has_motion && scene.lights.size() <= kMostLights &&
                        scene.aggregate->primitives().size() <= kMostPrimitives;
-    return suits ? std::unique_ptr<ShadowLists>(new ShadowLists(scene)) : nullptr;
+    if (!suits) return nullptr;
+    std::unique_ptr<ShadowLists> lists(new ShadowLists(scene));
+    return lists->size_ > 0.0 ? std::move(lists) : nullptr;
 }
 
 ShadowLists::ShadowLists(const Scene& scene)
@@ -83,10 +104,17 @@ ShadowLists::ShadowLists(const Scene& scene)
                               [&](const AreaLight& l) { cells.place = l.surface->center(); },
                               [&](const auto& l) { cells.place = l.position; }},
                    scene.lights[i]);
-        if (!cells.parallel) size_ = std::max(size_, largest(cells.place));
+    }
+    const double of_bodies = size_;
+    for (const Cells& cells : lights_) {
+        const double farthest = cells.parallel ? 0.0 : largest(cells.place);
+        size_ = std::max(size_, farthest);
+        if (!(farthest <= kFarthest * of_bodies)) {
+            size_ = 0.0;
+            return;
+        }
     }
     room_ = kRoom * size_;
-    lists_.emplace_back();
 }
 
 void ShadowLists::add_body(std::uint32_t id) {
@@ -97,12 +125,35 @@ void ShadowLists::add_body(std::uint32_t id) {
     body.radius = sphere.radius;
     body.opaque = table_.is_opaque(body.id);
     body.triangle = table_.kind(body.id) == kTriangleKind;
-    body.normal = normal_of(table_, body.id);
-    body.flat = body.normal != Vec3{};
-    if (body.flat) body.height = table_.extent(id, body.normal);
+    if (table_.kind(body.id) == column_of<Sphere>() && table_.placement_of(body.id) == nullptr) {
+        body.sphere = &std::get<ShapeColumn<Sphere>>(table_.columns).shapes[table_.index(body.id)];
+    }
+    set_flat(body);
     size_ = std::max(
         {size_, largest(body.box.lo), largest(body.box.hi), largest(body.center) + body.radius});
     bodies_.push_back(body);
+}
+
+void ShadowLists::set_flat(Body& body) const {
+    const std::uint32_t kind = table_.kind(body.id);
+    if (kind >= kTriangleKind) return;
+    const Vec3 own = own_normal_of(table_, kind, table_.index(body.id));
+    if (own == Vec3{}) return;
+    const Placement* placement = table_.placement_of(body.id);
+    const Affine inner = placement != nullptr ? placement->inner_from_outer : Affine{};
+    const Vec3 normal = transpose_times(inner.linear, own);
+    const double scale = length(normal);
+    if (!(scale > 0.0)) return;
+    body.flat = true;
+    body.normal = normal / scale;
+    body.height = table_.extent(static_cast<std::uint32_t>(body.id), body.normal);
+    const Box3 box = table_.inner_box(body.id);
+    const Mat3& m = inner.linear;
+    const Mat3 absolute{abs(m.x_axis), abs(m.y_axis), abs(m.z_axis)};
+    body.rounded = transpose_times(absolute, abs(own)) / scale + abs(body.normal);
+    body.rounded_offset =
+        dot(abs(own), abs(inner.translation) + abs(box.lo) + abs(box.hi)) / scale +
+        std::max(std::abs(body.height.lo), std::abs(body.height.hi));
 }
 
 bool ShadowLists::may_meet(const Body& body, const Ray& ray) const {
@@ -110,12 +161,12 @@ bool ShadowLists::may_meet(const Body& body, const Ray& ray) const {
         const double start = dot(body.normal, ray.origin);
         const double slope = dot(body.normal, ray.direction);
         const double above = start - body.height.hi, below = body.height.lo - start;
-        if (above > kHeightSlack * size_) {
-            return slope < 0.0 && !(above + ray.t_max * slope > room_);
-        }
-        if (below > kHeightSlack * size_) {
-            return slope > 0.0 && !(below - ray.t_max * slope > room_);
-        }
+        const double slack =
+            kHeightSlack * (dot(body.rounded, abs(ray.origin)) + body.rounded_offset);
+        const double least_slope =
+            kHeightSlack * (body.rounded.x + body.rounded.y + body.rounded.z);
+        if (above > slack) return !(slope > least_slope || above + ray.t_max * slope > room_);
+        if (below > slack) return !(slope < -least_slope || below - ray.t_max * slope > room_);
         return true;
     }
     const Vec3 to_center = body.center - ray.origin;
@@ -135,8 +186,7 @@ std::optional<bool> ShadowLists::occluded(const Ray& ray, std::size_t light, Ray
     for (const Entry& entry : *list) {
         const Body& body = bodies_[entry.body];
         if (entry.least_reach > reach || !may_meet(body, ray)) continue;
-        const RayShear& shear = body.triangle ? RayShear(ray.direction) : kUnusedShear;
-        if (table_.occluded(body.id, ray, shear, NoStats{}, mask)) return true;
+        if (occluded_by(body, ray, mask)) return true;
     }
     return false;
 }
@@ -150,21 +200,46 @@ std::optional<bool> ShadowLists::shadowed(const Ray& ray, std::size_t light, Ray
     for (const Entry& entry : *list) {
         const Body& body = bodies_[entry.body];
         if (entry.least_reach > reach || !may_meet(body, ray)) continue;
-        const RayShear& shear = body.triangle ? RayShear(ray.direction) : kUnusedShear;
-        const bool blocked = body.opaque
-                                 ? table_.occluded(body.id, ray, shear, NoStats{}, mask)
-                                 : table_.shadowed(body.id, ray, shear, crossings, NoStats{}, mask);
-        if (blocked) return true;
+        if (shadowed_by(body, ray, mask, crossings)) return true;
     }
     if (crossings.size() > 1) sort_appended(crossings, 0);
     return false;
 }
 
+bool ShadowLists::occluded_by(const Body& body, const Ray& ray, RayMask mask) const {
+    if (body.sphere != nullptr) {
+        ShapeHit hits[Sphere::kMaxHits];
+        return table_.is_seen(body.id, mask) && body.sphere->intersect(ray, hits) > 0;
+    }
+    if (body.triangle) {
+        return table_.occluded(body.id, ray, RayShear(ray.direction), NoStats{}, mask);
+    }
+    return table_.occluded(body.id, ray, kUnusedShear, NoStats{}, mask);
+}
+
+bool ShadowLists::shadowed_by(const Body& body, const Ray& ray, RayMask mask,
+                              std::vector<Hit>& crossings) const {
+    if (body.opaque) return occluded_by(body, ray, mask);
+    if (body.sphere != nullptr) {
+        if (!table_.is_seen(body.id, mask)) return false;
+        ShapeHit hits[Sphere::kMaxHits];
+        const int count = body.sphere->intersect(ray, hits);
+        for (int i = 0; i < count; ++i) append_hit(crossings, hits[i], body.id);
+        return false;
+    }
+    if (body.triangle) {
+        return table_.shadowed(body.id, ray, RayShear(ray.direction), crossings, NoStats{}, mask);
+    }
+    return table_.shadowed(body.id, ray, kUnusedShear, crossings, NoStats{}, mask);
+}
+
 const ShadowLists::List* ShadowLists::list_of(const Ray& ray, std::size_t light, double& reach) {
     Cells& cells = lights_[light];
     if (cells.parallel) {
-        if (!(largest(ray.origin) <= kFarthest * size_)) return nullptr;
-        if (!(largest(ray.direction - cells.place) <= kDeviation)) return nullptr;
+        if (!is_within(ray.origin, kFarthest * size_) ||
+            !is_within(ray.direction - cells.place, kDeviation)) {
+            return nullptr;
+        }
         if (cells.number.empty()) begin(cells);
         reach = -dot(ray.origin, cells.place);
         const double column = (dot(ray.origin, cells.u) - cells.corner.x) / cells.edge;
@@ -176,10 +251,10 @@ const ShadowLists::List* ShadowLists::list_of(const Ray& ray, std::size_t light,
                        static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column));
     }
     const Vec3 beside = (cells.place - ray.origin) - ray.t_max * ray.direction;
-    if (!(largest(beside) <= kDeviation * size_)) return nullptr;
+    if (!is_within(beside, kDeviation * size_) || !(ray.t_max <= kFarthest * size_)) return nullptr;
     if (cells.number.empty()) begin(cells);
     reach = ray.t_max;
-    return list_in(cells, kCube.cell_of(-ray.direction));
+    return list_in(cells, cell_of(-ray.direction));
 }
 
 const ShadowLists::List* ShadowLists::list_in(Cells& cells, std::size_t cell) {
@@ -276,7 +351,7 @@ ShadowLists::List ShadowLists::list_of_directions(const Cells& cells, std::size_
 
 ShadowLists::List ShadowLists::list_of_square(const Cells& cells, std::size_t cell) const {
     const auto [column, row] = place_in_square(cell);
-    const double slack = kSlack * kFarthest * size_;
+    const double slack = room_;
     const Interval u{cells.corner.x + column * cells.edge - slack,
                      cells.corner.x + (column + 1) * cells.edge + slack};
     const Interval v{cells.corner.y + row * cells.edge - slack,

@@ -41,11 +41,16 @@ class ShadowLists {
     /// A primitive with bounds.
     struct Body {
         PrimitiveId id;
-        bool opaque = false, triangle = false, flat = false;
+        bool opaque = false, flat = false, triangle = false;
         Vec3 center;  ///< of a sphere around it
         double radius = 0;
-        Vec3 normal;      ///< unit, where it is flat
-        Interval height;  ///< along the normal
+        const Sphere* sphere = nullptr;  ///< where it is one without a placement
+        Vec3 normal;                     ///< unit, where it is flat
+        Interval height;                 ///< along the normal
+        /// Heights of points p above it are computed, also by its own test, within some units of
+        /// dot(rounded, abs(p)) + rounded_offset.
+        Vec3 rounded;
+        double rounded_offset = 0;
         Box3 box;
     };
     struct Entry {
@@ -75,6 +80,11 @@ class ShadowLists {
 
     explicit ShadowLists(const Scene& scene);
     void add_body(std::uint32_t id);
+    /// Sets what is asked of flat bodies, where it is one.
+    void set_flat(Body& body) const;
+    [[nodiscard]] bool occluded_by(const Body& body, const Ray& ray, RayMask mask) const;
+    [[nodiscard]] bool shadowed_by(const Body& body, const Ray& ray, RayMask mask,
+                                   std::vector<Hit>& crossings) const;
     /// False where the ray passes by the body.
     [[nodiscard]] bool may_meet(const Body& body, const Ray& ray) const;
     void begin(Cells& cells) const;
@@ -89,10 +99,10 @@ class ShadowLists {
     const PrimitiveTable& table_;
     UnboundedParts outside_;
     std::vector<Body> bodies_;
-    double size_ = 0;  ///< the largest coordinate of bodies and lights
+    double size_ = 0;  ///< the largest coordinate of bodies and lights; 0: a light is too far
     double room_ = 0;  ///< by which bodies are larger
     std::vector<Cells> lights_;
-    std::vector<std::unique_ptr<const List>> lists_;  ///< [number]; of number 0: null
+    std::vector<std::unique_ptr<const List>> lists_{1};  ///< [number]; of number 0: null
     const List nothing_;
 };
 
