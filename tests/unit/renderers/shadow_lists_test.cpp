@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "alhazen/math/constants.h"
@@ -91,8 +90,6 @@ void compare(const Scene& scene, ShadowLists& lists, const Ray& ray, std::size_t
             }
         }
     }
-    const bool occluded = scene.aggregate->occluded(ray, {nullptr, mask});
-    if (const auto answer = lists.occluded(ray, light, mask)) ASSERT_EQ(*answer, occluded);
 }
 
 void compare_from(const Scene& scene, ShadowLists& lists, const Vec3& point, Counts& counts) {
@@ -119,7 +116,7 @@ Counts compare_all(std::uint64_t seed, bool on_lattice) {
         compare_from(scene, *lists, from, counts);
         const Ray ray{from + Vec3{0, 0, 1e-3}, random.unit_vector()};
         Hit hit;
-        if (!scene.aggregate->closest(ray, hit, {})) continue;
+        if (!scene.aggregate->closest(ray, hit, {nullptr, kAllRays})) continue;
         const Surface surface = surface_at(*scene.aggregate, ray, hit);
         for (std::size_t i = 0; i < scene.lights.size(); ++i) {
             if (!illuminates(scene.lights[i])) continue;
@@ -157,7 +154,6 @@ TEST(ShadowLists, LeaveRaysThatDoNotEndAtTheLightToTheAggregate) {
     std::vector<Hit> crossings;
     const Ray beside{{0, 0, 3}, normalize(Vec3{3, 4, 2.01}), 0.0, 5.4};
     EXPECT_FALSE(lists->shadowed(beside, 1, kAllRays, crossings));
-    EXPECT_FALSE(lists->occluded(beside, 3, kAllRays));
 }
 
 TEST(ShadowLists, AreOnlyMadeForSmallScenesAndTheirAccelerator) {

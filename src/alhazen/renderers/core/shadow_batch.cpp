@@ -27,8 +27,8 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
       count_(counters[RayKind::Shadow]),
       stats_(stats),
       opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
-      // Counted tests are those of the aggregate.
-      lists_(to_centers && stats == nullptr ? ShadowLists::make(scene) : nullptr),
+      // Counted tests are those of the aggregate; where all is opaque its batches are faster.
+      lists_(to_centers && stats == nullptr && !opaque_ ? ShadowLists::make(scene) : nullptr),
       constant_(scene),
       met_(std::make_unique<bool[]>(kMostRays)),
       sorted_met_(std::make_unique<bool[]>(kMostRays)) {
@@ -132,12 +132,6 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
 Rgb ShadowBatch::let_through_lists(const Ray& ray, const Path& path, std::size_t light) {
     ++count_.cast;
     const RayQuery query = this->query(path.time);
-    if (opaque_) {
-        const std::optional<bool> listed = lists_->occluded(ray, light, query.mask);
-        const bool met = listed ? *listed : scene_.aggregate->occluded(ray, query);
-        count_.hit += met;
-        return met ? Rgb{0, 0, 0} : Rgb{1, 1, 1};
-    }
     crossings_.clear();
     const std::optional<bool> listed = lists_->shadowed(ray, light, query.mask, crossings_);
     return tint(ray, path, listed ? *listed : scene_.aggregate->shadowed(ray, crossings_, query));

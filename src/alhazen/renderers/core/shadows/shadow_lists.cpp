@@ -178,19 +178,6 @@ bool ShadowLists::may_meet(const Body& body, const Ray& ray) const {
              (along < 0.0 || squared - along * along > radius * radius));
 }
 
-std::optional<bool> ShadowLists::occluded(const Ray& ray, std::size_t light, RayMask mask) {
-    double reach = 0;
-    const List* list = list_of(ray, light, reach);
-    if (list == nullptr) return std::nullopt;
-    if (outside_.occluded(table_, ray, {nullptr, mask})) return true;
-    for (const Entry& entry : *list) {
-        const Body& body = bodies_[entry.body];
-        if (entry.least_reach > reach || !may_meet(body, ray)) continue;
-        if (occluded_by(body, ray, mask)) return true;
-    }
-    return false;
-}
-
 std::optional<bool> ShadowLists::shadowed(const Ray& ray, std::size_t light, RayMask mask,
                                           std::vector<Hit>& crossings) {
     double reach = 0;

@@ -30,10 +30,8 @@ class ShadowLists {
     /// moves, or where another accelerator was asked for.
     [[nodiscard]] static std::unique_ptr<ShadowLists> make(const Scene& scene);
 
-    /// Aggregate::occluded of a ray to the light of this number. Nothing where the ray does not end
-    /// at the light: the aggregate must be asked.
-    [[nodiscard]] std::optional<bool> occluded(const Ray& ray, std::size_t light, RayMask mask);
-    /// The same for Aggregate::shadowed; `crossings` must be empty.
+    /// Aggregate::shadowed of a ray to the light of this number; `crossings` must be empty. Nothing
+    /// where the ray does not end at the light: the aggregate must be asked.
     [[nodiscard]] std::optional<bool> shadowed(const Ray& ray, std::size_t light, RayMask mask,
                                                std::vector<Hit>& crossings);
 
