@@ -132,7 +132,8 @@ INSIDE = {
     },
     "renderers": {
         "core/reports": [],
-        "core": ["core/reports"],
+        "core/shadows": [],
+        "core": ["core/reports", "core/shadows"],
         "antialias": ["core"],
         "beam_tracing": ["core"],
         "cone_tracing": ["core"],

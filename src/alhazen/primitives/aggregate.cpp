@@ -49,7 +49,20 @@ bool hit_less(const Hit& a, const Hit& b) {
 }
 
 void sort_appended(std::vector<Hit>& hits, std::size_t before) {
-    std::stable_sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(), hit_less);
+    constexpr std::size_t kFew = 16;
+    if (hits.size() - before > kFew) {
+        std::stable_sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(), hit_less);
+        return;
+    }
+    for (std::size_t i = before + 1; i < hits.size(); ++i) {
+        if (!hit_less(hits[i], hits[i - 1])) continue;
+        const Hit moved = hits[i];
+        std::size_t place = i;
+        do {
+            hits[place] = hits[place - 1];
+        } while (--place > before && hit_less(moved, hits[place - 1]));
+        hits[place] = moved;
+    }
 }
 
 }  // namespace alhazen

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <type_traits>
 
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/plain_surface.h"
+#include "alhazen/shapes/core/shape_numerics.h"
 
 namespace alhazen {
 
@@ -98,13 +100,28 @@ Vec3 reach_of(const Box3& box, const Vec3& point) {
     return reach;
 }
 
+/// reach_of(shape.box(), point).
+template <class S>
+Vec3 reach_of_shape(const S& shape, const Vec3& point) {
+    if constexpr (std::is_same_v<S, Sphere>) {
+        if (shape.radius < 0.0) return reach_of(shape.box(), point);
+        // That of `outward_box`: |c| + h is the larger one of |c - h| and |c + h|, bit for bit.
+        const Vec3 half{shape.radius, shape.radius, shape.radius};
+        const Vec3 center = abs(shape.center);
+        const Vec3 reach = center + (half + gamma_bound(16) * (center + half));
+        constexpr double kLargest = std::numeric_limits<double>::max();
+        if (reach.x <= kLargest && reach.y <= kLargest && reach.z <= kLargest) return reach;
+    }
+    return reach_of(shape.box(), point);
+}
+
 /// The surface in the shape's own frame. The shape bounds the error of the point; adds the rounding
 /// of the next ray's test, which is relative to the size of the shape, not to the position of the
 /// point.
 template <class S>
 void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
     set_shape_part(surface, [&] { return surface_of_shape(shape, ray, hit, with_uv); });
-    surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
+    surface.error += 4 * kEpsilon * reach_of_shape(shape, surface.point);
 }
 
 /// True where texture coordinates are set.

@@ -60,8 +60,13 @@ HWY_INLINE Verdict resolve_triangle(const Ray& ray, const std::uint32_t (&axis)[
     return Verdict::Hit;
 }
 
-/// The first crossing of a ray with a sphere, as Sphere::intersect finds it.
-HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, ShapeHit& hit) {
+struct SphereCrossings {
+    double t[2];
+    std::uint32_t count = 0;
+};
+
+/// The crossings of a ray with a sphere, as Sphere::intersect finds them.
+HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, SphereCrossings& met) {
     using exact::FastMinMaxDouble;
     const Vec3& d = ray.direction;
     const Vec3 f = ray.origin - sphere.center;
@@ -72,14 +77,9 @@ HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, ShapeHit
     const auto roots = exact::sphere_roots(line, a, fx, fy, fz, radius);
     const double entry = roots.t_near.x, exit = roots.t_far.x;
     if (!exact::are_plain_roots(entry, exit)) return Verdict::Unsure;
-    if (ray.covers(entry)) {
-        hit = {entry, 0, 0, 0};
-    } else if (ray.covers(exit)) {
-        hit = {exit, 0, 0, 0};
-    } else {
-        return Verdict::Missed;
-    }
-    return Verdict::Hit;
+    if (ray.covers(entry)) met.t[met.count++] = entry;
+    if (ray.covers(exit)) met.t[met.count++] = exit;
+    return met.count == 0 ? Verdict::Missed : Verdict::Hit;
 }
 
 /// Eight rays, each with a triangle of its own: rows of eight numbers. Axes as in RayShear.

@@ -162,21 +162,21 @@ struct LeafQuery {
         return false;
     }
 
-    /// Most queries need only the first crossing with a sphere.
+    /// The first crossing with a sphere, or both.
     template <class Stats>
     HWY_NOINLINE bool visit_sphere(BlockId id, Stats stats) {
-        if constexpr (!Query::kFirstOnly) return query().shape(id, stats);
         if (!scene.sees(id.id())) return false;
         const auto& spheres = std::get<ShapeColumn<Sphere>>(scene.table->columns).shapes;
-        ShapeHit hit;
         const std::uint32_t place =
             static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<Sphere>());
-        const Verdict verdict = resolve_sphere(ray, spheres[place], hit);
+        SphereCrossings met;
+        const Verdict verdict = resolve_sphere(ray, spheres[place], met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return query().shape(id, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
         stats.primitive_hits(1);
-        return query().accept(id, hit);
+        if (query().accept(id, {met.t[0], 0, 0, 0})) return true;
+        return !Query::kFirstOnly && met.count == 2 && query().accept(id, {met.t[1], 0, 0, 0});
     }
 
     /// Indexed triangles: all are tested in double, eight at a time.
@@ -355,7 +355,7 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
 template <bool kStopAtOpaque>
 struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTest> {
     using Base = LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTest>;
-    using Base::ray, Base::scene, Base::shear;
+    using Base::ray, Base::scene;
     static constexpr bool kOrdered = false;
     static constexpr bool kFirstOnly = false;
     std::vector<Hit>& hits;
@@ -390,11 +390,11 @@ struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTes
     template <class Stats>
     HWY_INLINE bool shape(BlockId id, Stats stats) {
         if (kStopAtOpaque && id.opaque()) {
-            return scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
+            return scene.table->occluded(id.id(), ray, kUnusedShear, stats, scene.mask);
         }
         if (kStopAtOpaque)
-            return scene.table->shadowed(id.id(), ray, this->shear(), hits, stats, scene.mask);
-        scene.table->all_hits(id.id(), ray, this->shear(), hits, stats, scene.mask);
+            return scene.table->shadowed(id.id(), ray, kUnusedShear, hits, stats, scene.mask);
+        scene.table->all_hits(id.id(), ray, kUnusedShear, hits, stats, scene.mask);
         return false;
     }
 };

@@ -65,6 +65,7 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
 }
 
 void WideBvhAggregate::finish_build() {
+    outside_ = UnboundedParts(table_, unbounded_);
     schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
                            kernels_.plain.closest_coherent != nullptr);
     // Rays that come from everywhere read the meshes at random.
@@ -78,18 +79,8 @@ std::size_t WideBvhAggregate::memory_bytes() const {
     return layout_.memory_bytes() + unbounded_.capacity() * sizeof(PrimitiveId);
 }
 
-template <class Test>
-bool WideBvhAggregate::any_unbounded(TraversalStats* stats, Test&& test) const {
-    if (unbounded_.empty()) return false;
-    return with_stats(stats, [&](auto policy) {
-        for (const PrimitiveId id : unbounded_) {
-            if (test(id, policy)) return true;
-        }
-        return false;
-    });
-}
-
 void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) const {
+    if (hits.size() - before < 2) return;
     sort_appended(hits, before);
     // A triangle may lie in several leaves (accel/wide_bvh/build/spatial_split.h), and is hit once.
     const auto is_triangle = [&](const Hit& hit) {
@@ -107,52 +98,29 @@ void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) c
 
 bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
     hit = Hit{};
-    if (!unbounded_.empty() && is_valid(ray)) {
-        Ray shrinking = ray;
-        const RayShear shear(ray.direction);
-        any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
-            table_.closest(id, shrinking, shear, hit, policy, query.mask);
-            return false;
-        });
-    }
+    outside_.closest(table_, ray, hit, query);
     if (!layout_.tree.empty)
         kernels_.for_stats(query.stats).closest(scene(query.mask), ray, hit, query.stats);
     return hit.found();
 }
 
 bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
-    if (!unbounded_.empty() && is_valid(ray)) {
-        const RayShear shear(ray.direction);
-        const bool found = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
-            return table_.occluded(id, ray, shear, policy, query.mask);
-        });
-        if (found) return true;
-    }
+    if (outside_.occluded(table_, ray, query)) return true;
     return !layout_.tree.empty &&
            kernels_.for_stats(query.stats).occluded(scene(query.mask), ray, query.stats);
 }
 
 void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
-    if (!is_valid(ray)) return;
-    const RayShear shear(ray.direction);
     const std::size_t before = hits.size();
-    any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
-        table_.all_hits(id, ray, shear, hits, policy, query.mask);
-        return false;
-    });
+    outside_.all_hits(table_, ray, hits, query);
     if (!layout_.tree.empty)
         (void)kernels_.for_stats(query.stats).all_hits(scene(query.mask), ray, hits, query.stats);
     finish_hits(hits, before);
 }
 
 bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
-    if (!is_valid(ray)) return false;
-    const RayShear shear(ray.direction);
     const std::size_t before = crossings.size();
-    const bool opaque = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
-        return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
-    });
-    if (opaque) return true;
+    if (outside_.shadowed(table_, ray, crossings, query)) return true;
     if (!layout_.tree.empty &&
         kernels_.for_stats(query.stats).shadowed(scene(query.mask), ray, crossings, query.stats))
         return true;
@@ -172,14 +140,8 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
 
 void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
-    for (std::size_t i = 0; i < rays.size() && !unbounded_.empty(); ++i) {
-        if (!is_valid(rays[i])) continue;
-        Ray shrinking = rays[i];
-        const RayShear shear(shrinking.direction);
-        any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
-            table_.closest(id, shrinking, shear, hits[i], policy, query.mask);
-            return false;
-        });
+    for (std::size_t i = 0; i < rays.size() && !outside_.empty(); ++i) {
+        outside_.closest(table_, rays[i], hits[i], query);
     }
     if (layout_.tree.empty) return;
     WideBvhScene seen = scene(query.mask);
@@ -204,12 +166,7 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
 void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
                                       RayQuery query, Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        occluded[i] = false;
-        if (unbounded_.empty() || !is_valid(rays[i])) continue;
-        const RayShear shear(rays[i].direction);
-        occluded[i] = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
-            return table_.occluded(id, rays[i], shear, policy, query.mask);
-        });
+        occluded[i] = outside_.occluded(table_, rays[i], query);
     }
     if (layout_.tree.empty) return;
     WideBvhScene seen = scene(query.mask);

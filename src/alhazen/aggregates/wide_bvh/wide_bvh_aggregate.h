@@ -19,6 +19,7 @@
 #include "alhazen/aggregates/wide_bvh/refit.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/aggregates/wide_bvh/treeless_packets.h"
+#include "alhazen/aggregates/wide_bvh/unbounded_parts.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/primitives/aggregate.h"
 #include "alhazen/primitives/primitive_table.h"
@@ -66,13 +67,11 @@ class WideBvhAggregate final : public Aggregate {
                        Coherence coherence) const;
     /// Sorts what a query appended, and drops what it found twice.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
-    /// Calls test(id, policy) for the primitives outside the tree until it returns true.
-    template <class Test>
-    bool any_unbounded(TraversalStats* stats, Test&& test) const;
 
     PrimitiveTable table_;
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
+    UnboundedParts outside_;    ///< of the tree: those of `unbounded_`
     TreelessPackets treeless_;  ///< all that is in the tree, or nothing
     WideBvhLayout layout_;
     Schedules schedules_;

@@ -245,6 +245,15 @@ Rgb unshadowed_terms(const ShadingConventions& conventions, std::span<const Rgb>
 
 namespace {
 
+/// Whether cosine^shininess times `specular` is less than half an ulp of each channel of `sum`:
+/// c^n <= exp(-n (1 - c)).
+bool is_lost(double cosine, double shininess, const Rgb& specular, const Rgb& sum) {
+    constexpr double kExponent = 64.0;   // exp(-64) < 2^-92
+    constexpr double kFactor = 0x1p-36;  // 2^-92 / 2^-36 = 2^-56
+    return shininess * (1.0 - cosine) > kExponent && kFactor * specular.r <= sum.r &&
+           kFactor * specular.g <= sum.g && kFactor * specular.b <= sum.b;
+}
+
 double schlick_highlight(double cosine, double shininess) {
     const double c = std::fmin(cosine, 1.0);
     return c / (shininess - shininess * c + c);
@@ -269,6 +278,9 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
     if (highlight_cosine > 0.0) {
         const double falloff = m.physical ? cosine : 1.0;
         const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
+        if (!schlick && is_lost(highlight_cosine, m.shininess, m.specular, fraction)) {
+            return fraction;
+        }
         const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)
                                          : std::pow(highlight_cosine, m.shininess);
         fraction += (falloff * highlight) * m.specular;

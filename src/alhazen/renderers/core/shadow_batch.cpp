@@ -21,11 +21,15 @@ constexpr std::uint64_t kFewMeet = 4;
 
 }  // namespace
 
-ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
+ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
+                         bool to_centers)
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
       opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
+      // Counted tests are those of the aggregate; where all is opaque its batches are faster.
+      lists_(to_centers && stats == nullptr && !opaque_ ? ShadowLists::make(scene) : nullptr),
+      constant_(scene),
       met_(std::make_unique<bool[]>(kMostRays)),
       sorted_met_(std::make_unique<bool[]>(kMostRays)) {
     rays_.reserve(kMostRays);
@@ -38,9 +42,14 @@ void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rg
         sum += light.intensity * fraction;
         return;
     }
+    const Ray ray = onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance);
+    if (lists_) {
+        const Rgb through = let_through_lists(ray, path, number);
+        if (!through.is_black()) sum += through * light.intensity * fraction;
+        return;
+    }
     if (rays_.size() == kMostRays) finish();
-    rays_.push_back(
-        onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance));
+    rays_.push_back(ray);
     waiting_.push_back({&sum, &path, light.intensity, fraction, number});
 }
 
@@ -117,16 +126,37 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     }
     crossings_.clear();
     // A ray that hits may have no crossing: the back of a single-sided surface.
-    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query(path.time));
+    return tint(ray, path, met && scene_.aggregate->shadowed(ray, crossings_, query(path.time)));
+}
+
+Rgb ShadowBatch::let_through_lists(const Ray& ray, const Path& path, std::size_t light) {
+    ++count_.cast;
+    const RayQuery query = this->query(path.time);
+    crossings_.clear();
+    const std::optional<bool> listed = lists_->shadowed(ray, light, query.mask, crossings_);
+    return tint(ray, path, listed ? *listed : scene_.aggregate->shadowed(ray, crossings_, query));
+}
+
+/// Transmittance of what is in `crossings_`, unless something opaque blocks the ray.
+Rgb ShadowBatch::tint(const Ray& ray, const Path& path, bool blocked) {
     count_.hit += blocked || !crossings_.empty();
     if (blocked) return {};
-    return optics_ != nullptr ? tint_by_optics(ray, path) : tint_of_crossings(ray, path);
+    if (optics_ != nullptr) return tint_by_optics(ray, path);
+    return crossings_.empty() && !path.inside ? Rgb{1, 1, 1} : tint_of_crossings(ray, path);
 }
 
 const Surface& ShadowBatch::crossed(const Ray& ray, const Hit& hit, float time) {
     set_surface(*scene_.aggregate, ray, hit, CoordinateNeed::of(scene_.reads_coordinates), surface_,
                 time);
     return surface_;
+}
+
+const MaterialSample& ShadowBatch::material_of(const Surface& surface) {
+    if (!surface.has_extras) {
+        if (const MaterialSample* shared = constant_.find(surface.materials[0])) return *shared;
+    }
+    own_ = material_at(scene_, surface);
+    return own_;
 }
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
@@ -141,31 +171,32 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         if (crossing.t - met < min_distance) continue;
         met = crossing.t;
         const Surface& surface = crossed(ray, crossing, path.time);
-        MaterialSample material = material_at(scene_, surface);
-        if (material.coverage == 0.0) continue;
+        const MaterialSample* material = &material_of(surface);
+        if (material->coverage == 0.0) continue;
         bool leaving = dot(ray.direction, surface.normal) >= 0.0;
-        MaterialSample medium = material;
+        const MaterialSample* medium = material;
         if (const SurfaceMedia& media = surface.media; media.before || media.after) {
             const bool wall = media.before && media.after;
             leaving = media.before && !in_wall;
             in_wall = wall && leaving;
-            medium = medium_at(scene_, surface, leaving ? *media.before : *media.after);
+            medium_ = medium_at(scene_, surface, leaving ? *media.before : *media.after);
+            medium = &medium_;
             if (wall) material = medium;
         }
         // Light passes through the back of a single-sided surface.
-        if (!leaving && is_unseen_from_behind(material)) continue;
-        Rgb through = light_through(material, medium, leaving, crossing.t - last);
-        if (medium.physical && !medium.thin) {
+        if (!leaving && is_unseen_from_behind(*material)) continue;
+        Rgb through = light_through(*material, *medium, leaving, crossing.t - last);
+        if (medium->physical && !medium->thin) {
             tint = tint * through_medium(crossing.t - last);
-            enter_or_leave(leaving, medium.absorption);
+            enter_or_leave(leaving, medium->absorption);
         }
-        if (material.coverage < 1.0) {
-            const double open = 1.0 - material.coverage;
-            through = Rgb{open, open, open} + material.coverage * through;
+        if (material->coverage < 1.0) {
+            const double open = 1.0 - material->coverage;
+            through = Rgb{open, open, open} + material->coverage * through;
         }
         tint = tint * through;
         if (tint.is_black()) return tint;
-        if (!medium.physical || !medium.thin) last = crossing.t;
+        if (!medium->physical || !medium->thin) last = crossing.t;
     }
     if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
     return tint;
@@ -184,8 +215,8 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         const Surface& surface = crossed(ray, crossing, path.time);
         in_wall = surface.media.before && surface.media.after && !in_wall;
         if (!in_wall && surface.media.before && surface.media.after) continue;
-        MaterialSample material = material_at(scene_, surface);
-        if (in_wall) material = medium_at(scene_, surface, *surface.media.after);
+        if (in_wall) medium_ = medium_at(scene_, surface, *surface.media.after);
+        const MaterialSample& material = in_wall ? medium_ : material_of(surface);
         const bool entering = dot(ray.direction, surface.normal) < 0.0;
         // Light passes through the back of a single-sided surface.
         if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/core/shadows/shadow_lists.h"
 #include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/scene/scene.h"
 
@@ -22,7 +24,9 @@ class ExactOptics;
 
 class ShadowBatch {
   public:
-    ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
+    /// `to_centers`: all rays end at the position of their light, or go in its direction.
+    ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
+                bool to_centers = false);
 
     /// From now on light passes boundaries as exact optics have it, in the media of `Path::medium`.
     void use(ExactOptics& optics) { optics_ = &optics; }
@@ -54,11 +58,16 @@ class ShadowBatch {
     [[nodiscard]] Coherence coherence_to(std::size_t light) const;
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
+    /// The same by the lists of the light.
+    [[nodiscard]] Rgb let_through_lists(const Ray& ray, const Path& path, std::size_t light);
+    [[nodiscard]] Rgb tint(const Ray& ray, const Path& path, bool blocked);
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
     /// The surface at a crossing, as its material needs it; until the next call.
     [[nodiscard]] const Surface& crossed(const Ray& ray, const Hit& hit, float time);
+    /// Its material; until the next call.
+    [[nodiscard]] const MaterialSample& material_of(const Surface& surface);
     [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
                                     bool leaving, double inside) const;
     [[nodiscard]] Rgb through_medium(double distance) const;
@@ -70,6 +79,8 @@ class ShadowBatch {
     ExactOptics* optics_ = nullptr;
     bool opaque_;  ///< any surface in between blocks the light
     Coherence coherence_ = Coherence::Any;
+    std::unique_ptr<ShadowLists> lists_;  ///< null: rays wait, and the aggregate is asked
+    MaterialCache constant_;
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::vector<float> times_;  ///< [ray]; where something moves
@@ -79,6 +90,8 @@ class ShadowBatch {
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
     Surface surface_;         ///< that of `crossed`
+    MaterialSample own_;      ///< that of `material_of`
+    MaterialSample medium_;   ///< between the surfaces of a solid of several media
     std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <type_traits>
 
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/estimator.h"
@@ -74,7 +75,8 @@ class RecursiveEstimator {
           rays_at_once_(rays_at_once),
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
-          shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+          shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr,
+                   std::is_same_v<Chance, NoChance>),
           chance_(job),
           split_(split) {
         if (!conventions_.optics.any()) return;
@@ -255,20 +257,20 @@ class RecursiveEstimator {
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
             if constexpr (TreeWatcher<Chance>) chance_.see_light(here, l, cosine);
+            if (l.intensity.is_black()) continue;  // beyond the cone of a spot
             shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
                          seen.path, sum, here);
         }
     }
 
     /// `onward`: the path of the new ray, except for its kind and the effect of this surface.
-    void reflect(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
+    void reflect(const Seen& seen, const Path& onward, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         const Rgb& kr = point.material->reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
                                              !point.material->transmissive.is_black());
-        onward.kind = RayKind::Reflection;
-        onward.contribution = onward.contribution * kr;
-        if (!cast || onward.contribution.max() < conventions_.min_contribution) return;
+        const Rgb contribution = onward.contribution * kr;
+        if (!cast || contribution.max() < conventions_.min_contribution) return;
         Vec3 direction = mirror(seen.ray.direction, point.normal);
         // Where an interpolated normal reflects the ray into the surface, the geometric one is
         // used.
@@ -278,6 +280,9 @@ class RecursiveEstimator {
         chance_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
         met.reflected = next.add(onward_ray(conventions_, point.surface, direction), onward);
+        Path& path = next.last_path();
+        path.kind = RayKind::Reflection;
+        path.contribution = contribution;
     }
 
     void transmit(const Seen& seen, Path onward, MetSurface& met, Wavefront& front) {

@@ -33,6 +33,11 @@ Approach approach(const auto& light, const Vec3& point, bool clamp) {
     return {offset / d, d, factor};
 }
 
+/// The profile's factor; most lights have none.
+double factor_of(const LightProfile& profile, const Vec3& from_light) {
+    return profile.profile ? profile_factor(profile, from_light) : 1.0;
+}
+
 double spot_falloff(const SpotLight& light, const Vec3& to_light) {
     const double cosine = -dot(to_light, light.direction);
     if (cosine > light.sure.within) return 1.0;
@@ -88,13 +93,13 @@ LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation
             },
             [&](const PointLight& l) {
                 const Approach a = approach(l, point, clamp_attenuation);
-                const double sent = a.attenuation * profile_factor(l.profile, -a.to_light);
+                const double sent = a.attenuation * factor_of(l.profile, -a.to_light);
                 return LightSample{a.to_light, a.distance, sent * l.color, l.glints};
             },
             [&](const SpotLight& l) {
                 const Approach a = approach(l, point, clamp_attenuation);
-                const double sent = a.attenuation * spot_falloff(l, a.to_light) *
-                                    profile_factor(l.profile, -a.to_light);
+                const double sent =
+                    a.attenuation * spot_falloff(l, a.to_light) * factor_of(l.profile, -a.to_light);
                 return LightSample{a.to_light, a.distance, sent * l.color};
             },
             [&](const AreaLight& l) {

@@ -1,0 +1,104 @@
+#pragma once
+/// The primitives without bounds, which lie outside of the tree: all rays are tested with all.
+///
+/// Planes without a placement are tested here, by the arithmetic of their shape.
+/// Conventions: hits are those of PrimitiveTable, counted alike; rays that cannot be traced meet
+/// nothing.
+
+#include <span>
+#include <vector>
+
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/primitives/nearest_hit.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/unused_shear.h"
+#include "alhazen/shapes/core/shape_numerics.h"
+
+namespace alhazen {
+
+class UnboundedParts {
+  public:
+    UnboundedParts() = default;
+    UnboundedParts(const PrimitiveTable& table, std::span<const PrimitiveId> ids);
+
+    [[nodiscard]] bool empty() const { return parts_.empty(); }
+
+    /// As PrimitiveTable::closest of each.
+    void closest(const PrimitiveTable& table, const Ray& ray, Hit& best, RayQuery query) const {
+        Ray shrinking = ray;
+        meet(table, shrinking, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
+            if (hit != nullptr) {
+                offer_hit(*hit, id, shrinking, best);
+            } else {
+                table.closest(id, shrinking, kUnusedShear, best, stats, query.mask);
+            }
+            return false;
+        });
+    }
+    [[nodiscard]] bool occluded(const PrimitiveTable& table, const Ray& ray, RayQuery query) const {
+        return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
+            return hit != nullptr || table.occluded(id, ray, kUnusedShear, stats, query.mask);
+        });
+    }
+    void all_hits(const PrimitiveTable& table, const Ray& ray, std::vector<Hit>& hits,
+                  RayQuery query) const {
+        meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
+            if (hit != nullptr) {
+                append_hit(hits, *hit, id);
+            } else {
+                table.all_hits(id, ray, kUnusedShear, hits, stats, query.mask);
+            }
+            return false;
+        });
+    }
+    /// True where one of them blocks the ray.
+    [[nodiscard]] bool shadowed(const PrimitiveTable& table, const Ray& ray,
+                                std::vector<Hit>& crossings, RayQuery query) const {
+        return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
+            if (hit == nullptr) {
+                return table.shadowed(id, ray, kUnusedShear, crossings, stats, query.mask);
+            }
+            if (table.is_opaque(id)) return true;
+            append_hit(crossings, *hit, id);
+            return false;
+        });
+    }
+
+  private:
+    struct Part {
+        PrimitiveId id;
+        bool is_plane = false;
+        Vec3 point, unit_normal;  ///< of a plane
+    };
+
+    /// Calls test(id, hit, stats) until it returns true: for planes that are hit, and with a null
+    /// pointer for what the table must be asked about.
+    template <class Test>
+    bool meet(const PrimitiveTable& table, const Ray& ray, RayQuery query, Test&& test) const {
+        if (parts_.empty()) return false;
+        return with_stats(query.stats, [&](auto stats) {
+            for (const Part& part : parts_) {
+                if (!part.is_plane) {
+                    if (is_valid(ray) && test(part.id, nullptr, stats)) return true;
+                    continue;
+                }
+                if (!table.is_seen(part.id, query.mask)) continue;
+                ShapeHit hit;
+                const double t = plane_crossing(ray, part.point, part.unit_normal);
+                const bool met = report_crossing(ray, {t, 0, 0, 0}, &hit) != 0;
+                if constexpr (decltype(stats)::kCounts) {
+                    if (!is_valid(ray)) return false;
+                    stats.primitives(1);
+                }
+                if (!met || !is_valid(ray)) continue;
+                stats.primitive_hits(1);
+                if (test(part.id, &hit, stats)) return true;
+            }
+            return false;
+        });
+    }
+
+    std::vector<Part> parts_;
+};
+
+}  // namespace alhazen
