@@ -152,7 +152,7 @@ def main():
 
     def alhazen(out, times, noise, seed):
         renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=150,"
-                    f"irradiance=on,every=4,clamp=1,split={args.split}")
+                    f"irradiance=on,every=4,clamp=1,roulette=16,split={args.split}")
         return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
                 f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", renderer, "--spp", str(args.spp),
                 "--noise", str(noise), "--seed", str(seed)]
