@@ -103,6 +103,7 @@ std::uint64_t photon_count(RendererSettings& settings, const char* name, std::ui
 PathSettings photon_paths(RendererSettings& settings) {
     PathSettings paths = path_settings(settings);
     paths.split = settings.number("split", paths.split, 1e-4, 1.0);
+    paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
     return paths;
 }
 
@@ -120,6 +121,10 @@ std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     static constexpr const char* kProjection[] = {"off", "on"};
     photons.projection = settings.choice("projection", 1, kProjection) == 1;
     photons.paths = photon_paths(settings);
+    static constexpr const char* kIrradiance[] = {"off", "on"};
+    photons.irradiance = settings.choice("irradiance", 0, kIrradiance) == 1;
+    static constexpr const char* kEvery[] = {"1", "2", "4", "8"};
+    photons.paths.every = 1u << settings.choice("every", 0, kEvery);
     return std::make_unique<PhotonMapping>(photons);
 }
 
@@ -192,12 +197,14 @@ std::span<const RendererEntry> renderers() {
          "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
-         "irradiance cache for them), projection=on|off, memory=MB, depth=N, roulette=N",
+         "irradiance cache for them), projection=on|off, split=SHARE, clamp=X, every=1|2|4|8 "
+         "(samples of which one looks at the photons), irradiance=on|off (of the global map at its "
+         "photons, Christensen 1999), memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "
          "(Hachisuka and Jensen 2009); photons=N (of a pass), radius=DISTANCE (of the first), "
-         "alpha=X, memory=MB, depth=N, roulette=N",
+         "alpha=X, split=SHARE, clamp=X, memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_sppm(settings); }, true},
         {"vcm",
          "bidirectional and photons together, weighed by what each finds, in passes, one for each "

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <span>
 #include <string>
 
 #include "alhazen/base/error.h"
@@ -64,12 +66,30 @@ Scene room(double roughness) {
     return maker.compile();
 }
 
+struct Case {
+    const char* renderer;
+    double bias;  ///< of the picture's mean, of disc and radius
+    int samples;
+};
+void expect_light_of_path_tracing(const Scene& scene, std::span<const Case> cases,
+                                  const std::string& name) {
+    const Blocks truth = blocks_of(scene, "path_tracing --spectral", 96);
+    double whole = 0.0;
+    for (const double mean : truth.mean) whole += mean / double(truth.mean.size());
+    EXPECT_GT(whole, 0.05) << name;
+    for (const Case& c : cases) {
+        const Blocks found = blocks_of(scene, c.renderer, c.samples);
+        for (std::size_t i = 0; i < truth.mean.size(); ++i) {
+            const double error = std::hypot(found.error[i], truth.error[i]);
+            EXPECT_LE(error, 0.2 * whole) << name << ", block " << i << ", " << c.renderer;
+            EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), 5.0 * error + c.bias * whole)
+                << name << ", block " << i << ", " << c.renderer << ": " << found.mean[i] << " +- "
+                << found.error[i] << ", path_tracing " << truth.mean[i] << " +- " << truth.error[i];
+        }
+    }
+}
+
 TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
-    struct Case {
-        const char* renderer;
-        double bias;  ///< of the picture's mean, of disc and radius
-        int samples;
-    };
     const Case cases[] = {
         {"photon_mapping:photons=8000,caustics=5000,nearest=48,filter=disc --spectral", 0.03, 16},
         {"photon_mapping:photons=6000,caustics=4000,nearest=48,filter=disc,gather=2 --spectral",
@@ -78,21 +98,30 @@ TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
         {"vcm:photons=300,radius=0.06,pilot=off --spectral", 0.01, 8},
     };
     for (const double roughness : {0.0, 0.4}) {
-        const Scene scene = room(roughness);
-        const Blocks truth = blocks_of(scene, "path_tracing --spectral", 96);
-        double whole = 0.0;
-        for (const double mean : truth.mean) whole += mean / double(truth.mean.size());
-        for (const Case& c : cases) {
-            const Blocks found = blocks_of(scene, c.renderer, c.samples);
-            for (std::size_t i = 0; i < truth.mean.size(); ++i) {
-                const double error = std::hypot(found.error[i], truth.error[i]);
-                EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), 5.0 * error + c.bias * whole)
-                    << "roughness " << roughness << ", block " << i << ", " << c.renderer << ": "
-                    << found.mean[i] << " +- " << found.error[i] << ", path_tracing "
-                    << truth.mean[i] << " +- " << truth.error[i];
-            }
-        }
+        expect_light_of_path_tracing(room(roughness), cases,
+                                     "roughness " + std::to_string(roughness));
     }
+}
+
+/// A ball of flint and a matt one that cross the picture while the shutter is open.
+TEST(PhotonWaves, AgreeWithPathTracingOnWhatMoves) {
+    SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.2});
+    maker.add(ball({0, 0, 2}, 0.5), maker.material(shining({4, 4, 3})));
+    maker.add(ball({-0.4, -0.2, 0.35}, 0.2), maker.material(flint(0.0)));
+    maker.add(ball({-0.4, 0.3, 0.3}, 0.15), maker.material(matt({0.2, 0.5, 0.8})));
+    SceneDescription& d = maker.description();
+    for (const std::size_t part : {2u, 3u}) {
+        d.objects[0].parts[part].motion = std::make_shared<const PartMotion>(
+            PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({0.8, 0, 0})}}, {}});
+    }
+    d.shutter = {0, 1};
+    const Scene scene = maker.compile();
+    ASSERT_TRUE(scene.has_motion);
+    const Case cases[] = {
+        {"photon_mapping:photons=8000,caustics=20000,nearest=160,filter=disc --spectral", 0.03, 16},
+        {"sppm:photons=2000,radius=0.06 --spectral", 0.03, 16},
+    };
+    expect_light_of_path_tracing(scene, cases, "moving balls");
 }
 
 TEST(PhotonWaves, ShowTheColoursOfMaterials) {

@@ -366,6 +366,24 @@ TEST(ProjectionMap, LosesNoLightOfAnyKindOfLamp) {
     }
 }
 
+TEST(ProjectionMap, NoPhotonIsFarBrighterThanOthers) {
+    SceneMaker maker;
+    maker.add(ball({8, 0, 4}, 0.25), maker.material(testing::shining({256, 256, 256})));
+    maker.add(ball({0, 0, 12}, 4), maker.material(testing::shining({1, 1, 1})));
+    maker.add(ball({0, 0, 1}, 0.7), maker.material(smooth_glass(1.5)));
+    maker.add(ball({0, 0, 0}, 30), maker.material(matt({0, 0, 0.0001})));
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    RayCounters counters;
+    const ProjectionMap projection({.scene = scene, .camera = scene.cameras[0].camera}, lights, 3,
+                                   counters);
+    PhotonShot shot{60000, {PhotonKind::Caustic}, 64, 5};
+    shot.projection = &projection;
+    const std::vector<Photon> photons = shot_of(scene, shot).photons;
+    const double mean = power_of(photons).g / double(photons.size());
+    for (const Photon& p : photons) EXPECT_LT(p.light().b, 20 * mean);
+}
+
 TEST(ProjectionMap, AimsNowhereWhereNothingReflects) {
     SceneMaker maker;
     maker.add(ball({0, 0, 0}, 10), maker.material(matt({0.5, 0.5, 0.5})));

@@ -2,11 +2,15 @@
 /// The random numbers of paths: from the sampler of the round for the first bounces, from a hash
 /// for those behind, where stratification no longer shows.
 ///
-/// Conventions: pairs of dimensions: 0 the pixel, 1 the lens, 2 the time and the wavelengths; from
-/// 3 + 4 b on those of bounce b: direction of the BSDF, place on a light, the two choices (lobe,
-/// light), roulette.
+/// Source of the shifts between pixels: Roberts, "The Unreasonable Effectiveness of Quasirandom
+/// Sequences", 2018 (R2).
+/// Conventions: pairs of dimensions: 0 the pixel, 1 the lens, 2 the time; from 3 + 4 b on those of
+/// bounce b: direction of the BSDF, place on a light, the two choices (lobe, light), roulette.
+/// Wavelengths are of no pair: the heroes of a pixel's samples lie a golden ratio apart, and those
+/// of neighbours are shifted by a quarter of R2, for the four of a path are a quarter apart.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,6 +32,7 @@ class PathChance {
         : sampler_(job.round->sampler),
           seed_(mix64(job.round->seed)),
           spectral_(job.spectral),
+          hero_(random_at(seed_, kHero, 0, 0)),
           draws_(sampler_, kByHash) {}
 
     /// `ids`: of the samples from now on, for `draw` and `waves` by their number in the
@@ -57,8 +62,13 @@ class PathChance {
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
     /// Of a sample of the batch: channels, or wavelengths where the job asks for them.
-    [[nodiscard]] Wavelengths waves(std::uint32_t sample) {
-        return spectral_ ? Wavelengths::drawn(draws_.at(sample, kTime).y) : Wavelengths();
+    [[nodiscard]] Wavelengths waves(std::uint32_t sample) const {
+        if (!spectral_) return {};
+        constexpr double kGolden = 0.6180339887498949;
+        constexpr double kAcross = 0.7548776662466927 / 4, kDown = 0.5698402909980532 / 4;
+        const SampleId& id = ids_[sample];
+        const double u = hero_ + kAcross * id.pixel.x + kDown * id.pixel.y + kGolden * id.number;
+        return Wavelengths::drawn(std::min(u - std::floor(u), 0x1.fffffffffffffp-1));
     }
     [[nodiscard]] bool is_spectral() const { return spectral_; }
     /// Where a path scatters inside a volume, by the number of its stretch.
@@ -84,6 +94,7 @@ class PathChance {
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
     static constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
     static constexpr std::uint64_t kExtra = std::uint64_t{1} << 62;
+    static constexpr std::uint64_t kHero = 0x68657230;  ///< of nothing else that is drawn
 
     [[nodiscard]] static std::uint32_t pair_of(int bounce, BouncePair pair) {
         return kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair;
@@ -106,6 +117,7 @@ class PathChance {
     const Sampler& sampler_;
     std::uint64_t seed_;
     bool spectral_;
+    double hero_;  ///< that of sample 0 of pixel (0, 0)
     SampleDraws draws_;
     std::span<const SampleId> ids_;
     std::vector<std::uint64_t> keys_;  ///< [sample of the batch] of its hashes; empty: none asked

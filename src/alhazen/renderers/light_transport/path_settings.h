@@ -1,6 +1,8 @@
 #pragma once
 /// Settings of the renderers of paths.
 
+#include <cstdint>
+
 namespace alhazen {
 
 struct PathSettings {
@@ -14,7 +16,12 @@ struct PathSettings {
     /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
     /// sample's light, both ways are followed, else one by chance.
     double split = 0.03;
-    double clamp = 0.0;  ///< largest contribution of indirect light to a sample; 0: none
+    /// Of photon_mapping: of 1, 2, 4 or 8 samples one looks at the photons of the surface that it
+    /// sees straight, and counts for all.
+    std::uint32_t every = 1;
+    /// Largest contribution of indirect light to a sample, with photons that of a light seen by way
+    /// of mirrors and glass; 0: none.
+    double clamp = 0.0;
 };
 
 }  // namespace alhazen

@@ -29,7 +29,8 @@ struct PhotonMappingSettings {
     int gather = 0;       ///< rays of the final gathering; 0: the global map is looked at directly
     double cache = 0;     ///< error of the irradiance cache of the final gathering; 0: none
     double memory = 512;  ///< of the maps, in megabytes
-    bool projection = true;  ///< caustic photons are sent towards mirrors and glass
+    bool irradiance = false;  ///< of the global map is computed at its photons, before the picture
+    bool projection = true;   ///< caustic photons are sent towards mirrors and glass
     PathSettings paths;
 };
 

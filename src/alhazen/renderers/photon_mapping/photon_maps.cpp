@@ -75,6 +75,11 @@ bool fill_pair(const RenderJob& job, const Illumination& lights,
     if (!fill(job, lights, shot, settings, maps, pair.global, pair.global_in_volumes)) {
         return false;
     }
+    // A photon of the hero alone would have to be told from others of its place.
+    if (settings.irradiance && !job.spectral) {
+        ThreadLimit threads(job.control.threads);
+        threads.run([&] { compute_irradiance(pair.global); });
+    }
     if (settings.caustics == 0) return true;
     seed = mix64(seed);
     shot.count = share_of(settings.caustics, maps);

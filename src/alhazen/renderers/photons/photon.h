@@ -35,7 +35,9 @@ class OctahedralVector {
         x_ = rounded(x);
         y_ = rounded(y);
     }
-    [[nodiscard]] Vec3 vector() const {
+    [[nodiscard]] Vec3 vector() const { return normalize(along()); }
+    /// In its direction, not of unit length.
+    [[nodiscard]] Vec3 along() const {
         double x = x_ / kScale, y = y_ / kScale;
         const double z = 1.0 - std::abs(x) - std::abs(y);
         if (z < 0.0) {
@@ -43,7 +45,7 @@ class OctahedralVector {
             y = (1.0 - std::abs(x)) * sign(y);
             x = folded;
         }
-        return normalize(Vec3{x, y, z});
+        return {x, y, z};
     }
     /// What is no direction: its `vector` means nothing.
     [[nodiscard]] static OctahedralVector none() {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
 namespace alhazen {
@@ -99,8 +100,53 @@ double usual_radius(const PhotonTree& tree, std::size_t nearest) {
     return 2.0 * std::sqrt(*most);
 }
 
+void compute_irradiance(PhotonMap& map) {
+    const std::span<const Photon> photons = map.tree.photons();
+    map.irradiance.assign(photons.size(), {});
+    constexpr std::size_t kTogether = 256;
+    parallel_for(photons.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+        std::vector<PhotonTree::Near> found;
+        for (std::size_t i = begin; i < end; ++i) {
+            const PhotonFits fits(photons[i].normal.vector(), false);
+            const auto [around, squared] = counted_photons(map, photons[i].point(), fits, found);
+            if (!(squared > 0.0)) continue;
+            Spectrum sum;
+            for (const PhotonTree::Near& near : around) {
+                if (near.node == i) continue;
+                sum +=
+                    filter_weight(map.filter, near.squared / squared) * photons[near.node].light();
+            }
+            map.irradiance[i] = (1.0 / (kPi * squared)) * sum;
+        }
+    });
+}
+
+std::optional<Spectrum> PhotonDensity::known_irradiance(const PhotonMap& map,
+                                                        const ScatterPoint& at, const Vec3& point) {
+    constexpr std::size_t kAround = 8;
+    map.tree.nearest(point, kAround, map.radius * map.radius, PhotonFits(at), found_);
+    if (found_.size() < kAround) return std::nullopt;
+    const double border = std::sqrt(found_.front().squared);
+    Spectrum sum;
+    double weights = 0.0;
+    for (const PhotonTree::Near& near : found_) {
+        const double weight = border - std::sqrt(near.squared);
+        sum += weight * map.irradiance[near.node];
+        weights += weight;
+    }
+    if (!(weights > 0.0)) return std::nullopt;
+    return (1.0 / weights) * sum;
+}
+
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
                                  LightPart part, bool hero_only) {
+    if (!map.irradiance.empty() && !hero_only) {
+        if (const auto matt = at.lambert()) {
+            if (const auto known = known_irradiance(map, at, point)) {
+                return (1.0 / kPi) * (*matt * *known);
+            }
+        }
+    }
     const auto [photons, squared] = counted_photons(map, point, PhotonFits(at), found_);
     if (!(squared > 0.0)) return {};
     const PhotonScattering scattered(at, part, hero_only);

@@ -36,9 +36,11 @@ class PhotonFits {
     explicit PhotonFits(const ScatterPoint& at) : PhotonFits(at.geometric(), at.transmits()) {}
     PhotonFits(const Vec3& normal, bool both_sides) : normal_(normal), both_sides_(both_sides) {}
     [[nodiscard]] bool operator()(const Photon& photon) const {
-        constexpr double kLeast = 0.5;  // 60 degrees
-        const double facing = dot(photon.normal.vector(), normal_);
-        return facing > kLeast || (both_sides_ && facing < -kLeast);
+        constexpr double kLeast = 0.5;  // cosine of 60 degrees
+        const Vec3 normal = photon.normal.along();
+        const double facing = dot(normal, normal_);
+        return (facing > 0.0 || both_sides_) &&
+               facing * facing > kLeast * kLeast * length_squared(normal);
     }
 
   private:
@@ -79,7 +81,16 @@ struct PhotonMap {
     std::size_t nearest = 1;  ///< photons at most, at least 2
     double radius = 0;        ///< at most
     DensityFilter filter = DensityFilter::Disc;
+    /// [node] Irradiance at the photons of surfaces, without their own; empty: not computed.
+    std::vector<Spectrum> irradiance;
 };
+
+/// Computes `irradiance` of a map, with the threads of the caller's ThreadLimit: matt surfaces then
+/// interpolate between the photons around, weighed by their distance.
+///
+/// Source: Christensen, "Faster Photon Map Global Illumination", JGT 4(3), 1999.
+/// Differs: a few photons around a point count, not the nearest alone, so that no cells show.
+void compute_irradiance(PhotonMap& map);
 
 /// Photons by area at a point with that geometric normal.
 [[nodiscard]] double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal);
@@ -102,6 +113,11 @@ class PhotonDensity {
     [[nodiscard]] Spectrum radiance(const PhotonMap& map, const VolumePoint& at, bool hero_only);
 
   private:
+    /// From the irradiance that the map knows; none where too few photons lie around.
+    [[nodiscard]] std::optional<Spectrum> known_irradiance(const PhotonMap& map,
+                                                           const ScatterPoint& at,
+                                                           const Vec3& point);
+
     std::vector<PhotonTree::Near> found_;
 };
 

@@ -6,6 +6,7 @@
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/renderers/photons/photon_density.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 
@@ -87,10 +88,14 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
         if (scatter_.has_density()) {
             add_direct_light(id, event, path, waves, direct);
+            const double times = event == 0 ? looks(id) : 1.0;
             const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(event) + 1,
                                   numbers.path, numbers.part};
-            sum += path.throughput *
-                   photon_light({point.surface, scatter_, path, id.number % given_.size(), own});
+            if (times > 0.0) {
+                sum +=
+                    times * path.throughput *
+                    photon_light({point.surface, scatter_, path, id.number % given_.size(), own});
+            }
         }
         if (const auto ways = scatter_.both_ways(Transport::Radiance);
             ways && splits_ < kMostSplits) {
@@ -113,6 +118,16 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
         if (!leave(id, event, *drawn, at)) return;
     }
+}
+
+double PhotonEye::looks(const SampleId& id) const {
+    // With several sets of wavelengths each needs its look.
+    if (settings_.every <= 1 || given_.size() > 1) return 1.0;
+    constexpr std::uint32_t kTogether = 8;       // samples of the first round
+    constexpr std::uint64_t kTurn = 0x6c6f6f6b;  // of nothing else that is drawn
+    const std::uint64_t turn = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kTurn));
+    const std::uint32_t at = id.number % kTogether / (kTogether / settings_.every);
+    return at == turn % settings_.every ? settings_.every : 0.0;
 }
 
 bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Branch& at) const {
@@ -142,7 +157,11 @@ Spectrum PhotonEye::emitted(const PathEnd& path, const Last& last) const {
     const ShadingPoint& point = next_.point();
     if (point.material->emission.is_black()) return {};
     const Spectrum light = path.throughput * emission_of(scene_, point, *path.waves);
-    if (light.is_black() || last.singular) return light;
+    if (light.is_black()) return light;
+    if (last.singular) {
+        const double most = last.scatterings > 0 ? settings_.clamp : 0.0;
+        return most > 0.0 && light.max() > most ? (most / light.max()) * light : light;
+    }
     // What shows its colour whatever the light is no lamp.
     if (point.material->unlit) return {};
     const double other =

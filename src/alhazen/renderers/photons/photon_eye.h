@@ -95,6 +95,8 @@ class PhotonEye {
     /// `event`: scatterings and straight passes of the sample so far, for random numbers.
     void follow(const SampleId& id, Branch& at, int& event, const Wavelengths& waves, Spectrum& sum,
                 Spectrum& direct);
+    /// How many times the photons of what the sample sees straight count: 0, 1 or `every`.
+    [[nodiscard]] double looks(const SampleId& id) const;
     /// Leaves a surface; false where the path ends.
     [[nodiscard]] bool leave(const SampleId& id, int event, const Scattered& drawn,
                              Branch& at) const;

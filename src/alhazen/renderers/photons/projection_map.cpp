@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "alhazen/math/constants.h"
@@ -19,6 +20,13 @@ constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 constexpr double kAnywhere = 0.2;
 /// Parts of the choice among few lights, and among many.
 constexpr std::size_t kFewLights = 4, kFewStrata = 16, kMostStrata = 64;
+
+/// Density of a cell by the share of its photons that hit: what leaves least variance for the time
+/// where one that misses costs a twentieth of one that hits.
+float weight_of(double share) {
+    constexpr double kMissing = 0.05;
+    return static_cast<float>(std::sqrt(share / (share + kMissing)));
+}
 
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
 bool meets_mirror(const Scene& scene, const LightRay& light, const MediaFinder& media,
@@ -48,19 +56,22 @@ ProjectionMap::ProjectionMap(const RenderJob& job, const Illumination& lights, s
     }
     strata_ = sources.size() == 1 ? 1 : sources.size() <= kFewLights ? kFewStrata : kMostStrata;
     side_ = sources.size() == 1 ? 96 : sources.size() <= kFewLights ? 64 : 32;
-    const std::vector<std::uint8_t> marks = widened(tried(job, seed, counters));
-    marked_ = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
-    if (marked_ == 0) return;
-    const double even = 1.0 / static_cast<double>(cells());
     std::vector<bool> afar(strata_);
     for (std::size_t i = 0; i < strata_; ++i) afar[i] = is_afar(i);
+    const std::vector<float> weights = widened(tried(job, afar, seed, counters));
+    double all = 0.0;
+    for (const float w : weights) {
+        all += static_cast<double>(w);
+        marked_ += w > 0.0f ? 1 : 0;
+    }
+    if (marked_ == 0) return;
+    const double even = 1.0 / static_cast<double>(cells());
     const std::size_t map = side_ * side_;
     const std::size_t near =
         map * static_cast<std::size_t>(std::count(afar.begin(), afar.end(), false));
-    const double of_marked =
-        (1.0 - kAnywhere) * static_cast<double>(near) * even / static_cast<double>(marked_);
+    const double of_weight = (1.0 - kAnywhere) * static_cast<double>(near) * even / all;
     for (std::size_t cell = 0; cell < cells(); ++cell) {
-        const double aimed = kAnywhere * even + (marks[cell] != 0 ? of_marked : 0.0);
+        const double aimed = kAnywhere * even + of_weight * static_cast<double>(weights[cell]);
         const double own = afar[cell / map] ? even : aimed;
         sums_.push_back((sums_.empty() ? 0.0 : sums_.back()) + own);
     }
@@ -71,45 +82,108 @@ bool ProjectionMap::is_afar(std::size_t stratum) const {
     return lights_.emit(choice, {0.5, 0.5}, {0.5, 0.5}, kColorChannels).infinite;
 }
 
-std::vector<std::uint8_t> ProjectionMap::tried(const RenderJob& job, std::uint64_t seed,
-                                               RayCounters& counters) const {
-    const int trials = strata_ > 1 ? 4 : 16;
-    std::vector<std::uint8_t> marks(cells());
-    std::vector<RayCounters> counts(strata_ * side_);
-    const MediaFinder media(job.scene);
-    parallel_for(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
-        ScatterPoint scatter;
-        for (std::size_t row = begin; row < end; ++row) {
-            NextSurface next(job.scene, counts[row],
-                             job.count_tests ? &counts[row].tests : nullptr);
-            if (is_afar(row / side_)) continue;
-            for (std::size_t cell = row * side_; cell < (row + 1) * side_; ++cell) {
-                for (int k = 0; k < trials && marks[cell] == 0; ++k) {
-                    const PathNumbers n{seed, cell, static_cast<std::uint64_t>(k)};
-                    const LightRay light = emit_in(cell, 1.0, n.at(0), {n.at(1), n.at(2)},
-                                                   {n.at(3), n.at(4)}, kColorChannels);
-                    // Light without a place is sent everywhere.
-                    marks[cell] =
-                        light.infinite || meets_mirror(job.scene, light, media, n, next, scatter);
-                }
-            }
+template <class Visit>
+void ProjectionMap::for_neighbors(std::size_t cell, const Visit& visit) const {
+    const std::size_t stratum = cell / (side_ * side_);
+    const std::size_t x = cell % side_, y = cell / side_ % side_;
+    for (std::size_t v = y > 0 ? y - 1 : 0; v <= std::min(y + 1, side_ - 1); ++v) {
+        for (const std::size_t u : {(x + side_ - 1) % side_, x, (x + 1) % side_}) {
+            visit((stratum * side_ + v) * side_ + u);
         }
-    });
-    for (const RayCounters& c : counts) counters += c;
-    return marks;
+    }
 }
 
-std::vector<std::uint8_t> ProjectionMap::widened(const std::vector<std::uint8_t>& marks) const {
-    std::vector<std::uint8_t> wide = marks;
-    for (std::size_t cell = 0; cell < marks.size(); ++cell) {
-        if (marks[cell] == 0) continue;
-        const std::size_t stratum = cell / (side_ * side_);
-        const std::size_t x = cell % side_, y = cell / side_ % side_;
-        for (std::size_t v = y > 0 ? y - 1 : 0; v <= std::min(y + 1, side_ - 1); ++v) {
-            for (const std::size_t u : {(x + side_ - 1) % side_, x, (x + 1) % side_}) {
-                wide[(stratum * side_ + v) * side_ + u] = 1;
+std::vector<std::size_t> ProjectionMap::leaders() const {
+    std::map<std::size_t, std::size_t> first;  // stratum of a light alone
+    std::vector<std::size_t> leader(strata_);
+    for (std::size_t i = 0; i < strata_; ++i) {
+        const auto source = [&](double share) {
+            const double choice = (static_cast<double>(i) + share) / static_cast<double>(strata_);
+            return lights_.emit(choice, {0.5, 0.5}, {0.5, 0.5}, kColorChannels).place.source;
+        };
+        constexpr double kEdge = 1e-6;
+        const std::size_t lowest = source(kEdge);
+        leader[i] = lowest == source(1.0 - kEdge) ? first.try_emplace(lowest, i).first->second : i;
+    }
+    return leader;
+}
+
+std::vector<float> ProjectionMap::tried(const RenderJob& job, const std::vector<bool>& afar,
+                                        std::uint64_t seed, RayCounters& counters) const {
+    struct Tally {
+        std::uint32_t trials = 0, hits = 0;
+    };
+    const std::size_t map = side_ * side_;
+    const std::vector<std::size_t> leader = leaders();
+    std::vector<Tally> own(cells()), tallies(cells());
+    const MediaFinder media(job.scene);
+    const auto try_cells = [&](const std::vector<std::size_t>& asked, std::uint32_t trials) {
+        constexpr std::size_t kTogether = 64;
+        const std::size_t groups = (asked.size() + kTogether - 1) / kTogether;
+        std::vector<RayCounters> counts(groups);
+        parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
+            ScatterPoint scatter;
+            for (std::size_t g = begin; g < end; ++g) {
+                NextSurface next(job.scene, counts[g],
+                                 job.count_tests ? &counts[g].tests : nullptr);
+                const std::size_t last = std::min((g + 1) * kTogether, asked.size());
+                for (std::size_t i = g * kTogether; i < last; ++i) {
+                    Tally& tally = own[asked[i]];
+                    for (std::uint32_t k = 0; k < trials; ++k) {
+                        const PathNumbers n{seed, asked[i], tally.trials++};
+                        const LightRay light = emit_in(asked[i], 1.0, n.at(0), {n.at(1), n.at(2)},
+                                                       {n.at(3), n.at(4)}, kColorChannels);
+                        // Light without a place is sent everywhere.
+                        const bool hits = light.infinite ||
+                                          meets_mirror(job.scene, light, media, n, next, scatter);
+                        tally.hits += hits ? 1 : 0;
+                    }
+                }
             }
+        });
+        for (const RayCounters& c : counts) counters += c;
+        // What one stratum of a light finds is true of all that have this light alone.
+        tallies.assign(cells(), {});
+        for (std::size_t cell = 0; cell < cells(); ++cell) {
+            Tally& tally = tallies[leader[cell / map] * map + cell % map];
+            tally.trials += own[cell].trials;
+            tally.hits += own[cell].hits;
         }
+    };
+    std::vector<std::size_t> asked;
+    for (std::size_t cell = 0; cell < cells(); ++cell) {
+        if (!afar[cell / map]) asked.push_back(cell);
+    }
+    try_cells(asked, strata_ > 1 ? 4 : 16);
+    // More where something was hit and beside it, until the border is known.
+    constexpr std::uint32_t kEnough = 64;
+    while (true) {
+        asked.clear();
+        for (std::size_t cell = 0; cell < cells(); ++cell) {
+            if (afar[cell / map] || leader[cell / map] != cell / map) continue;
+            if (tallies[cell].trials >= kEnough) continue;
+            bool near = tallies[cell].hits > 0;
+            for_neighbors(cell, [&](std::size_t other) { near |= tallies[other].hits > 0; });
+            if (near) asked.push_back(cell);
+        }
+        if (asked.empty()) break;
+        try_cells(asked, kEnough);
+    }
+    std::vector<float> weights(cells());
+    for (std::size_t cell = 0; cell < cells(); ++cell) {
+        const Tally& tally = tallies[leader[cell / map] * map + cell % map];
+        if (tally.hits > 0) weights[cell] = weight_of(tally.hits / double(tally.trials));
+    }
+    return weights;
+}
+
+std::vector<float> ProjectionMap::widened(const std::vector<float>& weights) const {
+    constexpr double kLeastShare = 0.01;  // below what the trials tell
+    const float least = weight_of(kLeastShare);
+    std::vector<float> wide = weights;
+    for (std::size_t cell = 0; cell < weights.size(); ++cell) {
+        if (weights[cell] == 0.0f) continue;
+        for_neighbors(cell, [&](std::size_t other) { wide[other] = std::max(wide[other], least); });
     }
     return wide;
 }

@@ -5,9 +5,12 @@
 /// Hesterberg, "Weighted Average Importance Sampling and Defensive Mixture Distributions",
 /// Technometrics 37(2), 1995.
 /// Differs: cells of the sphere of directions are marked by rays that are tried, not by projected
-/// bounds, with their neighbours. What is not marked keeps a fifth of the photons, and each photon
-/// counts by its density: no light is lost where the trials missed something. Light without a place
-/// (the sun, the surroundings) is not aimed, and keeps its share of the photons.
+/// bounds, with their neighbours. Most are tried beside what was hit, so that no cell at the border
+/// is missed: the rare photon of such a cell would be hundreds of times as bright as the others.
+/// The density of a cell follows the share of its trials that hit, by little. What is not marked
+/// keeps a fifth of the photons, and each photon counts by its density: no light is lost where the
+/// trials missed something. Light without a place (the sun, the surroundings) is not aimed, and
+/// keeps its share of the photons.
 /// Conventions: one map for each of 16 or 64 parts of the choice of a light, or for the only light;
 /// world directions. Depends on the scene and the seed alone. Threads: const functions may be
 /// called from many.
@@ -39,9 +42,15 @@ class ProjectionMap {
     [[nodiscard]] LightRay emit_in(std::size_t cell, double share, double choice, const Vec2& place,
                                    const Vec2& direction, const Wavelengths& waves) const;
     [[nodiscard]] bool is_afar(std::size_t stratum) const;
-    [[nodiscard]] std::vector<std::uint8_t> tried(const RenderJob& job, std::uint64_t seed,
-                                                  RayCounters& counters) const;
-    [[nodiscard]] std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks) const;
+    /// [stratum] The first of those that have its light alone, or itself.
+    [[nodiscard]] std::vector<std::size_t> leaders() const;
+    /// [cell] 0: not hit.
+    [[nodiscard]] std::vector<float> tried(const RenderJob& job, const std::vector<bool>& afar,
+                                           std::uint64_t seed, RayCounters& counters) const;
+    [[nodiscard]] std::vector<float> widened(const std::vector<float>& weights) const;
+    /// Calls visit(cell) of those around in the same map, and of the cell.
+    template <class Visit>
+    void for_neighbors(std::size_t cell, const Visit& visit) const;
 
     const Illumination& lights_;
     std::size_t strata_ = 1;  ///< of the choice

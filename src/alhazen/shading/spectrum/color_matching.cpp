@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace alhazen {
 
@@ -84,10 +85,12 @@ struct Responses {
     std::array<Rgb, std::size(kX)> channels;
     std::array<double, kCells> density{};
     std::array<double, kCells + 1> sums{};  ///< of the density: of all cells before
-    static constexpr int kGuides = 512;
-    std::array<int, kGuides + 1> guides{};  ///< the cell in which the share k / kGuides lies
+    /// So many that most lie in one cell with what follows up to the next.
+    static constexpr int kGuides = 4096;
+    std::array<std::uint16_t, kGuides + 1> guides{};  ///< the cell of the share k / kGuides
     /// All that is drawn is linear within a cell.
     struct Cell {
+        double before, after;  ///< sums
         double over_density, white, white_change;
         Rgb color, color_change;
     };
@@ -111,14 +114,28 @@ struct Responses {
         int cell = 0;
         for (int k = 0; k <= kGuides; ++k) {
             while (cell + 1 < kCells && sums[std::size_t(cell) + 1] <= double(k) / kGuides) ++cell;
-            guides[std::size_t(k)] = cell;
+            guides[std::size_t(k)] = static_cast<std::uint16_t>(cell);
         }
         for (int i = 0; i < kCells; ++i) {
             const double from = kShortestWave + i, to = from + 1.0;
             const double over = 1.0 / density[std::size_t(i)];
-            cells[std::size_t(i)] = {over, white_light(from), white_light(to) - white_light(from),
-                                     over * at(from), over * (at(to) - at(from))};
+            const double white_from = white_light(from), white_to = white_light(to);
+            cells[std::size_t(i)] = {sums[std::size_t(i)],
+                                     i + 1 < kCells ? sums[std::size_t(i) + 1] : 1.0,
+                                     over,
+                                     white_from,
+                                     white_to - white_from,
+                                     over * at(from),
+                                     over * (at(to) - at(from))};
         }
+    }
+    /// `u` in [0, 1): below the sum after the last cell.
+    [[nodiscard]] DrawnWave drawn(double u) const {
+        const Cell* cell = &cells[guides[static_cast<std::size_t>(u * kGuides)]];
+        while (cell->after <= u) ++cell;
+        const double share = std::clamp((u - cell->before) * cell->over_density, 0.0, 1.0);
+        return {kShortestWave + static_cast<double>(cell - cells.data()) + share,
+                cell->white + share * cell->white_change, cell->color + share * cell->color_change};
     }
     [[nodiscard]] static double middle(int cell) { return kShortestWave + cell + 0.5; }
     [[nodiscard]] static double d65_at(int cell) { return white_light(middle(cell)); }
@@ -159,15 +176,21 @@ double luminance_response(double nm) {
     return ((1.0 - b.share) * kY[b.before] + b.share * kY[b.before + 1]) / white;
 }
 
-DrawnWave draw_wave(double u) {
+DrawnWaves draw_waves(double u) {
     const Responses& all = responses();
-    const auto guide = static_cast<std::size_t>(u * Responses::kGuides);
-    auto cell = static_cast<std::size_t>(all.guides[guide]);
-    while (cell + 1 < kCells && all.sums[cell + 1] <= u) ++cell;
-    const Responses::Cell& c = all.cells[cell];
-    const double share = std::clamp((u - all.sums[cell]) * c.over_density, 0.0, 1.0);
-    return {kShortestWave + static_cast<double>(cell) + share, c.white + share * c.white_change,
-            c.color + share * c.color_change};
+    DrawnWaves waves;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        const double shifted = u + static_cast<double>(i) / Spectrum::kCount;
+        const DrawnWave wave = all.drawn(shifted < 1.0 ? shifted : shifted - 1.0);
+        waves.nm[i] = wave.nm;
+        waves.white[i] = wave.white;
+        waves.color[static_cast<std::size_t>(i)] = wave.color;
+    }
+    return waves;
+}
+
+DrawnWave draw_wave(double u) {
+    return responses().drawn(u);
 }
 
 }  // namespace alhazen

@@ -10,6 +10,7 @@
 #include <array>
 
 #include "alhazen/imaging/image/rgb.h"
+#include "alhazen/shading/spectrum/spectrum.h"
 
 namespace alhazen {
 
@@ -29,5 +30,11 @@ struct DrawnWave {
     Rgb color;         ///< response over the density, by nanometre, of the choice
 };
 [[nodiscard]] DrawnWave draw_wave(double u);
+/// Four, each a quarter further on in that distribution than the one before.
+struct DrawnWaves {
+    Spectrum nm, white;
+    std::array<Rgb, Spectrum::kCount> color;
+};
+[[nodiscard]] DrawnWaves draw_waves(double u);
 
 }  // namespace alhazen

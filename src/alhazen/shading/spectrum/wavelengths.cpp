@@ -25,28 +25,21 @@ Spectrum at_each(const Spectrum& nm, F&& f) {
 
 }  // namespace
 
-void Wavelengths::set(int i, const DrawnWave& wave) {
-    nm_[i] = wave.nm;
-    places_[i] = SmoothReflectance::place(wave.nm);
-    white_[i] = wave.white;
-    seen_[static_cast<std::size_t>(i)] = (1.0 / Spectrum::kCount) * wave.color;
-}
+Wavelengths::Wavelengths(const DrawnWaves& four)
+    : spectral_(true),
+      nm_(four.nm),
+      places_(at_each(four.nm, [](double nm) { return SmoothReflectance::place(nm); })),
+      white_(four.white),
+      seen_(four.color) {}
 
 Wavelengths Wavelengths::drawn(double u) {
-    Wavelengths waves;
-    waves.spectral_ = true;
-    for (int i = 0; i < Spectrum::kCount; ++i) {
-        const double shifted = u + static_cast<double>(i) / Spectrum::kCount;
-        waves.set(i, draw_wave(shifted < 1.0 ? shifted : shifted - 1.0));
-    }
-    return waves;
+    return Wavelengths(draw_waves(u));
 }
 
 Wavelengths Wavelengths::single(double nm) {
-    Wavelengths waves;
-    waves.spectral_ = true;
-    for (int i = 0; i < Spectrum::kCount; ++i) waves.set(i, {nm, white_light(nm), response(nm)});
-    return waves;
+    DrawnWaves four{Spectrum::all(nm), Spectrum::all(white_light(nm)), {}};
+    four.color.fill(response(nm));
+    return Wavelengths(four);
 }
 
 Spectrum Wavelengths::lifted_reflectance(const Rgb& c) const {
@@ -93,7 +86,7 @@ Rgb Wavelengths::seen(const Spectrum& light) const {
     for (int i = 0; i < Spectrum::kCount; ++i) {
         sum += light[i] * seen_[static_cast<std::size_t>(i)];
     }
-    return sum;
+    return (1.0 / Spectrum::kCount) * sum;
 }
 
 }  // namespace alhazen

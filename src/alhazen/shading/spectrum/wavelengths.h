@@ -22,7 +22,7 @@
 
 namespace alhazen {
 
-struct DrawnWave;
+struct DrawnWaves;
 
 class Wavelengths {
   public:
@@ -88,7 +88,7 @@ class Wavelengths {
     [[nodiscard]] Spectrum spectrum_of(const Illuminant& illuminant, const Rgb& color) const;
     [[nodiscard]] Spectrum between_channels(const Rgb& value) const;
     [[nodiscard]] Rgb seen(const Spectrum& light) const;
-    void set(int i, const DrawnWave& wave);
+    explicit Wavelengths(const DrawnWaves& four);
 
     bool spectral_ = false, hero_only_ = false;
     Spectrum nm_, places_, white_;
