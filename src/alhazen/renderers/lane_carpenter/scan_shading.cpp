@@ -160,10 +160,11 @@ void ScanShading::complete_point(std::uint32_t source_index, const Ray& ray) {
 }
 
 Rgb ScanShading::color_of_point() const {
-    const Rgb& background = job_.scene.background;
     const double coverage = point_.material->coverage;
+    // No copy: a load of the whole color right after stores of its parts waits for them.
+    if (coverage == 1.0) return unhindered_light(job_.scene, ambient_, point_);
     const Rgb color = coverage * unhindered_light(job_.scene, ambient_, point_);
-    return coverage < 1.0 ? color + (1.0 - coverage) * background : color;
+    return coverage < 1.0 ? color + (1.0 - coverage) * job_.scene.background : color;
 }
 
 void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const Ray> rays,

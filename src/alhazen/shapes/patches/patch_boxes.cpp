@@ -130,6 +130,7 @@ class Builder {
             parts.push_back(range(cut, whole.end));
         }
         set_planes(nodes_[node], all.box);
+        nodes_[node].used = (1u << parts.size()) - 1;
         for (std::size_t k = 0; k < kBoxChildren; ++k) {
             std::uint32_t child = 0;
             if (k < parts.size() && parts[k].count() == 1) {

@@ -5,7 +5,8 @@
 /// Tracing, 2008 (wide nodes); surface area heuristic in bins: Wald, "On Fast Construction of SAH
 /// based Bounding Volume Hierarchies", 2007.
 /// Conventions: boxes are in the frame of PatchFrame, grown by kBoxMargin for all rounding of rays
-/// in single precision. Unused children have empty boxes (lo above hi). Node 0 is the root.
+/// in single precision. Packets meet boxes that none of their lines meets, empty ones, too: unused
+/// children are marked. Node 0 is the root.
 
 #include <cstdint>
 #include <span>
@@ -24,8 +25,9 @@ struct PatchBoxes {
     float from[3], step[3];
     std::uint8_t planes[2][3][kBoxChildren];  ///< lo and hi
     std::uint32_t child[kBoxChildren];        ///< a node, or kLeafChild | place in the order
+    std::uint32_t used;                       ///< bits of the children that there are
 };
-static_assert(sizeof(PatchBoxes) == 184);
+static_assert(sizeof(PatchBoxes) == 188);
 
 /// Builds the tree; `order` receives the boxes' numbers in the order of the tree.
 [[nodiscard]] std::vector<PatchBoxes> make_patch_boxes(std::span<const Box3> boxes,

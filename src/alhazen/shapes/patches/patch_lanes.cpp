@@ -66,7 +66,7 @@ HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
         met |= bits_of(near <= far) << half;
         store_lanes(near, nears + half);
     }
-    push_children(node, nears, met, walk);
+    push_children(node, nears, met & node.used, walk);
 }
 
 /// The same for the boxes that a line of a packet may meet.
@@ -91,7 +91,7 @@ HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
         met |= bits_of(near <= far) << half;
         store_lanes(near, nears + half);
     }
-    push_children(node, nears, met, walk);
+    push_children(node, nears, met & node.used, walk);
 }
 
 bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint32_t& leaf,
