@@ -200,12 +200,16 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const Pat
                        std::size_t lane, bool with_uv, Surface& surface) {
     const ScanSource& source = scene.sources[piece.source];
     const Vec2 uv{block.u[lane], block.v[lane]};
-    const Vec3 normal = (block.regular >> lane & 1u) != 0
-                            ? PatchBlock::vector(block.normal, lane)
-                            : limit_normal(piece, uv, block.rays[lane]);
     surface.point = PatchBlock::vector(block.point, lane);
-    surface.normal = source.mirrored != piece.inward ? -normal : normal;
-    surface.shading_normal = surface.normal;
+    const double sign = source.mirrored != piece.inward ? -1.0 : 1.0;
+    double x = block.normal[0][lane], y = block.normal[1][lane], z = block.normal[2][lane];
+    if ((block.regular >> lane & 1u) == 0) {
+        const Vec3 limit = limit_normal(piece, uv, block.rays[lane]);
+        x = limit.x, y = limit.y, z = limit.z;
+    }
+    // From registers: a copy of the whole vector waits for its parts.
+    surface.normal = {sign * x, sign * y, sign * z};
+    surface.shading_normal = {sign * x, sign * y, sign * z};
     const double error = block.error[lane];
     surface.error = {error, error, error};
     if (!with_uv) return;

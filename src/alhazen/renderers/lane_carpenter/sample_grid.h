@@ -102,7 +102,8 @@ class SampleGrid {
         const double scale = view_.grid_per_pixel();
         const double least = lo * scale - 1.0, most = hi * scale + 1.0;
         const std::int32_t* const places = at.data();
-        IndexRange result{near(lo), near(hi)};
+        // Samples lie in the middle of pixels or near it: most steps below find nothing to do.
+        IndexRange result{near(lo + 0.5), near(hi + 0.5)};
         while (result.begin > 0 && places[result.begin - 1] >= least) --result.begin;
         while (result.begin < count && places[result.begin] < least) ++result.begin;
         while (result.end < count && places[result.end] <= most) ++result.end;

@@ -19,6 +19,9 @@ class ScanLines::Impl {
           xs_(grid.xs()),
           most_nearness_(view.most_nearness()),
           with_chords_(options.cracks == Cracks::Clark),
+          some_may_pass_(
+              std::any_of(scene.pieces.begin(), scene.pieces.end(),
+                          [&](const ScanPiece& piece) { return scene.may_pass(piece); })),
           patches_(scene, view, grid, options, false),
           quads_(grid.rows()),
           outlines_(grid.rows()) {
@@ -176,7 +179,7 @@ class ScanLines::Impl {
     }
 
     void draw_quad(const ScanQuad& quad, std::uint32_t slot, ScanRow& row) {
-        const bool veil = scene_.may_pass(scene_.pieces[quad.piece]);
+        const bool veil = some_may_pass_ && scene_.may_pass(scene_.pieces[quad.piece]);
         if (grid_.several()) return draw_quad_samples(quad, slot, veil, row);
         // Plain arrays: this is the innermost loop.
         int first[5];
@@ -327,7 +330,8 @@ class ScanLines::Impl {
     const SampleGrid& grid_;
     const std::int32_t* xs_;  ///< of the grid
     double most_nearness_;    ///< of what is before the eye
-    bool with_chords_, split_ahead_ = false;
+    bool with_chords_, some_may_pass_;
+    bool split_ahead_ = false;
     PatchTables patches_;
     PolygonTable<ScanQuad> quads_;
     PolygonTable<ScanOutline> outlines_;

@@ -160,10 +160,11 @@ void ScanShading::complete_point(std::uint32_t source_index, const Ray& ray) {
 }
 
 Rgb ScanShading::color_of_point() const {
-    const Rgb& background = job_.scene.background;
     const double coverage = point_.material->coverage;
+    // No copy, here and where it is kept: a load of the whole waits for the stores of its parts.
+    if (coverage == 1.0) return unhindered_light(job_.scene, ambient_, point_);
     const Rgb color = coverage * unhindered_light(job_.scene, ambient_, point_);
-    return coverage < 1.0 ? color + (1.0 - coverage) * background : color;
+    return coverage < 1.0 ? color + (1.0 - coverage) * job_.scene.background : color;
 }
 
 void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const Ray> rays,
@@ -189,7 +190,10 @@ void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const 
             // Only textures ask for the distance.
             if (with_uv) t_ = distance(seen[k].nearness, rays[k]);
             complete_point(piece.source, rays[k]);
-            pixels[k] = color_of_point();
+            const Rgb color = color_of_point();
+            pixels[k].r = color.r;
+            pixels[k].g = color.g;
+            pixels[k].b = color.b;
         }
         pixels += block_.count;
         seen = seen.subspan(block_.count);

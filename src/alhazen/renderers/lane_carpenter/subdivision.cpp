@@ -37,22 +37,29 @@ void halve_any(const HomogeneousPoint* from, int degree, int stride, Homogeneous
         for (int i = 0; i < n; ++i) row[i] = 0.5 * (row[i] + row[i + 1]);
     }
 }
-/// The same of a cubic.
+/// The same of a cubic, coordinate by coordinate: whole points would be copied before their parts
+/// are stored.
 void halve_cubic(const HomogeneousPoint* from, int stride, HomogeneousPoint* low,
                  HomogeneousPoint* high) {
-    const HomogeneousPoint &p0 = from[0], &p1 = from[stride], &p2 = from[2 * stride],
-                           &p3 = from[3 * stride];
-    const HomogeneousPoint p01 = 0.5 * (p0 + p1), p12 = 0.5 * (p1 + p2), p23 = 0.5 * (p2 + p3);
-    const HomogeneousPoint p012 = 0.5 * (p01 + p12), p123 = 0.5 * (p12 + p23);
-    const HomogeneousPoint middle = 0.5 * (p012 + p123);
-    low[0] = p0;
-    low[stride] = p01;
-    low[2 * stride] = p012;
-    low[3 * stride] = middle;
-    high[0] = middle;
-    high[stride] = p123;
-    high[2 * stride] = p23;
-    high[3 * stride] = p3;
+    const auto halve = [&](double HomogeneousPoint::*axis) {
+        const double p0 = from[0].*axis, p1 = from[stride].*axis, p2 = from[2 * stride].*axis;
+        const double p3 = from[3 * stride].*axis;
+        const double p01 = 0.5 * (p0 + p1), p12 = 0.5 * (p1 + p2), p23 = 0.5 * (p2 + p3);
+        const double p012 = 0.5 * (p01 + p12), p123 = 0.5 * (p12 + p23);
+        const double middle = 0.5 * (p012 + p123);
+        low[0].*axis = p0;
+        low[stride].*axis = p01;
+        low[2 * stride].*axis = p012;
+        low[3 * stride].*axis = middle;
+        high[0].*axis = middle;
+        high[stride].*axis = p123;
+        high[2 * stride].*axis = p23;
+        high[3 * stride].*axis = p3;
+    };
+    halve(&HomogeneousPoint::x);
+    halve(&HomogeneousPoint::y);
+    halve(&HomogeneousPoint::z);
+    halve(&HomogeneousPoint::w);
 }
 /// Curves that start `step` apart. The halves may not overlap the net.
 void halve_curves(const HomogeneousPoint* net, int count, int step, int degree, int stride,

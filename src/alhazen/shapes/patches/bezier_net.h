@@ -61,13 +61,15 @@ struct BezierNet {
 struct BezierView {
     int degree_u, degree_v;
     const HomogeneousPoint* points;
+    bool plain;  ///< all weights are known to be 1
 
-    BezierView(int u, int v, const HomogeneousPoint* first)
-        : degree_u(u), degree_v(v), points(first) {}
+    BezierView(int u, int v, const HomogeneousPoint* first, bool without_weights = false)
+        : degree_u(u), degree_v(v), points(first), plain(without_weights) {}
     BezierView(const BezierNet& net)  // NOLINT(google-explicit-constructor)
         : BezierView(net.degree_u, net.degree_v, net.points.data()) {}
 
     [[nodiscard]] int count() const { return (degree_u + 1) * (degree_v + 1); }
+    [[nodiscard]] bool is_bicubic() const { return degree_u == 3 && degree_v == 3; }
     [[nodiscard]] const HomogeneousPoint& at(int i, int j) const {
         return points[i * (degree_v + 1) + j];
     }

@@ -12,16 +12,16 @@ namespace {
 enum class Place { Inside, Outside, Unclear };
 
 /// Where a root lies to a cell: clear where its distance in the plane of the line, from each side,
-/// is beyond rounding, `scale` times `line.tiny`.
-Place place_of(const PatchValue& at, double scale, const PatchLine& line, const PatchCell& cell,
+/// is beyond rounding, `scale` times `tiny`.
+Place place_of(PlanePoint by_u, PlanePoint by_v, double scale, double tiny, const PatchCell& cell,
                double u, double v) {
-    const double x_u = dot(line.axis_x, at.du), y_u = dot(line.axis_y, at.du);
-    const double x_v = dot(line.axis_x, at.dv), y_v = dot(line.axis_y, at.dv);
+    const auto [x_u, y_u] = by_u;
+    const auto [x_v, y_v] = by_v;
     // A quarter for the change of the derivatives across the cell.
     const double area = 0.25 * std::abs(x_u * y_v - x_v * y_u);
     const double inside_u = std::min(u - cell.u0, cell.u1 - u) * area;
     const double inside_v = std::min(v - cell.v0, cell.v1 - v) * area;
-    const double margin = 4.0 * scale * line.tiny;
+    const double margin = 4.0 * scale * tiny;
     const double margin_u = margin * std::sqrt(x_v * x_v + y_v * y_v);
     const double margin_v = margin * std::sqrt(x_u * x_u + y_u * y_u);
     if (inside_u > margin_u && inside_v > margin_v) return Place::Inside;
@@ -71,7 +71,9 @@ bool certified_root(NewtonProof proof, RootOf what, BezierView net, const PatchL
         last = moved;
         if (moved > 0x1p-23 && !stalled) continue;
         const double scale = what == RootOf::Point ? 1.0 / at.weight : 1.0;
-        const Place place = place_of(at, scale, line, cell, u, v);
+        const PlanePoint by_u{dot(line.axis_x, at.du), dot(line.axis_y, at.du)};
+        const PlanePoint by_v{dot(line.axis_x, at.dv), dot(line.axis_y, at.dv)};
+        const Place place = place_of(by_u, by_v, scale, line.tiny, cell, u, v);
         if (place == Place::Outside) return false;
         if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
             return false;
@@ -89,12 +91,37 @@ bool certified_root(NewtonProof proof, RootOf what, BezierView net, const PatchL
     return false;
 }
 
+bool certified_root(NewtonProof proof, BezierView net, const CubicLine& seen, const PatchLine& line,
+                    const PatchCell& cell, double noise, double u, double v, const LineRange* range,
+                    PatchRoot& root) {
+    const bool converges = proof == NewtonProof::Converges;
+    CubicNewton task{cell, u, v, noise, converges, converges && range != nullptr, 0, 0, 0};
+    if (task.has_range) {
+        task.least = range->least;
+        task.most = range->most;
+        task.bend = range->bend;
+    }
+    CubicRoot at;
+    if (patch_kernels().cubic_newton(seen, task, at) != NewtonEnd::Root) return false;
+    const Place place =
+        place_of({at.x_u, at.y_u}, {at.x_v, at.y_v}, 1.0, line.tiny, cell, at.u, at.v);
+    if (place == Place::Outside) return false;
+    if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
+        return false;
+    }
+    // At a border the root may lie outside of the patch; the crossing is the patch's point.
+    root.u = std::clamp(at.u, 0.0, 1.0);
+    root.v = std::clamp(at.v, 0.0, 1.0);
+    root.t = line.shift + at.z * line.per_length;
+    if (!net.plain || root.u != at.u || root.v != at.v) {
+        root.t = t_at(patch_value(net, root.u, root.v).point - line.origin, line);
+    }
+    return true;
+}
+
 namespace {
 
-void halve_cell_net(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high) {
-    if (net.degree_u == 3 && net.degree_v == 3) {
-        return patch_kernels().halve_cubic(net, along_u, low, high);
-    }
+void halve_cell(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high) {
     low.degree_u = high.degree_u = net.degree_u;
     low.degree_v = high.degree_v = net.degree_v;
     const int degree = along_u ? net.degree_u : net.degree_v;
@@ -113,6 +140,10 @@ void halve_cell_net(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& 
             for (int k = 0; k < degree - level; ++k) work[k] = 0.5 * (work[k] + work[k + 1]);
         }
     }
+}
+
+void halve_cell(const CubicCell& net, bool along_u, CubicCell& low, CubicCell& high) {
+    patch_kernels().halve_cubic(net, along_u, low, high);
 }
 
 double cross2(const PlanePoint& a, const PlanePoint& b) {
@@ -175,12 +206,9 @@ CellBounds bounds_of(const PlaneNet& net) {
 class CellFacts {
   public:
     CellFacts(const PlaneNet& net, double tiny)
-        : n_(net.degree_u), m_(net.degree_v), margin_(1.5 * tiny) {
-        if (n_ == 3 && m_ == 3) {
-            patch_kernels().cubic_bounds(net, margin_, bounds_);
-        } else {
-            bounds_ = bounds_of(net);
-        }
+        : n_(net.degree_u), m_(net.degree_v), margin_(1.5 * tiny), bounds_(bounds_of(net)) {}
+    CellFacts(const CubicCell& net, double tiny) : n_(3), m_(3), margin_(1.5 * tiny) {
+        patch_kernels().cubic_bounds(net, margin_, bounds_);
     }
 
     enum class Hull { Beside, Thin, Around };
@@ -245,14 +273,10 @@ std::array<PatchCell, 2> halves_of(const PatchCell& cell, bool along_u) {
 
 }  // namespace
 
-CellSearch::CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell)
-    : net_(net), line_(line) {
+template <>
+CellSearch<PlaneNet>::CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell)
+    : CellSettling(net, line) {
     size_ = 1;
-    if (net.degree_u == 3 && net.degree_v == 3) {
-        patch_kernels().cubic_part(plane_net(net, line), cell, stack_[0].net);
-        stack_[0].cell = cell;
-        return;
-    }
     stack_[0].net = plane_net(net, line);
     // Down to the cell; the other halves are dropped.
     PatchCell& at = stack_[0].cell;
@@ -268,17 +292,47 @@ CellSearch::CellSearch(BezierView net, const PatchLine& line, const PatchCell& c
     }
 }
 
+template <>
+CellSearch<CubicCell>::CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell,
+                                  const CubicLine& seen, const LineRange* range)
+    : CellSettling(net, line), seen_(&seen), range_(range), whole_(cell) {
+    size_ = 1;
+    patch_kernels().cubic_part(seen, cell, stack_[0].net);
+    stack_[0].cell = cell;
+}
+
+template <>
+bool CellSearch<PlaneNet>::find_root(NewtonProof proof, const PatchCell& cell, double noise,
+                                     double u, double v, PatchRoot& root) const {
+    return certified_root(proof, RootOf::WeightedPoint, net_, line_, cell, noise, u, v, root);
+}
+
+template <>
+bool CellSearch<CubicCell>::find_root(NewtonProof proof, const PatchCell& cell, double noise,
+                                      double u, double v, PatchRoot& root) const {
+    if (range_ == nullptr) {
+        return certified_root(proof, net_, *seen_, line_, cell, noise, u, v, nullptr, root);
+    }
+    const double part = std::max((cell.u1 - cell.u0) / (whole_.u1 - whole_.u0),
+                                 (cell.v1 - cell.v0) / (whole_.v1 - whole_.v0));
+    LineRange range = *range_;
+    range.bend *= part * part;
+    return certified_root(proof, net_, *seen_, line_, cell, noise, u, v, &range, root);
+}
+
 /// Replaces the last entry by its halves.
-void CellSearch::push_halves(bool along_u) {
+template <class Net>
+void CellSearch<Net>::push_halves(bool along_u) {
     Entry& low = stack_[size_ - 1];
     Entry& high = stack_[size_++];
-    halve_cell_net(low.net, along_u, low.net, high.net);
+    halve_cell(low.net, along_u, low.net, high.net);
     const auto halves = halves_of(low.cell, along_u);
     low.cell = halves[0];
     high.cell = halves[1];
 }
 
-bool CellSearch::next(PatchRoot& root) {
+template <class Net>
+bool CellSearch<Net>::next(PatchRoot& root) {
     while (size_ > 0) {
         const Entry& top = stack_[size_ - 1];
         const PatchCell cell = top.cell;
@@ -304,8 +358,7 @@ bool CellSearch::next(PatchRoot& root) {
             const bool sure = newton == CellFacts::Newton::Certified;
             const NewtonProof proof = sure ? NewtonProof::Converges : NewtonProof::Unique;
             const bool met = noise > 0x1p-6 ? sure && settle(cell, root)
-                                            : certified_root(proof, RootOf::WeightedPoint, net_,
-                                                             line_, cell, noise, u, v, root);
+                                            : find_root(proof, cell, noise, u, v, root);
             if (met || sure) --size_;
             if (met) return true;
             if (sure) continue;
@@ -326,7 +379,7 @@ bool CellSearch::next(PatchRoot& root) {
 /// Reports one root where the winding number is odd: in the half where it is odd, and so on, then
 /// the point nearest to the line, there or beside: where a derivative is zero, the half-line that
 /// begins beside the line's image moves the root by the square root of `tiny`.
-bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
+bool CellSettling::settle(PatchCell cell, PatchRoot& root) const {
     const PlaneNet whole = border_net(net_, line_);
     if (!passes_through(whole, cell, line_.tiny)) return false;
     constexpr double kFine = 0x1p-18;
@@ -344,7 +397,7 @@ bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
 /// Source: Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares",
 /// Quarterly of Applied Mathematics 2(2), 1944. Without damping it is Newton's method; where the
 /// derivatives are parallel, or one is zero, the other direction still converges.
-PatchRoot CellSearch::nearest_point(const PatchCell& cell) const {
+PatchRoot CellSettling::nearest_point(const PatchCell& cell) const {
     constexpr double kLeastDamping = 0x1p-40;
     PatchRoot root{.u = 0.5 * (cell.u0 + cell.u1), .v = 0.5 * (cell.v0 + cell.v1)};
     const Vec3& d = line_.direction;
@@ -376,5 +429,8 @@ PatchRoot CellSearch::nearest_point(const PatchCell& cell) const {
     }
     return root;
 }
+
+template class CellSearch<PlaneNet>;
+template class CellSearch<CubicCell>;
 
 }  // namespace alhazen

@@ -15,6 +15,17 @@
 
 namespace alhazen {
 
+/// A bicubic patch from a line: the control points times their weights from its origin, along the
+/// axes of its plane and along the line.
+struct alignas(64) CubicLine {
+    double x[16], y[16], z[16];
+};
+/// A cell of it, without the distance.
+struct alignas(64) CubicCell {
+    double x[16], y[16];
+    double rest[4];  ///< zero: rows are read beyond the last
+};
+
 /// A crossing, in the parameters of the patch.
 struct PatchRoot {
     double t = 0, u = 0, v = 0;
@@ -45,17 +56,48 @@ enum class NewtonProof { Converges, Unique };
                                   const PatchLine& line, const PatchCell& cell, double noise,
                                   double u, double v, PatchRoot& root);
 
-/// Calls for each root in a cell: halves it until its parts are certified or tiny.
-class CellSearch {
+/// Part of a line that roots may be left out beyond, by distance from its origin, in a cell whose
+/// second derivatives |S_aa| + 2 |S_ab| + |S_bb|, in half-widths, are at most `bend`.
+struct LineRange {
+    double least, most, bend;
+};
+
+/// The same for a bicubic patch, of the point times its weight. A root out of `range` may be left
+/// out: then false, where the root is that of a certified cell.
+[[nodiscard]] bool certified_root(NewtonProof proof, BezierView net, const CubicLine& seen,
+                                  const PatchLine& line, const PatchCell& cell, double noise,
+                                  double u, double v, const LineRange* range, PatchRoot& root);
+
+/// The parts of CellSearch that do not depend on how cells are stored.
+class CellSettling {
+  public:
+    CellSettling(BezierView net, const PatchLine& line) : net_(net), line_(line) {}
+
+  protected:
+    [[nodiscard]] bool settle(PatchCell cell, PatchRoot& root) const;
+    /// Without its t.
+    [[nodiscard]] PatchRoot nearest_point(const PatchCell& cell) const;
+
+    BezierView net_;
+    const PatchLine& line_;
+};
+
+/// Calls for each root in a cell: halves it until its parts are certified or tiny. `Net` is what
+/// the line sees of a cell: a CubicCell of bicubic patches, a PlaneNet of others.
+template <class Net>
+class CellSearch : private CellSettling {
   public:
     CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell);
+    /// Of a bicubic patch. With a range roots beyond it may be left out.
+    CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell, const CubicLine& seen,
+               const LineRange* range);
 
     /// Finds the next root; false where there are no more.
     bool next(PatchRoot& root);
 
   private:
     struct Entry {
-        PlaneNet net;
+        Net net;
         PatchCell cell;
     };
     // Each halving leaves one entry.
@@ -64,12 +106,12 @@ class CellSearch {
     static constexpr int kMostCells = 4000;
 
     void push_halves(bool along_u);
-    [[nodiscard]] bool settle(PatchCell cell, PatchRoot& root) const;
-    /// Without its t.
-    [[nodiscard]] PatchRoot nearest_point(const PatchCell& cell) const;
+    [[nodiscard]] bool find_root(NewtonProof proof, const PatchCell& cell, double noise, double u,
+                                 double v, PatchRoot& root) const;
 
-    BezierView net_;
-    const PatchLine& line_;
+    const CubicLine* seen_ = nullptr;
+    const LineRange* range_ = nullptr;
+    PatchCell whole_{};
     int size_ = 0, cells_ = 0;
     Entry stack_[kMostEntries];
 };

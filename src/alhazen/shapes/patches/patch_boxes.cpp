@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace alhazen {
@@ -128,6 +129,8 @@ class Builder {
             *largest = range(whole.begin, cut);
             parts.push_back(range(cut, whole.end));
         }
+        set_planes(nodes_[node], all.box);
+        nodes_[node].used = (1u << parts.size()) - 1;
         for (std::size_t k = 0; k < kBoxChildren; ++k) {
             std::uint32_t child = 0;
             if (k < parts.size() && parts[k].count() == 1) {
@@ -140,14 +143,32 @@ class Builder {
             set(nodes_[node], k, k < parts.size() ? parts[k].box : Box3{}, child);
         }
     }
-    static void set(PatchBoxes& node, std::size_t k, const Box3& box, std::uint32_t child) {
+    /// The planes that a node's boxes may have; the first and last are outside of all.
+    static void set_planes(PatchBoxes& node, const Box3& box) {
         for (int axis = 0; axis < 3; ++axis) {
-            node.lo[axis][k] = static_cast<float>(box.lo[axis]) - kBoxMargin;
-            node.hi[axis][k] = static_cast<float>(box.hi[axis]) + kBoxMargin;
+            const double lo = box.empty() ? 0.0 : box.lo[axis],
+                         hi = box.empty() ? 0.0 : box.hi[axis];
+            node.from[axis] = static_cast<float>(lo - 2.0 * kBoxMargin);
+            const double size = hi + 2.0 * kBoxMargin - node.from[axis];
+            node.step[axis] = static_cast<float>(1.000001 * size / kLastPlane);
         }
+    }
+    static void set(PatchBoxes& node, std::size_t k, const Box3& box, std::uint32_t child) {
         node.child[k] = child;
+        for (int axis = 0; axis < 3; ++axis) {
+            node.planes[0][axis][k] = kLastPlane;
+            node.planes[1][axis][k] = 0;
+            if (box.empty()) continue;
+            const double from = node.from[axis], step = node.step[axis];
+            const double lo = (box.lo[axis] - kBoxMargin - from) / step;
+            const double hi = (box.hi[axis] + kBoxMargin - from) / step;
+            node.planes[0][axis][k] = static_cast<std::uint8_t>(std::max(std::floor(lo), 0.0));
+            node.planes[1][axis][k] =
+                static_cast<std::uint8_t>(std::min<double>(std::ceil(hi), kLastPlane));
+        }
     }
 
+    static constexpr std::uint8_t kLastPlane = 255;
     std::span<const Box3> boxes_;
     std::vector<std::uint32_t>& order_;
     std::vector<PatchBoxes> nodes_;

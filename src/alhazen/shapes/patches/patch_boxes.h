@@ -1,11 +1,12 @@
 #pragma once
-/// A tree of boxes with eight children to a node, for the leaves of patches.
+/// A tree of boxes with sixteen children to a node, for the leaves of patches.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", IEEE Symposium on Interactive Ray
 /// Tracing, 2008 (wide nodes); surface area heuristic in bins: Wald, "On Fast Construction of SAH
 /// based Bounding Volume Hierarchies", 2007.
 /// Conventions: boxes are in the frame of PatchFrame, grown by kBoxMargin for all rounding of rays
-/// in single precision. Unused children have empty boxes. Node 0 is the root.
+/// in single precision. Packets meet boxes that none of their lines meets, empty ones, too: unused
+/// children are marked. Node 0 is the root.
 
 #include <cstdint>
 #include <span>
@@ -15,14 +16,18 @@
 
 namespace alhazen {
 
-inline constexpr int kBoxChildren = 8;
+inline constexpr int kBoxChildren = 16;
 inline constexpr std::uint32_t kLeafChild = 0x80000000u;
-inline constexpr float kBoxMargin = 0x1p-19f;
+inline constexpr double kBoxMargin = 0x1p-18;
 
-struct alignas(32) PatchBoxes {
-    float lo[3][kBoxChildren], hi[3][kBoxChildren];
-    std::uint32_t child[kBoxChildren];  ///< a node, or kLeafChild | place in the order
+/// Planes of boxes are at from + byte * step, rounded outward.
+struct PatchBoxes {
+    float from[3], step[3];
+    std::uint8_t planes[2][3][kBoxChildren];  ///< lo and hi
+    std::uint32_t child[kBoxChildren];        ///< a node, or kLeafChild | place in the order
+    std::uint32_t used;                       ///< bits of the children that there are
 };
+static_assert(sizeof(PatchBoxes) == 188);
 
 /// Builds the tree; `order` receives the boxes' numbers in the order of the tree.
 [[nodiscard]] std::vector<PatchBoxes> make_patch_boxes(std::span<const Box3> boxes,

@@ -3,6 +3,32 @@
 ///
 /// Conventions: `Point` has four lanes, doubles.
 
+/// The columns of four rows.
+HWY_INLINE void transpose_lanes(const Lanes<double, 4> (&rows)[4], Lanes<double, 4> (&columns)[4]) {
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+    if constexpr (kParts<double, 4> == 1) {
+        const LaneTag<double, 4> tag;
+        const auto r0 = rows[0].part[0], r1 = rows[1].part[0];
+        const auto r2 = rows[2].part[0], r3 = rows[3].part[0];
+        const auto even_01 = hn::InterleaveLower(tag, r0, r1);
+        const auto even_23 = hn::InterleaveLower(tag, r2, r3);
+        const auto odd_01 = hn::InterleaveUpper(tag, r0, r1);
+        const auto odd_23 = hn::InterleaveUpper(tag, r2, r3);
+        columns[0].part[0] = hn::ConcatLowerLower(tag, even_23, even_01);
+        columns[1].part[0] = hn::ConcatLowerLower(tag, odd_23, odd_01);
+        columns[2].part[0] = hn::ConcatUpperUpper(tag, even_23, even_01);
+        columns[3].part[0] = hn::ConcatUpperUpper(tag, odd_23, odd_01);
+        return;
+    }
+#endif
+    HWY_ALIGN double from[4][4], to[4][4];
+    for (std::size_t i = 0; i < 4; ++i) store_lanes(rows[i], from[i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) to[k][i] = from[i][k];
+    }
+    for (std::size_t k = 0; k < 4; ++k) columns[k] = load_lanes<4>(to[k]);
+}
+
 /// Four rows of control points in lanes, and the same moved by one and two along v.
 struct CubicRows {
     Point row[4], by_one[4], by_two[4];
@@ -58,15 +84,8 @@ HWY_INLINE void middle_of(const CubicRows& x, const CubicRows& y, CellBounds& ou
     out.f_u = {sums[0], sums[1]};
 }
 
-void cubic_bounds(const PlaneNet& net, double margin, CellBounds& out) {
-    // Two rows' ends are read beyond the last.
-    HWY_ALIGN double xs[20], ys[20];
-    for (std::size_t k = 0; k < 16; ++k) {
-        xs[k] = net.at[k].x;
-        ys[k] = net.at[k].y;
-    }
-    for (std::size_t k = 16; k < 20; ++k) xs[k] = ys[k] = 0.0;
-    const CubicRows x(xs), y(ys);
+void cubic_bounds(const CubicCell& net, double margin, CellBounds& out) {
+    const CubicRows x(net.x), y(net.y);
     HWY_ALIGN double most[4];
     // Ends of the range of an axis in most[k] and -most[k + 1]; whether it leaves out the origin.
     const auto is_beside = [&](int axis, std::size_t k) {
@@ -131,43 +150,45 @@ void cubic_bounds(const PlaneNet& net, double margin, CellBounds& out) {
     }
 }
 
-/// Halves of four points `stride` apart, `width` doubles each; by midpoints as everywhere.
-template <std::size_t kWidth>
-HWY_INLINE void halve_four(const double* from, std::size_t stride, double* low, double* high) {
-    using Row = Lanes<double, kWidth>;
-    const Row half(0.5);
-    const Row p0 = load_unaligned<kWidth>(from), p1 = load_unaligned<kWidth>(from + stride);
-    const Row p2 = load_unaligned<kWidth>(from + 2 * stride);
-    const Row p3 = load_unaligned<kWidth>(from + 3 * stride);
-    const Row a = half * (p0 + p1), b = half * (p1 + p2), c = half * (p2 + p3);
-    const Row ab = half * (a + b), bc = half * (b + c), middle = half * (ab + bc);
-    HWY_ALIGN double out[7][kWidth];
-    store_lanes(p0, out[0]);
-    store_lanes(a, out[1]);
-    store_lanes(ab, out[2]);
-    store_lanes(middle, out[3]);
-    store_lanes(bc, out[4]);
-    store_lanes(c, out[5]);
-    store_lanes(p3, out[6]);
-    for (std::size_t k = 0; k < 4; ++k) {
-        for (std::size_t i = 0; i < kWidth; ++i) {
-            low[k * stride + i] = out[k][i];
-            high[k * stride + i] = out[k + 3][i];
-        }
+/// The halves of four curves, by their four control points in lanes.
+HWY_INLINE void halve_rows(const Point (&p)[4], Point (&low)[4], Point (&high)[4]) {
+    const Point half(0.5);
+    const Point a = half * (p[0] + p[1]), b = half * (p[1] + p[2]), c = half * (p[2] + p[3]);
+    low[0] = p[0];
+    low[1] = a;
+    low[2] = half * (a + b);
+    high[1] = half * (b + c);
+    high[2] = c;
+    high[3] = p[3];
+    low[3] = high[0] = half * (low[2] + high[1]);
+}
+
+template <bool kAlongU>
+HWY_INLINE void halve_coordinate(const double* from, double* to_low, double* to_high) {
+    Point p[4], low[4], high[4];
+    if constexpr (kAlongU) {
+        for (std::size_t i = 0; i < 4; ++i) p[i] = load_lanes<4>(from + 4 * i);
+        halve_rows(p, low, high);
+    } else {
+        Point columns[4], others[4];
+        for (std::size_t i = 0; i < 4; ++i) columns[i] = load_lanes<4>(from + 4 * i);
+        transpose_lanes(columns, p);
+        halve_rows(p, columns, others);
+        transpose_lanes(columns, low);
+        transpose_lanes(others, high);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        store_lanes(low[i], to_low + 4 * i);
+        store_lanes(high[i], to_high + 4 * i);
     }
 }
 
-void halve_cubic(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high) {
-    low.degree_u = low.degree_v = high.degree_u = high.degree_v = 3;
-    const double* from = &net.at[0].x;
-    double *to_low = &low.at[0].x, *to_high = &high.at[0].x;
-    if (along_u) {
-        halve_four<8>(from, 8, to_low, to_high);
-    } else {
-        for (std::size_t i = 0; i < 4; ++i) {
-            halve_four<2>(from + 8 * i, 2, to_low + 8 * i, to_high + 8 * i);
-        }
-    }
+void halve_cubic(const CubicCell& net, bool along_u, CubicCell& low, CubicCell& high) {
+    const auto halve = along_u ? &halve_coordinate<true> : &halve_coordinate<false>;
+    halve(net.x, low.x, high.x);
+    halve(net.y, low.y, high.y);
+    store_lanes(Point(0.0), low.rest);
+    store_lanes(Point(0.0), high.rest);
 }
 
 /// The control points over [from, to] as sums of those over [0, 1]: blossoms. All terms are
@@ -187,27 +208,26 @@ struct CubicPart {
     }
 };
 
-template <std::size_t kWidth>
-HWY_INLINE void part_of_four(const CubicPart& part, const double* from, std::size_t stride,
-                             double* to) {
-    using Row = Lanes<double, kWidth>;
-    const Row p0 = load_unaligned<kWidth>(from), p1 = load_unaligned<kWidth>(from + stride);
-    const Row p2 = load_unaligned<kWidth>(from + 2 * stride);
-    const Row p3 = load_unaligned<kWidth>(from + 3 * stride);
+HWY_INLINE void part_of_rows(const CubicPart& part, const Point (&p)[4], Point (&out)[4]) {
     for (std::size_t i = 0; i < 4; ++i) {
         const double(&w)[4] = part.weights[i];
-        HWY_ALIGN double out[kWidth];
-        store_lanes((Row(w[0]) * p0 + Row(w[1]) * p1) + (Row(w[2]) * p2 + Row(w[3]) * p3), out);
-        for (std::size_t k = 0; k < kWidth; ++k) to[i * stride + k] = out[k];
+        out[i] =
+            (Point(w[0]) * p[0] + Point(w[1]) * p[1]) + (Point(w[2]) * p[2] + Point(w[3]) * p[3]);
     }
 }
 
-void cubic_part(const PlaneNet& whole, const PatchCell& cell, PlaneNet& part) {
-    part.degree_u = part.degree_v = 3;
+void cubic_part(const CubicLine& whole, const PatchCell& cell, CubicCell& part) {
     const CubicPart along_u(cell.u0, cell.u1), along_v(cell.v0, cell.v1);
-    HWY_ALIGN double rows[32];
-    part_of_four<8>(along_u, &whole.at[0].x, 8, rows);
-    for (std::size_t i = 0; i < 4; ++i) {
-        part_of_four<2>(along_v, rows + 8 * i, 2, &part.at[4 * i].x);
-    }
+    const auto take = [&](const double* from, double* to) {
+        Point p[4], rows[4], columns[4];
+        for (std::size_t i = 0; i < 4; ++i) p[i] = load_lanes<4>(from + 4 * i);
+        part_of_rows(along_u, p, rows);
+        transpose_lanes(rows, columns);
+        part_of_rows(along_v, columns, p);
+        transpose_lanes(p, rows);
+        for (std::size_t i = 0; i < 4; ++i) store_lanes(rows[i], to + 4 * i);
+    };
+    take(whole.x, part.x);
+    take(whole.y, part.y);
+    store_lanes(Point(0.0), part.rest);
 }

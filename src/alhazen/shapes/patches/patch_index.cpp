@@ -79,7 +79,7 @@ PatchWalk PatchIndex::walk_of(const PatchLine& line, double t_min, double limit)
     walk.least = place(line, t_min, -1.0);
     walk.most = place(line, limit, 1.0);
     walk.size = 1;
-    walk.stack[0] = {walk.least, 0};
+    walk.stack[0] = PatchWalk::Waiting::of(walk.least, 0);
     return walk;
 }
 
@@ -98,31 +98,6 @@ bool PatchIndex::side_by_side(std::span<const Ray* const> rays) {
 std::size_t PatchIndex::bytes() const {
     return sizeof *this + leaves_.capacity() * sizeof(PatchLeaf) +
            nodes_.capacity() * sizeof(PatchBoxes);
-}
-
-LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& direction, double& a,
-                     double& b) {
-    const auto vec = [](const float(&x)[3]) { return Vec3{x[0], x[1], x[2]}; };
-    const Vec3 du = vec(leaf.du), dv = vec(leaf.dv);
-    const Vec3 offset = origin - vec(leaf.center);
-    const Vec3 across_v = cross(dv, direction), across_u = cross(direction, du);
-    const Vec3 normal = cross(du, dv);
-    const double det = dot(normal, direction), size = std::abs(det);
-    const double along_u = dot(across_v, offset), along_v = dot(across_u, offset);
-    const double normal_u = std::abs(dot(across_u, normal)) * leaf.bend[2];
-    const double normal_v = std::abs(dot(across_v, normal)) * leaf.bend[2];
-    const double bend_u = size * leaf.bend[0] + normal_v, bend_v = size * leaf.bend[1] + normal_u;
-    // For the rounding of cross products that cancel; all vectors are shorter than 8.
-    constexpr double kRounding = 1e-14;
-    if (std::abs(along_u) > size + 0.5 * bend_u + kRounding ||
-        std::abs(along_v) > size + 0.5 * bend_v + kRounding) {
-        return LeafAnswer::None;
-    }
-    const double bend = std::max(bend_u, bend_v);
-    if (!(bend < kUnique * size)) return LeafAnswer::Divide;
-    a = along_u / det;
-    b = along_v / det;
-    return bend <= kCertified * size ? LeafAnswer::Certified : LeafAnswer::Unique;
 }
 
 }  // namespace alhazen

@@ -49,41 +49,62 @@ class PatchIndex {
     [[nodiscard]] PatchWalk walk_of(const PatchLine& line, double t_min, double limit) const;
     [[nodiscard]] Vec3 in_frame(const Vec3& p) const { return frame_.scale * (p - frame_.center); }
 
+    /// `least` and `most`: the range along the line, in the frame.
     template <class F>
-    void visit_leaf(const PatchPieces& pieces, PatchLine& line, const Vec3& origin,
-                    const PatchLeaf& leaf, F& found) const;
+    void visit_leaf(const PatchPieces& pieces, PatchLine& line, const LeafLine& seen_by,
+                    double least, double most, const PatchLeaf& leaf, F& found) const;
+    /// The line for `test_leaf`.
+    [[nodiscard]] LeafLine leaf_line(const PatchLine& line) const {
+        const Vec3 o = in_frame(line.origin);
+        const Vec3& d = line.direction;
+        return {{o.x, o.y, o.z, 0.0}, {d.x, d.y, d.z, 0.0}};
+    }
     PatchFrame frame_;
     double reach_ = 0, most_weight_ = 0, far_ = 0;
     std::vector<PatchLeaf> leaves_;  ///< in the order of the tree
     std::vector<PatchBoxes> nodes_;
 };
 
-/// The part of the leaf test that needs no patch.
-enum class LeafAnswer { None, Certified, Unique, Divide };
-[[nodiscard]] LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& direction,
-                                   double& a, double& b);
-
 template <class F>
-void PatchIndex::visit_leaf(const PatchPieces& pieces, PatchLine& line, const Vec3& origin,
-                            const PatchLeaf& leaf, F& found) const {
-    double a = 0, b = 0;
-    const LeafAnswer answer = test_leaf(leaf, origin, line.direction, a, b);
+void PatchIndex::visit_leaf(const PatchPieces& pieces, PatchLine& line, const LeafLine& seen_by,
+                            double least, double most, const PatchLeaf& leaf, F& found) const {
+    const PatchKernels& kernels = patch_kernels();
+    LeafStart start;
+    const LeafAnswer answer = kernels.test_leaf(leaf, seen_by, least, most, start);
     if (answer == LeafAnswer::None) return;
     if (line.axis_x == Vec3{}) add_axes(line);
     const PatchCell cell = leaf.cell();
     const BezierView net = pieces.net(leaf.piece);
     PatchRoot root;
-    if (answer != LeafAnswer::Divide) {
-        const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
-        const double v = cell.v0 + 0.5 * (1.0 + b) * (cell.v1 - cell.v0);
-        const NewtonProof proof =
-            answer == LeafAnswer::Certified ? NewtonProof::Converges : NewtonProof::Unique;
-        const bool met = certified_root(proof, RootOf::Point, net, line, cell, 0.0, u, v, root);
+    const NewtonProof proof =
+        answer == LeafAnswer::Certified ? NewtonProof::Converges : NewtonProof::Unique;
+    const double u = cell.u0 + 0.5 * (1.0 + start.a) * (cell.u1 - cell.u0);
+    const double v = cell.v0 + 0.5 * (1.0 + start.b) * (cell.v1 - cell.v0);
+    // Whether the leaf is done.
+    const auto ends = [&](bool met) {
         if (met) found(leaf.piece, root);
-        if (met || answer == LeafAnswer::Certified) return;
+        return met || answer == LeafAnswer::Certified;
+    };
+    const auto halve = [&](auto&& cells) {
+        while (cells.next(root)) found(leaf.piece, root);
+    };
+    const bool divide = answer == LeafAnswer::Divide;
+    if (!net.is_bicubic()) {
+        if (!divide && ends(certified_root(proof, RootOf::Point, net, line, cell, 0.0, u, v, root)))
+            return;
+        return halve(CellSearch<PlaneNet>(net, line, cell));
     }
-    CellSearch cells(net, line, cell);
-    while (cells.next(root)) found(leaf.piece, root);
+    CubicLine seen;
+    kernels.cubic_line(net.points, line, seen);
+    const double unit = 1.0 / frame_.scale;
+    const LineRange bounds{unit * least, unit * most, unit * start.bend};
+    const LineRange* range = net.plain ? &bounds : nullptr;
+    if (!divide &&
+        ends(net.plain ? certified_root(proof, net, seen, line, cell, 0.0, u, v, range, root)
+                       : certified_root(proof, RootOf::Point, net, line, cell, 0.0, u, v, root))) {
+        return;
+    }
+    halve(CellSearch<CubicCell>(net, line, cell, seen, range));
 }
 
 template <class F>
@@ -91,7 +112,7 @@ void PatchIndex::search(const PatchPieces& pieces, PatchLine line, double t_min,
                         F&& found) const {
     if (!is_near(line)) return;
     PatchWalk walk = walk_of(line, t_min, limit);
-    const Vec3 origin = in_frame(line.origin);
+    const LeafLine seen_by = leaf_line(line);
     const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
         const double t = found(piece, root);
         if (t < limit) walk.most = place(line, limit = t, 1.0);
@@ -99,7 +120,7 @@ void PatchIndex::search(const PatchPieces& pieces, PatchLine line, double t_min,
     const PatchKernels& kernels = patch_kernels();
     std::uint32_t leaf = 0;
     while (kernels.next_leaf(nodes_.data(), walk, leaf)) {
-        visit_leaf(pieces, line, origin, leaves_[leaf], report);
+        visit_leaf(pieces, line, seen_by, walk.least, walk.most, leaves_[leaf], report);
     }
 }
 
@@ -131,7 +152,8 @@ bool PatchIndex::search_together(const PatchPieces& pieces, std::span<const Ray*
                 packet.most_of[i] = most;
                 changed = true;
             };
-            visit_leaf(pieces, lines[i], in_frame(lines[i].origin), leaves_[leaf], report);
+            visit_leaf(pieces, lines[i], leaf_line(lines[i]), place(lines[i], rays[i]->t_min, -1.0),
+                       packet.most_of[i], leaves_[leaf], report);
         });
         if (!changed) continue;
         packet.walk.most = *std::max_element(packet.most_of, packet.most_of + rays.size());

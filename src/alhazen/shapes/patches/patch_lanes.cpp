@@ -14,54 +14,84 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-static_assert(kBoxChildren == kLaneCount);
+static_assert(kBoxChildren == 2 * kLaneCount);
 
 /// Puts children on the stack, the nearest on top.
-HWY_INLINE void push_children(const PatchBoxes& node, const Floats& near, std::uint32_t met,
+HWY_INLINE void push_children(const PatchBoxes& node, const float* nears, std::uint32_t met,
                               PatchWalk& walk) {
-    if (met == 0) return;
-    HWY_ALIGN float nears[kLaneCount];
-    store_lanes(near, nears);
     const int begin = walk.size;
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);
         int place = walk.size++;
-        for (; place > begin && walk.stack[place - 1].near < nears[k]; --place) {
+        for (; place > begin && walk.stack[place - 1].near() < nears[k]; --place) {
             walk.stack[place] = walk.stack[place - 1];
         }
-        walk.stack[place] = {nears[k], node.child[k]};
+        walk.stack[place] = PatchWalk::Waiting::of(nears[k], node.child[k]);
     }
+}
+
+/// Eight bytes.
+HWY_INLINE Floats floats_of(const std::uint8_t* bytes) {
+    const LaneTag<float> d;
+    const hn::RebindToSigned<LaneTag<float>> di;
+    const hn::Rebind<std::uint8_t, LaneTag<float>> du;
+    Floats r;
+    for (std::size_t i = 0; i < kParts<float>; ++i) {
+        const auto part = hn::LoadU(du, bytes + i * hn::Lanes(d));
+        r.part[i] = hn::ConvertTo(d, hn::PromoteTo(di, part));
+    }
+    return r;
 }
 
 /// Puts the children that the line meets on the stack.
 HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
-    Floats near(walk.least), far(walk.most);
+    Floats begin[3], step[3];
+    std::size_t down[3];
     for (int axis = 0; axis < 3; ++axis) {
-        const Floats from(walk.from[axis]), inverse(walk.inverse[axis]);
-        const bool down = walk.inverse[axis] < 0.0f;
-        const Floats first = load_lanes(down ? node.hi[axis] : node.lo[axis]);
-        const Floats second = load_lanes(down ? node.lo[axis] : node.hi[axis]);
-        near = max_lanes(near, (first - from) * inverse);
-        far = min_lanes(far, (second - from) * inverse);
+        const float inverse = walk.inverse[axis];
+        down[axis] = inverse < 0.0f ? 1 : 0;
+        begin[axis] = Floats((node.from[axis] - walk.from[axis]) * inverse);
+        step[axis] = Floats(node.step[axis] * inverse);
     }
-    push_children(node, near, bits_of(near <= far), walk);
+    HWY_ALIGN float nears[kBoxChildren];
+    std::uint32_t met = 0;
+    for (std::size_t half = 0; half < kBoxChildren; half += kLaneCount) {
+        Floats near(walk.least), far(walk.most);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Floats first = floats_of(node.planes[down[axis]][axis] + half);
+            const Floats second = floats_of(node.planes[1 - down[axis]][axis] + half);
+            near = max_lanes(near, first * step[axis] + begin[axis]);
+            far = min_lanes(far, second * step[axis] + begin[axis]);
+        }
+        met |= bits_of(near <= far) << half;
+        store_lanes(near, nears + half);
+    }
+    push_children(node, nears, met & node.used, walk);
 }
 
 /// The same for the boxes that a line of a packet may meet.
 HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
     PatchWalk& walk = packet.walk;
-    Floats near(walk.least), far(walk.most);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Floats slow(packet.inverse[0][axis]), fast(packet.inverse[1][axis]);
-        const bool down = packet.inverse[1][axis] < 0.0f;
-        const Floats first = load_lanes(down ? node.hi[axis] : node.lo[axis]);
-        const Floats second = load_lanes(down ? node.lo[axis] : node.hi[axis]);
-        const Floats in = first - Floats(packet.from[down ? 0 : 1][axis]);
-        const Floats out = second - Floats(packet.from[down ? 1 : 0][axis]);
-        near = max_lanes(near, min_lanes(in * slow, in * fast));
-        far = min_lanes(far, max_lanes(out * slow, out * fast));
+    HWY_ALIGN float nears[kBoxChildren];
+    std::uint32_t met = 0;
+    for (std::size_t half = 0; half < kBoxChildren; half += kLaneCount) {
+        Floats near(walk.least), far(walk.most);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Floats slow(packet.inverse[0][axis]), fast(packet.inverse[1][axis]);
+            const std::size_t down = packet.inverse[1][axis] < 0.0f ? 1 : 0;
+            const Floats first = floats_of(node.planes[down][axis] + half);
+            const Floats second = floats_of(node.planes[1 - down][axis] + half);
+            const Floats step(node.step[axis]);
+            const float begin = node.from[axis] - packet.from[1 - down][axis];
+            const float end = node.from[axis] - packet.from[down][axis];
+            const Floats in = first * step + Floats(begin), out = second * step + Floats(end);
+            near = max_lanes(near, min_lanes(in * slow, in * fast));
+            far = min_lanes(far, max_lanes(out * slow, out * fast));
+        }
+        met |= bits_of(near <= far) << half;
+        store_lanes(near, nears + half);
     }
-    push_children(node, near, bits_of(near <= far), walk);
+    push_children(node, nears, met & node.used, walk);
 }
 
 bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint32_t& leaf,
@@ -69,13 +99,13 @@ bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint
     PatchWalk& walk = packet.walk;
     while (walk.size > 0) {
         const PatchWalk::Waiting next = walk.stack[--walk.size];
-        if (next.near > walk.most) continue;
-        if ((next.child & kLeafChild) != 0) {
-            leaf = next.child & ~kLeafChild;
-            near = next.near;
+        if (next.near() > walk.most) continue;
+        if ((next.child() & kLeafChild) != 0) {
+            leaf = next.child() & ~kLeafChild;
+            near = next.near();
             return true;
         }
-        open_node(nodes[next.child], packet);
+        open_node(nodes[next.child()], packet);
     }
     return false;
 }
@@ -83,12 +113,12 @@ bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint
 bool next_leaf(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf) {
     while (walk.size > 0) {
         const PatchWalk::Waiting next = walk.stack[--walk.size];
-        if (next.near > walk.most) continue;
-        if ((next.child & kLeafChild) != 0) {
-            leaf = next.child & ~kLeafChild;
+        if (next.near() > walk.most) continue;
+        if ((next.child() & kLeafChild) != 0) {
+            leaf = next.child() & ~kLeafChild;
             return true;
         }
-        open_node(nodes[next.child], walk);
+        open_node(nodes[next.child()], walk);
     }
     return false;
 }
@@ -197,39 +227,41 @@ bool begin_packet(const RayLanes& rays, const PatchFrame& frame, double far, Pat
     range_of(end, ignored, walk.most);
     store_lanes(as_floats(end), packet.most_of);
     walk.size = 1;
-    walk.stack[0] = {walk.least, 0};
+    walk.stack[0] = PatchWalk::Waiting::of(walk.least, 0);
     return together;
 }
 
 /// `test_leaf` with more room for rounding, as the lines were set out by themselves.
 std::uint32_t lines_near(const PatchLeaf& leaf, const PatchPacket& packet) {
-    const auto all = [](const float(&p)[3]) {
-        return LinePoints(Doubles(double{p[0]}), Doubles(double{p[1]}), Doubles(double{p[2]}));
+    const auto all = [](const Vec3& p) {
+        return LinePoints(Doubles(p.x), Doubles(p.y), Doubles(p.z));
     };
-    const LinePoints du = all(leaf.du), dv = all(leaf.dv), center = all(leaf.center);
+    const LinePoints du = all(leaf.by_u()), dv = all(leaf.by_v()), center = all(leaf.middle());
     const LinePoints origin(packet.origin), direction(packet.direction);
     const LinePoints offset(origin.x - center.x, origin.y - center.y, origin.z - center.z);
     const LinePoints across_v = cross(dv, direction), across_u = cross(direction, du);
     const LinePoints normal = cross(du, dv);
     const Doubles size = abs(dot(normal, direction)), half(0.5), rounding(1e-13);
     const Doubles along_u = dot(across_v, offset), along_v = dot(across_u, offset);
-    const Doubles bend_n(double{leaf.bend[2]});
+    const Doubles bend_n(leaf.most_bend(2));
     const Doubles normal_u = abs(dot(across_u, normal)) * bend_n;
     const Doubles normal_v = abs(dot(across_v, normal)) * bend_n;
-    const Doubles bend_u = size * Doubles(double{leaf.bend[0]}) + normal_v;
-    const Doubles bend_v = size * Doubles(double{leaf.bend[1]}) + normal_u;
+    const Doubles bend_u = size * Doubles(leaf.most_bend(0)) + normal_v;
+    const Doubles bend_v = size * Doubles(leaf.most_bend(1)) + normal_u;
     return bits_of((abs(along_u) <= size + half * bend_u + rounding) &
                    (abs(along_v) <= size + half * bend_v + rounding));
 }
 
 #include "alhazen/shapes/patches/patch_halving-inl.h"
+#include "alhazen/shapes/patches/patch_leaf_test-inl.h"
+#include "alhazen/shapes/patches/patch_newton-inl.h"
 
 }  // namespace
 
 const PatchKernels& patch_kernels_of_target() {
-    static constexpr PatchKernels kernels{&next_leaf,   &begin_packet, &next_leaf_of_packet,
-                                          &lines_near,  &bicubic,      &cubic_bounds,
-                                          &halve_cubic, &cubic_part};
+    static constexpr PatchKernels kernels{
+        &next_leaf,  &begin_packet, &next_leaf_of_packet, &test_leaf,   &lines_near, &bicubic,
+        &cubic_line, &cubic_newton, &cubic_bounds,        &halve_cubic, &cubic_part};
     return kernels;
 }
 

@@ -4,6 +4,7 @@
 ///
 /// Conventions: internal to PatchIndex. Every target gives the same bits.
 
+#include <bit>
 #include <cstdint>
 
 #include "alhazen/geometry/ray_lanes.h"
@@ -17,12 +18,22 @@ namespace alhazen {
 
 /// A line on its way through a tree of boxes, nearest boxes first.
 struct PatchWalk {
+    /// One number, since a load of what two stores wrote waits for both.
     struct Waiting {
-        float near;
-        std::uint32_t child;
+        std::uint64_t near_and_child;
+
+        static Waiting of(float near, std::uint32_t child) {
+            return {std::uint64_t{std::bit_cast<std::uint32_t>(near)} << 32 | child};
+        }
+        [[nodiscard]] float near() const {
+            return std::bit_cast<float>(static_cast<std::uint32_t>(near_and_child >> 32));
+        }
+        [[nodiscard]] std::uint32_t child() const {
+            return static_cast<std::uint32_t>(near_and_child);
+        }
     };
-    // The tree has at most some 18 levels, each of which leaves seven children.
-    static constexpr int kMostWaiting = 160;
+    // The tree has at most some 16 levels, each of which leaves fifteen children.
+    static constexpr int kMostWaiting = 272;
 
     float from[3], inverse[3];  ///< in the frame; 1 / direction
     float least, most;          ///< the range along the line
@@ -48,6 +59,34 @@ struct CellBounds {
     double extent_u, extent_v;         ///< |first differences|
 };
 
+/// What Newton's method is to find: see `certified_root`.
+struct CubicNewton {
+    PatchCell cell;
+    double u, v, noise;
+    bool converges;
+    /// Whether roots out of [least, most] along the line are left out, in a cell where the second
+    /// derivatives |S_aa| + 2 |S_ab| + |S_bb|, in half-widths, are at most `bend`. Only where the
+    /// method converges.
+    bool has_range;
+    double least, most, bend;
+};
+enum class NewtonEnd { NoRoot, OutOfRange, Root };
+struct CubicRoot {
+    double u, v, z;             ///< z along the line, in the tangent plane
+    double x_u, y_u, x_v, y_v;  ///< before the last step
+};
+
+/// A line in the frame; the fourth numbers are 0.
+struct alignas(32) LeafLine {
+    double origin[4], direction[4];
+};
+/// The part of the leaf test that needs no patch. None: no root in the range along the line.
+enum class LeafAnswer { None, Certified, Unique, Divide };
+/// Where Newton's method starts, and a bound of the leaf's second derivatives.
+struct LeafStart {
+    double a = 0, b = 0, bend = 0;
+};
+
 struct PatchKernels {
     /// The next leaf whose box the line passes through; false at the end.
     bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
@@ -58,16 +97,20 @@ struct PatchKernels {
     /// The same for a packet, nearest first; `near` is where the first line enters the box.
     bool (*next_leaf_of_packet)(const PatchBoxes* nodes, PatchPacket& packet, std::uint32_t& leaf,
                                 float& near);
+    LeafAnswer (*test_leaf)(const PatchLeaf& leaf, const LeafLine& line, double least, double most,
+                            LeafStart& start);
     /// The lines for which `test_leaf` has another answer than None, and hardly any others.
     std::uint32_t (*lines_near)(const PatchLeaf& leaf, const PatchPacket& packet);
-    /// For bicubic patches.
+    /// For bicubic patches, also the rest.
     HomogeneousValue (*bicubic)(BezierView net, double u, double v);
+    void (*cubic_line)(const HomogeneousPoint* points, const PatchLine& line, CubicLine& out);
+    NewtonEnd (*cubic_newton)(const CubicLine& net, const CubicNewton& task, CubicRoot& out);
     /// Only `least` and `most` where these leave out the origin by more than `margin`.
-    void (*cubic_bounds)(const PlaneNet& net, double margin, CellBounds& out);
-    /// `low` may be `net`.
-    void (*halve_cubic)(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high);
+    void (*cubic_bounds)(const CubicCell& net, double margin, CellBounds& out);
+    /// To some roundings; `low` may be `net`.
+    void (*halve_cubic)(const CubicCell& net, bool along_u, CubicCell& low, CubicCell& high);
     /// The control points over a cell, to some roundings.
-    void (*cubic_part)(const PlaneNet& whole, const PatchCell& cell, PlaneNet& part);
+    void (*cubic_part)(const CubicLine& whole, const PatchCell& cell, CubicCell& part);
 };
 [[nodiscard]] const PatchKernels& patch_kernels();
 

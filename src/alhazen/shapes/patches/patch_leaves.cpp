@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kFewestLeaves = 20;  ///< that a patch may have
 /// Of a bicubic patch with its points, leaves and boxes.
 constexpr std::size_t kMostBytes = 4096;
-constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 36;  ///< with its share of the boxes
+constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 13;  ///< with its share of the boxes
 constexpr int kMostLeafLevel = 8;
 /// Part of a patch's area, seen from everywhere, that need not be certified.
 constexpr double kUncertified = 0.05;
@@ -115,12 +115,30 @@ class PartBends {
 
 /// The part of the lines that meet a leaf for which it is not certified.
 double uncertified_part(const PatchLeaf& leaf, double size_u, double size_v, double flat) {
-    const double along = std::max(leaf.bend[0], leaf.bend[1]);
-    const double across = leaf.bend[2] * std::max(size_u, size_v) * flat;
+    const double along = std::max(leaf.most_bend(0), leaf.most_bend(1));
+    const double across = leaf.most_bend(2) * std::max(size_u, size_v) * flat;
     if (!(along < kUnique)) return 1.0;
     // bend along + bend across * tan(angle) / (sine * size of a derivative) <= kUnique
     const double slope = (kUnique - along) * flat / std::max(across, 1e-30);
     return 1.0 / (1.0 + slope * slope);
+}
+
+/// Rounds to whole steps of 2^exponent; returns the exponent.
+std::int8_t set_rounded(const Vec3& axis, std::int16_t (&to)[3]) {
+    constexpr int kLeastExponent = -120;
+    const double most = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+    const int exponent =
+        most > 0.0 ? std::max(std::ilogb(most / PatchLeaf::kMost) + 1, kLeastExponent) : 0;
+    for (int k = 0; k < 3; ++k) {
+        to[k] = static_cast<std::int16_t>(std::lrint(std::ldexp(axis[k], -exponent)));
+    }
+    return static_cast<std::int8_t>(exponent);
+}
+
+/// The upper half of a float that is at least `x`.
+std::uint16_t upper_half(double x) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
+    return static_cast<std::uint16_t>((bits >> 16) + 1);
 }
 
 void measure(Part& part, const PatchFrame& frame) {
@@ -130,16 +148,16 @@ void measure(Part& part, const PatchFrame& frame) {
     PatchLeaf& leaf = part.leaf;
     for (int k = 0; k < 3; ++k) {
         leaf.center[k] = static_cast<float>(center[k]);
-        leaf.du[k] = static_cast<float>(du[k]);
-        leaf.dv[k] = static_cast<float>(dv[k]);
     }
-    const auto vec = [](const float(&x)[3]) { return Vec3{x[0], x[1], x[2]}; };
-    const Vec3 u = vec(leaf.du), v = vec(leaf.dv), normal = cross(u, v);
+    leaf.exponent_u = set_rounded(du, leaf.du);
+    leaf.exponent_v = set_rounded(dv, leaf.dv);
+    const Vec3 u = leaf.by_u(), v = leaf.by_v(), normal = cross(u, v);
     const double square = dot(normal, normal);
     const Vec3 axes[3] = {cross(v, normal), cross(normal, u), normal};
     const PartBends bends(part.net, middle.point);
     // Rounding of the center and the derivatives, and of the sums made of them.
-    const double rounding = 0x1p-20 * (length(center) + length(u) + length(v));
+    const double steps = std::ldexp(2.0, leaf.exponent_u) + std::ldexp(2.0, leaf.exponent_v);
+    const double rounding = 0x1p-20 * (length(center) + length(u) + length(v)) + steps;
     PartBends::Bends bend[3];
     bool has_plane = square > 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -147,12 +165,12 @@ void measure(Part& part, const PatchFrame& frame) {
         bend[k] = bends.along(frame.scale * axis);
         const double bound = 1.000001 * bend[k].sum() + rounding * length(axis);
         has_plane = has_plane && bound < 1e6;
-        leaf.bend[k] = has_plane ? static_cast<float>(bound) : 0.0f;
+        leaf.bend[k] = has_plane ? upper_half(bound) : std::uint16_t{0};
     }
     part.area = length(u) * length(v);
     if (!has_plane) {
         // The middle may be where the patch is folded to a line: its derivatives tell nothing.
-        leaf.set_without_plane();
+        for (int k = 0; k < 3; ++k) leaf.du[k] = leaf.dv[k] = 0, leaf.bend[k] = 0;
         const double size = frame.scale * length(control_box(part.net).size());
         part.area = std::max(part.area, 0.125 * size * size);
     }
@@ -180,7 +198,11 @@ std::array<Part, 2> halves_of_part(const Part& part, const PatchFrame& frame) {
         PatchLeaf& leaf = halves[side].leaf;
         std::uint8_t& place = part.split_u ? leaf.u : leaf.v;
         place = static_cast<std::uint8_t>(2 * place + side);
-        ++(part.split_u ? leaf.level_u : leaf.level_v);
+        if (part.split_u) {
+            ++leaf.level_u;
+        } else {
+            ++leaf.level_v;
+        }
         measure(halves[side], frame);
     }
     return halves;

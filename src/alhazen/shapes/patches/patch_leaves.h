@@ -8,6 +8,7 @@
 /// Conventions: leaves are in the frame of their tree: (p - center) * scale. A leaf's own
 /// parameters are from -1 to 1. One leaf for each part of the unit square, which they tile.
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -21,20 +22,44 @@ namespace alhazen {
 /// `bend`; the distance from the plane's point at (a, b) has at most half of them. Without a plane,
 /// du and dv are zero: neither certified nor rejected for any line.
 struct PatchLeaf {
-    float center[3], du[3], dv[3], bend[3];
-    std::uint32_t piece;
+    float center[3];
+    std::int16_t du[3], dv[3];  ///< times 2^exponent_u and 2^exponent_v
+    std::uint16_t bend[3];      ///< the upper halves of floats
+    std::int8_t exponent_u, exponent_v;
     std::uint8_t u, v;  ///< the cell: [u, u + 1] / 2^level_u
-    std::uint8_t level_u, level_v;
+    std::uint8_t level_u : 4, level_v : 4;
+    std::uint32_t piece;
 
     [[nodiscard]] PatchCell cell() const {
-        const double width_u = 1.0 / (1 << level_u), width_v = 1.0 / (1 << level_v);
+        const double width_u = power_of_two(-level_u), width_v = power_of_two(-level_v);
         return {u * width_u, (u + 1) * width_u, v * width_v, (v + 1) * width_v};
     }
-    void set_without_plane() {
-        for (int k = 0; k < 3; ++k) du[k] = dv[k] = bend[k] = 0.0f;
+    [[nodiscard]] Vec3 middle() const { return {center[0], center[1], center[2]}; }
+    [[nodiscard]] double unit_u() const { return power_of_two(exponent_u); }
+    [[nodiscard]] double unit_v() const { return power_of_two(exponent_v); }
+    [[nodiscard]] Vec3 by_u() const {
+        return unit_u() * Vec3{double(du[0]), double(du[1]), double(du[2])};
+    }
+    [[nodiscard]] Vec3 by_v() const {
+        return unit_v() * Vec3{double(dv[0]), double(dv[1]), double(dv[2])};
+    }
+    /// At least the lengths of du and dv, and at most four times them.
+    [[nodiscard]] double most_u() const { return kMostLength * unit_u(); }
+    [[nodiscard]] double most_v() const { return kMostLength * unit_v(); }
+    [[nodiscard]] double most_bend(int k) const {
+        return std::bit_cast<float>(std::uint32_t{bend[k]} << 16);
+    }
+
+    static constexpr int kMost = 1 << 14;  ///< of the numbers in du and dv
+
+  private:
+    static constexpr double kMostLength = 1.7321 * kMost;
+
+    static double power_of_two(int exponent) {
+        return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
     }
 };
-static_assert(sizeof(PatchLeaf) == 56);
+static_assert(sizeof(PatchLeaf) == 40);
 
 /// The frame of a tree: its box becomes about [-1, 1].
 struct PatchFrame {

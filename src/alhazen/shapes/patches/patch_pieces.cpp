@@ -11,9 +11,12 @@ PatchPieces::PatchPieces(const std::vector<BezierPiece>& pieces) {
 
 void PatchPieces::add(const BezierPiece& piece) {
     const BezierNet& net = piece.net;
-    heads_.push_back({points_.size(), piece.part, static_cast<std::uint16_t>(net.degree_u),
-                      static_cast<std::uint16_t>(net.degree_v), piece.lo, piece.hi});
-    points_.insert(points_.end(), net.points.begin(), net.points.begin() + net.count());
+    const auto end = net.points.begin() + net.count();
+    const bool plain =
+        std::all_of(net.points.begin(), end, [](const HomogeneousPoint& p) { return p.w == 1.0; });
+    heads_.push_back({points_.size(), piece.part, static_cast<std::uint8_t>(net.degree_u),
+                      static_cast<std::uint8_t>(net.degree_v), plain, piece.lo, piece.hi});
+    points_.insert(points_.end(), net.points.begin(), end);
 }
 
 void PatchPieces::shrink_to_fit() {

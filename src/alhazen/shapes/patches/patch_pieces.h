@@ -29,7 +29,8 @@ class PatchPieces {
     [[nodiscard]] std::size_t size() const { return heads_.size(); }
     [[nodiscard]] BezierPiece operator[](std::size_t k) const;
     [[nodiscard]] BezierView net(std::size_t k) const {
-        return {heads_[k].degree_u, heads_[k].degree_v, &points_[heads_[k].first]};
+        const Head& head = heads_[k];
+        return {head.degree_u, head.degree_v, &points_[head.first], head.plain};
     }
     [[nodiscard]] std::uint32_t part(std::size_t k) const { return heads_[k].part; }
     [[nodiscard]] const Vec2& lo(std::size_t k) const { return heads_[k].lo; }
@@ -42,7 +43,8 @@ class PatchPieces {
     struct Head {
         std::uint64_t first;  ///< of its points
         std::uint32_t part;
-        std::uint16_t degree_u, degree_v;
+        std::uint8_t degree_u, degree_v;
+        bool plain;
         Vec2 lo, hi;
     };
     static_assert(sizeof(Head) == 48);
