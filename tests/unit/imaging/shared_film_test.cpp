@@ -36,6 +36,7 @@ Film film_of(const FilterEntry& filter, double radius, int per_pixel, Value&& va
 
 TEST(SharedFilm, AnEvenPictureStaysEven) {
     for (const FilterEntry& filter : filters()) {
+        if (FilterKernel(filter, filter.radius).has_negative_lobes()) continue;
         const Film film = film_of(filter, filter.radius, 3, [](const Vec2&, auto&) {
             return Rgb{0.25, 0.5, 1};
         });

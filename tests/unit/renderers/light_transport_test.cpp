@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/renderers/bidirectional/path_weight.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/light_transport/bsdf_cache.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
-#include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
@@ -66,6 +66,10 @@ TEST(LightTransport, KeptBsdfsAreThoseOfTheirMaterials) {
         m.index.value = 1.0 + 0.02 * i;
         ids.push_back(maker.material(m));
     }
+    maker.description().textures.push_back({"", SolidTexture{}, {}});
+    Material checked;
+    checked.diffuse = {{1, 1, 1}, TextureId{0}};
+    const MaterialId textured = maker.material(checked);
     const Scene scene = maker.compile();
     BsdfCache kept(scene);
     RandomStream random(4);
@@ -88,6 +92,9 @@ TEST(LightTransport, KeptBsdfsAreThoseOfTheirMaterials) {
     }
     const Wavelengths waves = Wavelengths::drawn(0.5);
     EXPECT_EQ(kept.find(ids[0], {.waves = waves}), nullptr);
+    const Spectrum etas = Spectrum::all(1.5);
+    EXPECT_EQ(kept.find(ids[1], {.eta = 1.5, .etas = &etas}), nullptr);
+    EXPECT_EQ(kept.find(textured, {}), nullptr);
 }
 
 /// A closed sphere of albedo a that glows with e shows e / (1 - a) everywhere.

@@ -90,7 +90,7 @@ TEST(Rounds, PicturesAreTheSameForAnyThreadsAndTiles) {
 
 TEST(Rounds, SharedSamplesGiveThePictureOfTheFilter) {
     const Scene scene = ball();
-    for (const char* filter : {"tent", "gaussian:radius=1.5", "mitchell"}) {
+    for (const char* filter : {"tent", "gaussian:radius=1.5", "blackman_harris"}) {
         const std::string text = filter;
         const std::string more = text.find(':') == std::string::npos ? ":" : ",";
         const SampledPicture own = picture(scene, plan_of("sobol", text), 1024);
@@ -117,10 +117,13 @@ TEST(Rounds, SharedSamplesGiveTheSameBitsForAnyThreadsAndTiles) {
     expect_same_pixels(one.film, four.film);
 }
 
-TEST(Rounds, SharedSamplesAreRefusedWherePixelsDiffer) {
+TEST(Rounds, SharedSamplesAreRefusedWhereWeightsMayBeUneven) {
     EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=on", 0.1)), Error);
     EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=maybe")), Error);
     EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=on,radius=5")), Error);
+    EXPECT_THROW(static_cast<void>(plan_of("sobol", "tent:shared=on,radius=0.4")), Error);
+    EXPECT_THROW(static_cast<void>(plan_of("sobol", "mitchell:shared=on")), Error);
+    EXPECT_TRUE(plan_of("sobol", "tent:shared=on").shared);
 }
 
 TEST(Rounds, SeveralRoundsAddUpToOneWhereTheSamplerIsProgressive) {

@@ -97,6 +97,16 @@ TEST(MetallicRoughness, TransmissionReplacesTheDiffuseAndThicknessMakesAVolume) 
     }
 }
 
+TEST(MetallicRoughness, WhatTheBodyLetsThroughIsShownOnTheSideOfTheLight) {
+    MetallicRoughness p = parameters(0, 1);
+    p.diffuse_transmission.share.value = 0.25;
+    p.diffuse_transmission.color.color = {0.4, 0.4, 1};
+    const MaterialSample s = sample_of(with(p));
+    expect_near(s.diffuse, {0.7, 0.4, 0.4});
+    expect_near(s.ambient, {0.7, 0.4, 0.4});
+    EXPECT_TRUE(s.transmissive.is_black());
+}
+
 TEST(MetallicRoughness, InsideAVolumeBeyondTheCriticalAngleAllIsReflected) {
     MetallicRoughness p = parameters(0, 0);
     p.transmission.value = 1;

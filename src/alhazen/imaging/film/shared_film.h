@@ -7,7 +7,8 @@
 /// Differs: sums are exact (fixed_sum.h), so that the order of the samples does not matter.
 /// Where samples differ by chance alone, the variance of a pixel is that of a sample of its own
 /// times the integral of the square of the filter (whose own integral is 1).
-/// Conventions: the picture expected is that of samples drawn by the filter (filter_kernel.h).
+/// Conventions: the picture expected is that of samples drawn by the filter (filter_kernel.h), off
+/// by O(1 / n), as the mean's weight is that of the samples themselves.
 /// Beyond the crop there are no samples: pixels at its border are means of those on one side.
 /// Threads: `add` may be called from many.
 
@@ -23,7 +24,8 @@ namespace alhazen {
 
 class SharedFilm {
   public:
-    /// Precondition: radius > 0.
+    /// Precondition: the kernel is nowhere negative, and no radius below 0.5: else the weight of a
+    /// pixel may be 0, or nearly.
     SharedFilm(const FilterEntry& filter, double radius, const PixelBox& crop);
 
     /// What the samples of one pixel add to the pixels around it.
@@ -48,10 +50,9 @@ class SharedFilm {
     /// summed: that share is left out.
     bool add(int x, int y, Spread& spread);
 
-    /// Writes all pixels that have samples. While nobody adds.
+    /// Writes all pixels that samples reach. While nobody adds.
     void write(Film& film) const;
 
-    [[nodiscard]] int reach() const { return reach_; }
     /// The kernel at a distance along one axis, from a table; its scale has no meaning.
     [[nodiscard]] double kernel(double distance) const;
 

@@ -25,6 +25,19 @@ void read_sampler(const std::string& text, SamplingPlan& plan) {
     given.finish();
 }
 
+/// Their weights must be far from 0.
+void check_shared(const SamplingPlan& plan, const std::string& filter) {
+    if (plan.radius < SamplingPlan::kLeastShared || plan.radius > SamplingPlan::kLargestShared) {
+        throw Error(ErrorKind::Usage,
+                    "--filter " + filter + ": samples are shared by a radius from 0.5 to 4");
+    }
+    if (FilterKernel(*plan.filter, plan.radius).has_negative_lobes()) {
+        throw Error(ErrorKind::Usage, "--filter " + filter +
+                                          ": samples cannot be shared by a filter with negative "
+                                          "lobes");
+    }
+}
+
 void read_filter(const std::string& text, SamplingPlan& plan) {
     RendererSettings given(text, "--filter");
     plan.filter = find_filter(given.name());
@@ -33,10 +46,7 @@ void read_filter(const std::string& text, SamplingPlan& plan) {
                                SamplingPlan::kLargestRadius);
     constexpr const char* kOffOn[] = {"off", "on"};
     plan.shared = given.choice("shared", 0, kOffOn) == 1;
-    if (plan.shared && plan.radius > SamplingPlan::kLargestShared) {
-        throw Error(ErrorKind::Usage,
-                    "--filter " + text + ": samples are shared up to a radius of 4");
-    }
+    if (plan.shared) check_shared(plan, text);
     given.finish();
 }
 

@@ -12,7 +12,7 @@ struct SamplerEntry;
 
 struct SamplingPlan {
     static constexpr double kLeastRadius = 0.01, kLargestRadius = 16.0;
-    static constexpr double kLargestShared = 4.0;  ///< radius of a filter that shares samples
+    static constexpr double kLeastShared = 0.5, kLargestShared = 4.0;  ///< with `shared`
     /// Samples per pixel at most where a stop rule decides and nothing else is said.
     static constexpr int kMostByRule = 1 << 14;
 

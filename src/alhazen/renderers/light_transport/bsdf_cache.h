@@ -23,7 +23,7 @@ class BsdfCache {
         if (entry.id != id || !entry.used) begin(id, entry);
         if (!entry.constant) return nullptr;
         Side& side = entry.sides[place.from_inside ? 1 : 0];
-        if (!side.bsdf || !(side.eta == place.eta)) make(id, place, side);
+        if (!side.made || !(side.eta == place.eta)) make(id, place, side);
         return side.bsdf.get();
     }
 
@@ -32,7 +32,8 @@ class BsdfCache {
     /// From outside of the volume that the surface bounds, or from inside.
     struct Side {
         double eta = 0;  ///< BsdfPlace::eta
-        std::unique_ptr<Bsdf> bsdf;
+        bool made = false;
+        std::unique_ptr<Bsdf> bsdf;  ///< its room is kept
     };
     struct Entry {
         MaterialId id{};

@@ -42,7 +42,7 @@ class PathChance {
         draws_.begin(ids);
         keys_.clear();
     }
-    /// `left`: the samples of the batch that ask `draw` and `waves` from now on.
+    /// `left`: the samples of the batch that ask `draw` from now on.
     void keep(std::span<const std::uint32_t> left) { draws_.keep(left); }
     [[nodiscard]] Vec2 draw(std::uint32_t sample, int bounce, BouncePair pair) {
         const std::uint32_t p = pair_of(bounce, pair);

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "alhazen/imaging/film/film.h"
+#include "alhazen/imaging/film/fixed_sum.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/renderers/core/sampling_plan.h"
-#include "alhazen/imaging/film/fixed_sum.h"
 
 namespace alhazen {
 

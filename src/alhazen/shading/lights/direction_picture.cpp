@@ -57,7 +57,9 @@ void DirectionPicture::blacken_bad_texels() {
 
 Rgb DirectionPicture::texel(int x, int y) const {
     const int w = picture_.width;
-    return picture_.rgb(x < 0 ? x + w : x < w ? x : x - w, std::clamp(y, 0, picture_.height - 1));
+    const int around = x < 0 ? x + w : x < w ? x : x - w;
+    // A direction that is no number asks anywhere.
+    return picture_.rgb(std::clamp(around, 0, w - 1), std::clamp(y, 0, picture_.height - 1));
 }
 
 void DirectionPicture::make_distribution() {
