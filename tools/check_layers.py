@@ -132,8 +132,7 @@ INSIDE = {
     },
     "renderers": {
         "core/reports": [],
-        "core/shadows": [],
-        "core": ["core/reports", "core/shadows"],
+        "core": ["core/reports"],
         "antialias": ["core"],
         "beam_tracing": ["core"],
         "cone_tracing": ["core"],

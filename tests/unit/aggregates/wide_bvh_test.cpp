@@ -398,6 +398,24 @@ bool same_layout(const WideBvhLayout& a, const WideBvhLayout& b) {
     return equal(a.triangles, b.triangles) && equal(a.others, b.others);
 }
 
+/// Beyond BoundedPrimitives::kReach they lie outside of the tree.
+TEST(WideBvh, TrianglesWithoutBoundsAreHitInEveryDirection) {
+    auto mesh = std::make_shared<TriangleMesh>();
+    constexpr double kFar = 3e150;
+    mesh->positions = {
+        {0, kFar, -kFar}, {0, -kFar, -kFar}, {0, 0, kFar}, {kFar, 0, -kFar}, {-kFar, 0, -kFar}};
+    mesh->triangles = {{0, 1, 2}, {3, 4, 2}};
+    PrimitiveTable table;
+    table.meshes.push_back({mesh, MaterialId{0}, 0, false});
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    compare("far triangles", table, [](RandomEngine& random) {
+        std::uniform_real_distribution<double> place(-9, 9);
+        const auto point = [&] { return Vec3{place(random), place(random), place(random)}; };
+        return Ray{point(), normalize(point()), 0, std::numeric_limits<double>::infinity()};
+    });
+}
+
 TEST(WideBvh, TheTreeDoesNotDependOnTheNumberOfThreads) {
     const PrimitiveTable table = random_triangles(100000, 1, 0.01, 27);
     std::unique_ptr<WideBvhAggregate> one, two;

@@ -30,14 +30,15 @@ class UnboundedParts {
             if (hit != nullptr) {
                 offer_hit(*hit, id, shrinking, best);
             } else {
-                table.closest(id, shrinking, kUnusedShear, best, stats, query.mask);
+                table.closest(id, shrinking, shear_of(table, id, ray), best, stats, query.mask);
             }
             return false;
         });
     }
     [[nodiscard]] bool occluded(const PrimitiveTable& table, const Ray& ray, RayQuery query) const {
         return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
-            return hit != nullptr || table.occluded(id, ray, kUnusedShear, stats, query.mask);
+            return hit != nullptr ||
+                   table.occluded(id, ray, shear_of(table, id, ray), stats, query.mask);
         });
     }
     void all_hits(const PrimitiveTable& table, const Ray& ray, std::vector<Hit>& hits,
@@ -46,7 +47,7 @@ class UnboundedParts {
             if (hit != nullptr) {
                 append_hit(hits, *hit, id);
             } else {
-                table.all_hits(id, ray, kUnusedShear, hits, stats, query.mask);
+                table.all_hits(id, ray, shear_of(table, id, ray), hits, stats, query.mask);
             }
             return false;
         });
@@ -56,7 +57,8 @@ class UnboundedParts {
                                 std::vector<Hit>& crossings, RayQuery query) const {
         return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
             if (hit == nullptr) {
-                return table.shadowed(id, ray, kUnusedShear, crossings, stats, query.mask);
+                return table.shadowed(id, ray, shear_of(table, id, ray), crossings, stats,
+                                      query.mask);
             }
             if (table.is_opaque(id)) return true;
             append_hit(crossings, *hit, id);
@@ -65,6 +67,11 @@ class UnboundedParts {
     }
 
   private:
+    /// Triangles beyond BoundedPrimitives::kReach are among the parts.
+    [[nodiscard]] static RayShear shear_of(const PrimitiveTable& table, PrimitiveId id,
+                                           const Ray& ray) {
+        return table.kind(id) == kTriangleKind ? RayShear(ray.direction) : kUnusedShear;
+    }
     struct Part {
         PrimitiveId id;
         bool is_plane = false;

@@ -28,8 +28,9 @@ struct LightTerm {
     Rgb intensity;           ///< that arrives unshadowed, attenuation included
     Rgb diffuse, highlight;  ///< kd (N.L) and ks times the highlight
     Rgb through{1, 1, 1};    ///< of the light that passes what is in between
-    bool cast = true;        ///< false: these conventions cast no shadow rays
-    Ray shadow;              ///< from the surface to the light
+    /// False: these conventions cast no shadow rays, or the light sends nothing there.
+    bool cast = true;
+    Ray shadow;  ///< from the surface to the light
     /// Surfaces between the point and the light, nearest first; the first opaque one ends the list.
     struct Crossing {
         double t = 0;

@@ -97,7 +97,8 @@ LightTerm RayTreeRecorder::term_of(const SeenLight& seen, const ShadingPoint& po
     term.diffuse = seen.cosine * point.material->diffuse;
     bare_.own.diffuse = Rgb{};  // the rest of `bare_` is that of `set_ambient`
     term.highlight = reflected_fraction(conventions_, bare_, seen.light, seen.cosine);
-    term.cast = conventions_.shadow_tint != ShadingConventions::ShadowTint::None;
+    term.cast = conventions_.shadow_tint != ShadingConventions::ShadowTint::None &&
+                !seen.light.intensity.is_black();
     term.shadow = onward_ray(conventions_, point.surface, seen.light.to_light, seen.light.distance);
     LightSample white = seen.light;
     white.intensity = {1, 1, 1};

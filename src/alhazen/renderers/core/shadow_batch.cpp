@@ -21,14 +21,11 @@ constexpr std::uint64_t kFewMeet = 4;
 
 }  // namespace
 
-ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
-                         bool to_centers)
+ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
       opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
-      // Counted tests are those of the aggregate; where all is opaque its batches are faster.
-      lists_(to_centers && stats == nullptr && !opaque_ ? ShadowLists::make(scene) : nullptr),
       constant_(scene),
       met_(std::make_unique<bool[]>(kMostRays)),
       sorted_met_(std::make_unique<bool[]>(kMostRays)) {
@@ -42,14 +39,9 @@ void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rg
         sum += light.intensity * fraction;
         return;
     }
-    const Ray ray = onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance);
-    if (lists_) {
-        const Rgb through = let_through_lists(ray, path, number);
-        if (!through.is_black()) sum += through * light.intensity * fraction;
-        return;
-    }
     if (rays_.size() == kMostRays) finish();
-    rays_.push_back(ray);
+    rays_.push_back(
+        onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance));
     waiting_.push_back({&sum, &path, light.intensity, fraction, number});
 }
 
@@ -126,19 +118,7 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     }
     crossings_.clear();
     // A ray that hits may have no crossing: the back of a single-sided surface.
-    return tint(ray, path, met && scene_.aggregate->shadowed(ray, crossings_, query(path.time)));
-}
-
-Rgb ShadowBatch::let_through_lists(const Ray& ray, const Path& path, std::size_t light) {
-    ++count_.cast;
-    const RayQuery query = this->query(path.time);
-    crossings_.clear();
-    const std::optional<bool> listed = lists_->shadowed(ray, light, query.mask, crossings_);
-    return tint(ray, path, listed ? *listed : scene_.aggregate->shadowed(ray, crossings_, query));
-}
-
-/// Transmittance of what is in `crossings_`, unless something opaque blocks the ray.
-Rgb ShadowBatch::tint(const Ray& ray, const Path& path, bool blocked) {
+    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query(path.time));
     count_.hit += blocked || !crossings_.empty();
     if (blocked) return {};
     if (optics_ != nullptr) return tint_by_optics(ray, path);

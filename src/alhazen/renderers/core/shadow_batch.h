@@ -14,7 +14,6 @@
 #include "alhazen/primitives/surface.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/core/ray_counters.h"
-#include "alhazen/renderers/core/shadows/shadow_lists.h"
 #include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/scene/scene.h"
 
@@ -24,9 +23,7 @@ class ExactOptics;
 
 class ShadowBatch {
   public:
-    /// `to_centers`: all rays end at the position of their light, or go in its direction.
-    ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
-                bool to_centers = false);
+    ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
     /// From now on light passes boundaries as exact optics have it, in the media of `Path::medium`.
     void use(ExactOptics& optics) { optics_ = &optics; }
@@ -58,9 +55,6 @@ class ShadowBatch {
     [[nodiscard]] Coherence coherence_to(std::size_t light) const;
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
-    /// The same by the lists of the light.
-    [[nodiscard]] Rgb let_through_lists(const Ray& ray, const Path& path, std::size_t light);
-    [[nodiscard]] Rgb tint(const Ray& ray, const Path& path, bool blocked);
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
@@ -79,7 +73,6 @@ class ShadowBatch {
     ExactOptics* optics_ = nullptr;
     bool opaque_;  ///< any surface in between blocks the light
     Coherence coherence_ = Coherence::Any;
-    std::unique_ptr<ShadowLists> lists_;  ///< null: rays wait, and the aggregate is asked
     MaterialCache constant_;
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
-#include <type_traits>
 
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/estimator.h"
@@ -75,8 +74,7 @@ class RecursiveEstimator {
           rays_at_once_(rays_at_once),
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
-          shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr,
-                   std::is_same_v<Chance, NoChance>),
+          shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
           chance_(job),
           split_(split) {
         if (!conventions_.optics.any()) return;
