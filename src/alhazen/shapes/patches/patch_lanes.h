@@ -82,7 +82,8 @@ struct alignas(32) LeafLine {
 };
 /// The part of the leaf test that needs no patch. None: no root in the range along the line.
 enum class LeafAnswer { None, Certified, Unique, Divide };
-/// Where Newton's method starts, and a bound of the leaf's second derivatives.
+/// Where Newton's method starts, and a bound of the leaf's second derivatives: 0 where none is
+/// known, for a leaf without a plane.
 struct LeafStart {
     double a = 0, b = 0, bend = 0;
 };
