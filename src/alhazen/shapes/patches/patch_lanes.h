@@ -32,7 +32,8 @@ struct PatchWalk {
             return static_cast<std::uint32_t>(near_and_child);
         }
     };
-    // The tree has at most some 16 levels, each of which leaves fifteen children.
+    // The tree has up to 17 levels (nine, and eight that divide 2^31 leaves evenly), each of which
+    // leaves fifteen children.
     static constexpr int kMostWaiting = 272;
 
     float from[3], inverse[3];  ///< in the frame; 1 / direction
