@@ -295,7 +295,7 @@ CellSearch<PlaneNet>::CellSearch(BezierView net, const PatchLine& line, const Pa
 template <>
 CellSearch<CubicCell>::CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell,
                                   const CubicLine& seen, const LineRange* range)
-    : CellSettling(net, line), seen_(&seen), range_(range), whole_(cell) {
+    : CellSettling(net, line), CellSearchFacts{&seen, range, cell} {
     size_ = 1;
     patch_kernels().cubic_part(seen, cell, stack_[0].net);
     stack_[0].cell = cell;
@@ -310,14 +310,14 @@ bool CellSearch<PlaneNet>::find_root(NewtonProof proof, const PatchCell& cell, d
 template <>
 bool CellSearch<CubicCell>::find_root(NewtonProof proof, const PatchCell& cell, double noise,
                                       double u, double v, PatchRoot& root) const {
-    if (range_ == nullptr) {
-        return certified_root(proof, net_, *seen_, line_, cell, noise, u, v, nullptr, root);
+    if (range == nullptr) {
+        return certified_root(proof, net_, *seen, line_, cell, noise, u, v, nullptr, root);
     }
-    const double part = std::max((cell.u1 - cell.u0) / (whole_.u1 - whole_.u0),
-                                 (cell.v1 - cell.v0) / (whole_.v1 - whole_.v0));
-    LineRange range = *range_;
-    range.bend *= part * part;
-    return certified_root(proof, net_, *seen_, line_, cell, noise, u, v, &range, root);
+    const double part = std::max((cell.u1 - cell.u0) / (whole.u1 - whole.u0),
+                                 (cell.v1 - cell.v0) / (whole.v1 - whole.v0));
+    LineRange of_cell = *range;
+    of_cell.bend *= part * part;
+    return certified_root(proof, net_, *seen, line_, cell, noise, u, v, &of_cell, root);
 }
 
 /// Replaces the last entry by its halves.

@@ -20,10 +20,11 @@ namespace alhazen {
 struct alignas(64) CubicLine {
     double x[16], y[16], z[16];
 };
-/// A cell of it, without the distance.
+/// A cell of it, without the distance. Rows are read up to two numbers beyond the last, times zero:
+/// of x the first of y, of y those of `rest`.
 struct alignas(64) CubicCell {
     double x[16], y[16];
-    double rest[4];  ///< zero: rows are read beyond the last
+    double rest[4];  ///< zero
 };
 
 /// A crossing, in the parameters of the patch.
@@ -82,10 +83,20 @@ class CellSettling {
     const PatchLine& line_;
 };
 
+/// The other facts of a search; bicubic patches have some.
+template <class Net>
+struct CellSearchFacts {};
+template <>
+struct CellSearchFacts<CubicCell> {
+    const CubicLine* seen = nullptr;
+    const LineRange* range = nullptr;
+    PatchCell whole{};  ///< what `range` is of
+};
+
 /// Calls for each root in a cell: halves it until its parts are certified or tiny. `Net` is what
 /// the line sees of a cell: a CubicCell of bicubic patches, a PlaneNet of others.
 template <class Net>
-class CellSearch : private CellSettling {
+class CellSearch : private CellSettling, private CellSearchFacts<Net> {
   public:
     CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell);
     /// Of a bicubic patch. With a range roots beyond it may be left out.
@@ -109,9 +120,6 @@ class CellSearch : private CellSettling {
     [[nodiscard]] bool find_root(NewtonProof proof, const PatchCell& cell, double noise, double u,
                                  double v, PatchRoot& root) const;
 
-    const CubicLine* seen_ = nullptr;
-    const LineRange* range_ = nullptr;
-    PatchCell whole_{};
     int size_ = 0, cells_ = 0;
     Entry stack_[kMostEntries];
 };

@@ -98,7 +98,8 @@ void PatchIndex::visit_leaf(const PatchPieces& pieces, PatchLine& line, const Le
     kernels.cubic_line(net.points, line, seen);
     const double unit = 1.0 / frame_.scale;
     const LineRange bounds{unit * least, unit * most, unit * start.bend};
-    const LineRange* range = net.plain ? &bounds : nullptr;
+    // A leaf without a plane has no bound.
+    const LineRange* range = net.plain && start.bend > 0.0 ? &bounds : nullptr;
     if (!divide &&
         ends(net.plain ? certified_root(proof, net, seen, line, cell, 0.0, u, v, range, root)
                        : certified_root(proof, RootOf::Point, net, line, cell, 0.0, u, v, root))) {

@@ -32,7 +32,8 @@ struct PatchWalk {
             return static_cast<std::uint32_t>(near_and_child);
         }
     };
-    // The tree has at most some 16 levels, each of which leaves fifteen children.
+    // The tree has up to 17 levels (nine, and eight that divide 2^31 leaves evenly), each of which
+    // leaves fifteen children.
     static constexpr int kMostWaiting = 272;
 
     float from[3], inverse[3];  ///< in the frame; 1 / direction
@@ -82,7 +83,8 @@ struct alignas(32) LeafLine {
 };
 /// The part of the leaf test that needs no patch. None: no root in the range along the line.
 enum class LeafAnswer { None, Certified, Unique, Divide };
-/// Where Newton's method starts, and a bound of the leaf's second derivatives.
+/// Where Newton's method starts, and a bound of the leaf's second derivatives: 0 where none is
+/// known, for a leaf without a plane.
 struct LeafStart {
     double a = 0, b = 0, bend = 0;
 };

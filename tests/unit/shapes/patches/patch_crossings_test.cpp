@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <fstream>
 
 #include "alhazen/shapes/algebraic/torus.h"
 #include "alhazen/shapes/core/first_hit.h"
@@ -12,8 +11,8 @@
 #include "alhazen/shapes/patches/patch_mesh.h"
 #include "alhazen/shapes/quadrics/sphere.h"
 #include "closed_patches.h"
+#include "patch_models.h"
 #include "support/any_ray.h"
-#include "support/test_data.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -199,21 +198,6 @@ TEST(PatchCrossings, OfPatchesWithoutAreaEnd) {
     }
 }
 
-std::vector<BezierPiece> model(const char* name) {
-    std::ifstream in(testing::test_data() / "patches" / name);
-    int count = 0;
-    in >> count;
-    std::vector<BezierPiece> pieces;
-    for (int k = 0; k < count; ++k) {
-        int n = 0, m = 0;
-        in >> n >> m;
-        std::vector<Vec3> points(static_cast<std::size_t>((n + 1) * (m + 1)));
-        for (Vec3& p : points) in >> p.x >> p.y >> p.z;
-        pieces.push_back({.net = bezier_net(n, m, points), .part = static_cast<std::uint32_t>(k)});
-    }
-    return pieces;
-}
-
 TEST(PatchCrossings, ModelsHaveTheirMeasuresAndFitIntoFourKilobytesAPatch) {
     ALHAZEN_NEEDS_DATA("patches/teapot.bpt");
     const struct {
@@ -222,23 +206,23 @@ TEST(PatchCrossings, ModelsHaveTheirMeasuresAndFitIntoFourKilobytesAPatch) {
     } models[] = {{"teapot.bpt", -25.9298127534, 52.88330309},
                   {"teacup_sjbaker.bpt", 0.22532172992, 9.981697616}};
     for (const auto& [name, volume, area] : models) {
-        const auto pieces = model(name);
+        const auto nets = testing::patch_model(name);
         PatchMeasures sum;
-        for (const BezierPiece& piece : pieces) {
-            const PatchMeasures part = measures_of(piece.net);
+        for (const BezierNet& net : nets) {
+            const PatchMeasures part = measures_of(net);
             sum.area += part.area;
             sum.flux_volume += part.flux_volume;
         }
         EXPECT_NEAR(sum.flux_volume, volume, 1e-9);
         EXPECT_NEAR(sum.area, area, 1e-8);  // as many digits as are known
-        EXPECT_LE(PatchTree(pieces).bytes(), 4096 * pieces.size());
+        EXPECT_LE(testing::patch_tree(nets).bytes(), 4096 * nets.size());
     }
 }
 
 /// Area and flux volume by lines that are spread evenly over a sphere around the model.
 TEST(PatchCrossings, AreaOfTheTeapotByLinesIsItsArea) {
     ALHAZEN_NEEDS_DATA("patches/teapot.bpt");
-    const PatchTree tree(model("teapot.bpt"));
+    const PatchTree tree = testing::patch_tree(testing::patch_model("teapot.bpt"));
     const Vec3 center = tree.box().center();
     const double radius = 0.51 * length(tree.box().size());
     Random random(6);
