@@ -198,8 +198,8 @@ std::span<const RendererEntry> renderers() {
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
          "irradiance cache for them), projection=on|off, split=SHARE, clamp=X, every=1|2|4|8 "
-         "(samples of which one looks at the photons), irradiance=on|off (of the global map at its "
-         "photons, Christensen 1999), memory=MB, depth=N, roulette=N",
+         "(successive samples of which one looks at the photons), irradiance=on|off (of the global "
+         "map at its photons, Christensen 1999), memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "

@@ -16,8 +16,9 @@ struct PathSettings {
     /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
     /// sample's light, both ways are followed, else one by chance.
     double split = 0.03;
-    /// Of photon_mapping: of 1, 2, 4 or 8 samples one looks at the photons of the surface that it
-    /// sees straight, and counts for all.
+    /// Of photon_mapping: of 1, 2, 4 or 8 successive samples one looks at the photons of the
+    /// surface that it sees straight, and counts for all. Not with wavelengths, of which each set
+    /// needs its looks.
     std::uint32_t every = 1;
     /// Largest contribution of indirect light to a sample, with photons that of a light seen by way
     /// of mirrors and glass; 0: none.

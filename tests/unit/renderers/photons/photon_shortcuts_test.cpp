@@ -1,0 +1,72 @@
+// What spares looks at photons.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/renderers/core/rounds.h"
+#include "alhazen/renderers/photon_mapping/fill_cache.h"
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::matt;
+using testing::picture_of;
+using testing::rectangle;
+using testing::SceneMaker;
+
+/// A floor, seen from above, that a lamp lights straight and by way of a wall out of sight. The
+/// normals of its shading lean by `leaning` (radians).
+Scene floor_beside_wall(double side, double leaning = 0.0) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
+    TriangleMesh floor;
+    floor.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+    floor.normals.assign(4, {std::sin(leaning), 0, std::cos(leaning)});
+    maker.add(maker.mesh(floor), maker.material(matt({0.8, 0.8, 0.8})));
+    maker.add(rectangle({1, -1, 0}, {0, 0, 2}, {0, 2, 0}), maker.material(matt({0.9, 0.6, 0.3})));
+    maker.light(PointLight{.position = {0, 0, 1}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    return maker.compile();
+}
+
+/// All samples see the same photons in the same light: pixels differ by their looks alone.
+TEST(PhotonLooks, OfNeighbouringPixelsAreAsMany) {
+    const Scene scene = floor_beside_wall(1e-6);
+    const std::string renderer = "photon_mapping:photons=4000,caustics=0,nearest=50,every=";
+    constexpr int kSide = 16;
+    const double even = picture_of(scene, renderer + "1", kSide, 1).at(0, 0).g;
+    const double without =
+        picture_of(scene, "photon_mapping:photons=4000,caustics=0,nearest=50,depth=1", kSide, 1)
+            .at(0, 0)
+            .g;
+    const double by_photons = even - without;
+    ASSERT_GT(by_photons, 0.02 * even);
+    for (const int every : {2, 4, 8}) {
+        for (const int samples : {1, 2, 4, 6, 8, 12, 24}) {
+            const Film film = picture_of(scene, renderer + std::to_string(every), kSide, samples);
+            double sum = 0.0;
+            const int fewest = samples / every, most = (samples + every - 1) / every;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const double looks =
+                    (film.at(i % kSide, i / kSide).g - without) / by_photons * samples / every;
+                EXPECT_GT(looks, fewest - 0.01) << every << ", " << samples << " samples";
+                EXPECT_LT(looks, most + 0.01) << every << ", " << samples << " samples";
+                sum += looks / (kSide * kSide);
+            }
+            // Four standard errors of what is drawn for each pixel.
+            const double share = double(samples) / every - fewest;
+            EXPECT_NEAR(sum, double(samples) / every,
+                        4.0 * std::sqrt(share * (1.0 - share)) / kSide + 0.01)
+                << every << ", " << samples << " samples";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
