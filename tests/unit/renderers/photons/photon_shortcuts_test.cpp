@@ -1,4 +1,4 @@
-// What spares looks at photons.
+// What spares looks at photons: looks in turn, irradiance at photons, the irradiance cache.
 
 #include <gtest/gtest.h>
 
@@ -66,6 +66,34 @@ TEST(PhotonLooks, OfNeighbouringPixelsAreAsMany) {
                 << every << ", " << samples << " samples";
         }
     }
+}
+
+TEST(PhotonLooks, InTurnFillTheIrradianceCacheAsAll) {
+    const Scene scene = floor_beside_wall(1.8);
+    const Illumination lights(scene);
+    const Film film(32, 32, {0, 0, 32, 32});
+    const RenderJob job = with_plan({.scene = scene, .camera = scene.cameras[0].camera});
+    PhotonMappingSettings settings;
+    settings.photons = 2000;
+    settings.gather = 16;
+    settings.cache = 0.03;
+    const PhotonMaps maps = make_photon_maps(job, lights, settings);
+    RayCounters counters;
+    const IrradianceCache all = filled_cache(job, film, lights, maps, settings, counters);
+    settings.paths.every = 8;
+    const IrradianceCache in_turn = filled_cache(job, film, lights, maps, settings, counters);
+    EXPECT_GT(all.size(), 50u);
+    EXPECT_EQ(in_turn.size(), all.size());
+    int known = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Vec3 point{(i % 20 - 9.5) / 11, (i / 20 - 9.5) / 11, 0};
+        const auto a = all.irradiance(point, {0, 0, 1}), b = in_turn.irradiance(point, {0, 0, 1});
+        ASSERT_EQ(a.has_value(), b.has_value()) << i;
+        if (!a) continue;
+        ++known;
+        EXPECT_EQ(a->max(), b->max()) << i;
+    }
+    EXPECT_GT(known, 200);
 }
 
 }  // namespace
