@@ -123,6 +123,12 @@ std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     photons.paths = photon_paths(settings);
     static constexpr const char* kIrradiance[] = {"off", "on"};
     photons.irradiance = settings.choice("irradiance", 0, kIrradiance) == 1;
+    constexpr int kLeastNearest = 4;  // of which the photon itself and the farthest do not count
+    if (photons.irradiance && photons.nearest < kLeastNearest) {
+        throw Error(ErrorKind::Usage,
+                    "renderer 'photon_mapping': nearest=" + std::to_string(photons.nearest) +
+                        ", expected 4 or more with irradiance=on");
+    }
     static constexpr const char* kEvery[] = {"1", "2", "4", "8"};
     photons.paths.every = 1u << settings.choice("every", 0, kEvery);
     return std::make_unique<PhotonMapping>(photons);

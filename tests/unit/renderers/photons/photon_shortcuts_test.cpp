@@ -96,5 +96,56 @@ TEST(PhotonLooks, InTurnFillTheIrradianceCacheAsAll) {
     EXPECT_GT(known, 200);
 }
 
+double largest_difference(const Film& a, const Film& b) {
+    double most = 0.0;
+    for (int i = 0; i < 64; ++i) {
+        const Rgb& x = a.at(i % 8, i / 8);
+        const Rgb& y = b.at(i % 8, i / 8);
+        most = std::max({most, std::abs(x.r - y.r), std::abs(x.g - y.g), std::abs(x.b - y.b)});
+    }
+    return most;
+}
+
+/// What is known at photons is of their geometric cosines.
+TEST(IrradianceAtPhotons, IsNotForOtherNormalsOfShading) {
+    const std::string renderer = "photon_mapping:photons=4000,caustics=0,nearest=50,irradiance=";
+    const auto difference = [&](double leaning) {
+        const Scene scene = floor_beside_wall(1.8, leaning);
+        return largest_difference(picture_of(scene, renderer + "on", 8, 4),
+                                  picture_of(scene, renderer + "off", 8, 4));
+    };
+    EXPECT_GT(difference(0.0), 0.0);
+    EXPECT_EQ(difference(0.3), 0.0);
+    EXPECT_EQ(difference(-0.1), 0.0);
+}
+
+TEST(IrradianceAtPhotons, NeedsFourPhotons) {
+    for (const char* few : {"2", "3"}) {
+        const std::string nearest = std::string("photon_mapping:nearest=") + few;
+        EXPECT_NO_THROW((void)make_renderer(nearest));
+        try {
+            (void)make_renderer(nearest + ",irradiance=on");
+            ADD_FAILURE() << few;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Usage);
+            EXPECT_NE(std::string(e.what()).find(std::string("nearest=") + few), std::string::npos);
+        }
+    }
+    // Of four, two others count.
+    const Scene scene = floor_beside_wall(1.8);
+    const auto mean = [&](const std::string& irradiance) {
+        return testing::mean_of(picture_of(
+            scene,
+            "photon_mapping:photons=8000,caustics=0,filter=disc,nearest=4,irradiance=" + irradiance,
+            16, 4));
+    };
+    const double direct =
+        testing::mean_of(picture_of(scene, "photon_mapping:photons=10,caustics=0,depth=1", 16, 4))
+            .g;
+    const double on = mean("on").g - direct, off = mean("off").g - direct;
+    EXPECT_GT(off, 0.01);
+    EXPECT_NEAR(on, off, 0.2 * off);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE
