@@ -156,5 +156,21 @@ TEST(PhotonWaves, AnIrradianceCacheIsRefused) {
                  Error);
 }
 
+TEST(PhotonWaves, WhatSparesLooksAtColoursIsRefused) {
+    for (const char* setting : {"irradiance=on", "every=2"}) {
+        const std::string renderer = std::string("photon_mapping:photons=1000,") + setting;
+        EXPECT_NO_THROW((void)picture_of(room(0.0), renderer, 2, 1));
+        try {
+            (void)picture_of(room(0.0), renderer + " --spectral", 2, 1);
+            ADD_FAILURE() << setting;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Usage);
+            EXPECT_NE(std::string(e.what()).find(setting[0] == 'i' ? "irradiance=off" : "every=1"),
+                      std::string::npos)
+                << e.what();
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -20,8 +20,9 @@ struct PathSettings {
     /// surface that it sees straight, and counts for all. Not with wavelengths, of which each set
     /// needs its looks.
     std::uint32_t every = 1;
-    /// Largest contribution of indirect light to a sample, with photons that of a light seen by way
-    /// of mirrors and glass; 0: none.
+    /// Largest contribution of indirect light to a sample, with photons that of a lamp seen by way
+    /// of mirrors and glass along one branch of its path, by the largest channel or wavelength;
+    /// 0: none.
     double clamp = 0.0;
 };
 
