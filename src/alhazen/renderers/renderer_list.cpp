@@ -123,6 +123,12 @@ std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     photons.paths = photon_paths(settings);
     static constexpr const char* kIrradiance[] = {"off", "on"};
     photons.irradiance = settings.choice("irradiance", 0, kIrradiance) == 1;
+    constexpr int kLeastNearest = 4;  // of which the photon itself and the farthest do not count
+    if (photons.irradiance && photons.nearest < kLeastNearest) {
+        throw Error(ErrorKind::Usage,
+                    "renderer 'photon_mapping': nearest=" + std::to_string(photons.nearest) +
+                        ", expected 4 or more with irradiance=on");
+    }
     static constexpr const char* kEvery[] = {"1", "2", "4", "8"};
     photons.paths.every = 1u << settings.choice("every", 0, kEvery);
     return std::make_unique<PhotonMapping>(photons);
@@ -198,8 +204,8 @@ std::span<const RendererEntry> renderers() {
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
          "irradiance cache for them), projection=on|off, split=SHARE, clamp=X, every=1|2|4|8 "
-         "(samples of which one looks at the photons), irradiance=on|off (of the global map at its "
-         "photons, Christensen 1999), memory=MB, depth=N, roulette=N",
+         "(successive samples of which one looks at the photons), irradiance=on|off (of the global "
+         "map at its photons, Christensen 1999), memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "

@@ -138,6 +138,7 @@ TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
             const Blocks found = blocks_of(scene, renderer, 16, 8);
             for (std::size_t i = 0; i < 4; ++i) {
                 const double error = std::hypot(found.error[i], truth.error[i]);
+                EXPECT_LE(error, 0.05 * whole) << renderer << ", block " << i;
                 EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), kMost * error + kBias * whole)
                     << renderer << ", block " << i << ": " << found.mean[i] << " +- "
                     << found.error[i] << ", path_tracing " << truth.mean[i] << " +- "

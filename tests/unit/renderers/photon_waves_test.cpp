@@ -81,7 +81,7 @@ void expect_light_of_path_tracing(const Scene& scene, std::span<const Case> case
         const Blocks found = blocks_of(scene, c.renderer, c.samples);
         for (std::size_t i = 0; i < truth.mean.size(); ++i) {
             const double error = std::hypot(found.error[i], truth.error[i]);
-            EXPECT_LE(error, 0.2 * whole) << name << ", block " << i << ", " << c.renderer;
+            EXPECT_LE(error, 0.1 * whole) << name << ", block " << i << ", " << c.renderer;
             EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), 5.0 * error + c.bias * whole)
                 << name << ", block " << i << ", " << c.renderer << ": " << found.mean[i] << " +- "
                 << found.error[i] << ", path_tracing " << truth.mean[i] << " +- " << truth.error[i];
@@ -91,11 +91,11 @@ void expect_light_of_path_tracing(const Scene& scene, std::span<const Case> case
 
 TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
     const Case cases[] = {
-        {"photon_mapping:photons=8000,caustics=5000,nearest=48,filter=disc --spectral", 0.03, 16},
-        {"photon_mapping:photons=6000,caustics=4000,nearest=48,filter=disc,gather=2 --spectral",
-         0.03, 16},
-        {"sppm:photons=1000,radius=0.06 --spectral", 0.02, 16},
-        {"vcm:photons=300,radius=0.06,pilot=off --spectral", 0.01, 8},
+        {"photon_mapping:photons=96000,caustics=48000,nearest=96,filter=disc --spectral", 0.03, 16},
+        {"photon_mapping:photons=24000,caustics=48000,nearest=96,filter=disc,gather=4 --spectral",
+         0.03, 32},
+        {"sppm:photons=2000,radius=0.06 --spectral", 0.02, 48},
+        {"vcm:photons=300,radius=0.06,pilot=off --spectral", 0.01, 32},
     };
     for (const double roughness : {0.0, 0.4}) {
         expect_light_of_path_tracing(room(roughness), cases,
@@ -118,7 +118,7 @@ TEST(PhotonWaves, AgreeWithPathTracingOnWhatMoves) {
     const Scene scene = maker.compile();
     ASSERT_TRUE(scene.has_motion);
     const Case cases[] = {
-        {"photon_mapping:photons=8000,caustics=20000,nearest=160,filter=disc --spectral", 0.03, 16},
+        {"photon_mapping:photons=8000,caustics=64000,nearest=96,filter=disc --spectral", 0.03, 16},
         {"sppm:photons=2000,radius=0.06 --spectral", 0.03, 16},
     };
     expect_light_of_path_tracing(scene, cases, "moving balls");
@@ -154,6 +154,22 @@ TEST(PhotonWaves, PicturesDependNeitherOnThreadsNorOnTiles) {
 TEST(PhotonWaves, AnIrradianceCacheIsRefused) {
     EXPECT_THROW((void)picture_of(room(0.0), "photon_mapping:gather=4,cache=0.2 --spectral", 4, 1),
                  Error);
+}
+
+TEST(PhotonWaves, WhatSparesLooksAtColoursIsRefused) {
+    for (const char* setting : {"irradiance=on", "every=2"}) {
+        const std::string renderer = std::string("photon_mapping:photons=1000,") + setting;
+        EXPECT_NO_THROW((void)picture_of(room(0.0), renderer, 2, 1));
+        try {
+            (void)picture_of(room(0.0), renderer + " --spectral", 2, 1);
+            ADD_FAILURE() << setting;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Usage);
+            EXPECT_NE(std::string(e.what()).find(setting[0] == 'i' ? "irradiance=off" : "every=1"),
+                      std::string::npos)
+                << e.what();
+        }
+    }
 }
 
 }  // namespace

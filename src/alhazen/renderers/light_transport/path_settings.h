@@ -16,11 +16,13 @@ struct PathSettings {
     /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
     /// sample's light, both ways are followed, else one by chance.
     double split = 0.03;
-    /// Of photon_mapping: of 1, 2, 4 or 8 samples one looks at the photons of the surface that it
-    /// sees straight, and counts for all.
+    /// Of photon_mapping: of 1, 2, 4 or 8 successive samples one looks at the photons of the
+    /// surface that it sees straight, and counts for all. Not with wavelengths, of which each set
+    /// needs its looks.
     std::uint32_t every = 1;
-    /// Largest contribution of indirect light to a sample, with photons that of a light seen by way
-    /// of mirrors and glass; 0: none.
+    /// Largest contribution of indirect light to a sample, with photons that of a lamp seen by way
+    /// of mirrors and glass along one branch of its path, by the largest channel or wavelength;
+    /// 0: none.
     double clamp = 0.0;
 };
 

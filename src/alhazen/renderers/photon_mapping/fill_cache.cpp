@@ -43,6 +43,8 @@ IrradianceCache filled_cache(const RenderJob& job, const Film& film, const Illum
     const std::unique_ptr<Sampler> sampler = plan.sampler->make(job.seed, 1);
     const FilterKernel filter(*plan.filter, plan.radius);
     const SampleRound round{*sampler, filter, 0, 1, {}, {}, job.seed};
+    PhotonMappingSettings looking = settings;
+    looking.paths.every = 1;  // a record is made where the one sample looks
     RenderJob part = job;
     part.round = &round;
     ThreadLimit threads(job.control.threads);
@@ -52,7 +54,7 @@ IrradianceCache filled_cache(const RenderJob& job, const Film& film, const Illum
         threads.run([&] {
             parallel_for(made.size(), 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t k = begin; k < end && !job.stop_requested(); ++k) {
-                    GatheringEye eye(part, kPixelsAtOnce, made[k].counters, lights, maps, settings,
+                    GatheringEye eye(part, kPixelsAtOnce, made[k].counters, lights, maps, looking,
                                      &cache);
                     eye.keep_records(&made[k].records);
                     const std::size_t last = std::min((k + 1) * kPixelsAtOnce, pixels.size());

@@ -1,5 +1,7 @@
 #include "alhazen/renderers/photon_mapping/photon_mapping.h"
 
+#include <string>
+
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
@@ -32,14 +34,31 @@ class PhotonTiles final : public TiledRenderer {
     const IrradianceCache* cache_;
 };
 
+/// Throws where a setting would do nothing with wavelengths.
+void refuse_wavelengths(const PhotonMappingSettings& settings) {
+    const auto refuse = [](const char* why) {
+        throw Error(ErrorKind::Usage, std::string("photon_mapping: ") + why);
+    };
+    if (settings.cache > 0.0) {
+        refuse(
+            "the irradiance cache keeps colours, not wavelengths: --spectral takes cache=0 alone");
+    }
+    if (settings.irradiance) {
+        refuse(
+            "irradiance at photons is of colours, not of wavelengths: --spectral takes "
+            "irradiance=off alone");
+    }
+    if (settings.paths.every > 1) {
+        refuse(
+            "each sample has to look at the photons of its own wavelengths: --spectral takes "
+            "every=1 alone");
+    }
+}
+
 }  // namespace
 
 RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
-    if (job.spectral && settings_.cache > 0.0) {
-        throw Error(ErrorKind::Usage,
-                    "photon_mapping: the irradiance cache keeps colours, not wavelengths: "
-                    "--spectral takes cache=0 alone");
-    }
+    if (job.spectral) refuse_wavelengths(settings_);
     const Illumination lights(job.scene);
     const PhotonMaps maps = make_photon_maps(job, lights, settings_);
     RenderReport report;

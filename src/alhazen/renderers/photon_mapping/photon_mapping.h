@@ -9,7 +9,8 @@
 /// the samples of a pixel look at them in turn, for that share of `nearest` photons.
 /// Conventions: maps depend on the scene and the seed alone, pixels on those and their own
 /// coordinates.
-/// Errors: an irradiance cache with wavelengths (Usage), photons that do not fit into the memory,
+/// Errors: an irradiance cache, irradiance at photons or looks in turn with wavelengths (Usage),
+/// photons that do not fit into the memory,
 /// lights that send none (photon_shooting.h).
 
 #include <cstdint>

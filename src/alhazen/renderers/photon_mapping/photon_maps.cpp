@@ -75,8 +75,7 @@ bool fill_pair(const RenderJob& job, const Illumination& lights,
     if (!fill(job, lights, shot, settings, maps, pair.global, pair.global_in_volumes)) {
         return false;
     }
-    // A photon of the hero alone would have to be told from others of its place.
-    if (settings.irradiance && !job.spectral) {
+    if (settings.irradiance) {
         ThreadLimit threads(job.control.threads);
         threads.run([&] { compute_irradiance(pair.global); });
     }

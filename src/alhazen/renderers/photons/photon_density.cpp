@@ -140,7 +140,9 @@ std::optional<Spectrum> PhotonDensity::known_irradiance(const PhotonMap& map,
 
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
                                  LightPart part, bool hero_only) {
-    if (!map.irradiance.empty() && !hero_only) {
+    // Irradiance counts the geometric cosine of each photon, not that of another normal.
+    constexpr double kSameNormal = 0.999;  // within 2.6 degrees
+    if (!map.irradiance.empty() && dot(at.normal(), at.geometric()) > kSameNormal) {
         if (const auto matt = at.lambert()) {
             if (const auto known = known_irradiance(map, at, point)) {
                 return (1.0 / kPi) * (*matt * *known);

@@ -121,13 +121,11 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
 }
 
 double PhotonEye::looks(const SampleId& id) const {
-    // With several sets of wavelengths each needs its look.
-    if (settings_.every <= 1 || given_.size() > 1) return 1.0;
-    constexpr std::uint32_t kTogether = 8;       // samples of the first round
+    if (settings_.every <= 1) return 1.0;
     constexpr std::uint64_t kTurn = 0x6c6f6f6b;  // of nothing else that is drawn
-    const std::uint64_t turn = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kTurn));
-    const std::uint32_t at = id.number % kTogether / (kTogether / settings_.every);
-    return at == turn % settings_.every ? settings_.every : 0.0;
+    const std::uint64_t turn =
+        mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kTurn)) % settings_.every;
+    return (id.number + turn) % settings_.every == 0 ? settings_.every : 0.0;
 }
 
 bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Branch& at) const {

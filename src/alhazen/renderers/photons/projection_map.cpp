@@ -108,53 +108,58 @@ std::vector<std::size_t> ProjectionMap::leaders() const {
     return leader;
 }
 
-std::vector<float> ProjectionMap::tried(const RenderJob& job, const std::vector<bool>& afar,
-                                        std::uint64_t seed, RayCounters& counters) const {
-    struct Tally {
-        std::uint32_t trials = 0, hits = 0;
-    };
-    const std::size_t map = side_ * side_;
-    const std::vector<std::size_t> leader = leaders();
-    std::vector<Tally> own(cells()), tallies(cells());
+void ProjectionMap::try_cells(const RenderJob& job, const std::vector<std::size_t>& asked,
+                              std::uint32_t trials, std::uint64_t seed, std::vector<Tally>& tallies,
+                              RayCounters& counters) const {
+    constexpr std::size_t kTogether = 64;
+    const std::size_t groups = (asked.size() + kTogether - 1) / kTogether;
     const MediaFinder media(job.scene);
-    const auto try_cells = [&](const std::vector<std::size_t>& asked, std::uint32_t trials) {
-        constexpr std::size_t kTogether = 64;
-        const std::size_t groups = (asked.size() + kTogether - 1) / kTogether;
-        std::vector<RayCounters> counts(groups);
-        parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
-            ScatterPoint scatter;
-            for (std::size_t g = begin; g < end; ++g) {
-                NextSurface next(job.scene, counts[g],
-                                 job.count_tests ? &counts[g].tests : nullptr);
-                const std::size_t last = std::min((g + 1) * kTogether, asked.size());
-                for (std::size_t i = g * kTogether; i < last; ++i) {
-                    Tally& tally = own[asked[i]];
-                    for (std::uint32_t k = 0; k < trials; ++k) {
-                        const PathNumbers n{seed, asked[i], tally.trials++};
-                        const LightRay light = emit_in(asked[i], 1.0, n.at(0), {n.at(1), n.at(2)},
-                                                       {n.at(3), n.at(4)}, kColorChannels);
-                        // Light without a place is sent everywhere.
-                        const bool hits = light.infinite ||
-                                          meets_mirror(job.scene, light, media, n, next, scatter);
-                        tally.hits += hits ? 1 : 0;
-                    }
+    std::vector<RayCounters> counts(groups);
+    parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
+        ScatterPoint scatter;
+        for (std::size_t g = begin; g < end; ++g) {
+            NextSurface next(job.scene, counts[g], job.count_tests ? &counts[g].tests : nullptr);
+            const std::size_t last = std::min((g + 1) * kTogether, asked.size());
+            for (std::size_t i = g * kTogether; i < last; ++i) {
+                Tally& tally = tallies[asked[i]];
+                for (std::uint32_t k = 0; k < trials; ++k) {
+                    const PathNumbers n{seed, asked[i], tally.trials++};
+                    const LightRay light = emit_in(asked[i], 1.0, n.at(0), {n.at(1), n.at(2)},
+                                                   {n.at(3), n.at(4)}, kColorChannels);
+                    // Light without a place is sent everywhere.
+                    const bool hits =
+                        light.infinite || meets_mirror(job.scene, light, media, n, next, scatter);
+                    tally.hits += hits ? 1 : 0;
                 }
             }
-        });
-        for (const RayCounters& c : counts) counters += c;
-        // What one stratum of a light finds is true of all that have this light alone.
-        tallies.assign(cells(), {});
-        for (std::size_t cell = 0; cell < cells(); ++cell) {
-            Tally& tally = tallies[leader[cell / map] * map + cell % map];
-            tally.trials += own[cell].trials;
-            tally.hits += own[cell].hits;
         }
-    };
+    });
+    for (const RayCounters& c : counts) counters += c;
+}
+
+std::vector<ProjectionMap::Tally> ProjectionMap::shared(
+    const std::vector<Tally>& own, const std::vector<std::size_t>& leader) const {
+    const std::size_t map = side_ * side_;
+    std::vector<Tally> tallies(cells());
+    for (std::size_t cell = 0; cell < cells(); ++cell) {
+        Tally& tally = tallies[leader[cell / map] * map + cell % map];
+        tally.trials += own[cell].trials;
+        tally.hits += own[cell].hits;
+    }
+    return tallies;
+}
+
+std::vector<float> ProjectionMap::tried(const RenderJob& job, const std::vector<bool>& afar,
+                                        std::uint64_t seed, RayCounters& counters) const {
+    const std::size_t map = side_ * side_;
+    const std::vector<std::size_t> leader = leaders();
+    std::vector<Tally> own(cells());
     std::vector<std::size_t> asked;
     for (std::size_t cell = 0; cell < cells(); ++cell) {
         if (!afar[cell / map]) asked.push_back(cell);
     }
-    try_cells(asked, strata_ > 1 ? 4 : 16);
+    try_cells(job, asked, strata_ > 1 ? 4 : 16, seed, own, counters);
+    std::vector<Tally> tallies = shared(own, leader);
     // More where something was hit and beside it, until the border is known.
     constexpr std::uint32_t kEnough = 64;
     while (true) {
@@ -167,7 +172,8 @@ std::vector<float> ProjectionMap::tried(const RenderJob& job, const std::vector<
             if (near) asked.push_back(cell);
         }
         if (asked.empty()) break;
-        try_cells(asked, kEnough);
+        try_cells(job, asked, kEnough, seed, own, counters);
+        tallies = shared(own, leader);
     }
     std::vector<float> weights(cells());
     for (std::size_t cell = 0; cell < cells(); ++cell) {

@@ -38,12 +38,24 @@ class ProjectionMap {
     [[nodiscard]] std::size_t cells() const { return strata_ * side_ * side_; }
 
   private:
+    /// Rays of a cell, and those that met mirrors or glass.
+    struct Tally {
+        std::uint32_t trials = 0, hits = 0;
+    };
     /// A ray of a cell; `share`: the density of the cell over that of even cells.
     [[nodiscard]] LightRay emit_in(std::size_t cell, double share, double choice, const Vec2& place,
                                    const Vec2& direction, const Wavelengths& waves) const;
     [[nodiscard]] bool is_afar(std::size_t stratum) const;
     /// [stratum] The first of those that have its light alone, or itself.
     [[nodiscard]] std::vector<std::size_t> leaders() const;
+    /// Adds `trials` of each cell that is `asked` to the tallies: [cell].
+    void try_cells(const RenderJob& job, const std::vector<std::size_t>& asked,
+                   std::uint32_t trials, std::uint64_t seed, std::vector<Tally>& tallies,
+                   RayCounters& counters) const;
+    /// What one stratum of a light finds is true of all that have this light alone: sums, at their
+    /// leaders.
+    [[nodiscard]] std::vector<Tally> shared(const std::vector<Tally>& own,
+                                            const std::vector<std::size_t>& leader) const;
     /// [cell] 0: not hit.
     [[nodiscard]] std::vector<float> tried(const RenderJob& job, const std::vector<bool>& afar,
                                            std::uint64_t seed, RayCounters& counters) const;

@@ -1,0 +1,151 @@
+// What spares looks at photons: looks in turn, irradiance at photons, the irradiance cache.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/renderers/core/rounds.h"
+#include "alhazen/renderers/photon_mapping/fill_cache.h"
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::matt;
+using testing::picture_of;
+using testing::rectangle;
+using testing::SceneMaker;
+
+/// A floor, seen from above, that a lamp lights straight and by way of a wall out of sight. The
+/// normals of its shading lean by `leaning` (radians).
+Scene floor_beside_wall(double side, double leaning = 0.0) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
+    TriangleMesh floor;
+    floor.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+    floor.normals.assign(4, {std::sin(leaning), 0, std::cos(leaning)});
+    maker.add(maker.mesh(floor), maker.material(matt({0.8, 0.8, 0.8})));
+    maker.add(rectangle({1, -1, 0}, {0, 0, 2}, {0, 2, 0}), maker.material(matt({0.9, 0.6, 0.3})));
+    maker.light(PointLight{.position = {0, 0, 1}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    return maker.compile();
+}
+
+/// All samples see the same photons in the same light: pixels differ by their looks alone.
+TEST(PhotonLooks, OfNeighbouringPixelsAreAsMany) {
+    const Scene scene = floor_beside_wall(1e-6);
+    const std::string renderer = "photon_mapping:photons=4000,caustics=0,nearest=50,every=";
+    constexpr int kSide = 16;
+    const double even = picture_of(scene, renderer + "1", kSide, 1).at(0, 0).g;
+    const double without =
+        picture_of(scene, "photon_mapping:photons=4000,caustics=0,nearest=50,depth=1", kSide, 1)
+            .at(0, 0)
+            .g;
+    const double by_photons = even - without;
+    ASSERT_GT(by_photons, 0.02 * even);
+    for (const int every : {2, 4, 8}) {
+        for (const int samples : {1, 2, 4, 6, 8, 12, 24}) {
+            const Film film = picture_of(scene, renderer + std::to_string(every), kSide, samples);
+            double sum = 0.0;
+            const int fewest = samples / every, most = (samples + every - 1) / every;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const double looks =
+                    (film.at(i % kSide, i / kSide).g - without) / by_photons * samples / every;
+                EXPECT_GT(looks, fewest - 0.01) << every << ", " << samples << " samples";
+                EXPECT_LT(looks, most + 0.01) << every << ", " << samples << " samples";
+                sum += looks / (kSide * kSide);
+            }
+            // Four standard errors of what is drawn for each pixel.
+            const double share = double(samples) / every - fewest;
+            EXPECT_NEAR(sum, double(samples) / every,
+                        4.0 * std::sqrt(share * (1.0 - share)) / kSide + 0.01)
+                << every << ", " << samples << " samples";
+        }
+    }
+}
+
+TEST(PhotonLooks, InTurnFillTheIrradianceCacheAsAll) {
+    const Scene scene = floor_beside_wall(1.8);
+    const Illumination lights(scene);
+    const Film film(32, 32, {0, 0, 32, 32});
+    const RenderJob job = with_plan({.scene = scene, .camera = scene.cameras[0].camera});
+    PhotonMappingSettings settings;
+    settings.photons = 2000;
+    settings.gather = 16;
+    settings.cache = 0.03;
+    const PhotonMaps maps = make_photon_maps(job, lights, settings);
+    RayCounters counters;
+    const IrradianceCache all = filled_cache(job, film, lights, maps, settings, counters);
+    settings.paths.every = 8;
+    const IrradianceCache in_turn = filled_cache(job, film, lights, maps, settings, counters);
+    EXPECT_GT(all.size(), 50u);
+    EXPECT_EQ(in_turn.size(), all.size());
+    int known = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Vec3 point{(i % 20 - 9.5) / 11, (i / 20 - 9.5) / 11, 0};
+        const auto a = all.irradiance(point, {0, 0, 1}), b = in_turn.irradiance(point, {0, 0, 1});
+        ASSERT_EQ(a.has_value(), b.has_value()) << i;
+        if (!a) continue;
+        ++known;
+        EXPECT_EQ(a->max(), b->max()) << i;
+    }
+    EXPECT_GT(known, 200);
+}
+
+double largest_difference(const Film& a, const Film& b) {
+    double most = 0.0;
+    for (int i = 0; i < 64; ++i) {
+        const Rgb& x = a.at(i % 8, i / 8);
+        const Rgb& y = b.at(i % 8, i / 8);
+        most = std::max({most, std::abs(x.r - y.r), std::abs(x.g - y.g), std::abs(x.b - y.b)});
+    }
+    return most;
+}
+
+/// What is known at photons is of their geometric cosines.
+TEST(IrradianceAtPhotons, IsNotForOtherNormalsOfShading) {
+    const std::string renderer = "photon_mapping:photons=4000,caustics=0,nearest=50,irradiance=";
+    const auto difference = [&](double leaning) {
+        const Scene scene = floor_beside_wall(1.8, leaning);
+        return largest_difference(picture_of(scene, renderer + "on", 8, 4),
+                                  picture_of(scene, renderer + "off", 8, 4));
+    };
+    EXPECT_GT(difference(0.0), 0.0);
+    EXPECT_EQ(difference(0.3), 0.0);
+    EXPECT_EQ(difference(-0.1), 0.0);
+}
+
+TEST(IrradianceAtPhotons, NeedsFourPhotons) {
+    for (const char* few : {"2", "3"}) {
+        const std::string nearest = std::string("photon_mapping:nearest=") + few;
+        EXPECT_NO_THROW((void)make_renderer(nearest));
+        try {
+            (void)make_renderer(nearest + ",irradiance=on");
+            ADD_FAILURE() << few;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Usage);
+            EXPECT_NE(std::string(e.what()).find(std::string("nearest=") + few), std::string::npos);
+        }
+    }
+    // Of four, two others count.
+    const Scene scene = floor_beside_wall(1.8);
+    const auto mean = [&](const std::string& irradiance) {
+        return testing::mean_of(picture_of(
+            scene,
+            "photon_mapping:photons=8000,caustics=0,filter=disc,nearest=4,irradiance=" + irradiance,
+            16, 4));
+    };
+    const double direct =
+        testing::mean_of(picture_of(scene, "photon_mapping:photons=10,caustics=0,depth=1", 16, 4))
+            .g;
+    const double on = mean("on").g - direct, off = mean("off").g - direct;
+    EXPECT_GT(off, 0.01);
+    EXPECT_NEAR(on, off, 0.2 * off);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
