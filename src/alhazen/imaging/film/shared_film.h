@@ -53,13 +53,13 @@ class SharedFilm {
     /// Writes all pixels that samples reach. While nobody adds.
     void write(Film& film) const;
 
-    /// The kernel at a distance along one axis, from a table; its scale has no meaning.
-    [[nodiscard]] double kernel(double distance) const;
-
   private:
     struct Pixel {
         FixedSum r, g, b, weight;
     };
+
+    /// The kernel at a distance along one axis, from a table; its scale has no meaning.
+    [[nodiscard]] double kernel(double distance) const;
 
     double radius_;
     int reach_;                  ///< pixels on each side
