@@ -79,6 +79,10 @@ if(ALHAZEN_FUZZ)
 elseif(ALHAZEN_KERNELS STREQUAL "native")
     set(ALHAZEN_KERNEL_TARGETS HWY_COMPILE_ONLY_STATIC)
     list(APPEND ALHAZEN_KERNEL_OPTIONS -march=native)
+elseif(ALHAZEN_KERNELS STREQUAL "portable")
+    set(ALHAZEN_KERNEL_TARGETS HWY_COMPILE_ONLY_SCALAR)
+elseif(NOT ALHAZEN_KERNELS STREQUAL "all")
+    message(FATAL_ERROR "ALHAZEN_KERNELS is '${ALHAZEN_KERNELS}'; it can be all, native or portable")
 endif()
 
 # Options of code whose own time counts little (COLD) or hardly (FROZEN), built for compile time: a fifth less of it than
@@ -109,6 +113,8 @@ function(alhazen_library name)
         set_source_files_properties(${ARG_KERNELS} PROPERTIES
             SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
             COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${ALHAZEN_KERNEL_OPTIONS}")
+        list(TRANSFORM ARG_KERNELS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+        set_property(GLOBAL APPEND PROPERTY ALHAZEN_KERNELS ${ARG_KERNELS})
     else()
         add_library(alhazen_${name} INTERFACE)
         target_link_libraries(alhazen_${name} INTERFACE $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES})

@@ -53,10 +53,17 @@ std::int64_t targets_of_machine() {
 
 #endif
 
-/// Those that are compiled in, at least that of the compiler's own flags.
+/// Those that are compiled in. Throws Error(Usage) where the machine has none of them.
 std::int64_t usable_targets() {
     const std::int64_t targets = targets_of_machine() & HWY_TARGETS;
-    return targets != 0 ? targets : HWY_STATIC_TARGET;
+    if (targets == 0) {
+        throw Error(ErrorKind::Usage,
+                    std::string("this processor lacks instructions that this build of Alhazen "
+                                "needs (") +
+                        hwy::TargetName(HWY_STATIC_TARGET) +
+                        "); build with -DALHAZEN_KERNELS=portable");
+    }
+    return targets;
 }
 
 /// The targets to choose among, a lower bit the better.
@@ -65,10 +72,11 @@ struct Choice {
     std::atomic<std::int64_t> targets = of_machine;
     hwy::ChosenTarget chosen;
 
-    Choice() { chosen.Update(targets); }
+    Choice() { set(targets); }
     void set(std::int64_t new_targets) {
         targets = new_targets;
-        chosen.Update(new_targets);
+        // With the weaker ones, for kernels that are not compiled for the best.
+        chosen.Update(of_machine & -(new_targets & -new_targets));
     }
 };
 

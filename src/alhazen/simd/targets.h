@@ -1,8 +1,8 @@
 #pragma once
 /// The instruction sets that kernels are compiled for, and an override that forces one.
 ///
-/// Conventions: names are Highway's ("AVX3" is AVX-512, "EMU128" plain C++). Every target gives
-/// the same bits.
+/// Conventions: names are Highway's ("AVX3" is AVX-512, "SCALAR" plain C++). Every target gives
+/// the same bits. Throws Error(Usage) where the processor has none of the compiled targets.
 /// Threads: objects choose their kernels when they are built, so force a target before, from one
 /// thread.
 

@@ -94,17 +94,18 @@ Interval Algebraic::extent(const Vec3& axis) const {
 namespace {
 
 // For all degrees at once: a type for each would triple the code, which is compiled twice.
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-int all_hits(const Algebraic& shape, const Ray& ray, ShapeHit* hits) {
+int all_hits_body(const Algebraic& shape, const Ray& ray, ShapeHit* hits) {
     ClipSegment s;
     const SolidFrame frame;
     if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return 0;
     return intersect_segment(AlgebraicPolynomial<kMostDegree>{shape}, frame, ray, s, shape.capped,
                              hits);
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(int all_hits(const Algebraic& shape, const Ray& ray,
+                                              ShapeHit* hits),
+                                 all_hits_body(shape, ray, hits))
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-bool one_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
+bool one_hit_body(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
     ClipSegment s;
     const SolidFrame frame;
     if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return false;
@@ -112,6 +113,9 @@ bool one_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
         return first_on_segment(f, frame, ray, s, shape.capped, hit);
     });
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(bool one_hit(const Algebraic& shape, const Ray& ray,
+                                              ShapeHit& hit),
+                                 one_hit_body(shape, ray, hit))
 
 }  // namespace
 
@@ -125,13 +129,15 @@ bool first_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
 
 namespace {
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-double improved(const Algebraic& shape, const Ray& ray, std::size_t lane,
-                const PolynomialLanes& lanes) {
+double improved_body(const Algebraic& shape, const Ray& ray, std::size_t lane,
+                     const PolynomialLanes& lanes) {
     return with_polynomial(shape, [&](const auto& f) {
         return improved_root_of_lane(f, SolidFrame(), ray, lane, lanes);
     });
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(double improved(const Algebraic& shape, const Ray& ray,
+                                                 std::size_t lane, const PolynomialLanes& lanes),
+                                 improved_body(shape, ray, lane, lanes))
 
 }  // namespace
 

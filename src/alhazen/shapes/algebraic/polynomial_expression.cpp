@@ -130,8 +130,7 @@ Real value_of(std::span<const Node> nodes, const Point3<Real>& p) {
     return nodes.empty() ? Real(0.0) : of[nodes.size() - 1];
 }
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-Vec3 gradient_of(std::span<const Node> nodes, const Vec3& p) {
+Vec3 gradient_of_body(std::span<const Node> nodes, const Vec3& p) {
     struct Value {
         double v;
         Vec3 g;
@@ -165,6 +164,8 @@ Vec3 gradient_of(std::span<const Node> nodes, const Vec3& p) {
     }
     return nodes.empty() ? Vec3{} : of[nodes.size() - 1].g;
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(Vec3 gradient_of(std::span<const Node> nodes, const Vec3& p),
+                                 gradient_of_body(nodes, p))
 
 template <class Real>
 void restrict_to(std::span<const Node> nodes, const Point3<Real>& p, const Point3<Real>& q,
@@ -173,24 +174,21 @@ void restrict_to(std::span<const Node> nodes, const Point3<Real>& p, const Point
     restrict_nodes(nodes, p, q, all.data(), b);
 }
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-double value_in_double(std::span<const Node> nodes, const Point3<double>& p) {
-    return value_of(nodes, p);
-}
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-DoubleDouble value_in_double_double(std::span<const Node> nodes, const Point3<DoubleDouble>& p) {
-    return value_of(nodes, p);
-}
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-void restrict_in_double(std::span<const Node> nodes, const Point3<double>& p,
-                        const Point3<double>& q, double* b) {
-    restrict_to(nodes, p, q, b);
-}
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-void restrict_in_double_double(std::span<const Node> nodes, const Point3<DoubleDouble>& p,
-                               const Point3<DoubleDouble>& q, DoubleDouble* b) {
-    restrict_to(nodes, p, q, b);
-}
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(double value_in_double(std::span<const Node> nodes,
+                                                        const Point3<double>& p),
+                                 value_of(nodes, p))
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(DoubleDouble value_in_double_double(std::span<const Node> nodes,
+                                                                     const Point3<DoubleDouble>& p),
+                                 value_of(nodes, p))
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(void restrict_in_double(std::span<const Node> nodes,
+                                                         const Point3<double>& p,
+                                                         const Point3<double>& q, double* b),
+                                 restrict_to(nodes, p, q, b))
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(void restrict_in_double_double(std::span<const Node> nodes,
+                                                                const Point3<DoubleDouble>& p,
+                                                                const Point3<DoubleDouble>& q,
+                                                                DoubleDouble* b),
+                                 restrict_to(nodes, p, q, b))
 
 }  // namespace
 

@@ -76,19 +76,21 @@ bool segment_of(const Torus& torus, const Ray& ray, ClipSegment& s) {
     return clip_segment_by(torus.frame, ray, reach, cut, s);
 }
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-int all_hits(const Torus& torus, const Ray& ray, ShapeHit* hits) {
+int all_hits_body(const Torus& torus, const Ray& ray, ShapeHit* hits) {
     ClipSegment s;
     if (!segment_of(torus, ray, s)) return 0;
     return intersect_segment(TorusPolynomial{torus.tube}, torus.frame, ray, s, true, hits);
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(int all_hits(const Torus& torus, const Ray& ray, ShapeHit* hits),
+                                 all_hits_body(torus, ray, hits))
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-bool one_hit(const Torus& torus, const Ray& ray, ShapeHit& hit) {
+bool one_hit_body(const Torus& torus, const Ray& ray, ShapeHit& hit) {
     ClipSegment s;
     if (!segment_of(torus, ray, s)) return false;
     return first_on_segment(TorusPolynomial{torus.tube}, torus.frame, ray, s, true, hit);
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(bool one_hit(const Torus& torus, const Ray& ray, ShapeHit& hit),
+                                 one_hit_body(torus, ray, hit))
 
 }  // namespace
 
@@ -102,11 +104,10 @@ bool first_hit(const Torus& shape, const Ray& ray, ShapeHit& hit) {
 
 namespace {
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-double improved(const Torus& torus, const Ray& ray, std::size_t lane,
-                const PolynomialLanes& lanes) {
-    return improved_root_of_lane(TorusPolynomial{torus.tube}, torus.frame, ray, lane, lanes);
-}
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(double improved(const Torus& torus, const Ray& ray,
+                                                 std::size_t lane, const PolynomialLanes& lanes),
+                                 improved_root_of_lane(TorusPolynomial{torus.tube}, torus.frame,
+                                                       ray, lane, lanes))
 
 }  // namespace
 

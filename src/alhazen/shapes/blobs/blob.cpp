@@ -217,9 +217,8 @@ void order_events(const std::vector<Piece>& pieces, std::vector<Event>& events) 
 }
 
 /// The crossings of the pieces in `work`; `events` are those of the previous ray.
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& events,
-                 ShapeHits& hits) {
+void walk_pieces_body(const LocalRay& local, Workspace& work, std::vector<Event>& events,
+                      ShapeHits& hits) {
     const Ray& ray = local.given;
     if (all_weak(local, work.pieces)) return;
     work.active.clear();
@@ -247,6 +246,9 @@ void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& eve
     }
     walk.gap(kInfinity);
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(void walk_pieces(const LocalRay& local, Workspace& work,
+                                                  std::vector<Event>& events, ShapeHits& hits),
+                                 walk_pieces_body(local, work, events, hits))
 
 void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits& hits) {
     work.pieces.clear();

@@ -142,12 +142,14 @@ int intersect_side(const FrustumLine& l, double half_height, const Ray& ray, Sha
     return count;
 }
 
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-int all_hits(const Frustum& f, const Ray& ray, bool capped, ShapeHit* hits) {
+int all_hits_body(const Frustum& f, const Ray& ray, bool capped, ShapeHit* hits) {
     const FrustumLine l = localise(f, ray);
     return capped ? intersect_solid(l, f.half_height, ray, hits)
                   : intersect_side(l, f.half_height, ray, hits);
 }
+ALHAZEN_FOR_EACH_INSTRUCTION_SET(int all_hits(const Frustum& f, const Ray& ray, bool capped,
+                                              ShapeHit* hits),
+                                 all_hits_body(f, ray, capped, hits))
 
 }  // namespace
 
