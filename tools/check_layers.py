@@ -179,6 +179,7 @@ INSIDE = {
         "algebraic": ["quadrics"],
         "blobs": ["algebraic"],
         "meshes": ["core"],
+        "nearest": [],
         "patches": ["algebraic", "polygons", "swept"],
         "patches/forms": ["patches", "patches/nurbs", "algebraic", "polygons", "swept"],
         "patches/methods": ["patches"],

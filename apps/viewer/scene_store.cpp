@@ -131,6 +131,7 @@ void SceneStore::read_files(Reading& reading) {
     Json menus = view_menus(scene);
     const std::lock_guard lock(mutex_);
     loaded_ = std::move(next);
+    moved_ = {};
     menus_ = std::move(menus);
 }
 
@@ -182,6 +183,29 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::built(const Loaded& source
     });
     // At last: a build that is ended has copied nothing, and nothing is to be freed.
     next->scene.description = source.scene.description;
+    return next;
+}
+
+std::shared_ptr<const SceneStore::Loaded> SceneStore::moved(
+    const std::shared_ptr<const Loaded>& here, const std::vector<LightChange>& changes,
+    const StopFlag& stop) {
+    const std::vector<LightChange> surfaces = surface_changes(here->scene.description, changes);
+    if (surfaces.empty()) return here;
+    {
+        const std::lock_guard lock(mutex_);
+        if (moved_.from.lock() == here && moved_.changes == surfaces) return moved_.scene;
+    }
+    auto next = std::make_shared<Loaded>();
+    next->accelerator = here->accelerator;
+    next->version = here->version;
+    CompileOptions options = load_.compile;
+    options.accelerator = here->accelerator;
+    const Interruptible ends(&stop);
+    ThreadLimit(load_.threads).run([&] {
+        next->scene = with_moved_surfaces(here->scene, surfaces, options);
+    });
+    const std::lock_guard lock(mutex_);
+    moved_ = {here, surfaces, next};
     return next;
 }
 

@@ -17,9 +17,10 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "alhazen/base/progress.h"
-#include "alhazen/session/load.h"
+#include "alhazen/session/lighting.h"
 #include "file_stamps.h"
 
 namespace alhazen::viewer {
@@ -42,6 +43,11 @@ class SceneStore {
     /// Error, and Interrupted after a request of `stop`.
     [[nodiscard]] std::shared_ptr<const Loaded> with(const std::string& accelerator,
                                                      const StopFlag& stop);
+    /// That scene with the surfaces of its lights where these changes have them; itself where they
+    /// move none. The last one is kept. Throws as `with`.
+    [[nodiscard]] std::shared_ptr<const Loaded> moved(const std::shared_ptr<const Loaded>& here,
+                                                      const std::vector<LightChange>& changes,
+                                                      const StopFlag& stop);
     /// Ends reading.
     void stop();
     /// Reads again.
@@ -83,6 +89,11 @@ class SceneStore {
     mutable std::mutex mutex_;  ///< of what follows; held for moments only
     mutable std::condition_variable changed_;
     std::shared_ptr<const Loaded> loaded_;
+    struct Moved {
+        std::weak_ptr<const Loaded> from;
+        std::vector<LightChange> changes;
+        std::shared_ptr<const Loaded> scene;
+    } moved_;            ///< the last that was asked for
     Json menus_;         ///< of `loaded_`
     std::string error_;  ///< of the last reading
     std::exception_ptr first_error_;

@@ -95,6 +95,9 @@ json view_menus(const LoadedScene& loaded) {
                    {"color", {light.color.r, light.color.g, light.color.b}}};
         if (light.position) entry["position"] = list_of(*light.position);
         if (light.direction) entry["direction"] = list_of(*light.direction);
+        for (const ExtentSize& size : light.sizes) {
+            entry["sizes"].push_back({{"name", size.name}, {"value", size.value}});
+        }
         lights.push_back(std::move(entry));
     }
     static const json kRenderers = renderer_menu();

@@ -146,9 +146,9 @@ Response ViewSession::state(const std::string& known) const {
     return {200, "application/json", text_of(state), "", std::move(version)};
 }
 
-std::optional<Scene> ViewSession::lit(const LoadedScene& loaded, Lighting lighting) {
+std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneDescription& description,
+                                      Lighting lighting) {
     if (lighting.is_that_of_the_scene()) return std::nullopt;
-    const SceneDescription& description = loaded.description;
     if (!lighting.environment.empty()) {
         const std::lock_guard lock(surroundings_mutex_);
         const auto [place, is_new] =
@@ -156,7 +156,7 @@ std::optional<Scene> ViewSession::lit(const LoadedScene& loaded, Lighting lighti
         if (is_new) place->second = make_environment(lighting.environment, description.up_axis);
         lighting.surroundings = place->second;
     }
-    return with_lighting(loaded.scene, description, lighting);
+    return with_lighting(scene, description, lighting);
 }
 
 Response ViewSession::frame(const json& request, Turn& turn) {
@@ -167,9 +167,11 @@ Response ViewSession::frame(const json& request, Turn& turn) {
     wish.options.stop = &turn.flag();
     wish.options.progress = &turn;
     if (turn.flag().requested()) return turn.ended();
-    const std::optional<Scene> other = lit(here->scene, std::move(wish.lighting));
-    const RenderResult result = render_with_description(other ? *other : here->scene.scene,
-                                                        here->scene.description, wish.options);
+    const auto placed = scenes_.moved(here, wish.lighting.changes, turn.flag());
+    const std::optional<Scene> other =
+        lit(placed->scene.scene, here->scene.description, std::move(wish.lighting));
+    const RenderResult result = render_with_description(other ? *other : placed->scene.scene,
+                                                        placed->scene.description, wish.options);
     if (!result.complete) return turn.ended();
     json facts{{"seconds", result.seconds},    {"rays", result.counters.total_cast()},
                {"threads", result.threads},    {"version", here->version},
@@ -181,7 +183,9 @@ Response ViewSession::frame(const json& request, Turn& turn) {
 Response ViewSession::explain(const json& request, Turn& turn) {
     const FrameWish wish = frame_wish(request);
     const auto here = scenes_.with(request.value("accelerator", ""), turn.flag());
-    const std::optional<Scene> other = lit(here->scene, wish.lighting);
+    const auto placed = scenes_.moved(here, wish.lighting.changes, turn.flag());
+    const std::optional<Scene> other =
+        lit(placed->scene.scene, here->scene.description, wish.lighting);
     ExplainOptions options;
     options.scene = other ? &*other : nullptr;
     options.render = wish.options;
@@ -194,7 +198,7 @@ Response ViewSession::explain(const json& request, Turn& turn) {
     options.sample = whole_in(request, "sample", 0, 0, wish.options.samples_per_pixel - 1);
     options.accelerator = request.value("steps", options.accelerator);
     const Interruptible ends(&turn.flag());  // accelerators are built beside that of the scene
-    const Explanation explanation = explain_pixel(here->scene, options);
+    const Explanation explanation = explain_pixel(placed->scene, options);
     if (!explanation.complete) return turn.ended();
     return {200, "application/json", explanation_json(explanation, -1), "", ""};
 }

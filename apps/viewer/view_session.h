@@ -41,8 +41,9 @@ class ViewSession {
     [[nodiscard]] Response explain(const Json& wish, Turn& turn);
     [[nodiscard]] Response blocks(const Json& wish);
     [[nodiscard]] Response stop(const Json& wish);
-    /// The scene as it is to be lit; none: as it is.
-    [[nodiscard]] std::optional<Scene> lit(const LoadedScene& loaded, Lighting lighting);
+    /// `scene` as it is to be lit; none: as it is. `description` is that of the file.
+    [[nodiscard]] std::optional<Scene> lit(const Scene& scene, const SceneDescription& description,
+                                           Lighting lighting);
 
     SceneStore scenes_;
     const int threads_;

@@ -109,6 +109,7 @@ std::vector<LightChange> light_changes(const json& wish) {
         change.name = light.at("name").get<std::string>();
         if (light.contains("position")) change.position = numbers_in(light, "position");
         if (light.contains("direction")) change.direction = numbers_in(light, "direction");
+        if (light.contains("sizes")) change.sizes = light.at("sizes").get<std::vector<double>>();
         if (!light.contains("color")) continue;
         const Vec3 color = numbers_in(light, "color");
         change.color = Rgb{color.x, color.y, color.z};

@@ -288,8 +288,15 @@ class ViewPage(unittest.TestCase):
         # A spot light turns, a lamp and a material are dimmed.
         for name in ("spot light 1", "lamp", "ember"):
             page.value(f"{field(f'change {name}')}.click()")
-        self.assertIsNone(page.value(f"{field('lamp position 0')}?.value ?? null"))
+        self.assertIsNone(page.value(f"{field('ember position 0')}?.value ?? null"))
         self.changes(lambda: type_in("spot light 1 direction 0", "1"))
+        # The lamp is a disc: its surface is built where it is then.
+        self.changes(lambda: type_in("lamp position 0", "-1.5"))
+        self.changes(lambda: type_in("lamp direction 0", "1"))
+        self.changes(lambda: type_in("lamp radius", "0.75"))
+        for name, text in (("radius", "0"), ("inner radius", "0.75")):
+            type_in(f"lamp {name}", text)
+            self.assertEqual(page.value(f"{field(f'lamp {name}')}.getAttribute('aria-invalid')"), "true")
         self.changes(lambda: type_in("lamp times", "0.5"))
         self.changes(lambda: type_in("ember color 0", "0.2"))
         changed = self.picture()
@@ -298,14 +305,15 @@ class ViewPage(unittest.TestCase):
         page.value(button("Light blocks"))
         page.wait("document.getElementById('light-blocks').value.includes('ember')")
         blocks = page.value("document.getElementById('light-blocks').value")
-        for part in ('point_light "key"', "position = (-3, 5, 4)", "color = (2.5, 2.5, 0.625)", "spot_light", 'disc_light "lamp"',
-                     "radiance = (1, 1, 0.5)", '// material "ember": emission = (0.2, 0.3, 0.05)'):
+        for part in ('point_light "key"', "position = (-3, 5, 4)", "color = (2.5, 2.5, 0.625)", "spot_light",
+                     'disc_light "lamp" { center = (-1.5, 2.4, 0); normal = (1, -1, 0); radius = 0.75; ', "radiance = (1, 1, 0.5)",
+                     '// material "ember": emission = (0.2, 0.3, 0.05)'):
             self.assertIn(part, blocks)
         # It stays where the file changes, and is undone step by step; a field counts once.
         self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
         self.changes(lambda: self.edit(LIGHTS))
         self.assertEqual(self.picture(), changed)
-        for i in range(5):
+        for i in range(8):
             self.changes(lambda: page.value("viewer.undo()"))
         self.assertEqual(self.picture(), moved)
         self.changes(lambda: page.value("viewer.undo()"))
@@ -483,6 +491,35 @@ class ViewPage(unittest.TestCase):
         self.assertLessEqual(self.page.value("(t => t.scrollWidth - t.clientWidth)(document.querySelector('.equation').parentElement)"), 0)
         self.page.value("document.getElementById('tree').scrollIntoView()")
         self.shoot("view_phone_tree")
+        self.check_quiet()
+
+    def test_the_picture_stays_in_sight_of_a_phone_while_a_light_is_changed(self):
+        self.scene.write_text(LIGHTS, encoding="utf-8")
+        self.open("600,900")
+        page = self.page
+        # Upright, with a keyboard on the screen, and across.
+        for width, height in ((390, 844), (390, 500), (844, 390)):
+            page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2, mobile=True)
+            page.value("scrollTo(0, 0)")
+            page.value("document.getElementById('lights').open = true")
+            for name in ("key", "lamp", "ember"):
+                change = f"document.querySelector('#lights [aria-label=\"Change {name}\"]')"
+                if page.value(f"{change}.ariaExpanded") == "false":
+                    page.value(f"{change}.click()")
+            self.assertLessEqual(page.value("document.documentElement.scrollWidth - innerWidth"), 0)
+            for name in ("key position 0", "lamp position 2", "lamp radius", "ember times", "reset ember"):
+                picture, field = page.value(f"""(() => {{
+                    const field = [...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{name}');
+                    if (field.disabled) field.scrollIntoView({{block: "nearest"}});
+                    else field.focus();
+                    return [viewer.image, field].map(e => (b => [b.top, b.bottom, b.height])(e.getBoundingClientRect()));
+                }})()""")
+                where = (width, height, name, picture, field)
+                self.assertGreaterEqual(picture[0], 0, where)
+                self.assertGreater(picture[2], 0.3 * height, where)
+                self.assertGreaterEqual(field[0], picture[1], where)
+                self.assertLessEqual(field[1], height, where)
+            self.shoot(f"view_phone_edit_{width}x{height}")
         self.check_quiet()
 
     def test_without_its_key_the_page_shows_nothing(self):

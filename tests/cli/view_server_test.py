@@ -339,26 +339,41 @@ class ViewServer(ServerTest):
             key, spot = lights["key"], lights["spot light 1"]
             self.assertEqual((key["position"], key["color"], "direction" in key), ([3, 5, 4], [1, 1, 1], False))
             self.assertEqual((spot["position"], spot["direction"]), ([-3, 5, 4], [3, -5, -4]))
-            self.assertEqual((lights["lamp"]["color"], "position" in lights["lamp"]), ([2, 2, 1], False))
+            self.assertEqual({k: v for k, v in lights["lamp"].items() if k not in ("name", "what")},
+                             {"color": [2, 2, 1], "position": [1.5, 2.4, 0], "direction": [0, -1, 0],
+                              "sizes": [{"name": "radius", "value": 0.4}, {"name": "inner radius", "value": 0}]})
+            self.assertEqual(set(lights["ember"]), {"name", "what", "color"})
             changes = [{"name": "key", "position": [-3, 5, 4]}, {"name": "key", "color": [3, 0, 0]},
                        {"name": "spot light 1", "direction": [1, -5, -4]}, {"name": "lamp", "color": [9, 9, 9]},
-                       {"name": "ember", "color": [0, 5, 0]}]
+                       {"name": "ember", "color": [0, 5, 0]}, {"name": "lamp", "position": [0, 3, 2]},
+                       {"name": "lamp", "direction": [1, -1, 1]}, {"name": "lamp", "sizes": [0.8, 0.4]}]
             for renderer in ("whitted", "path_tracing"):
-                self.assertEqual(len({png(renderer=renderer), *(png(c, renderer=renderer) for c in changes)}), 6)
+                self.assertEqual(len({png(renderer=renderer), *(png(c, renderer=renderer) for c in changes)}), 9)
             # What the file says changes nothing; a file that says the same shows the same.
             self.assertEqual(png({k: v for k, v in key.items() if k != "what"}, spot), png())
+            as_it_is = {**lights["lamp"], "sizes": [size["value"] for size in lights["lamp"]["sizes"]]}
+            self.assertEqual(png(as_it_is, renderer="path_tracing"), png(renderer="path_tracing"))
             status, _, body = server.ask("/blocks", {"lights": [changes[0]]})
             self.assertEqual(json.loads(body)["text"], 'point_light "key" { position = (-3, 5, 4) }\n')
             moved = png(changes[0])
             scene.write_text(LIGHTS.replace("position = (3, 5, 4)", "position = (-3, 5, 4)"), encoding="utf-8")
             server.wait_for(lambda state: state["version"] == 2)
             self.assertEqual(png(), moved)
+            # A lamp is seen, hit and explained where it is drawn, and no longer where it was.
+            before, over = [0, 1, 3.5], {**WISH, "x": 40, "y": 30, "steps": "list"}
+            there = {"name": "lamp", "position": before, "direction": [0, 0, 1], "sizes": [0.5, 0]}
+
+            def first_object(*lights):
+                return json.loads(server.ask("/explain", {**over, "lights": lights})[2])["tree"]["surfaces"][0]["object"]
+            self.assertEqual((first_object(there), first_object()), ("lamp", "ball"))
             explained = json.loads(server.ask("/explain", {**WISH, "x": 40, "y": 58, "steps": "list",
                                                            "lights": [{"name": "key", "color": [0, 0, 0]}]})[2])
             self.assertNotIn("key", [light["light"] for light in explained["tree"]["surfaces"][0]["lights"]
                                      if any(light["intensity"])])
             for path in ("/frame", "/blocks"):
-                for wrong in ({"name": "moon", "color": [1, 1, 1]}, {"name": "lamp", "position": [0, 0, 0]}, {"name": "key", "color": [-1, 0, 0]},
+                for wrong in ({"name": "moon", "color": [1, 1, 1]}, {"name": "ember", "position": [0, 0, 0]}, {"name": "key", "color": [-1, 0, 0]},
+                              {"name": "lamp", "sizes": [1]}, {"name": "lamp", "sizes": [1, 1]}, {"name": "lamp", "sizes": [0, 0]},
+                              {"name": "lamp", "sizes": 1}, {"name": "key", "sizes": [1]}, {"name": "lamp", "sizes": [None, 0]},
                               {"name": "spot light 1", "direction": [0, 0, 0]}, {"name": "key", "position": [1, 2]},
                               {"name": "key", "color": [None, 0, 0]}, {"color": [1, 1, 1]}, "key"):
                     status, _, body = server.ask(path, {**WISH, "lights": [wrong]})

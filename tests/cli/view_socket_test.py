@@ -4,7 +4,11 @@
 Usage: view_socket_test.py ALHAZEN
 """
 
+import collections
+import itertools
 import json
+import random
+import statistics
 import sys
 import threading
 import time
@@ -15,6 +19,27 @@ from view_server import SCENE, SLOWDOWN, WISH, Server, ServerTest
 ALHAZEN = sys.argv[1]
 # Minutes of work.
 LONG = {**WISH, "width": 2000, "height": 1500, "samples": 1024, "raw": True}
+
+
+def spoiled(data, chance):
+    """The bytes with some of them changed, left out, or there twice."""
+    data = bytearray(data)
+    for _ in range(chance.choice((1, 1, 2, 8))):
+        i = chance.randrange(len(data))
+        how = chance.randrange(5)
+        if how == 0:
+            data[i] ^= 1 << chance.randrange(8)
+        elif how == 1:
+            del data[i:i + chance.randrange(1, 20)]
+        elif how == 2:
+            data[i:i] = data[i:i + chance.randrange(1, 40)]
+        elif how == 3:
+            data[i:i] = chance.choice((b"-1", b"1e999", b"NaN", b"null", b"[[[[", b"{", b"\xff", b"\0", b"\r\n\r\n", b"1" * 20))
+        else:
+            del data[i:]
+        if not data:
+            return b"x"
+    return bytes(data)
 
 
 class ViewSocket(ServerTest):
@@ -64,6 +89,77 @@ class ViewSocket(ServerTest):
             self.assertIn(frames.end(), codes)
             frames.close()
         self.assertEqual(self.server.ask("/state", {})[0], 200)
+
+    def test_a_page_has_its_pictures_while_two_hundred_slow_clients_come(self):
+        frames, ids = self.open(), itertools.count()
+
+        def seconds():
+            frame, begin = next(ids), time.monotonic()
+            frames.send({**WISH, "id": frame, "moving": True})
+            frames.picture()
+            spent = time.monotonic() - begin
+            frames.send({"shown": frame})
+            return spent
+
+        alone, memory, sockets = [seconds() for _ in range(9)], self.server.state()["memory"], []
+
+        def come():
+            for _ in range(200):
+                s = self.server.connect()
+                try:
+                    s.sendall(b"POST /state HTTP/1.1\r\nHost: ")
+                except OSError:
+                    pass  # refused at once
+                sockets.append(s)
+
+        slow = threading.Thread(target=come)
+        slow.start()
+        beside = []
+        while slow.is_alive() or len(beside) < 9:
+            beside.append(seconds())
+        slow.join()
+        for s in sockets:
+            s.close()
+        self.assertEqual(len(sockets), 200)
+        self.assertLess(statistics.median(beside) - statistics.median(alone), 0.1 * SLOWDOWN)
+        self.wait_for_a_place()
+        self.server.wait_for(lambda state: state["memory"] - memory < 32 << 20)
+
+    def wait_for_a_place(self):
+        """Until a connection is taken again."""
+        begin = time.monotonic()
+        while self.server.ask("/state", {})[0] != 200:
+            self.assertLess(time.monotonic() - begin, 9 * SLOWDOWN)
+            time.sleep(0.1)
+
+    def test_random_requests_and_messages_end_nothing(self):
+        chance = random.Random(25)
+        wish = json.dumps({**WISH, "id": 1, "lights": [{"name": "key", "position": [1, 2, 3]}]}).encode()
+
+        def request(body):
+            return (f"POST /frame HTTP/1.1\r\nHost: {self.server.host}\r\nOrigin: http://{self.server.host}\r\n"
+                    f"Authorization: Bearer {self.server.token}\r\nContent-Length: {len(body)}\r\n"
+                    "Connection: close\r\n\r\n").encode() + body
+
+        memory = self.server.state()["memory"]
+        all_over = [spoiled(request(wish), chance) for _ in range(400)]
+        bodies = [request(spoiled(wish, chance)) for _ in range(400)]
+        answers = collections.Counter(self.server.raw(data)[9:12] for data in all_over + bodies)
+        self.assertLessEqual(set(answers), {b"", *(str(n).encode() for n in (200, 204, 400, 401, 403, 404, 405, 408, 413, 431, 501))})
+        self.assertGreater(answers[b"200"], 0)
+        self.assertGreater(answers[b"400"], 0)
+        self.wait_for_a_place()
+        for _ in range(60):
+            frames = self.open()
+            for _ in range(4):
+                frames.send(spoiled(wish, chance), chance.choice((0, 1, 1, 1, 1, 2, 3, 8, 9, 10)), chance.random() < 0.9,
+                            chance.random() < 0.95)
+            frames.close()
+            self.wait_for_a_place()
+        self.server.wait_for(lambda state: not state["work"] and state["memory"] - memory < 32 << 20)
+        frames = self.open()
+        frames.send({**WISH, "id": 7})
+        self.assertEqual(frames.picture()[0]["status"], 200)
 
     # ---- pictures
     def test_a_socket_takes_fragments_and_sends_pixels(self):

@@ -1,4 +1,4 @@
-// The numbers of a light: where it is, where it shines, its colour.
+// The numbers of a light: where it is, where it shines, its colour, its sizes.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
@@ -10,6 +10,7 @@ export interface LightValues {
   direction?: Vec3;
   color: Vec3;
   times: number;
+  sizes: number[];
 }
 type VectorKey = "position" | "direction" | "color";
 const AXES: Record<VectorKey, string[]> = {
@@ -17,11 +18,16 @@ const AXES: Record<VectorKey, string[]> = {
 const LABELS: Record<VectorKey, string> = {position: "position", direction: "direction", color: "colour"};
 const MOST = 1e15;
 
+function capital(text: string) {
+  return text[0].toUpperCase() + text.slice(1);
+}
+
 export class LightFields {
   readonly element: HTMLElement;
   private values: LightValues;
   private readonly vectors: {key: VectorKey; fields: HTMLInputElement[]}[];
   private readonly times: HTMLInputElement;
+  private readonly sizes: HTMLInputElement[];
   private readonly reset: HTMLButtonElement;
   private marked = false;  // since a field got the focus
 
@@ -32,6 +38,7 @@ export class LightFields {
     const keys = (["position", "direction", "color"] as const).filter(key => light[key]);
     this.vectors = keys.map(key => ({key, fields: AXES[key].map((axis, i) =>
       this.field(`${axis} of the ${LABELS[key]} of ${light.name}`, `${key} ${i}`))}));
+    this.sizes = (light.sizes ?? []).map(size => this.field(`${capital(size.name)} of ${light.name}`, size.name));
     this.times = this.field(`Strength of ${light.name}, times its colour`, "times");
     this.reset = element("button", {type: "button", class: "link", "data-key": `reset ${light.name}`, click: () => {
       this.values = this.ofFile();
@@ -41,7 +48,8 @@ export class LightFields {
     const line = (label: string, ...fields: HTMLElement[]) =>
       element("div", {class: "numbers"}, element("span", {"aria-hidden": "true"}, label), ...fields);
     this.element = element("fieldset", {id}, element("legend", {}, `${light.name}: ${light.what ?? "light"}`),
-      ...this.vectors.map(v => line(LABELS[v.key], ...v.fields)), line("strength", this.times, this.reset));
+      ...this.vectors.map(v => line(LABELS[v.key], ...v.fields)),
+      ...this.sizes.map((field, i) => line(light.sizes![i].name, field)), line("strength", this.times, this.reset));
     this.show(undefined);
   }
   /** Undefined: those of the file. */
@@ -49,17 +57,19 @@ export class LightFields {
     const file = this.ofFile();
     // The file may have given the light another kind meanwhile.
     this.values = {position: values?.position ?? file.position, direction: values?.direction ?? file.direction,
-                   color: values?.color ?? file.color, times: values?.times ?? 1};
+                   color: values?.color ?? file.color, times: values?.times ?? 1,
+                   sizes: values?.sizes.length === file.sizes.length ? values.sizes : file.sizes};
     for (const {key, fields} of this.vectors) {
       fields.forEach((field, i) => this.set(field, this.values[key]![i]));
     }
     this.set(this.times, this.values.times);
+    this.sizes.forEach((field, i) => this.set(field, this.values.sizes[i]));
     this.reset.disabled = values === undefined;
   }
 
   private ofFile(): LightValues {
-    const {position, direction, color} = this.light;
-    return {position, direction, color, times: 1};
+    const {position, direction, color, sizes} = this.light;
+    return {position, direction, color, times: 1, sizes: (sizes ?? []).map(s => s.value)};
   }
   private set(field: HTMLInputElement, x: number) {
     field.removeAttribute("aria-invalid");
@@ -85,6 +95,11 @@ export class LightFields {
       good &&= x >= 0;
       values.times = x;
     }
+    const size = this.sizes.indexOf(field);
+    if (size >= 0) {
+      values.sizes = values.sizes.map((old, i) => i === size ? x : old);
+      good &&= this.areSizes(values.sizes);
+    }
     for (const {key, fields} of this.vectors) {
       const i = fields.indexOf(field);
       if (i < 0) continue;
@@ -102,8 +117,13 @@ export class LightFields {
     this.marked = true;
     this.changed(this.isOfFile() ? undefined : values, mark);
   }
+  // Above 0, and a hole smaller than what is around it.
+  private areSizes(sizes: number[]) {
+    const names = this.light.sizes!.map(s => s.name);
+    return sizes.every((x, i) => names[i] === "inner radius" ? x >= 0 && x < sizes[names.indexOf("radius")] : x > 0);
+  }
   private isOfFile() {
     const file = this.ofFile();
-    return this.values.times === 1 && this.vectors.every(({key}) => this.values[key]!.every((x, i) => x === file[key]![i]));
+    return this.values.times === 1 && this.values.sizes.every((x, i) => x === file.sizes[i]) && this.vectors.every(({key}) => this.values[key]!.every((x, i) => x === file[key]![i]));
   }
 }

@@ -45,9 +45,11 @@ export class LightList {
     return this.lights.flatMap(light => {
       const values = this.values.get(light.name);
       if (!values) return [];
-      const {position, direction, color, times} = values;
+      const {position, direction, color, times, sizes} = values;
       return [{name: light.name, ...(light.position && position ? {position} : {}),
-               ...(light.direction && direction ? {direction} : {}), color: color.map(c => c * times) as Vec3}];
+               ...(light.direction && direction ? {direction} : {}),
+               ...(sizes.length && sizes.length === light.sizes?.length ? {sizes} : {}),
+               color: color.map(c => c * times) as Vec3}];
     });
   }
   state(): LightState {

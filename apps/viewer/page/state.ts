@@ -27,6 +27,7 @@ export interface LightEntry extends Choice {
   position?: Vec3;
   direction?: Vec3;  // into the scene
   color: Vec3;       // or radiance, ambient term, emission
+  sizes?: {name: string, value: number}[];  // of a light with extent
 }
 /** What a light is to be instead of what the file says. */
 export interface LightChange {
@@ -34,6 +35,7 @@ export interface LightChange {
   position?: Vec3;
   direction?: Vec3;
   color: Vec3;
+  sizes?: number[];
 }
 /** What changes with the file only. */
 export interface Menus {

@@ -98,7 +98,7 @@ export class Viewer {
     const help = element("p", {id: "help"}, "Drag or arrow keys turn, with shift they move; wheel, two fingers, + and \u2212 " +
       "zoom; W A S D walk. Click or Enter: why a pixel has its colour. Escape ends what is computed.");
     document.getElementById("viewer")!.append(
-      element("div", {}, this.image, this.scale, this.status, this.work.line, help),
+      element("div", {}, element("div", {class: "stage"}, this.image), this.scale, this.status, this.work.line, help),
       element("section", {"aria-label": "Settings and actions"}, this.controls.form, buttons, block));
     listen(this.image, this);
   }
@@ -256,8 +256,7 @@ export class Viewer {
     if (picture instanceof ImageData) this.g.putImageData(picture, 0, 0);
     else this.g.drawImage(picture, 0, 0);
     const aspect = this.camera?.aspect ?? width / height;
-    this.image.style.aspectRatio = String(aspect);
-    this.image.style.maxWidth = `calc(82vh * ${aspect})`;
+    document.documentElement.style.setProperty("--aspect", String(aspect));
     this.firstPicture ??= performance.now();
     ++this.frames;
   }

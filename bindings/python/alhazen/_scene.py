@@ -252,21 +252,23 @@ class Scene:
     # ---- the nearest points
 
     def closest_points(self, points: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """The point of the scene's triangles that is nearest to each point (..., 3): a dict of arrays shaped (...).
+        """The point of the scene's surfaces that is nearest to each point (..., 3): a dict of arrays shaped (...).
 
         ===================  ==============  ==============================================================
         distance             (...) real      scene units
         points               (..., 3) real   the nearest point
         geometry_ids         (...) uint32    the part, as in ``intersect``
-        primitive_ids        (...) uint32    the triangle; of several that are as near the first
-        uvs                  (..., 2) real   weights of the triangle's second and third vertex
-        normals              (..., 3) real   unit, of the triangle, outward where it turns counterclockwise
+        primitive_ids        (...) uint32    the triangle; of several that are as near the first; of a shape 0
+        uvs                  (..., 2) real   weights of the triangle's second and third vertex; of a shape 0
+        normals              (..., 3) real   unit, outward of closed shapes and where a triangle turns counterclockwise
         ===================  ==============  ==============================================================
 
-        Real is float32 for float32 points, else float64; all is computed in float64, and the distance is exact within
-        4e-15 of the largest coordinate. Without triangles distances are infinite, of points that are not finite NaN;
-        ids are then INVALID_ID. Instances count at each of their places, with at most 2^25 triangles in all; shapes and
-        solids in the scene are an error, which names the first.
+        Real is float32 for float32 points, else float64; all is computed in float64, and the distance to triangles is
+        exact within 4e-15 of the largest coordinate. Of shapes it is that of planes, discs, rectangles, polygons, boxes,
+        polyhedra, spheres, cylinders, cones, all quadrics, tori, and lathes of straight lines, however they are placed
+        (tori: without stretching). Other shapes, and solids made of others, are an error that names the first. Without
+        surfaces distances are infinite, of points that are not finite NaN; ids are then INVALID_ID. Instances count at
+        each of their places, with at most 2^25 triangles and shapes in all.
         """
         return self._scene().closest_points(points, self._at_most(threads))
 

@@ -84,7 +84,7 @@ const SolidScene& BuiltScene::solids() const {
     return *solids_;
 }
 
-const PlacedTriangles& BuiltScene::nearest() const {
+const PlacedSurfaces& BuiltScene::nearest() const {
     std::call_once(nearest_made_, [this] {
         nearest_.emplace(tracer_, loaded_.description);
         made_nearest_ = &*nearest_;

@@ -18,7 +18,7 @@
 #include "alhazen/tracer/tracer.h"
 #include "array_mesh.h"
 #include "errors.h"
-#include "placed_triangles.h"
+#include "placed_surfaces.h"
 
 namespace alhazen::python {
 
@@ -56,10 +56,10 @@ class BuiltScene {
     [[nodiscard]] const SolidScene& solids() const;
     /// The same where they are found, else null.
     [[nodiscard]] const SolidScene* found_solids() const { return found_solids_; }
-    /// Its triangles, made on first use; throws what PlacedTriangles does.
-    [[nodiscard]] const PlacedTriangles& nearest() const;
+    /// Its triangles, made on first use; throws what PlacedSurfaces does.
+    [[nodiscard]] const PlacedSurfaces& nearest() const;
     /// The same where they are made, else null.
-    [[nodiscard]] const PlacedTriangles* made_nearest() const { return made_nearest_; }
+    [[nodiscard]] const PlacedSurfaces* made_nearest() const { return made_nearest_; }
 
   private:
     SceneDescription source_;
@@ -69,8 +69,8 @@ class BuiltScene {
     mutable std::optional<SolidScene> solids_;
     mutable std::atomic<const SolidScene*> found_solids_ = nullptr;
     mutable std::once_flag nearest_made_;
-    mutable std::optional<PlacedTriangles> nearest_;
-    mutable std::atomic<const PlacedTriangles*> made_nearest_ = nullptr;
+    mutable std::optional<PlacedSurfaces> nearest_;
+    mutable std::atomic<const PlacedSurfaces*> made_nearest_ = nullptr;
 };
 
 }  // namespace alhazen::python

@@ -13,8 +13,8 @@ namespace alhazen::python {
 namespace {
 
 /// Builds on first use; Ctrl-C ends it.
-const PlacedTriangles& built(const BuiltScene& scene) {
-    if (const PlacedTriangles* made = scene.made_nearest()) return *made;
+const PlacedSurfaces& built(const BuiltScene& scene) {
+    if (const PlacedSurfaces* made = scene.made_nearest()) return *made;
     run_interruptible([&] { static_cast<void>(scene.nearest()); });
     return scene.nearest();
 }
@@ -23,7 +23,7 @@ const PlacedTriangles& built(const BuiltScene& scene) {
 
 py::dict closest_points(const BuiltScene& scene, const py::object& points_object, int threads) {
     const NumberArray points(points_object, {3}, "points");
-    const PlacedTriangles& triangles = built(scene);
+    const PlacedSurfaces& triangles = built(scene);
     const RealArray distance(points.single(), points.shape(), 0);
     const RealArray nearest(points.single(), points.shape(), 3);
     const RealArray uvs(points.single(), points.shape(), 2);
@@ -32,7 +32,7 @@ py::dict closest_points(const BuiltScene& scene, const py::object& points_object
     run_in_blocks(points.count(), threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Vec3 from = points.vector(i, 0);
-            const PlacedTriangles::Found found = triangles.nearest(from);
+            const PlacedSurfaces::Found found = triangles.nearest(from);
             // Of what is no point nothing is known.
             distance.set(i, is_finite(from) ? std::sqrt(found.squared)
                                             : std::numeric_limits<double>::quiet_NaN());

@@ -49,7 +49,13 @@ void describe(const Light& light, LightChoice& choice) {
                               choice.direction = l.direction;
                               choice.color = l.color;
                           },
-                          [&](const AreaLight& l) { choice.color = l.radiance; }},
+                          [&](const AreaLight& l) {
+                              ExtentHandles handles = handles_of(l.extent);
+                              choice.position = handles.position;
+                              choice.direction = handles.direction;
+                              choice.sizes = std::move(handles.sizes);
+                              choice.color = l.radiance;
+                          }},
                light);
 }
 
@@ -67,6 +73,14 @@ void check(const LightChange& change, const LightChoice& choice) {
     }
     if (change.direction && !(fits(*change.direction) && length_squared(*change.direction) > 0)) {
         refuse("must have a direction of three finite numbers, one of which is not 0");
+    }
+    if (!change.sizes.empty()) {
+        if (change.sizes.size() != choice.sizes.size()) {
+            refuse(fmt::format("has {} sizes, found {}", choice.sizes.size(), change.sizes.size()));
+        }
+        const bool good = std::all_of(change.sizes.begin(), change.sizes.end(),
+                                      [](double x) { return x >= 0.0 && x <= kMaxCoordinate; });
+        if (!good) refuse("must have sizes of 0 to 1e70");
     }
     if (!change.color) return;
     for (int i = 0; i < 3; ++i) {
@@ -88,6 +102,14 @@ void apply(const LightChange& change, Light& light) {
                     // The profile of a spot hangs along its axis unless the file says otherwise.
                     if (l.profile.down == l.direction) l.profile.down = *change.direction;
                     l.direction = *change.direction;
+                }
+            }
+            if constexpr (std::is_same_v<L, AreaLight>) {
+                const ExtentChange of_surface{change.position, change.direction, change.sizes};
+                if (of_surface.changes_something()) l.extent = changed(l.extent, of_surface);
+                if (const char* const fault = fault_of(l.extent)) {
+                    throw Error(ErrorKind::Usage,
+                                fmt::format("the light '{}': {}", change.name, fault));
                 }
             }
             if (!change.color) return;
@@ -171,6 +193,42 @@ std::vector<LightChoice> light_choices(const SceneDescription& description) {
     std::vector<LightChoice> list;
     for (Switch& s : switches(description)) list.push_back(std::move(s.choice));
     return list;
+}
+
+std::vector<LightChange> surface_changes(const SceneDescription& description,
+                                         const std::vector<LightChange>& changes) {
+    std::vector<LightChange> result;
+    if (changes.empty()) return result;
+    const std::vector<Switch> all = switches(description);
+    for (const LightChange& change : changes) {
+        const Switch& s = find(all, change.name);
+        check(change, s.choice);
+        if (!s.light || !s.material) continue;
+        Light light = description.lights[*s.light].light;
+        const LightExtent before = std::get<AreaLight>(light).extent;
+        apply(change, light);
+        if (std::get<AreaLight>(light).extent == before) continue;
+        result.push_back(change);
+        result.back().color.reset();
+    }
+    return result;
+}
+
+LoadedScene with_moved_surfaces(const LoadedScene& loaded, const std::vector<LightChange>& changes,
+                                const CompileOptions& options) {
+    LoadedScene moved;
+    moved.description = loaded.description;
+    const std::vector<Switch> all = switches(loaded.description);
+    for (const LightChange& change : surface_changes(loaded.description, changes)) {
+        const std::size_t light = *find(all, change.name).light;
+        Light& described = moved.description.lights[light].light;
+        apply(change, described);
+        set_surface_of_light(moved.description, light, std::get<AreaLight>(described).extent);
+    }
+    moved.scene = loaded.scene;
+    moved.scene.aggregate = nullptr;
+    build_aggregate(moved.description, options, moved.scene);
+    return moved;
 }
 
 Scene with_lighting(const Scene& scene, const SceneDescription& description,

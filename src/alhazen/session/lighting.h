@@ -1,5 +1,6 @@
 #pragma once
-/// The lights of a scene by name, and the scene with some of them off or with other surroundings.
+/// The lights of a scene by name, and the scene with some of them off, changed, or with other
+/// surroundings.
 ///
 /// Conventions: lights are those of the description, in its order, then materials that emit, but
 /// for those of seen lights (seen_lights.h), which are off with their light. Every name is another
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "alhazen/session/load.h"
+#include "alhazen/shading/lights/extent_handles.h"
 
 namespace alhazen {
 
@@ -23,6 +25,7 @@ struct LightChoice {
     std::optional<Vec3> position;
     std::optional<Vec3> direction;  ///< from the light into the scene, of any length
     Rgb color;                      ///< or radiance, ambient term, emission; what it has
+    std::vector<ExtentSize> sizes;  ///< of a light with extent
 };
 [[nodiscard]] std::vector<LightChoice> light_choices(const SceneDescription& description);
 
@@ -31,6 +34,9 @@ struct LightChange {
     std::string name;
     std::optional<Vec3> position, direction;  ///< the direction of any length but 0
     std::optional<Rgb> color;
+    std::vector<double> sizes{};  ///< as many as the choice has, or none
+
+    friend bool operator==(const LightChange&, const LightChange&) = default;
 };
 
 struct Lighting {
@@ -47,9 +53,21 @@ struct Lighting {
     }
 };
 
-/// The scene with that lighting; all geometry is shared, so that surfaces of lights stay where they
-/// are. Throws Error (Usage) for a light that there is not, listing those that there are, for a
-/// field that a light has not, and for numbers that no light can have.
+/// Of the changes those of surfaces that are parts of the scene, without their colours: what
+/// `with_moved_surfaces` builds. Throws as `with_lighting`.
+[[nodiscard]] std::vector<LightChange> surface_changes(const SceneDescription& description,
+                                                       const std::vector<LightChange>& changes);
+
+/// The scene with these surfaces where they are then; its aggregate is built, all else is shared or
+/// copied. Can be interrupted (interruption.h). Throws as `with_lighting` and `build_aggregate`.
+[[nodiscard]] LoadedScene with_moved_surfaces(const LoadedScene& loaded,
+                                              const std::vector<LightChange>& changes,
+                                              const CompileOptions& options);
+
+/// The scene with that lighting. All geometry is shared: `scene` has the surfaces of its lights
+/// where they are to be, `description` is that of the file. Throws Error (Usage) for a light that
+/// there is not, listing those that there are, for a field that a light has not, and for numbers
+/// that no light can have.
 [[nodiscard]] Scene with_lighting(const Scene& scene, const SceneDescription& description,
                                   const Lighting& lighting);
 

@@ -6,12 +6,16 @@ namespace alhazen {
 
 namespace {
 
-MeshIndex add_mesh(SceneDescription& description, const LightDescription& light,
-                   const MeshExtent& extent) {
+std::shared_ptr<TriangleMesh> mesh_of(const MeshExtent& extent) {
     auto mesh = std::make_shared<TriangleMesh>();
     mesh->positions = extent.points;
     mesh->triangles = extent.triangles;
-    description.meshes.push_back({light.name, std::move(mesh), light.location});
+    return mesh;
+}
+
+MeshIndex add_mesh(SceneDescription& description, const LightDescription& light,
+                   const MeshExtent& extent) {
+    description.meshes.push_back({light.name, mesh_of(extent), light.location});
     return static_cast<MeshIndex>(description.meshes.size() - 1);
 }
 
@@ -21,47 +25,44 @@ AnyShape prepared(S shape) {
     return shape;
 }
 
-Part part_of(SceneDescription& description, const LightDescription& light,
-             const LightExtent& extent) {
-    Part part;
-    std::visit(
-        Overloaded{[&](const RectangleExtent& e) {
-                       Rectangle shape;
-                       shape.corner = e.corner;
-                       shape.edge_u = e.edge_u;
-                       shape.edge_v = e.edge_v;
-                       part.what = prepared(shape);
-                   },
-                   [&](const DiscExtent& e) {
-                       Disc shape;
-                       shape.center = e.center;
-                       shape.normal = e.normal;
-                       shape.radius = e.radius;
-                       shape.inner_radius = e.inner_radius;
-                       part.what = prepared(shape);
-                   },
-                   [&](const SphereExtent& e) {
-                       Sphere shape;
-                       shape.center = e.center;
-                       shape.radius = e.radius;
-                       part.what = prepared(shape);
-                   },
-                   [&](const TubeExtent& e) {
-                       Cylinder shape;
-                       shape.base = e.base;
-                       shape.top = e.top;
-                       shape.radius = e.radius;
-                       shape.capped = false;
-                       part.what = prepared(shape);
-                   },
-                   [&](const PolygonExtent& e) {
-                       Polygon shape;
-                       shape.vertices = e.vertices;
-                       part.what = prepared(shape);
-                   },
-                   [&](const MeshExtent& e) { part.what = add_mesh(description, light, e); }},
-        extent);
-    return part;
+/// Of all extents but meshes.
+AnyShape surface_of(const LightExtent& extent) {
+    return std::visit(Overloaded{[](const RectangleExtent& e) {
+                                     Rectangle shape;
+                                     shape.corner = e.corner;
+                                     shape.edge_u = e.edge_u;
+                                     shape.edge_v = e.edge_v;
+                                     return prepared(shape);
+                                 },
+                                 [](const DiscExtent& e) {
+                                     Disc shape;
+                                     shape.center = e.center;
+                                     shape.normal = e.normal;
+                                     shape.radius = e.radius;
+                                     shape.inner_radius = e.inner_radius;
+                                     return prepared(shape);
+                                 },
+                                 [](const SphereExtent& e) {
+                                     Sphere shape;
+                                     shape.center = e.center;
+                                     shape.radius = e.radius;
+                                     return prepared(shape);
+                                 },
+                                 [](const TubeExtent& e) {
+                                     Cylinder shape;
+                                     shape.base = e.base;
+                                     shape.top = e.top;
+                                     shape.radius = e.radius;
+                                     shape.capped = false;
+                                     return prepared(shape);
+                                 },
+                                 [](const PolygonExtent& e) {
+                                     Polygon shape;
+                                     shape.vertices = e.vertices;
+                                     return prepared(shape);
+                                 },
+                                 [](const MeshExtent&) { return AnyShape(); }},
+                      extent);
 }
 
 /// The root, as an object to which parts can be added.
@@ -85,7 +86,12 @@ void add_seen_lights(SceneDescription& description) {
         if (area == nullptr || !area->seen) continue;
         area->seen = false;
         area->is_part = true;
-        Part part = part_of(description, light, area->extent);
+        Part part;
+        if (const auto* mesh = std::get_if<MeshExtent>(&area->extent)) {
+            part.what = add_mesh(description, light, *mesh);
+        } else {
+            part.what = surface_of(area->extent);
+        }
         Material material;
         material.name = light.name;
         material.emission.color = area->radiance;
@@ -109,6 +115,27 @@ std::optional<MaterialId> material_of_light(const SceneDescription& description,
     std::size_t id = description.materials.size();
     for (std::size_t i = light; i < description.lights.size(); ++i) id -= is_part(i) ? 1 : 0;
     return static_cast<MaterialId>(id);
+}
+
+void set_surface_of_light(SceneDescription& description, std::size_t light,
+                          const LightExtent& extent) {
+    const std::optional<MaterialId> material = material_of_light(description, light);
+    if (!material) return;
+    for (ObjectDescription& object : description.objects) {
+        for (Part& part : object.parts) {
+            // No other part has this material.
+            if (part.material != *material || std::holds_alternative<ObjectIndex>(part.what)) {
+                continue;
+            }
+            if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+                description.meshes[static_cast<std::size_t>(*mesh)].mesh =
+                    mesh_of(std::get<MeshExtent>(extent));
+            } else {
+                part.what = surface_of(extent);
+            }
+            return;
+        }
+    }
 }
 
 }  // namespace alhazen

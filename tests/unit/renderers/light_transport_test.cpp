@@ -45,6 +45,28 @@ TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
     }
 }
 
+// Rays that the floor scatters found a lamp's back as bright as its front, which no lamp draws.
+TEST(LightTransport, ASingleSidedLampShinesToItsFrontAlone) {
+    for (const char* renderer :
+         {"path_tracing", "path_tracing --spectral", "bidirectional", "light_tracing",
+          "photon_mapping:photons=2000", "sppm:photons=2000", "vcm:photons=2000"}) {
+        for (const bool down : {false, true}) {
+            SceneMaker maker = floor_from_above(0.2);
+            Material lamp = shining({8, 4, 2});
+            lamp.double_sided = false;
+            const Vec3 u{2, 0, 0}, v{0, 2, 0};
+            maker.add(rectangle({-1, -1, 1}, down ? v : u, down ? u : v), maker.material(lamp));
+            const Scene scene = maker.compile();
+            const Rgb seen = mean_of(picture_of(scene, renderer, 4, 64));
+            if (down) {
+                EXPECT_GT(seen.b, 0.1) << renderer;
+            } else {
+                EXPECT_TRUE(seen.is_black()) << renderer << " " << seen.r;
+            }
+        }
+    }
+}
+
 TEST(LightTransport, PunctualLightsShowWhatWhittedShows) {
     SceneMaker maker = floor_from_above(0.2, {0.5, 0.6, 0.7});
     maker.light(PointLight{.position = {1, 0, 2}, .color = {3, 3, 3}, .attenuation = {0, 0, 1}});

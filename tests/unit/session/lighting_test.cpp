@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
 #include "alhazen/session/environment_option.h"
+#include "alhazen/session/render.h"
 #include "alhazen/session/seen_lights.h"
 #include "alhazen/shading/lights/environment.h"
 #include "support/scene_maker.h"
@@ -147,11 +150,124 @@ TEST(Lighting, AnAreaLightIsColouredWithItsPart) {
     EXPECT_NE(blocks.find("// material \"material 2\": emission = (1, 2, 3)"), std::string::npos);
 }
 
+constexpr const char* kLamps = R"(alhazen 1
+perspective_camera { eye = (0, 3, 9); look_at = (0, 1, 0); fov_deg = 60; aspect = 1 }
+material "floor" { diffuse = 0.6; reflective = 0.2 }
+plane { normal = (0, 1, 0); material = "floor" }
+rectangle_light "rectangle" { corner = (-3, 2, 0); edge_u = (1, 0, 0); edge_v = (0, 0, 1); radiance = (2, 1, 1) }
+disc_light "disc" { center = (-1, 2, 0); normal = (0, -1, 1); radius = 0.5; inner_radius = 0.2; radiance = 2 }
+sphere_light "sphere" { center = (1, 2, 0); radius = 0.4; radiance = (1, 1, 2) }
+tube_light "tube" { base = (2, 1, 0); top = (3, 2, 0); radius = 0.1; radiance = (1, 2, 1) }
+polygon_light "polygon" { vertices = ((-2, 0.5, 1), (-1, 0.5, 1), (-1.5, 1.5, 1)); radiance = 1; two_sided = true }
+mesh_light "mesh" { points = ((1, 0.2, 1), (2, 0.2, 1), (1.5, 1, 0.5), (1.5, 0.4, 2)); faces = ((0, 1, 2), (0, 3, 1)); radiance = 3 }
+)";
+
+std::vector<float> picture(const Scene& scene, const SceneDescription& description,
+                           const char* renderer) {
+    RenderOptions options;
+    options.width = options.height = 24;
+    options.renderer = renderer;
+    options.samples_per_pixel = 2;
+    return render_with_description(scene, description, options).film.to_image().samples;
+}
+
+/// The lamps, loaded from a text.
+LoadedScene loaded(const std::string& text) {
+    const auto path = std::filesystem::path(::testing::TempDir()) / "lighting_lamps.alhazen";
+    write_file_atomically(path, text);
+    return load(path);
+}
+
+TEST(Lighting, SurfacesOfLightsAreMovedAsTheirBlocksSay) {
+    const LoadedScene file = loaded(kLamps);
+    const std::vector<LightChange> changes = {
+        {"rectangle", Vec3{-2, 2.5, 1}, Vec3{1, -1, 0}, Rgb{3, 3, 1}, {1.5, 0.5}},
+        {"disc", Vec3{-1, 1.5, 1}, Vec3{1, 0, 2}, {}, {0.75, 0.125}},
+        {"sphere", Vec3{0.5, 1, 2}, {}, {}, {0.625}},
+        {"tube", {}, Vec3{1, 0, 1}, {}, {2, 0.0625}},
+        {"polygon", Vec3{-2, 1, 2}, Vec3{0.5, 0, 1}, {}, {1.25}},
+        {"mesh", Vec3{1.5, 1.5, 1}, {}, {}, {0.5}}};
+    const Scene& before = file.scene;
+    for (std::size_t i = 0; i <= changes.size(); ++i) {
+        // One after the other, and all of them.
+        const std::vector<LightChange> some =
+            i < changes.size() ? std::vector{changes[i]} : changes;
+        ASSERT_EQ(surface_changes(file.description, some).size(), some.size());
+        const LoadedScene moved = with_moved_surfaces(file, some, {});
+        Lighting lighting;
+        lighting.changes = some;
+        const Scene lit = with_lighting(moved.scene, file.description, lighting);
+        // The file, with the blocks instead of the lines of these lights.
+        std::string text = kLamps;
+        for (const LightChange& change : some) {
+            const std::size_t name = text.find("\"" + change.name + "\"");
+            const std::size_t begin = text.rfind('\n', name) + 1, end = text.find('\n', begin) + 1;
+            text.replace(begin, end - begin, changed_light_blocks(file.description, {change}));
+        }
+        const LoadedScene written = loaded(text);
+        for (const char* renderer : {"whitted", "distributed", "path_tracing"}) {
+            EXPECT_EQ(picture(lit, moved.description, renderer),
+                      picture(written.scene, written.description, renderer))
+                << i << renderer << text;
+            EXPECT_NE(picture(lit, moved.description, renderer),
+                      picture(before, file.description, renderer))
+                << i << renderer;
+        }
+    }
+}
+
+TEST(Lighting, ALampIsHitWhereItIsDrawnAndNoLongerWhereItWas) {
+    const LoadedScene file = loaded(kLamps);
+    const LoadedScene moved = with_moved_surfaces(file, {{"sphere", Vec3{0, 1, 4}, {}, {}, {0.5}}},
+                                                  {.accelerator = "kd_tree"});
+    const auto t = [](const Scene& scene, const Vec3& through) {
+        Hit hit;
+        const Vec3 eye{0, 1, 9};
+        const Ray ray{eye, normalize(through - eye), 0.0, kInfinity};
+        const bool found = scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Eye)});
+        return found ? hit.t : kInfinity;
+    };
+    EXPECT_DOUBLE_EQ(t(moved.scene, {0, 1, 4}), 4.5);
+    EXPECT_EQ(t(file.scene, {0, 1, 4}), kInfinity);
+    EXPECT_LT(t(file.scene, {1, 2, 0}), 9.0);
+    EXPECT_EQ(t(moved.scene, {1, 2, 0}), kInfinity);
+}
+
+TEST(Lighting, OnlySurfacesThatMoveAreBuiltAnew) {
+    const LoadedScene file = loaded(kLamps);
+    const std::vector<LightChoice> choices = light_choices(file.description);
+    // A colour, and what the file says, leave the geometry as it is.
+    for (const LightChoice& choice : choices) {
+        LightChange same{choice.name, choice.position, choice.direction, Rgb{5, 5, 5}};
+        for (const ExtentSize& size : choice.sizes) same.sizes.push_back(size.value);
+        EXPECT_TRUE(surface_changes(file.description, {same}).empty()) << choice.name;
+    }
+    // One that is not seen has no surface in the scene, and moves all the same.
+    const LoadedScene hidden = loaded(std::string(kLamps) +
+                                      "sphere_light \"hidden\" { center = (0, 4, 0); radius = 1; "
+                                      "radiance = 1; seen = false }\n");
+    const std::vector<LightChange> moves = {{"hidden", Vec3{2, 4, 0}, {}, {}, {2}}};
+    EXPECT_TRUE(surface_changes(hidden.description, moves).empty());
+    Lighting lighting;
+    lighting.changes = moves;
+    const Scene lit = with_lighting(hidden.scene, hidden.description, lighting);
+    const auto& area = std::get<AreaLight>(lit.lights.back());
+    EXPECT_EQ(std::get<SphereExtent>(area.extent), (SphereExtent{{2, 4, 0}, 2}));
+    EXPECT_EQ(area.surface->center(), (Vec3{2, 4, 0}));
+    EXPECT_EQ(lit.aggregate, hidden.scene.aggregate);
+}
+
 TEST(Lighting, WhatALightCannotBeIsRefused) {
     const Lit lit;
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const LightChange wrong[] = {{"nobody", {}, {}, {}},
-                                 {"lamp", Vec3{1, 2, 3}, {}, {}},
+                                 {"lamp", {}, {}, {}, {1}},
+                                 {"lamp", {}, {}, {}, {0, 0}},
+                                 {"lamp", {}, {}, {}, {1, 1}},
+                                 {"lamp", {}, {}, {}, {kNan, 0}},
+                                 {"lamp", {}, Vec3{0, 0, 0}, {}},
+                                 {"point light 1", {}, {}, {}, {1}},
+                                 {"material 2", Vec3{1, 2, 3}, {}, {}},
                                  {"point light 1", {}, Vec3{1, 0, 0}, {}},
                                  {"point light 1", Vec3{kNan, 0, 0}, {}, {}},
                                  {"point light 1", Vec3{1e71, 0, 0}, {}, {}},

@@ -1285,6 +1285,9 @@ var AXES = {
 };
 var LABELS = { position: "position", direction: "direction", color: "colour" };
 var MOST = 1e15;
+function capital(text) {
+  return text[0].toUpperCase() + text.slice(1);
+}
 var LightFields = class {
   // since a field got the focus
   /** `changed` has no values where they are those of the file. */
@@ -1294,6 +1297,7 @@ var LightFields = class {
     this.values = this.ofFile();
     const keys = ["position", "direction", "color"].filter((key) => light[key]);
     this.vectors = keys.map((key) => ({ key, fields: AXES[key].map((axis2, i) => this.field(`${axis2} of the ${LABELS[key]} of ${light.name}`, `${key} ${i}`)) }));
+    this.sizes = (light.sizes ?? []).map((size) => this.field(`${capital(size.name)} of ${light.name}`, size.name));
     this.times = this.field(`Strength of ${light.name}, times its colour`, "times");
     this.reset = element("button", { type: "button", class: "link", "data-key": `reset ${light.name}`, click: () => {
       this.values = this.ofFile();
@@ -1306,6 +1310,7 @@ var LightFields = class {
       { id },
       element("legend", {}, `${light.name}: ${light.what ?? "light"}`),
       ...this.vectors.map((v) => line(LABELS[v.key], ...v.fields)),
+      ...this.sizes.map((field, i) => line(light.sizes[i].name, field)),
       line("strength", this.times, this.reset)
     );
     this.show(void 0);
@@ -1314,6 +1319,7 @@ var LightFields = class {
   values;
   vectors;
   times;
+  sizes;
   reset;
   marked = false;
   /** Undefined: those of the file. */
@@ -1323,17 +1329,19 @@ var LightFields = class {
       position: values?.position ?? file.position,
       direction: values?.direction ?? file.direction,
       color: values?.color ?? file.color,
-      times: values?.times ?? 1
+      times: values?.times ?? 1,
+      sizes: values?.sizes.length === file.sizes.length ? values.sizes : file.sizes
     };
     for (const { key, fields } of this.vectors) {
       fields.forEach((field, i) => this.set(field, this.values[key][i]));
     }
     this.set(this.times, this.values.times);
+    this.sizes.forEach((field, i) => this.set(field, this.values.sizes[i]));
     this.reset.disabled = values === void 0;
   }
   ofFile() {
-    const { position, direction, color } = this.light;
-    return { position, direction, color, times: 1 };
+    const { position, direction, color, sizes } = this.light;
+    return { position, direction, color, times: 1, sizes: (sizes ?? []).map((s) => s.value) };
   }
   set(field, x) {
     field.removeAttribute("aria-invalid");
@@ -1362,6 +1370,11 @@ var LightFields = class {
       good &&= x >= 0;
       values.times = x;
     }
+    const size = this.sizes.indexOf(field);
+    if (size >= 0) {
+      values.sizes = values.sizes.map((old, i) => i === size ? x : old);
+      good &&= this.areSizes(values.sizes);
+    }
     for (const { key, fields } of this.vectors) {
       const i = fields.indexOf(field);
       if (i < 0) continue;
@@ -1379,9 +1392,14 @@ var LightFields = class {
     this.marked = true;
     this.changed(this.isOfFile() ? void 0 : values, mark);
   }
+  // Above 0, and a hole smaller than what is around it.
+  areSizes(sizes) {
+    const names = this.light.sizes.map((s) => s.name);
+    return sizes.every((x, i) => names[i] === "inner radius" ? x >= 0 && x < sizes[names.indexOf("radius")] : x > 0);
+  }
   isOfFile() {
     const file = this.ofFile();
-    return this.values.times === 1 && this.vectors.every(({ key }) => this.values[key].every((x, i) => x === file[key][i]));
+    return this.values.times === 1 && this.values.sizes.every((x, i) => x === file.sizes[i]) && this.vectors.every(({ key }) => this.values[key].every((x, i) => x === file[key][i]));
   }
 };
 
@@ -1427,11 +1445,12 @@ var LightList = class {
     return this.lights.flatMap((light) => {
       const values = this.values.get(light.name);
       if (!values) return [];
-      const { position, direction, color, times } = values;
+      const { position, direction, color, times, sizes } = values;
       return [{
         name: light.name,
         ...light.position && position ? { position } : {},
         ...light.direction && direction ? { direction } : {},
+        ...sizes.length && sizes.length === light.sizes?.length ? { sizes } : {},
         color: color.map((c) => c * times)
       }];
     });
@@ -2049,7 +2068,7 @@ var Viewer = class {
     );
     const help = element("p", { id: "help" }, "Drag or arrow keys turn, with shift they move; wheel, two fingers, + and \u2212 zoom; W A S D walk. Click or Enter: why a pixel has its colour. Escape ends what is computed.");
     document.getElementById("viewer").append(
-      element("div", {}, this.image, this.scale, this.status, this.work.line, help),
+      element("div", {}, element("div", { class: "stage" }, this.image), this.scale, this.status, this.work.line, help),
       element("section", { "aria-label": "Settings and actions" }, this.controls.form, buttons, block)
     );
     listen(this.image, this);
@@ -2220,8 +2239,7 @@ var Viewer = class {
     if (picture instanceof ImageData) this.g.putImageData(picture, 0, 0);
     else this.g.drawImage(picture, 0, 0);
     const aspect = this.camera?.aspect ?? width / height;
-    this.image.style.aspectRatio = String(aspect);
-    this.image.style.maxWidth = `calc(82vh * ${aspect})`;
+    document.documentElement.style.setProperty("--aspect", String(aspect));
     this.firstPicture ??= performance.now();
     ++this.frames;
   }

@@ -1,5 +1,7 @@
 #pragma once
-/// What a surface emits, at the wavelengths of a path.
+/// What a surface emits towards the ray that met it, at the wavelengths of a path.
+///
+/// Conventions: a single-sided surface shines to its front alone, as its emitter does (emitter.h).
 
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
@@ -9,9 +11,13 @@ namespace alhazen {
 [[nodiscard]] inline Spectrum emission_of(const Scene& scene, const ShadingPoint& point,
                                           const Wavelengths& waves) {
     const Rgb& color = point.material->emission;
-    if (!waves.is_spectral() || color.is_black()) return waves.emission(color);
-    const auto material = static_cast<std::size_t>(point.surface.materials[0]);
-    return waves.emission(color, scene.materials[material].illuminant);
+    if (color.is_black()) return waves.emission(color);
+    const Material& material =
+        scene.materials[static_cast<std::size_t>(point.surface.materials[0])];
+    if (!material.double_sided && dot(point.surface.normal, point.view) < 0.0) {
+        return waves.emission(Rgb{});
+    }
+    return waves.is_spectral() ? waves.emission(color, material.illuminant) : waves.emission(color);
 }
 
 }  // namespace alhazen

@@ -23,27 +23,33 @@ namespace alhazen {
 
 struct RectangleExtent {
     Vec3 corner{-0.5, -0.5, 0}, edge_u{1, 0, 0}, edge_v{0, 1, 0};
+    friend bool operator==(const RectangleExtent&, const RectangleExtent&) = default;
 };
 struct DiscExtent {
     Vec3 center, normal{0, 0, 1};
     double radius = 1, inner_radius = 0;
+    friend bool operator==(const DiscExtent&, const DiscExtent&) = default;
 };
 struct SphereExtent {
     Vec3 center;
     double radius = 1;
+    friend bool operator==(const SphereExtent&, const SphereExtent&) = default;
 };
 /// The side of a cylinder, without caps.
 struct TubeExtent {
     Vec3 base, top{0, 0, 1};
     double radius = 0.05;
+    friend bool operator==(const TubeExtent&, const TubeExtent&) = default;
 };
 /// Planar, of one loop.
 struct PolygonExtent {
     std::vector<Vec3> vertices;
+    friend bool operator==(const PolygonExtent&, const PolygonExtent&) = default;
 };
 struct MeshExtent {
     std::vector<Vec3> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    friend bool operator==(const MeshExtent&, const MeshExtent&) = default;
 };
 using LightExtent =
     std::variant<RectangleExtent, DiscExtent, SphereExtent, TubeExtent, PolygonExtent, MeshExtent>;

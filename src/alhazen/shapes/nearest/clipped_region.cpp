@@ -1,0 +1,222 @@
+#include "alhazen/shapes/nearest/clipped_region.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "alhazen/math/quadratic.h"
+#include "alhazen/math/unit_vector.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+Vec3 foot_on(const ClippedRegion::Plane& plane, const Vec3& x) {
+    const Vec3 once = x - (dot(plane.normal, x) - plane.offset) * plane.normal;
+    return once - (dot(plane.normal, once) - plane.offset) * plane.normal;
+}
+
+}  // namespace
+
+ClippedRegion::ClippedRegion(const Mat3& a, const Vec3& b, double c, std::vector<Plane> planes,
+                             bool capped, const std::optional<Vec3>& apex)
+    : has_quadric_(true), capped_(capped), planes_(std::move(planes)), apex_(apex) {
+    const double size =
+        std::fmax(max_component(abs(a.x_axis)),
+                  std::fmax(max_component(abs(a.y_axis)), max_component(abs(a.z_axis))));
+    const double scale = size > 0.0 ? 1.0 / size : 1.0;
+    a_ = {scale * a.x_axis, scale * a.y_axis, scale * a.z_axis};
+    b_ = scale * b;
+    c_ = scale * c;
+    const Eigensystem own = eigensystem(a_);
+    axes_ = own.axes;
+    diagonal_ = {3, own.values, transpose_times(axes_, b_), c_};
+    // Rounding of a flat direction is no curvature.
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(diagonal_.a[i]) < 8 * kEpsilon) diagonal_.a[i] = 0.0;
+        if (std::abs(diagonal_.b[i]) < 8 * kEpsilon * length(b_)) diagonal_.b[i] = 0.0;
+    }
+}
+
+ClippedRegion::ClippedRegion(std::vector<Plane> planes) : planes_(std::move(planes)) {}
+
+double ClippedRegion::value(const Vec3& x) const {
+    return has_quadric_ ? dot(x, a_ * x + 2.0 * b_) + c_ : -1.0;
+}
+
+double ClippedRegion::magnitude(const Vec3& x) const {
+    const Vec3 m = abs(x);
+    const Mat3 a{abs(a_.x_axis), abs(a_.y_axis), abs(a_.z_axis)};
+    return dot(m, a * m + 2.0 * abs(b_)) + std::abs(c_);
+}
+
+Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
+    double off = std::abs(value(x));
+    for (int i = 0; i < 6 && off > 0.0; ++i) {
+        Vec3 gradient = half_gradient(x);
+        if (plane != nullptr) gradient -= dot(gradient, plane->normal) * plane->normal;
+        const Vec3 next = x - (0.5 * value(x) / length_squared(gradient)) * gradient;
+        const double still_off = std::abs(value(next));
+        if (!(still_off < off)) break;
+        x = next;
+        off = still_off;
+    }
+    return x;
+}
+
+ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane, const Vec3& near) const {
+    Conic conic;
+    conic.origin = foot_on(plane, near);
+    const Vec3 x = perpendicular(plane.normal), y = cross(plane.normal, x);
+    const Vec3 ax = a_ * x, ay = a_ * y;
+    const Eigensystem own = eigensystem(
+        {{dot(x, ax), dot(x, ay), 0.0}, {dot(x, ay), dot(y, ay), 0.0}, {0.0, 0.0, 0.0}});
+    // The third axis stays the third: there is nothing to rotate it with.
+    conic.x_axis = own.axes.x_axis.x * x + own.axes.x_axis.y * y;
+    conic.y_axis = own.axes.y_axis.x * x + own.axes.y_axis.y * y;
+    const Vec3 b = half_gradient(conic.origin);
+    conic.form = {
+        2, own.values, {dot(b, conic.x_axis), dot(b, conic.y_axis), 0.0}, value(conic.origin)};
+    for (int i = 0; i < 2; ++i) {
+        if (std::abs(conic.form.a[i]) < 8 * kEpsilon) conic.form.a[i] = 0.0;
+    }
+    return conic;
+}
+
+void ClippedRegion::append_conic_points(const Plane& plane, const Vec3& from,
+                                        std::vector<Vec3>& points) const {
+    // The origin is the foot: what is nearest to it is nearest to the point itself.
+    const Conic conic = conic_in(plane, from);
+    std::vector<Vec3> found;
+    append_stationary_points(conic.form, {}, found);
+    for (const Vec3& p : found) {
+        points.push_back(
+            onto_surface(conic.origin + p.x * conic.x_axis + p.y * conic.y_axis, &plane));
+    }
+}
+
+/// Looks at candidates one after the other.
+class ClippedRegion::Search {
+  public:
+    Search(const ClippedRegion& region, const Vec3& from) : region_(region), from_(from) {}
+
+    void surface() {
+        std::vector<Vec3> found;
+        append_stationary_points(region_.diagonal_, transpose_times(region_.axes_, from_), found);
+        for (const Vec3& p : found) {
+            const Vec3 x = region_.onto_surface(region_.axes_ * p, nullptr);
+            if (is_on_surface(x)) offer(x, surface_normal(x));
+        }
+        if (region_.apex_ && planes_leave(*region_.apex_)) {
+            offer(*region_.apex_, unit_or(from_ - *region_.apex_, {0, 0, 1}));
+        }
+    }
+    void plane(std::size_t i) {
+        const Plane& plane = region_.planes_[i];
+        if (region_.capped_) {
+            const Vec3 foot = foot_on(plane, from_);
+            if (is_filled(foot)) offer(foot, plane.normal);
+        }
+        if (!region_.has_quadric_) return;
+        std::vector<Vec3> found;
+        region_.append_conic_points(plane, from_, found);
+        for (const Vec3& x : found) {
+            if (is_on_surface(x)) offer(x, rim_normal(x, plane));
+        }
+    }
+    void edge(std::size_t i, std::size_t k) {
+        const Plane &p = region_.planes_[i], &q = region_.planes_[k];
+        const Vec3 along = cross(p.normal, q.normal);
+        const double squared = length_squared(along);
+        if (!(squared > 1e-24)) return;
+        const Vec3 unit = along / std::sqrt(squared);
+        // The foot on the line, and once more from there.
+        Vec3 foot = from_;
+        for (int turn = 0; turn < 2; ++turn) {
+            const double over_p = dot(p.normal, foot) - p.offset;
+            const double over_q = dot(q.normal, foot) - q.offset;
+            foot -= (over_p * cross(q.normal, along) - over_q * cross(p.normal, along)) / squared;
+        }
+        if (region_.capped_ && is_filled(foot)) offer(foot, p.normal);
+        if (!region_.has_quadric_) return;
+        const Vec3 half = region_.half_gradient(foot);
+        const QuadraticRoots roots = solve_half_b_quadratic(dot(unit, region_.a_ * unit),
+                                                            dot(half, unit), region_.value(foot));
+        for (int r = 0; r < roots.count; ++r) {
+            const Vec3 x = foot + (r == 0 ? roots.t0 : roots.t1) * unit;
+            if (is_on_surface(x)) offer(x, rim_normal(x, p));
+        }
+    }
+    void corner(std::size_t i, std::size_t k, std::size_t m) {
+        const Plane &p = region_.planes_[i], &q = region_.planes_[k], &r = region_.planes_[m];
+        const Vec3 qr = cross(q.normal, r.normal);
+        const double volume = dot(p.normal, qr);
+        if (!(std::abs(volume) > 1e-12)) return;
+        const Vec3 x = (p.offset * qr + q.offset * cross(r.normal, p.normal) +
+                        r.offset * cross(p.normal, q.normal)) /
+                       volume;
+        if (region_.capped_ && is_filled(x)) offer(x, p.normal);
+    }
+    [[nodiscard]] const std::optional<PointOnSurface>& best() const { return best_; }
+
+  private:
+    /// Points of edges are beyond other planes by rounding.
+    static constexpr double kSlack = 64 * kEpsilon;
+
+    [[nodiscard]] bool planes_leave(const Vec3& x) const {
+        for (const Plane& plane : region_.planes_) {
+            const double slack = kSlack * (length(x) + std::abs(plane.offset));
+            if (!(dot(plane.normal, x) <= plane.offset + slack)) return false;
+        }
+        return true;
+    }
+    [[nodiscard]] bool is_filled(const Vec3& x) const {
+        return region_.value(x) <= kSlack * region_.magnitude(x) && planes_leave(x);
+    }
+    /// Points that are not: where a step towards the surface led nowhere.
+    [[nodiscard]] bool is_on_surface(const Vec3& x) const {
+        return std::abs(region_.value(x)) <= kSlack * region_.magnitude(x) && planes_leave(x);
+    }
+    [[nodiscard]] Vec3 surface_normal(const Vec3& x) const {
+        return unit_or(region_.half_gradient(x), unit_or(from_ - x, {0, 0, 1}));
+    }
+    [[nodiscard]] Vec3 rim_normal(const Vec3& x, const Plane& plane) const {
+        return region_.capped_ ? plane.normal : surface_normal(x);
+    }
+    void offer(const Vec3& x, const Vec3& normal) {
+        keep_nearer(best_, {x, normal, length_squared(x - from_)});
+    }
+
+    const ClippedRegion& region_;
+    const Vec3 from_;
+    std::optional<PointOnSurface> best_;
+};
+
+std::optional<PointOnSurface> ClippedRegion::nearest(const Vec3& from) const {
+    Search search(*this, from);
+    if (has_quadric_) search.surface();
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+        search.plane(i);
+        for (std::size_t k = i + 1; k < planes_.size(); ++k) {
+            search.edge(i, k);
+            for (std::size_t m = k + 1; m < planes_.size(); ++m) search.corner(i, k, m);
+        }
+    }
+    return search.best();
+}
+
+std::optional<PointOnSurface> ClippedRegion::nearest_in_plane(const Vec3& from,
+                                                              const Plane& plane) const {
+    std::vector<Vec3> found;
+    append_conic_points(plane, from, found);
+    std::optional<PointOnSurface> best;
+    for (const Vec3& x : found) {
+        if (std::abs(value(x)) > 64 * kEpsilon * magnitude(x)) continue;
+        keep_nearer(best, {x, plane.normal, length_squared(x - from)});
+    }
+    return best;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,306 @@
+// Nearest points beside what rays say: the distance to a shape is the least distance of the first
+// crossings over all directions.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/shapes/exact_surface.h"
+#include "support/random_shapes.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::Random;
+using testing::random_shape;
+using testing::ShapeSource;
+
+/// A shape where it is placed, asked by rays and for its nearest point.
+class Placed {
+  public:
+    template <class S>
+    Placed(const S& shape, const Affine& place)
+        : any_(shape), world_{place, inverse(place)}, surface_(any_, world_) {}
+
+    [[nodiscard]] PointOnSurface nearest(const Vec3& from) const { return surface_.nearest(from); }
+    /// The distance to the first crossing.
+    [[nodiscard]] double first(const Vec3& from, const Vec3& direction) const {
+        const Ray ray{world_.inner_from_outer.point(from),
+                      world_.inner_from_outer.vector(direction), 0.0, kInfinity};
+        ShapeHits hits;
+        std::visit([&](const auto& s) { append_hits(s, ray, hits); },
+                   static_cast<const AnalyticShapes::Variant&>(any_));
+        return hits.size() > 0 ? hits[0].t : kInfinity;
+    }
+    [[nodiscard]] Box3 box() const {
+        Box3 box;
+        const Box3 own = std::visit([](const auto& s) { return s.box(); },
+                                    static_cast<const AnalyticShapes::Variant&>(any_));
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 corner{(i & 1 ? own.hi : own.lo).x, (i & 2 ? own.hi : own.lo).y,
+                              (i & 4 ? own.hi : own.lo).z};
+            Vec3 p = world_.outer_from_inner.point(corner);
+            for (int k = 0; k < 3; ++k)
+                p[k] = std::isfinite(p[k]) ? std::clamp(p[k], -50.0, 50.0) : 0.0;
+            box.include(p);
+        }
+        return box;
+    }
+
+  private:
+    AnyShape any_;
+    Placement world_;
+    ExactSurface surface_;
+};
+
+/// The least first crossing over directions near to `start`, found by smaller and smaller turns.
+double refined(const Placed& shape, const Vec3& from, Vec3 direction, double size) {
+    double best = shape.first(from, direction), step = 0.1;
+    for (int round = 0; round < 60 && step > 1e-8; ++round) {
+        const Vec3 x = perpendicular(direction), y = cross(direction, x);
+        const double before = best;
+        Vec3 next = direction;
+        for (int i = 0; i < 8; ++i) {
+            const double a = i * 0.7854 + step;
+            const Vec3 d = normalize(direction + step * (std::cos(a) * x + std::sin(a) * y));
+            const double t = shape.first(from, d);
+            if (!(t < best)) continue;
+            best = t;
+            next = d;
+        }
+        direction = next;
+        if (!(best < before - 1e-12 * size)) step *= 0.3;
+    }
+    return best;
+}
+
+/// Whether some ray from aside crosses the surface at the point; at corners most do not.
+bool is_there(const Placed& shape, const Vec3& point, Random& random, double size) {
+    const double away = 1e-3 * size;
+    for (int i = 0; i < 10000; ++i) {
+        const Vec3 out = random.unit_vector();
+        const Vec3 aim = point + random.log_uniform(1e-9, 1e-5) * size * random.unit_vector();
+        const double t = shape.first(aim + away * out, -out);
+        if (std::abs(t - away) < 1e-4 * size) return true;
+    }
+    return false;
+}
+
+void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, double size) {
+    const PointOnSurface found = shape.nearest(from);
+    const double distance = std::sqrt(found.squared);
+    if (!std::isfinite(distance)) {
+        // A quadric without real points.
+        for (int i = 0; i < 2000; ++i) {
+            ASSERT_EQ(shape.first(from, random.unit_vector()), kInfinity);
+        }
+        return;
+    }
+    EXPECT_NEAR(length(found.point - from), distance, 1e-12 * size);
+    EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
+    EXPECT_TRUE(is_there(shape, found.point, random, size));
+    // Nothing is nearer.
+    const Box3 box = shape.box();
+    std::vector<std::pair<double, Vec3>> starts;
+    for (int i = 0; i < 200; ++i) {
+        Vec3 d = random.unit_vector();
+        if (i % 2 == 0) {
+            const Vec3 u{random.uniform(), random.uniform(), random.uniform()};
+            d = unit_or(box.lo + u * box.size() - from, d);
+        }
+        starts.emplace_back(shape.first(from, d), d);
+    }
+    std::sort(starts.begin(), starts.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    double least = kInfinity;
+    for (int i = 0; i < 3; ++i) {
+        if (!std::isfinite(starts[i].first)) break;
+        least = std::min(least, refined(shape, from, starts[i].second, size));
+    }
+    EXPECT_GT(least, distance - 1e-9 * size) << "something is nearer";
+}
+
+Affine random_place(Random& random, int kind) {
+    if (kind == 0) return {};
+    const Affine turned = Affine::translate(random.in_cube(5)) *
+                          Affine::rotate(random.unit_vector(), random.uniform(0, 6));
+    if (kind == 1) {
+        const double s = random.log_uniform(0.5, 2);
+        return turned * Affine::scale({s, s, s});
+    }
+    return turned * Affine::scale({random.log_uniform(0.4, 2), random.log_uniform(0.4, 2),
+                                   random.sign() * random.log_uniform(0.4, 2)});
+}
+
+struct Known {
+    int shapes = 0, refused = 0;
+};
+
+template <class S>
+Known check_type(std::uint64_t seed, int rounds) {
+    Known known;
+    Random random(seed);
+    for (int i = 0; i < rounds; ++i) {
+        const S shape = random_shape<S>({random, i % 3 == 2});
+        const Affine place = random_place(random, i % 3);
+        ++known.shapes;
+        if (const std::string why = nearest_refusal(shape, place); !why.empty()) {
+            ++known.refused;
+            continue;
+        }
+        const Placed placed(shape, place);
+        const Box3 box = placed.box();
+        const double size = 1.0 + length(box.size()) + length(box.center());
+        for (int k = 0; k < 4; ++k) {
+            const Vec3 u{random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
+                         random.uniform(-0.5, 1.5)};
+            // Also its middle, from where many points are as near.
+            const Vec3 from = k == 3 ? box.center() : box.lo + u * box.size();
+            SCOPED_TRACE(std::string(S::kName) + " " + std::to_string(i) + " " + std::to_string(k));
+            check_beside_rays(placed, from, random, size);
+            if (::testing::Test::HasFailure()) return known;
+        }
+    }
+    return known;
+}
+
+template <class S>
+class NearestOf : public ::testing::Test {};
+using Exact = ::testing::Types<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon,
+                               HalfSpace, Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone,
+                               Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric>;
+TYPED_TEST_SUITE(NearestOf, Exact);
+
+TYPED_TEST(NearestOf, NoFirstCrossingIsNearer) {
+    EXPECT_EQ(check_type<TypeParam>(1, 60).refused, 0);
+}
+
+TEST(Nearest, ATorusIsKnownWhereAnglesAreKept) {
+    const Known torus = check_type<Torus>(2, 30);
+    EXPECT_EQ(torus.refused, 10);
+    const Known tgc = check_type<Tgc>(3, 30);
+    EXPECT_GT(tgc.refused, 0);
+    EXPECT_LT(tgc.refused, 30);
+}
+
+void check_at_random_places(const auto& shape, std::uint64_t seed) {
+    Random random(seed);
+    for (int i = 0; i < 12; ++i) {
+        const Affine place = random_place(random, i % 3);
+        const Placed placed(shape, place);
+        const Box3 box = placed.box();
+        for (int k = 0; k < 6; ++k) {
+            const Vec3 u{random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
+                         random.uniform(-0.5, 1.5)};
+            SCOPED_TRACE(std::to_string(i) + " " + std::to_string(k));
+            check_beside_rays(placed, box.lo + u * box.size(), random, 1 + length(box.size()));
+            if (::testing::Test::HasFailure()) return;
+        }
+    }
+}
+
+/// Loops of lines.
+Profile outline(const std::vector<std::vector<Vec2>>& loops, bool closed) {
+    Profile profile;
+    for (const std::vector<Vec2>& loop : loops) {
+        for (std::size_t i = 0; i + (closed ? 0 : 1) < loop.size(); ++i) {
+            profile.curves.push_back(line_curve(loop[i], loop[(i + 1) % loop.size()]));
+        }
+        profile.loop_ends.push_back(static_cast<std::uint32_t>(profile.curves.size()));
+    }
+    return profile;
+}
+
+TEST(Nearest, SweptOutlinesOfStraightLinesAreKnown) {
+    const std::vector<Vec2> around{{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};
+    const std::vector<Vec2> hole{{1, 0.25}, {1.5, 0.25}, {1.5, 0.75}, {1, 0.75}};
+    for (const double scale : {1.0, 0.5, 0.0}) {
+        Prism prism;
+        prism.profile = outline({around, hole}, true);
+        prism.h1 = 2;
+        prism.top_scale = scale;
+        prism.prepare();
+        ASSERT_EQ(nearest_refusal(prism, Affine::scale({1, 2, 3})), "");
+        check_at_random_places(prism, 7);
+        // Outside, in the hole, and within the body the normals lead outward.
+        const ExactSurface surface(prism, {});
+        EXPECT_LT(surface.nearest({0.5, -0.125, 0.125}).normal.y, -0.8);
+        EXPECT_GT(surface.nearest({1.03125, 0.5, 0.0625}).normal.x, 0.8);
+    }
+    Lathe vase;
+    vase.profile = outline({{{0, 0}, {2, 0}, {1, 2}, {1, 3}, {2, 4}, {0, 4}}}, false);
+    vase.prepare();
+    ASSERT_EQ(nearest_refusal(vase, Affine::scale({1, 2, 3})), "");
+    check_at_random_places(vase, 8);
+    vase.profile.curves[1] = cubic_curve({2, 0}, {2, 1}, {1, 1}, {1, 2});
+    EXPECT_NE(nearest_refusal(vase, {}), "");
+}
+
+TEST(Nearest, ShapesWithoutNearestPointsSayWhy) {
+    const Affine stretched = Affine::scale({1, 1, 2});
+    EXPECT_EQ(nearest_refusal(Torus{}, {}), "");
+    EXPECT_NE(nearest_refusal(Torus{}, stretched), "");
+    EXPECT_EQ(nearest_refusal(Sphere{}, stretched), "");
+    for (const AnyShape& shape : {AnyShape(Algebraic{}), AnyShape(Superellipsoid{}),
+                                  AnyShape(Blob{}), AnyShape(BezierPatch{})}) {
+        EXPECT_NE(nearest_refusal(shape, {}), "");
+    }
+}
+
+template <class S>
+PointOnSurface nearest_on(S shape, const Vec3& from, const Affine& place = {}) {
+    shape.prepare();
+    return ExactSurface(shape, {place, inverse(place)}).nearest(from);
+}
+
+TEST(Nearest, KnownDistancesAreExact) {
+    EXPECT_DOUBLE_EQ(nearest_on(Sphere{.radius = 2}, {3, 4, 0}).squared, 9);
+    EXPECT_DOUBLE_EQ(nearest_on(Sphere{.radius = 2}, {}).squared, 4);
+    EXPECT_DOUBLE_EQ(nearest_on(Cylinder{.top = {0, 0, 8}, .radius = 3}, {0, 0, 4}).squared, 9);
+    EXPECT_DOUBLE_EQ(nearest_on(Cylinder{.top = {0, 0, 8}, .radius = 3}, {6, 0, 12}).squared, 25);
+    EXPECT_DOUBLE_EQ(nearest_on(Cylinder{.top = {0, 0, 4}, .radius = 9}, {0, 0, 3}).squared, 1);
+    EXPECT_DOUBLE_EQ(nearest_on(Torus{.major_radius = 3, .minor_radius = 1}, {}).squared, 4);
+    EXPECT_DOUBLE_EQ(nearest_on(Torus{.major_radius = 3, .minor_radius = 1}, {3, 0, 0}).squared, 1);
+    EXPECT_DOUBLE_EQ(nearest_on(Disc{.radius = 4, .inner_radius = 3}, {0, 0, 4}).squared, 25);
+    EXPECT_DOUBLE_EQ(nearest_on(BoxShape{}, {0.25, 0, 0}).squared, 0.0625);
+    EXPECT_DOUBLE_EQ(nearest_on(BoxShape{}, {1, 1, 1}).squared, 0.75);
+    const Ellipsoid egg{.axis_a = {1, 0, 0}, .axis_b = {0, 2, 0}, .axis_c = {0, 0, 3}};
+    EXPECT_DOUBLE_EQ(nearest_on(egg, {}).squared, 1);
+    EXPECT_DOUBLE_EQ(nearest_on(egg, {0, 0, 5}).squared, 4);
+    EXPECT_DOUBLE_EQ(nearest_on(Sphere{}, {0, 5, 0}, Affine::scale({1, 2, 3})).squared, 9);
+    // A point of the axis of a paraboloid x^2 + y^2 = z is nearest to the apex up to z = 1/2, then
+    // to a circle: z - 1/4 is the squared distance.
+    const Paraboloid bowl{.axis_a = {1, 0, 0}, .axis_b = {0, 1, 0}, .capped = false};
+    EXPECT_DOUBLE_EQ(nearest_on(bowl, {0, 0, 0.375}).squared, 0.140625);
+    EXPECT_DOUBLE_EQ(nearest_on(bowl, {0, 0, 0.75}).squared, 0.5);
+    EXPECT_DOUBLE_EQ(nearest_on(bowl, {0, 0, -2}).squared, 4);
+    // Before and behind the apex of a cone, and within it.
+    const Cone cone{.base = {0, 0, 0}, .top = {0, 0, 1}, .base_radius = 1, .top_radius = 0};
+    EXPECT_DOUBLE_EQ(nearest_on(cone, {0, 0, 3}).squared, 4);
+    EXPECT_NEAR(nearest_on(cone, {0, 0, 0.8}).squared, 0.02, 1e-16);
+    EXPECT_DOUBLE_EQ(nearest_on(cone, {2, 0, 1}).squared, 2);
+}
+
+// Where the multiplier is at its pole, and beside it.
+TEST(Nearest, PointsBesideAnAxisAreAsNearAsOnIt) {
+    const Ellipsoid egg{.axis_a = {2, 0, 0}, .axis_b = {0, 2, 0}, .axis_c = {0, 0, 1}};
+    const Paraboloid bowl{.capped = false};
+    const Cylinder pipe{.top = {0, 0, 4}, .radius = 1, .capped = false};
+    for (double off = 1e-3; off > 1e-20; off *= 0.1) {
+        for (const Vec3& aside : {Vec3{off, 0, 0}, Vec3{0.6 * off, 0.8 * off, 0}}) {
+            const double r = length(aside);
+            EXPECT_NEAR(std::sqrt(nearest_on(pipe, Vec3{0, 0, 2} + aside).squared), 1 - r, 2e-15);
+            // The circle of z = 1/2 - 1/2 + h is at a right angle to the axis' neighbourhood.
+            const double d = std::sqrt(nearest_on(bowl, Vec3{0, 0, 0.75} + aside).squared);
+            EXPECT_NEAR(d, std::sqrt(0.5) - r * std::sqrt(0.5), r * r + 2e-15) << off;
+            const double e = std::sqrt(nearest_on(egg, aside).squared);
+            EXPECT_NEAR(e, 1.0, r * r + 2e-15) << off;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
