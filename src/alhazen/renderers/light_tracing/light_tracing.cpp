@@ -78,7 +78,7 @@ class LightTiles final : public TileRenderer {
     void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time,
               const Wavelengths& waves) {
         if (!v.connects()) return;
-        const auto joined = lens_.connect(v.surface.point, chance_.draw(id, pair), time);
+        const auto joined = lens_.connect(v.point(), chance_.draw(id, pair), time);
         if (!joined || !v.is_seen_from(joined->to_lens)) return;
         const Spectrum value = v.value(joined->to_lens, Transport::Importance);
         if (value.is_black()) return;

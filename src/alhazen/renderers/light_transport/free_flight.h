@@ -14,13 +14,17 @@ namespace alhazen {
 
 class FreeFlight {
   public:
+    /// Of a way without parts.
+    void begin() { scatters_ = false; }
     /// A part of the way, in a medium that scatters; `length` may be infinite.
     void add(const Spectrum& extinction, double length) {
+        if (!scatters_) depth_ = {};
         scatters_ = true;
         for (int i = 0; i < Spectrum::kCount; ++i) {
             if (extinction[i] > 0.0) depth_[i] += extinction[i] * length;
         }
     }
+    [[nodiscard]] bool scatters() const { return scatters_; }
     /// The probability of coming to its end.
     [[nodiscard]] double passing() const { return scatters_ ? mean(Spectrum::all(1)) : 1.0; }
     /// By length: of being scattered at its end, in a medium of that extinction.

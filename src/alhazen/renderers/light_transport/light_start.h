@@ -37,7 +37,7 @@ inline void set_falloff(const Illumination& lights, const LightRay& light, const
                         std::vector<PathVertex>& vertices) {
     if (!light.singular_place || vertices.empty()) return;
     const double squared = vertices[0].distance * vertices[0].distance;
-    const Spectrum arrives = lights.irradiance(light.place, vertices[0].surface.point, waves);
+    const Spectrum arrives = lights.irradiance(light.place, vertices[0].point(), waves);
     Spectrum factor;
     for (int i = 0; i < Spectrum::kCount; ++i) {
         if (light.radiance[i] > 0.0) factor[i] = squared * arrives[i] / light.radiance[i];

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "alhazen/base/unmade.h"
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
@@ -16,18 +17,22 @@
 
 namespace alhazen {
 
+struct InsideVolume {
+    Vec3 along;             ///< unit, in which the path came
+    double anisotropy = 0;  ///< of the volume
+    Spectrum extinction;    ///< of it, at the wavelengths with which the path began
+};
+
 /// A point where a subpath scatters, or where it ends at a light.
 struct PathVertex {
     /// Not defaulted: all of it, which is large, would be zeroed first.
     PathVertex() {}  // NOLINT(modernize-use-equals-default)
 
-    ShapeSurface surface;  ///< in a volume the point alone
-    ScatterPoint scatter;  ///< of a surface
+    Unmade<ShapeSurface> surface;  ///< in a volume the point alone
+    ScatterPoint scatter;          ///< of a surface
     bool in_volume = false;
-    double anisotropy = 0;   ///< of the volume
-    Vec3 along;              ///< unit: how the path came, in a volume
-    Spectrum extinction;     ///< of the volume, at the wavelengths with which the path began
-    Spectrum throughput;     ///< of the path up to the vertex
+    Unmade<InsideVolume> volume;  ///< there alone
+    Spectrum throughput;          ///< of the path up to the vertex
     bool hero_only = false;  ///< `throughput` is of the hero, and stands for all four wavelengths
     double density = 0;      ///< with which its own side finds it
     double reverse = 0;      ///< with which the other side would, once it has two more vertices
@@ -42,12 +47,12 @@ struct PathVertex {
     double distance = 0;             ///< from the vertex before
     double coverage = 1;             ///< with which the path stopped there
 
-    [[nodiscard]] const Vec3& point() const { return surface.point; }
+    [[nodiscard]] const Vec3& point() const { return surface.value.point; }
     /// Unit, to where the path came from.
-    [[nodiscard]] Vec3 view() const { return in_volume ? -along : scatter.view(); }
+    [[nodiscard]] Vec3 view() const { return in_volume ? -volume.value.along : scatter.view(); }
     [[nodiscard]] LitPoint lit() const {
-        if (in_volume) return LitPoint::inside_volume(surface.point);
-        return {surface.point, scatter.normal(), scatter.transmits()};
+        if (in_volume) return LitPoint::inside_volume(point());
+        return {point(), scatter.normal(), scatter.transmits()};
     }
     [[nodiscard]] bool connects() const { return in_volume || scatter.has_density(); }
     /// |cosine| that makes a density across `direction` one of the vertex.
@@ -73,11 +78,11 @@ struct PathVertex {
     }
     /// Share of walks along a way to the vertex that stop there, in a volume by length.
     [[nodiscard]] double reached(const FreeFlight& way) const {
-        return in_volume ? way.stopping(extinction) : way.passing();
+        return in_volume ? way.stopping(volume.value.extinction) : way.passing();
     }
     [[nodiscard]] Ray leaving(const Vec3& direction, double t_max) const {
-        return in_volume ? Ray{surface.point, direction, 0.0, t_max}
-                         : leaving_ray(surface, direction, t_max);
+        return in_volume ? Ray{point(), direction, 0.0, t_max}
+                         : leaving_ray(surface.value, direction, t_max);
     }
     /// The volumes around a ray that leaves it along `direction`; `behind` has room for them.
     [[nodiscard]] const MediumStack& media_along(const Vec3& direction, MediumStack& behind) const {
@@ -89,7 +94,7 @@ struct PathVertex {
 
   private:
     [[nodiscard]] double phase(const Vec3& direction) const {
-        return henyey_greenstein(dot(along, direction), anisotropy);
+        return henyey_greenstein(dot(volume.value.along, direction), volume.value.anisotropy);
     }
 };
 

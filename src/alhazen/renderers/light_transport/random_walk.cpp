@@ -63,52 +63,60 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const Wal
     return Meets::Nothing;
 }
 
-void RandomWalk::set_vertex(Front& front, double cosine, std::vector<PathVertex>& vertices) const {
-    PathVertex& v = vertices.back();
+void RandomWalk::set_vertex(const Front& front, const WalkStart& start, Meets meets,
+                            const Ends& ends) {
+    PathVertex& v = ends.v;
+    double cosine = 1.0;
+    if (meets == Meets::Surface) {
+        v.surface.value = point_.surface;
+        v.coverage = point_.material->coverage;
+        cosine = std::abs(dot(front.ray.direction, point_.geometric));
+    } else {
+        const Medium& medium = *front.media.here();
+        v.surface.value.point = front.ray.origin;
+        v.volume = InsideVolume{front.ray.direction, scattering_.in(medium)->anisotropy,
+                                scattering_.extinction(&medium).of(*start.waves)};
+        v.in_volume = true;
+    }
     v.throughput = front.throughput;
     v.media = front.media;
     v.distance = travelled_;
-    const double density = front.parallel ? front.density * cosine
-                                          : front.density * cosine / (travelled_ * travelled_);
-    v.forward = v.reached(flight_);
-    v.density = density * v.forward;
-    v.backward =
-        vertices.size() >= 2 ? vertices[vertices.size() - 2].reached(flight_) : flight_.passing();
+    v.density = front.parallel ? front.density * cosine
+                               : front.density * cosine / (travelled_ * travelled_);
+    if (flight_.scatters()) {
+        v.forward = v.reached(flight_);
+        v.density *= v.forward;
+        v.backward = ends.before != nullptr ? ends.before->reached(flight_) : flight_.passing();
+    }
 }
 
-void RandomWalk::set_emission(const Front& front, double cosine,
-                              std::vector<PathVertex>& vertices) const {
-    PathVertex& v = vertices.back();
-    const bool lights_others = vertices.size() >= 2 && !vertices[vertices.size() - 2].singular;
+void RandomWalk::set_emission(const Front& front, const Ends& ends) const {
+    PathVertex& v = ends.v;
+    const bool lights_others = ends.before != nullptr && !ends.before->singular;
     if (!point_.material->unlit || !lights_others) {
         v.emission = emission_of(scene_, point_, front.waves);
     }
     if (v.emission.is_black()) return;
     v.emit = lights_.emit_density(hit_, point_.surface, -front.ray.direction);
-    if (vertices.size() < 2) return;
-    const PathVertex& before = vertices[vertices.size() - 2];
+    if (ends.before == nullptr) return;
+    const double cosine = std::abs(dot(front.ray.direction, point_.geometric));
     v.joined = cosine / (travelled_ * travelled_) *
-               lights_.density(before.lit(), front.ray, hit_, point_.surface, travelled_);
+               lights_.density(ends.before->lit(), front.ray, hit_, point_.surface, travelled_);
 }
 
 RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& front,
                                                 const WalkLuck& luck, std::uint32_t pair,
-                                                std::vector<PathVertex>& vertices) {
+                                                const Ends& ends) {
+    PathVertex& v = ends.v;
     const bool from_eye = transport == Transport::Radiance;
-    const double cosine = std::abs(dot(front.ray.direction, point_.geometric));
-    PathVertex& v = vertices.emplace_back();
-    v.surface = point_.surface;
-    v.coverage = point_.material->coverage;
-    set_vertex(front, cosine, vertices);
-    if (from_eye) set_emission(front, cosine, vertices);
+    if (from_eye) set_emission(front, ends);
     v.scatter.set(scene_, point_, front.media, front.waves, true, &bsdfs_);
     if (v.scatter.needs_hero()) {
         front.waves.keep_hero(front.throughput);
         v.throughput = front.throughput;
     }
     v.hero_only = front.waves.hero_only();
-    const bool last = static_cast<int>(vertices.size()) == luck.most;
-    if (point_.material->unlit || (last && !v.scatter.is_null_boundary())) return Step::Ends;
+    if (point_.material->unlit || (ends.last && !v.scatter.is_null_boundary())) return Step::Ends;
     const Vec2 u = luck.chance.draw(luck.id, pair);
     const Vec2 choices = luck.chance.draw(luck.id, pair + 1);
     const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
@@ -125,11 +133,8 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     }
     if (drawn->transmitted) v.scatter.cross(front.media);
     kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
-    front.ray = leaving_ray(point_.surface, drawn->direction);
-    if (drawn->straight) {
-        vertices.pop_back();
-        return ++met_ > kMaxPassedSurfaces ? Step::Ends : Step::Straight;
-    }
+    front.ray.direction = drawn->direction;
+    if (drawn->straight) return Step::Straight;
     eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
     v.singular = drawn->singular;
     front.density = drawn->singular ? 1.0 : drawn->density;
@@ -138,24 +143,15 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
 }
 
 RandomWalk::Step RandomWalk::scatter_in_volume(Front& front, const WalkLuck& luck,
-                                               const WalkStart& start, std::uint32_t pair,
-                                               std::vector<PathVertex>& vertices) {
-    const Medium& medium = *front.media.here();
-    PathVertex& v = vertices.emplace_back();
-    v.in_volume = true;
-    v.surface.point = front.ray.origin;
-    v.along = front.ray.direction;
-    v.anisotropy = scattering_.in(medium)->anisotropy;
-    v.extinction = scattering_.extinction(&medium).of(*start.waves);
+                                               std::uint32_t pair, const Ends& ends) {
+    PathVertex& v = ends.v;
     v.hero_only = front.waves.hero_only();
-    set_vertex(front, 1.0, vertices);
-    if (static_cast<int>(vertices.size()) == luck.most || !(front.throughput.max() > 0.0)) {
-        return Step::Ends;
-    }
+    if (ends.last || !(front.throughput.max() > 0.0)) return Step::Ends;
+    const InsideVolume& volume = v.volume.value;
     const Vec3 direction =
-        sample_henyey_greenstein(v.along, v.anisotropy, luck.chance.draw(luck.id, pair));
+        sample_henyey_greenstein(volume.along, volume.anisotropy, luck.chance.draw(luck.id, pair));
     kind_ = RayKind::Refraction;
-    front.ray = {front.ray.origin, direction};
+    front.ray.direction = direction;
     front.density = v.back = v.density_along(direction);
     return Step::Scattered;
 }
@@ -166,14 +162,14 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
     escape_ = {};
     met_ = stretch_ = 0;
     travelled_ = 0.0;
-    flight_ = {};
+    flight_.begin();
     eta_scale_ = 1.0;
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
     Front front{start.ray,     *start.waves,   start.throughput,
                 start.density, start.parallel, start.media};
-    for (std::uint32_t pair = luck.first_pair; static_cast<int>(vertices.size()) < luck.most;
-         pair += kWalkPairs) {
+    int count = 0;
+    for (std::uint32_t pair = luck.first_pair; count < luck.most; pair += kWalkPairs) {
         const Meets meets = find(front, luck, start);
         // What scatters has taken its share.
         if (const Medium* const medium = front.media.here();
@@ -185,23 +181,30 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         if (meets == Meets::Nothing) {
             escape_ = {true, front.ray.direction, front.throughput,
                        front.density * flight_.passing(),
-                       vertices.empty() ? 1.0 : vertices.back().reached(flight_)};
+                       count == 0 ? 1.0 : vertices.back().reached(flight_)};
             return;
         }
+        PathVertex& v = vertices.emplace_back();
+        const Ends ends{v, count > 0 ? &v - 1 : nullptr, ++count == luck.most};
+        set_vertex(front, start, meets, ends);
         const Step step = meets == Meets::Volume
-                              ? scatter_in_volume(front, luck, start, pair, vertices)
-                              : scatter_at_surface(transport, front, luck, pair, vertices);
+                              ? scatter_in_volume(front, luck, pair, ends)
+                              : scatter_at_surface(transport, front, luck, pair, ends);
         if (step == Step::Ends) return;
-        if (step == Step::Straight) continue;
-        const PathVertex& v = vertices.back();
+        if (step == Step::Straight) {
+            vertices.pop_back();
+            --count;
+            if (++met_ > kMaxPassedSurfaces) return;
+            front.ray = leaving_ray(point_.surface, front.ray.direction);
+            continue;
+        }
         front.parallel = false;
-        if (vertices.size() >= 2) {
-            PathVertex& before = vertices[vertices.size() - 2];
-            before.reverse =
-                v.back * before.facing(v.view()) / (v.distance * v.distance) * v.backward;
+        if (ends.before != nullptr) {
+            ends.before->reverse =
+                v.back * ends.before->facing(v.view()) / (v.distance * v.distance) * v.backward;
         }
         if (!front.throughput.is_finite()) return;
-        if (static_cast<int>(vertices.size()) >= luck.roulette) {
+        if (count >= luck.roulette) {
             constexpr double kMost = 0.95;
             // Of light its power counts, which has any scale: its share of what it began with.
             const double begun = from_eye ? 1.0 : start.throughput.max();
@@ -209,8 +212,9 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             if (!(luck.chance.draw(luck.id, pair + 2).x < share)) return;
             front.throughput = (1.0 / share) * front.throughput;
         }
+        front.ray = v.leaving(front.ray.direction, kEndless);
         travelled_ = 0.0;
-        flight_ = {};
+        flight_.begin();
     }
 }
 

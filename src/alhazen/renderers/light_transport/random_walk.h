@@ -85,14 +85,25 @@ class RandomWalk {
     [[nodiscard]] bool scatters_within(Front& front, const Medium& medium,
                                        const VolumeScattering& scattering, double length,
                                        const WalkLuck& luck, const WalkStart& start);
-    /// What the last vertex has in common with all others. `cosine`: 1 in a volume.
-    void set_vertex(Front& front, double cosine, std::vector<PathVertex>& vertices) const;
-    void set_emission(const Front& front, double cosine, std::vector<PathVertex>& vertices) const;
-    /// Adds a vertex and goes on from there.
-    [[nodiscard]] Step scatter_at_surface(Transport transport, Front& front, const WalkLuck& luck,
-                                          std::uint32_t pair, std::vector<PathVertex>& vertices);
-    [[nodiscard]] Step scatter_in_volume(Front& front, const WalkLuck& luck, const WalkStart& start,
-                                         std::uint32_t pair, std::vector<PathVertex>& vertices);
+    /// The last vertex, and the one before; null: the first has none.
+    struct Ends {
+        PathVertex& v;
+        PathVertex* before;
+        bool last;  ///< of as many as the walk may have
+    };
+    /// All but what the vertex does with light. Inlined, as what follows: light_tracing takes half
+    /// a per cent fewer instructions.
+    [[gnu::always_inline]] inline void set_vertex(const Front& front, const WalkStart& start,
+                                                  Meets meets, const Ends& ends);
+    void set_emission(const Front& front, const Ends& ends) const;
+    /// Sets that, and goes on from there.
+    [[nodiscard, gnu::always_inline]] inline Step scatter_at_surface(Transport transport,
+                                                                     Front& front,
+                                                                     const WalkLuck& luck,
+                                                                     std::uint32_t pair,
+                                                                     const Ends& ends);
+    [[nodiscard]] Step scatter_in_volume(Front& front, const WalkLuck& luck, std::uint32_t pair,
+                                         const Ends& ends);
 
     const Scene& scene_;
     const Illumination& lights_;

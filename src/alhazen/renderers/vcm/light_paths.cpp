@@ -66,7 +66,7 @@ void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facin
                          std::size_t number, std::vector<LightVertex>& kept) const {
     if (v.in_volume || !v.connects() || v.throughput.is_black() || !v.throughput.is_finite())
         return;
-    const Vec3& p = v.surface.point;
+    const Vec3& p = v.point();
     Wavelengths waves = *shot_.waves;
     Spectrum ignored;
     if (v.hero_only) waves.keep_hero(ignored);

@@ -46,7 +46,7 @@ Spectrum VcmTracer::merged_at(std::size_t b, const SideSums& eye, std::uint64_t&
     const PhotonFits fits(z.scatter);
     const auto most = static_cast<std::uint32_t>(settings().depth) + 1;
     Spectrum light;
-    pass_.grid.for_near(z.surface.point, [&](const LightVertex& y) {
+    pass_.grid.for_near(z.point(), [&](const LightVertex& y) {
         if (y.number + b > most || !fits(y.photon)) return;
         ++merged;
         const Spectrum scattered =
