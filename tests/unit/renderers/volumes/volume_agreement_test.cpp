@@ -89,6 +89,35 @@ TEST(VolumeAgreement, APointOfLightOutsideOfFog) {
     }
 }
 
+/// Photons that come through a boundary which is passed straight are direct light, as all that
+/// shadow rays find: it is not found twice. Balls of estimates reach beyond the fog, which is thin.
+TEST(VolumeAgreement, PhotonsOfAPointOutsideOfFog) {
+    SceneMaker maker = over_a_floor();
+    maker.add(BoxShape{{-1, -1, 0.02}, {1, 1, 1.2}},
+              maker.material(fog({0.1, 0.1, 0}, {0.15, 0.2, 0.25}, 0.3)));
+    add_point(maker, {0.8, -0.5, 1.8}, {1, 1, 1});
+    const Scene scene = maker.compile();
+    constexpr double kMost = 5.4;
+    for (const char* depth : {"depth=1", "depth=2"}) {
+        // Light that is scattered once needs no photons.
+        const double bias = std::string(depth) == "depth=1" ? 0.0 : 0.04;
+        const Blocks truth = blocks_of(scene, std::string("path_tracing:") + depth, 48, 8);
+        double whole = 0.0;
+        for (const double mean : truth.mean) whole += mean / 4;
+        for (const std::string name : {"photon_mapping:photons=40000,caustics=10000,nearest=40,",
+                                       "sppm:photons=10000,radius=0.1,"}) {
+            const Blocks found = blocks_of(scene, name + depth, 16, 8);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const double error = std::hypot(found.error[i], truth.error[i]);
+                EXPECT_LE(error, 0.05 * whole) << name << depth << ", block " << i;
+                EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), kMost * error + bias * whole)
+                    << name << depth << ", block " << i << ": " << found.mean[i]
+                    << ", path_tracing " << truth.mean[i] << " +- " << error;
+            }
+        }
+    }
+}
+
 TEST(VolumeAgreement, TheSunAndTheSkyOverACloud) {
     SceneMaker maker = over_a_floor();
     maker.description().picture.background = Rgb{0.3, 0.4, 0.6};
