@@ -37,10 +37,13 @@ inline Material smooth_glass(double index = 1.5) {
     m.index.value = index;
     return m;
 }
-/// A volume whose boundary neither bends nor reflects.
-inline Material fog(const Rgb& absorption, const Rgb& scattering, double anisotropy = 0.0) {
+/// An index that bends nothing which could be measured, and yet is a boundary.
+inline constexpr double kNearlyOne = 1.0 + 1e-9;
+/// A volume whose boundary neither bends nor reflects; of index 1 it is passed straight.
+inline Material fog(const Rgb& absorption, const Rgb& scattering, double anisotropy = 0.0,
+                    double index = 1.0) {
     Material m;
-    m.index.value = 1.0;
+    m.index.value = index;
     m.dielectric = Dielectric{absorption};
     m.scattering = {scattering, anisotropy};
     return m;

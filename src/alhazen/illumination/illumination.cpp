@@ -164,13 +164,20 @@ LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& 
     return draw;
 }
 
+/// With which `draw_environment` gives a direction, once the environment is chosen.
+double density_for(const Environment& environment, const LitPoint& at, const Vec3& direction) {
+    return at.in_volume ? environment.density(direction)
+                        : environment.density(at.normal, at.both_sides, direction);
+}
+
 LightDraw draw_environment(const Environment& environment, const LitPoint& at, double probability,
                            const Vec2& u, const Wavelengths& waves) {
     LightDraw draw;
-    draw.to_light = environment.sample(at.normal, at.both_sides, u);
+    draw.to_light =
+        at.in_volume ? environment.sample(u) : environment.sample(at.normal, at.both_sides, u);
     draw.distance = kInfinity;
     draw.radiance = waves.emission(environment.radiance(draw.to_light));
-    draw.density = probability * environment.density(at.normal, at.both_sides, draw.to_light);
+    draw.density = probability * density_for(environment, at, draw.to_light);
     draw.passes = mask_of(RayKind::Shadow);
     return draw;
 }
@@ -239,8 +246,7 @@ Spectrum Illumination::environment(const Vec3& direction, const Wavelengths& wav
 
 double Illumination::environment_density(const LitPoint& at, const Vec3& direction) const {
     if (!data_->environment) return 0.0;
-    return data_->probability_of_environment() *
-           data_->environment->density(at.normal, at.both_sides, direction);
+    return data_->probability_of_environment() * density_for(*data_->environment, at, direction);
 }
 
 }  // namespace alhazen

@@ -290,6 +290,7 @@ double importance(const LightTree::Node& n, const LitPoint& at) {
     // The cosine of a lamp that is no surface does not count.
     const double sent = n.cosine_reach < 0.0 ? 1.0 : cosine_out;
 
+    if (at.in_volume) return n.intensity * sent / squared;
     double cosine_i = dot(at.normal, to_light);
     if (at.both_sides) cosine_i = std::abs(cosine_i);
     cosine_i = std::clamp(cosine_i, -1.0, 1.0);

@@ -501,6 +501,9 @@ Scene compile_without_geometry(const SceneDescription& description) {
     scene.all_opaque =
         std::all_of(scene.materials.begin(), scene.materials.end(),
                     [](const Material& m) { return opacity_of(m) == Opacity::Opaque; });
+    scene.has_scattering =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return !m.scattering.coefficient.is_black(); });
     scene.census.texture_bytes = texture_bytes(scene.textures);
     scene.census.scene_bytes = scene.census.texture_bytes;
     return scene;

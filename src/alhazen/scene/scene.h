@@ -45,9 +45,10 @@ struct Scene {
     std::vector<CameraDescription> cameras;  ///< as the shutter opens; keys have relative times
     RenderConventions conventions;
     Rgb background;
-    bool all_opaque = false;   ///< no material lets light through
-    bool has_masks = false;    ///< some part is not visible to all rays
-    bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
+    bool all_opaque = false;      ///< no material lets light through
+    bool has_scattering = false;  ///< some material scatters light inside of volumes
+    bool has_masks = false;       ///< some part is not visible to all rays
+    bool has_mipmaps = false;     ///< some texture is filtered by the cone of the ray
     bool has_solid_textures = false;
     /// [material] 1: its look depends on texture coordinates; empty: none does.
     std::vector<std::uint8_t> reads_coordinates;

@@ -205,7 +205,17 @@ TEST(Environments, IlluminationDrawsThem) {
         const LitPoint at{{0, 0, 0}, {0, 1, 0}, true};
         RandomStream random(4);
         int other_texel = 0;  // rounding at the edge of one
+        const LitPoint in_volume = LitPoint::inside_volume(at.point);
         for (int i = 0; i < 500; ++i) {
+            const LightDraw around =
+                lights.draw(in_volume, 0.5, {random.uniform(), random.uniform()}, kColorChannels);
+            ASSERT_GT(around.density, 0.0);
+            if (kind == EnvironmentKind::Constant) {
+                EXPECT_NEAR(around.density, 1.0 / (4.0 * kPi), 1e-12);
+            }
+            if (lights.environment_density(in_volume, around.to_light) != around.density) {
+                ++other_texel;
+            }
             const double c = random.uniform(), u = random.uniform(), v = random.uniform();
             const LightDraw draw = lights.draw(at, c, {u, v}, kColorChannels);
             ASSERT_GT(draw.density, 0.0);

@@ -55,10 +55,30 @@ TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {
             at.both_sides = true;
             for (std::size_t k = 0; k < count; ++k)
                 sum_of_lamps += tree_of_lamps.probability(at, k);
+            double sum_in_volume = 0.0;
+            const LitPoint inside = LitPoint::inside_volume(at.point);
+            for (std::size_t k = 0; k < count; ++k)
+                sum_in_volume += tree_of_lamps.probability(inside, k);
+            EXPECT_NEAR(sum_in_volume, 1.0, 1e-12);
             // What is missing are nodes of which no light reaches the point.
             EXPECT_LE(sum, 1.0 + 1e-12);
             EXPECT_NEAR(sum_of_lamps, 1.0, 1e-12);
         }
+    }
+}
+
+/// Beside a surface, seen edge on, a light counts for nothing; in a volume as all others.
+TEST(LightTree, InAVolumeNoCosineCounts) {
+    std::vector<TreeLight> lights(2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        lights[k].bounds.box.include(k == 0 ? Vec3{2, 0, 0} : Vec3{0, 0, 2});
+        lights[k].bounds.cosine_spread = lights[k].cosine_reach = -1.0;
+        lights[k].intensity = 1.0;
+    }
+    const LightTree tree(lights);
+    EXPECT_LT(tree.probability({{0, 0, 0}, {0, 0, 1}, true}, 0), 1e-3);
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(tree.probability(LitPoint::inside_volume({0, 0, 0}), k), 0.5, 1e-6);
     }
 }
 
@@ -69,7 +89,8 @@ TEST(LightTree, ADrawHasTheProbabilityOfItsLight) {
     const LightTree tree(lights);
     int drawn = 0;
     for (int i = 0; i < 2000; ++i) {
-        const LitPoint at = random_point(random);
+        LitPoint at = random_point(random);
+        if (i % 3 == 0) at = LitPoint::inside_volume(at.point);
         const ChosenLight chosen = tree.choose(at, random.uniform());
         if (!(chosen.probability > 0.0)) continue;
         ++drawn;

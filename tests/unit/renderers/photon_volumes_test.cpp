@@ -59,7 +59,7 @@ TEST(PhotonVolumes, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
         const Rgb scattering{0.4, 0.8, 1.6};
         SceneMaker maker = looking_down();
         maker.description().picture.background = Rgb{1, 1, 1};
-        maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, scattering, g)));
+        maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, scattering, g, kNearlyOne)));
         Rgb expected;
         constexpr int kSteps = 2000;
         for (int i = 0; i < 3; ++i) {
@@ -83,7 +83,7 @@ TEST(PhotonVolumes, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     for (const double g : {0.0, -0.4}) {
         SceneMaker maker = looking_down();
         maker.add(BoxShape{{-1, -1, -kThick}, {1, 1, 0}},
-                  maker.material(fog(absorption, scattering, g)));
+                  maker.material(fog(absorption, scattering, g, kNearlyOne)));
         maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
         Rgb expected;
         constexpr int kSteps = 400;

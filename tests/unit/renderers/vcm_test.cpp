@@ -34,6 +34,7 @@ WholePath random_path(RandomStream& random, std::size_t m) {
     WholePath path;
     for (std::size_t i = 0; i <= m; ++i) {
         path.vertices.push_back({std::exp(random.uniform(-3, 3)), std::exp(random.uniform(-3, 3)),
+                                 i > 0 && random.uniform() < 0.25,
                                  i > 0 && random.uniform() < 0.25});
     }
     path.joined = random.uniform() < 0.1 ? 0.0 : std::exp(random.uniform(-3, 3));
@@ -58,7 +59,8 @@ TEST(MergedPathWeight, TheWeightsOfAllTechniquesSumToOne) {
             if (possible) sum += path_weight(path, static_cast<int>(s));
         }
         for (std::size_t k = 2; k <= m && path.emitted; ++k) {
-            if (!singular(k)) sum += merged_path_weight(path, static_cast<int>(k));
+            if (!singular(k) && !path.vertices[k].in_volume)
+                sum += merged_path_weight(path, static_cast<int>(k));
         }
         if (sum > 0.0) {
             EXPECT_NEAR(sum, 1.0, 1e-9) << trial;
@@ -75,17 +77,18 @@ TEST(MergedPathWeight, IsThatOfTheSumsAlongBothSides) {
         const WholePath path = random_path(random, m);
         const auto& v = path.vertices;
         const std::size_t k = 2 + random.below(m - 1);
-        if (v[k].singular) continue;
+        if (v[k].singular || v[k].in_volume) continue;
         SideSums light =
             SideSums::at_light(v[0].from_light, path.joined, path.hit, v[1].from_light);
         for (std::size_t i = 1; i < k; ++i) {
-            light = light.after(v[i - 1].from_eye, v[i].singular, i > 1, path.merging,
-                                v[i + 1].from_light);
+            light = light.after(v[i - 1].from_eye, v[i].singular, i > 1 && !v[i].in_volume,
+                                path.merging, v[i + 1].from_light);
         }
         SideSums eye = SideSums::at_lens(v[m].from_eye);
         for (std::size_t i = m; i > k; --i) {
             const double before = i < m ? v[i + 1].from_light : 0.0;
-            eye = eye.after(before, v[i].singular, true, path.merging, v[i - 1].from_eye);
+            eye =
+                eye.after(before, v[i].singular, !v[i].in_volume, path.merging, v[i - 1].from_eye);
         }
         const double eye_before = k < m ? v[k + 1].from_light : 0.0;
         const double whole = merged_path_weight(path, static_cast<int>(k));

@@ -93,7 +93,7 @@ TEST(VolumeScattering, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
     for (const double g : {0.0, 0.7}) {
         SceneMaker maker;
         maker.description().picture.background = Rgb{1, 1, 1};
-        maker.add(ball({0, 0, 0}, 1.5), maker.material(fog({}, {2, 2, 2}, g)));
+        maker.add(ball({0, 0, 0}, 1.5), maker.material(fog({}, {2, 2, 2}, g, kNearlyOne)));
         const Film film =
             picture_of(maker.compile(), "path_tracing:depth=1000,roulette=1000", 8, 16);
         for (int i = 0; i < 64; ++i) {
@@ -103,13 +103,13 @@ TEST(VolumeScattering, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
         }
         SceneMaker colored = looking_down();
         colored.description().picture.background = Rgb{1, 1, 1};
-        colored.add(ball({0, 0, 0}, 1), colored.material(fog({}, {0.5, 1, 2}, g)));
+        colored.add(ball({0, 0, 0}, 1), colored.material(fog({}, {0.5, 1, 2}, g, kNearlyOne)));
         expect_mean(colored.compile(), "path_tracing:depth=1000", {1, 1, 1}, 0.01);
     }
 }
 
 TEST(VolumeScattering, WhatIsNotScatteredFallsByBeersLaw) {
-    // Two crossings of the boundary leave no scattering.
+    // The boundary is passed straight: no scattering is left.
     const Rgb absorption{0.3, 0.1, 0.7}, scattering{0.2, 0.9, 0.1};
     SceneMaker maker = looking_down();
     maker.add(wide_layer(-1.5, 0), maker.material(fog(absorption, scattering)));
@@ -117,7 +117,9 @@ TEST(VolumeScattering, WhatIsNotScatteredFallsByBeersLaw) {
     Rgb expected;
     for (int i = 0; i < 3; ++i)
         expected[i] = 4.0 * std::exp(-1.5 * (absorption[i] + scattering[i]));
-    expect_mean(maker.compile(), "path_tracing:depth=2", expected, 0.02);
+    for (const char* renderer : {"path_tracing:depth=0", "bidirectional:depth=0"}) {
+        expect_mean(maker.compile(), renderer, expected, 0.02);
+    }
 }
 
 TEST(VolumeScattering, ASlabInEvenLightShowsTheFirstOrderOfItsScattering) {
@@ -143,7 +145,9 @@ TEST(VolumeScattering, ASlabInEvenLightShowsTheFirstOrderOfItsScattering) {
             }
             expected[c] = sum;
         }
-        expect_mean(maker.compile(), "path_tracing:depth=3", expected, 0.01);
+        for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
+            expect_mean(maker.compile(), renderer, expected, 0.01);
+        }
     }
 }
 
@@ -170,7 +174,9 @@ TEST(VolumeScattering, ALampInFogShinesByTheIntegralAlongTheView) {
                                henyey_greenstein(cosine, g) * 3.0 * kPi / (d * d);
             }
         }
-        expect_mean(maker.compile(), "path_tracing:depth=1", expected, 0.03);
+        for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
+            expect_mean(maker.compile(), renderer, expected, 0.03);
+        }
     }
 }
 
@@ -182,7 +188,9 @@ TEST(VolumeScattering, NestedVolumesScatterByTheInnermost) {
     maker.add(wide_layer(-2, -1), maker.material(fog({}, {})));
     maker.add(rectangle({-9, -9, -4}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
     const double left = std::exp(-0.2 * 2.0);
-    expect_mean(maker.compile(), "path_tracing:depth=4", {left, left, left}, 0.02);
+    for (const char* renderer : {"path_tracing:depth=0", "bidirectional:depth=0"}) {
+        expect_mean(maker.compile(), renderer, {left, left, left}, 0.02);
+    }
 }
 
 TEST(VolumeScattering, PicturesDependNeitherOnThreadsNorOnTiles) {
@@ -198,7 +206,8 @@ TEST(VolumeScattering, PicturesDependNeitherOnThreadsNorOnTiles) {
 }
 
 TEST(VolumeScattering, RenderersThatHaveNoneSaySo) {
-    const std::set<std::string> scatter{"path_tracing", "photon_mapping", "sppm"};
+    const std::set<std::string> scatter{"path_tracing",   "light_tracing", "bidirectional",
+                                        "photon_mapping", "sppm",          "vcm"};
     for (const RendererEntry& entry : renderers()) {
         EXPECT_EQ(make_renderer(entry.name)->scatters_in_volumes(), scatter.contains(entry.name))
             << entry.name;

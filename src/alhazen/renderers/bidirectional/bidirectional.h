@@ -21,6 +21,7 @@ class Bidirectional final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool takes_wavelengths() const override { return true; }
+    [[nodiscard]] bool scatters_in_volumes() const override { return true; }
 
   private:
     PathSettings settings_;

@@ -13,18 +13,14 @@ namespace {
 constexpr std::uint32_t kLightPairs = 1u << 12, kLightWalk = 2u << 12, kLensPairs = 3u << 12,
                         kDrawPairs = 4u << 12;
 
-/// A density by solid angle, of a direction that arrives at a point, as one by area there.
-double by_area(double density, const Vec3& direction, const Vec3& normal, double distance) {
-    return density * std::abs(dot(direction, normal)) / (distance * distance);
+/// A density by solid angle, of a direction that arrives at a vertex, as one of the vertex.
+double at_vertex(double density, const Vec3& direction, const PathVertex& v, double distance) {
+    return density * v.facing(direction) / (distance * distance);
 }
 
-/// By area at the vertex before `v`, of a path that would go on from `v` to it, by `back`.
+/// Of the vertex before `v`, of a path that would go on from `v` to it, by `back`.
 double at_vertex_before(double back, const PathVertex& v, const PathVertex& before) {
-    return by_area(back, v.scatter.view(), before.scatter.geometric(), v.distance);
-}
-
-LitPoint lit(const PathVertex& v) {
-    return {v.surface.point, v.scatter.normal(), v.scatter.transmits()};
+    return at_vertex(back, v.view(), before, v.distance) * v.backward;
 }
 
 }  // namespace
@@ -108,35 +104,44 @@ void BidirectionalTracer::begin_path(std::size_t a, std::size_t b) {
     for (std::size_t i = 0; i < a; ++i) {
         const PathVertex& v = light_[i];
         const bool is_last = i + 1 == a;
-        of_light(i) = {v.density, i + 2 < a ? v.reverse : 0.0, !is_last && v.singular};
+        of_light(i) = {v.density, i + 2 < a ? v.reverse : 0.0, !is_last && v.singular, v.in_volume};
     }
     for (std::size_t i = 0; i < b; ++i) {
         const PathVertex& v = eye_[i];
         const bool is_last = i + 1 == b;
-        of_eye(i) = {i + 2 < b ? v.reverse : 0.0, v.density, !is_last && v.singular};
+        of_eye(i) = {i + 2 < b ? v.reverse : 0.0, v.density, !is_last && v.singular, v.in_volume};
     }
 }
 
-void BidirectionalTracer::set_light(const LightEnd& end, const LitPoint& at, const Vec3& to_light,
-                                    double distance, double eye_density, const Vec3& geometric) {
+void BidirectionalTracer::set_light(const LightEnd& end, const LitVertex& lit) {
     WholePath::Vertex& zero = path_.vertices[0];
     const Illumination::LightPoint& place = end.place;
-    const double drawn = lights_.density(at, place, to_light, distance);
+    const double drawn = lights_.density(lit.v.lit(), place, lit.to_light, lit.distance);
     path_.hit = place.is_hit;
     path_.emitted = end.emit.place > 0.0 && end.emit.direction > 0.0;
     const bool has_area = place.normal != Vec3{};
+    double sent = 0.0;
     if (place.infinite) {
         zero.from_light = end.emit.direction;
-        path_.vertices[1].from_light = end.emit.place * std::abs(dot(to_light, geometric));
+        sent = end.emit.place * lit.v.facing(lit.to_light);
     } else {
         zero.from_light = end.emit.place;
-        path_.vertices[1].from_light = by_area(end.emit.direction, to_light, geometric, distance);
+        sent = at_vertex(end.emit.direction, lit.to_light, lit.v, lit.distance);
     }
+    path_.vertices[1].from_light = sent * lit.reached;
     const auto there = [&](double density) {
-        return has_area ? by_area(density, to_light, place.normal, distance) : density;
+        return has_area ? density * std::abs(dot(lit.to_light, place.normal)) /
+                              (lit.distance * lit.distance)
+                        : density;
     };
-    zero.from_eye = there(eye_density);
+    zero.from_eye = there(lit.eye_density) * lit.backward;
     path_.joined = there(drawn);
+}
+
+void BidirectionalTracer::set_light_of_path(double eye_density) {
+    const PathVertex& first = light_[0];
+    set_light(begin_,
+              {first, first.view(), first.distance, eye_density, first.forward, first.backward});
 }
 
 void BidirectionalTracer::hit_light(std::size_t b, Spectrum& sum) {
@@ -147,14 +152,13 @@ void BidirectionalTracer::hit_light(std::size_t b, Spectrum& sum) {
         sum += light;
         return;
     }
-    // Vertex 0 is the last eye vertex: the path has b - 1 surfaces.
+    // Vertex 0 is the last eye vertex: the path has b - 1 others.
     const PathVertex& lit_vertex = eye_[b - 2];
     begin_path(0, b - 1);
     path_.vertices[1].singular = lit_vertex.singular;
     path_.vertices[0] = {last.emit.place, last.density, false};
     path_.emitted = last.emit.place > 0.0 && last.emit.direction > 0.0;
-    of_eye(b - 2).from_light = by_area(last.emit.direction, last.scatter.view(),
-                                       lit_vertex.scatter.geometric(), last.distance);
+    of_eye(b - 2).from_light = at_vertex_before(last.emit.direction, last, lit_vertex);
     if (b >= 3) of_eye(b - 3).from_light = eye_[b - 3].reverse;
     path_.joined = last.joined;
     sum += path_weight(path_, 0) * light;
@@ -173,13 +177,12 @@ void BidirectionalTracer::hit_environment(Spectrum& sum) {
     begin_path(0, b);
     path_.vertices[1].singular = last.singular;
     const Illumination::EmitDensity emit =
-        lights_.environment_emit_density(-escape_.direction, last.surface.point);
+        lights_.environment_emit_density(-escape_.direction, last.point());
     path_.vertices[0] = {emit.direction, escape_.density, false};
     path_.emitted = emit.place > 0.0 && emit.direction > 0.0;
-    of_eye(b - 1).from_light =
-        emit.place * std::abs(dot(escape_.direction, last.scatter.geometric()));
+    of_eye(b - 1).from_light = emit.place * last.facing(escape_.direction) * escape_.backward;
     if (b >= 2) of_eye(b - 2).from_light = eye_[b - 2].reverse;
-    path_.joined = lights_.environment_density(lit(last), escape_.direction);
+    path_.joined = lights_.environment_density(last.lit(), escape_.direction);
     sum += path_weight(path_, 0) * light;
 }
 
@@ -187,83 +190,84 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     const PathVertex& v = eye_[b - 1];
     if (!v.connects()) return;
     const auto pair = kDrawPairs + 2 * static_cast<std::uint32_t>(b);
-    const LitPoint at = lit(v);
     const LightDraw drawn =
-        lights_.draw(at, chance_.draw(id, pair).x, chance_.draw(id, pair + 1), waves_);
+        lights_.draw(v.lit(), chance_.draw(id, pair).x, chance_.draw(id, pair + 1), waves_);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
-    Spectrum light = v.scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    Spectrum light = v.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
+    FreeFlight flight;
+    const Spectrum passing =
+        joins_.passing(v.leaving(drawn.to_light, kBeforeEnd * drawn.distance), time,
+                       v.media_along(drawn.to_light, behind_), waves_, &flight);
+    if (passing.is_black()) return;
     LightEnd end;
     const double away = std::isfinite(drawn.distance) ? drawn.distance : 0.0;
-    end.place = lights_.point_of_light(drawn.place, v.surface.point + away * drawn.to_light);
-    end.emit = lights_.emit_density(end.place, -drawn.to_light, v.surface.point);
+    end.place = lights_.point_of_light(drawn.place, v.point() + away * drawn.to_light);
+    end.emit = lights_.emit_density(end.place, -drawn.to_light, v.point());
     begin_path(0, b);
-    set_light(end, at, drawn.to_light, drawn.distance, v.scatter.density(drawn.to_light),
-              v.scatter.geometric());
+    set_light(end, {v, drawn.to_light, drawn.distance, v.density_along(drawn.to_light),
+                    v.reached(flight), flight.passing()});
     if (b >= 2) {
-        of_eye(b - 2).from_light =
-            at_vertex_before(v.scatter.reverse_density(drawn.to_light), v, eye_[b - 2]);
+        of_eye(b - 2).from_light = at_vertex_before(v.density_back(drawn.to_light), v, eye_[b - 2]);
     }
     light = (path_weight(path_, 1) / drawn.density) * (v.throughput * light);
-    const Ray ray = leaving_ray(v.surface, drawn.to_light, kBeforeEnd * drawn.distance);
-    sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light), waves_) * light;
+    sum += passing * light;
 }
 
 void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectrum& sum) {
     const PathVertex &y = light_[a - 1], &z = eye_[b - 1];
     if (!y.connects() || !z.connects()) return;
-    const Vec3 offset = y.surface.point - z.surface.point;
+    const Vec3 offset = y.point() - z.point();
     const double squared = length_squared(offset), distance = std::sqrt(squared);
     if (!(distance > 0.0)) return;
     const Vec3 to_y = offset / distance, to_z = -to_y;
-    const Spectrum at_z = z.scatter.value(to_y, Transport::Radiance);
+    const Spectrum at_z = z.value(to_y, Transport::Radiance);
     if (at_z.is_black()) return;
-    const Spectrum at_y = y.scatter.value(to_z, Transport::Importance);
+    const Spectrum at_y = y.value(to_z, Transport::Importance);
     if (at_y.is_black()) return;
-    Spectrum light = (y.scatter.importance_correction(to_z) / squared) *
-                     (y.throughput * at_y * z.throughput * at_z);
+    Spectrum light =
+        (y.importance_correction(to_z) / squared) * (y.throughput * at_y * z.throughput * at_z);
+    if (light.is_black()) return;
+    FreeFlight flight;
+    const Spectrum passing = joins_.passing(z.leaving(to_y, kBeforeEnd * distance), time,
+                                            z.media_along(to_y, behind_), waves_, &flight);
+    if (passing.is_black()) return;
     begin_path(a, b);
     of_light(a - 1).from_eye =
-        by_area(z.scatter.density(to_y), to_y, y.scatter.geometric(), distance);
+        at_vertex(z.density_along(to_y), to_y, y, distance) * y.reached(flight);
     of_eye(b - 1).from_light =
-        by_area(y.scatter.density(to_z), to_z, z.scatter.geometric(), distance);
-    const double back = y.scatter.reverse_density(to_z);
+        at_vertex(y.density_along(to_z), to_z, z, distance) * z.reached(flight);
+    const double back = y.density_back(to_z);
     if (a >= 2) of_light(a - 2).from_eye = at_vertex_before(back, y, light_[a - 2]);
-    if (b >= 2) {
-        of_eye(b - 2).from_light =
-            at_vertex_before(z.scatter.reverse_density(to_y), z, eye_[b - 2]);
-    }
-    const PathVertex& first = light_[0];
-    set_light(begin_, lit(first), first.scatter.view(), first.distance, a == 1 ? back : first.back,
-              first.scatter.geometric());
+    if (b >= 2) of_eye(b - 2).from_light = at_vertex_before(z.density_back(to_y), z, eye_[b - 2]);
+    set_light_of_path(a == 1 ? back : light_[0].back);
     light = path_weight(path_, static_cast<int>(a) + 1) * light;
     // Of the hero on both sides: it counts for all four once.
     if (y.hero_only && z.hero_only) light = (1.0 / Spectrum::kCount) * light;
-    if (light.is_black()) return;
-    const Ray ray = leaving_ray(z.surface, to_y, kBeforeEnd * distance);
-    sum += joins_.passing(ray, time, absorption_towards(z, to_y), waves_) * light;
+    sum += passing * light;
 }
 
 void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float time) {
     const PathVertex& y = light_[a - 1];
     if (!y.connects()) return;
     const auto joined = lens_.connect(
-        y.surface.point, chance_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
-    if (!joined || !y.scatter.is_seen_from(joined->to_lens)) return;
-    const Spectrum value = y.scatter.value(joined->to_lens, Transport::Importance);
+        y.point(), chance_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
+    if (!joined || !y.is_seen_from(joined->to_lens)) return;
+    const Spectrum value = y.value(joined->to_lens, Transport::Importance);
     if (value.is_black()) return;
+    FreeFlight flight;
+    const Spectrum seen =
+        joins_.seen(from_lens(y, *joined), time,
+                    media_from_lens(scene_, camera_, y, joined->to_lens, behind_), waves_, &flight);
+    if (seen.is_black()) return;
     begin_path(a, 0);
-    of_light(a - 1).from_eye =
-        joined->density * std::abs(dot(joined->to_lens, y.scatter.geometric()));
-    const double back = y.scatter.reverse_density(joined->to_lens);
+    of_light(a - 1).from_eye = joined->density * y.facing(joined->to_lens) * y.reached(flight);
+    const double back = y.density_back(joined->to_lens);
     if (a >= 2) of_light(a - 2).from_eye = at_vertex_before(back, y, light_[a - 2]);
-    const PathVertex& first = light_[0];
-    set_light(begin_, lit(first), first.scatter.view(), first.distance, a == 1 ? back : first.back,
-              first.scatter.geometric());
+    set_light_of_path(a == 1 ? back : light_[0].back);
     Spectrum light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
-                     y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
-    light = light * joins_.seen(from_lens(y, *joined), time, absorption_towards(y, joined->to_lens),
-                                waves_);
+                     y.importance_correction(joined->to_lens) * (y.throughput * value);
+    light = light * seen;
     if (!light.is_black() && !lens_light_.splats.add(joined->film, waves_.color(light))) {
         ++counters_.non_finite;
     }

@@ -72,9 +72,19 @@ class BidirectionalTracer {
     [[nodiscard]] WholePath::Vertex& of_eye(std::size_t i) {
         return path_.vertices[path_.vertices.size() - 1 - i];
     }
-    /// Sets vertex 0, and what a light path finds at vertex 1, which `to_light` leaves.
-    void set_light(const LightEnd& end, const LitPoint& at, const Vec3& to_light, double distance,
-                   double eye_density, const Vec3& geometric);
+    /// Vertex 1 of a path, with what is known of the way from there to the light.
+    struct LitVertex {
+        const PathVertex& v;
+        Vec3 to_light;
+        double distance;
+        double eye_density;  ///< by solid angle, with which the eye's path goes to the light
+        double reached;      ///< shares of walks there and back that arrive (PathVertex)
+        double backward;
+    };
+    /// Sets vertex 0, and what a light path finds at vertex 1.
+    void set_light(const LightEnd& end, const LitVertex& lit);
+    /// Of a path whose first vertex is that of `light_`.
+    void set_light_of_path(double eye_density);
 
     const RenderJob& job_;
     const Scene& scene_;
@@ -90,6 +100,7 @@ class BidirectionalTracer {
     LightBatch joins_;
     LensLight& lens_light_;
     std::vector<PathVertex> eye_, light_;
+    MediumStack behind_;  ///< the surface at hand
     RandomWalk::Escape escape_;
     LightEnd begin_;  ///< of `light_`
     const Wavelengths* all_waves_ = nullptr;

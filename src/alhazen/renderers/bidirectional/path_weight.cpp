@@ -32,8 +32,8 @@ double step(const WholePath& path, int s) {
 }
 
 bool is_merged(const WholePath& path, int k) {
-    return path.merging > 0.0 && path.emitted && k >= 2 &&
-           !path.vertices[static_cast<std::size_t>(k)].singular;
+    const WholePath::Vertex& v = path.vertices[static_cast<std::size_t>(k)];
+    return path.merging > 0.0 && path.emitted && k >= 2 && !v.singular && !v.in_volume;
 }
 
 /// `own` and the squared densities of all other strategies over that of strategy s.

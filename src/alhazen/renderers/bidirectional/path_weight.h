@@ -8,12 +8,12 @@
 /// (the density of a merged path).
 /// Differs: a light that is joined is chosen for the point that it lights, not by its power: the
 /// strategy of one vertex from the light has a density of its own for it.
-/// Conventions: vertex 0 is the light, 1 to m are surfaces, m + 1 is the lens. Strategy s has s
-/// vertices from the light. Densities are by area; those of a light without a place by solid
-/// angle. A singular vertex scatters by a singular lobe: nothing is joined to it. Merged at vertex
-/// k is a path whose vertices 0 .. k come from the light and k .. m + 1 from the eye, k in 2 .. m:
-/// light that comes straight from a lamp is left to the other strategies. A density of 0 counts as
-/// 1, for it occurs in all strategies.
+/// Conventions: vertex 0 is the light, 1 to m scatter, m + 1 is the lens. Strategy s has s
+/// vertices from the light. Densities are by area, in volumes by volume; those of a light without a
+/// place by solid angle. A singular vertex scatters by a singular lobe: nothing is joined to it.
+/// Merged at vertex k is a path whose vertices 0 .. k come from the light and k .. m + 1 from the
+/// eye, k in 2 .. m: light that comes straight from a lamp is left to the other strategies. A
+/// density of 0 counts as 1, for it occurs in all strategies.
 
 #include <vector>
 
@@ -23,6 +23,7 @@ struct WholePath {
     struct Vertex {
         double from_light = 0, from_eye = 0;  ///< densities; 0: singular
         bool singular = false;
+        bool in_volume = false;  ///< nothing is merged there
     };
     std::vector<Vertex> vertices;  ///< 0 .. m
     double joined = 0;    ///< density of vertex 0 where it is chosen for vertex 1; 0: never

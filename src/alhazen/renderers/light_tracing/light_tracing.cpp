@@ -78,14 +78,16 @@ class LightTiles final : public TileRenderer {
     void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time,
               const Wavelengths& waves) {
         if (!v.connects()) return;
-        const auto joined = lens_.connect(v.surface.point, chance_.draw(id, pair), time);
-        if (!joined || !v.scatter.is_seen_from(joined->to_lens)) return;
-        const Spectrum value = v.scatter.value(joined->to_lens, Transport::Importance);
+        const auto joined = lens_.connect(v.point(), chance_.draw(id, pair), time);
+        if (!joined || !v.is_seen_from(joined->to_lens)) return;
+        const Spectrum value = v.value(joined->to_lens, Transport::Importance);
         if (value.is_black()) return;
-        Spectrum light = v.scatter.importance_correction(joined->to_lens) * joined->density *
-                         (v.throughput * value);
-        light = light * joins_.seen(from_lens(v, *joined), time,
-                                    absorption_towards(v, joined->to_lens), waves);
+        Spectrum light =
+            v.importance_correction(joined->to_lens) * joined->density * (v.throughput * value);
+        light =
+            light * joins_.seen(from_lens(v, *joined), time,
+                                media_from_lens(job_.scene, camera_, v, joined->to_lens, behind_),
+                                waves);
         if (!light.is_black() && !splats_.add(joined->film, waves.color(light))) {
             ++counters_.non_finite;
         }
@@ -104,6 +106,7 @@ class LightTiles final : public TileRenderer {
     SplatFilm& splats_;
     std::vector<SampleId> ids_;  ///< of the pixel at hand
     std::vector<PathVertex> vertices_;
+    MediumStack behind_;  ///< the surface at hand
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-/// Light tracing: paths from the lights, each of their surfaces joined to the lens.
+/// Light tracing: paths from the lights, each of their vertices, on surfaces and in volumes, joined
+/// to the lens.
 ///
 /// Source: Arvo, "Backward Ray Tracing", SIGGRAPH 1986 course notes; Dutre, Lafortune and Willems,
 /// "Monte Carlo Light Tracing with Direct Computation of Pixel Intensities", Compugraphics 1993.
@@ -20,6 +21,7 @@ class LightTracing final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool takes_wavelengths() const override { return true; }
+    [[nodiscard]] bool scatters_in_volumes() const override { return true; }
 
   private:
     PathSettings settings_;

@@ -13,12 +13,19 @@ namespace {
 /// Rays per cast: enough to fill the stream kernel, few enough to stay in the cache.
 constexpr std::size_t kMostLightRays = 512;
 
+/// What a medium leaves of light; null: there is none.
+Spectrum left_by(const Medium* medium, double length, const Wavelengths& waves) {
+    if (medium == nullptr || medium->absorption.is_black()) return Spectrum::all(1);
+    return transmittance(waves.absorption(medium->absorption), length);
+}
+
 }  // namespace
 
 LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
+      media_(scene),
       has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return !m.double_sided; })),
       met_(std::make_unique<bool[]>(kMostLightRays)) {
@@ -26,14 +33,16 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
     waiting_.reserve(kMostLightRays);
 }
 
-void LightBatch::add(const Ray& ray, float time, const Extinction& extinction,
-                     const Wavelengths& waves, const Spectrum& light, Spectrum& sum) {
+void LightBatch::add(const Ray& ray, float time, const MediumStack& media, const Wavelengths& waves,
+                     const Spectrum& light, Spectrum& sum) {
     if (rays_.size() == kMostLightRays) finish();
-    const Spectrum left =
-        extinction.is_black()
-            ? light
-            : light * transmittance(extinction.of(waves), ray.t_max * length(ray.direction));
+    const Medium* const medium = media.here();
+    // Volumes that scatter may end on its way.
+    const Spectrum left = media_.any() || medium == nullptr || medium->absorption.is_black()
+                              ? light
+                              : light * left_by(medium, ray.t_max * length(ray.direction), waves);
     if (left.is_black()) return;
+    if (media_.any()) around_.push_back(media);
     rays_.push_back(ray);
     times_.push_back(time);
     waiting_.push_back({left, &waves, &sum});
@@ -47,7 +56,11 @@ void LightBatch::finish() {
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         count_.hit += met[i];
         const Waiting& w = waiting_[i];
-        if (!met[i]) {
+        if (media_.any()) {
+            *w.sum += through_volumes(rays_[i], times_[i], RayKind::Shadow, around_[i], *w.waves,
+                                      met[i], nullptr) *
+                      w.light;
+        } else if (!met[i]) {
             *w.sum += w.light;
         } else if (!scene_.all_opaque) {
             *w.sum += through_surfaces(rays_[i], times_[i], RayKind::Shadow, *w.waves) * w.light;
@@ -55,6 +68,7 @@ void LightBatch::finish() {
     }
     rays_.clear();
     times_.clear();
+    around_.clear();
     waiting_.clear();
 }
 
@@ -66,56 +80,94 @@ void LightBatch::find_met(std::span<bool> met) {
     }
 }
 
-Spectrum LightBatch::passing(const Ray& ray, float time, const Extinction& extinction,
-                             const Wavelengths& waves) {
-    return passing(ray, time, RayKind::Shadow, extinction, waves);
+Spectrum LightBatch::passing(const Ray& ray, float time, const MediumStack& media,
+                             const Wavelengths& waves, FreeFlight* flight) {
+    return passing(ray, time, RayKind::Shadow, media, waves, flight);
 }
 
-Spectrum LightBatch::seen(const Ray& from_eye, float time, const Extinction& extinction,
-                          const Wavelengths& waves) {
-    return passing(from_eye, time, RayKind::Eye, extinction, waves);
+Spectrum LightBatch::seen(const Ray& from_eye, float time, const MediumStack& media,
+                          const Wavelengths& waves, FreeFlight* flight) {
+    return passing(from_eye, time, RayKind::Eye, media, waves, flight);
 }
 
-Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const Extinction& extinction,
-                             const Wavelengths& waves) {
+Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const MediumStack& media,
+                             const Wavelengths& waves, FreeFlight* flight) {
     ++count_.cast;
-    const Spectrum left = extinction.is_black() ? Spectrum::all(1)
-                                                : transmittance(extinction.of(waves),
-                                                                ray.t_max * length(ray.direction));
-    if (!scene_.aggregate->occluded(ray, query(time, kind))) return left;
-    ++count_.hit;
-    return scene_.all_opaque ? Spectrum{} : left * through_surfaces(ray, time, kind, waves);
+    const bool met = scene_.aggregate->occluded(ray, query(time, kind));
+    count_.hit += met;
+    if (media_.any()) return through_volumes(ray, time, kind, media, waves, met, flight);
+    if (met && scene_.all_opaque) return {};
+    const Spectrum left = left_by(media.here(), ray.t_max * length(ray.direction), waves);
+    return met ? left * through_surfaces(ray, time, kind, waves) : left;
+}
+
+bool LightBatch::find_crossings(const Ray& ray, float time, RayKind kind) {
+    crossings_.clear();
+    if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return false;
+    if (has_single_sided_ && kind != RayKind::Eye) {
+        // Their backs are no crossings.
+        if (crossings_.empty()) return false;
+        crossings_.clear();
+        scene_.aggregate->all_hits(ray, crossings_, query(time, kind));
+    }
+    return true;
 }
 
 Spectrum LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind,
                                       const Wavelengths& waves) {
-    crossings_.clear();
-    if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return {};
-    if (has_single_sided_ && kind != RayKind::Eye) {
-        // Their backs are no crossings.
-        if (crossings_.empty()) return {};
-        crossings_.clear();
-        scene_.aggregate->all_hits(ray, crossings_, query(time, kind));
-    }
+    if (!find_crossings(ray, time, kind)) return {};
     Spectrum share = Spectrum::all(1);
     for (const Hit& crossing : crossings_) {
-        share = share * through(ray, time, kind, crossing, waves);
+        share = share * through(ray, time, kind, crossing, waves, nullptr);
         if (share.is_black()) break;
     }
     return share;
 }
 
+Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
+                                     const MediumStack& media, const Wavelengths& waves, bool met,
+                                     FreeFlight* flight) {
+    if (met && (scene_.all_opaque || !find_crossings(ray, time, kind))) return {};
+    MediumStack around = media;
+    const double scale = length(ray.direction);
+    Spectrum share = Spectrum::all(1);
+    double from = 0.0;
+    const auto pass_volume = [&](double to) {
+        const Medium* const medium = around.here();
+        const Extinction taken = media_.extinction(medium);
+        if (!taken.is_black()) {
+            const Spectrum extinction = taken.of(waves);
+            share = share * transmittance(extinction, (to - from) * scale);
+            if (flight != nullptr && !taken.scattered.is_black()) {
+                flight->add(extinction, (to - from) * scale);
+            }
+        }
+        from = to;
+    };
+    if (met) {
+        for (const Hit& crossing : crossings_) {
+            pass_volume(crossing.t);
+            share = share * through(ray, time, kind, crossing, waves, &around);
+            if (share.is_black()) return share;
+        }
+    }
+    pass_volume(ray.t_max);
+    return share;
+}
+
 Spectrum LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                             const Wavelengths& waves) const {
+                             const Wavelengths& waves, MediumStack* media) const {
     ShadingPoint point;
-    set_shading_point(scene_, ray, crossing, {false, 0.0, time, kind != RayKind::Eye}, {}, point);
+    const bool inside = media != nullptr && !media->empty();
+    set_shading_point(scene_, ray, crossing, {inside, 0.0, time, kind != RayKind::Eye}, {}, point);
     const double coverage = point.material->coverage;
     if (coverage == 0.0) return Spectrum::all(1);
     Spectrum covered;
-    if (point.material->thin) {
+    if (point.material->thin || media != nullptr) {
         ScatterPoint scatter;
-        scatter.set(scene_, point, {}, waves);
+        scatter.set(scene_, point, media != nullptr ? *media : MediumStack(), waves);
         covered = scatter.straight();
+        if (scatter.is_null_boundary()) scatter.cross(*media);
     }
     return Spectrum::all(1.0 - coverage) + coverage * covered;
 }

@@ -2,14 +2,16 @@
 /// Light that may be blocked: connections between points are gathered, then cast together.
 ///
 /// Conventions: alpha coverage and thin sheets let light through, tinted; what bends light blocks
-/// it, for a straight connection does not exist there. Single-sided surfaces block from both sides;
-/// the eye alone does not see their backs.
+/// it, for a straight connection does not exist there. Where volumes scatter, boundaries that do
+/// not bend it let it into the next volume. Single-sided surfaces block from both sides; the eye
+/// alone does not see their backs.
 
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/free_flight.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
@@ -25,19 +27,19 @@ class LightBatch {
     LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
     /// Adds `light` to `sum`, now or in `finish`, times what passes along `ray` up to its t_max;
-    /// `extinction`: of the medium in between; `waves` stays until `finish`. Sums are added to in
-    /// the order of the calls.
-    void add(const Ray& ray, float time, const Extinction& extinction, const Wavelengths& waves,
+    /// `media`: around its beginning; `waves` stays until `finish`. Sums are added to in the order
+    /// of the calls.
+    void add(const Ray& ray, float time, const MediumStack& media, const Wavelengths& waves,
              const Spectrum& light, Spectrum& sum);
     /// Casts the gathered rays.
     void finish();
 
-    /// The share that passes along one ray.
-    [[nodiscard]] Spectrum passing(const Ray& ray, float time, const Extinction& extinction,
-                                   const Wavelengths& waves);
+    /// The share that passes along one ray. `flight`: that of a walk there; null: it is not asked.
+    [[nodiscard]] Spectrum passing(const Ray& ray, float time, const MediumStack& media,
+                                   const Wavelengths& waves, FreeFlight* flight = nullptr);
     /// The same along a ray from the eye.
-    [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const Extinction& extinction,
-                                const Wavelengths& waves);
+    [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const MediumStack& media,
+                                const Wavelengths& waves, FreeFlight* flight = nullptr);
 
   private:
     struct Waiting {
@@ -50,21 +52,31 @@ class LightBatch {
         return {stats_, mask_of(kind), time};
     }
     void find_met(std::span<bool> met);
+    /// Finds what a ray passes; false: something blocks it.
+    [[nodiscard]] bool find_crossings(const Ray& ray, float time, RayKind kind);
     /// Of a ray that meets something.
     [[nodiscard]] Spectrum through_surfaces(const Ray& ray, float time, RayKind kind,
                                             const Wavelengths& waves);
+    /// What the volumes on its way leave, too. `met`: whether it meets something.
+    [[nodiscard]] Spectrum through_volumes(const Ray& ray, float time, RayKind kind,
+                                           const MediumStack& media, const Wavelengths& waves,
+                                           bool met, FreeFlight* flight);
+    /// `media`: those before it, then those behind; null: it cannot lie between volumes.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                                   const Wavelengths& waves) const;
+                                   const Wavelengths& waves, MediumStack* media) const;
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
-                                   const Extinction& extinction, const Wavelengths& waves);
+                                   const MediumStack& media, const Wavelengths& waves,
+                                   FreeFlight* flight);
 
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
+    ScatteringMedia media_;
     bool has_single_sided_;
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::vector<float> times_;
+    std::vector<MediumStack> around_;  ///< [ray]; where some volume scatters
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
 };

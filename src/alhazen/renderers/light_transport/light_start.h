@@ -1,9 +1,10 @@
 #pragma once
-/// How light paths begin and are joined to the lens, and the media along connections.
+/// How light paths begin and are joined to the lens.
 
 #include <cmath>
 
 #include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
@@ -36,7 +37,7 @@ inline void set_falloff(const Illumination& lights, const LightRay& light, const
                         std::vector<PathVertex>& vertices) {
     if (!light.singular_place || vertices.empty()) return;
     const double squared = vertices[0].distance * vertices[0].distance;
-    const Spectrum arrives = lights.irradiance(light.place, vertices[0].surface.point, waves);
+    const Spectrum arrives = lights.irradiance(light.place, vertices[0].point(), waves);
     Spectrum factor;
     for (int i = 0; i < Spectrum::kCount; ++i) {
         if (light.radiance[i] > 0.0) factor[i] = squared * arrives[i] / light.radiance[i];
@@ -46,19 +47,20 @@ inline void set_falloff(const Illumination& lights, const LightRay& light, const
 
 /// The ray from the lens to a vertex, which ends before it.
 [[nodiscard]] inline Ray from_lens(const PathVertex& v, const LensConnection& joined) {
-    const Ray back = leaving_ray(v.surface, joined.to_lens, joined.distance);
+    const Ray back = v.leaving(joined.to_lens, joined.distance);
     const Vec3 lens = back.at(joined.distance);
     Ray ray{lens, -joined.to_lens};
     ray.t_max = kBeforeEnd * length(lens - back.origin);
     return ray;
 }
 
-/// Of the medium that light runs through from the vertex along `direction`.
-[[nodiscard]] inline Rgb absorption_towards(const PathVertex& v, const Vec3& direction) {
-    MediumStack media = v.media;
-    if (dot(direction, v.scatter.geometric()) < 0.0) v.scatter.cross(media);
-    const Medium* const medium = media.here();
-    return medium != nullptr ? medium->absorption : Rgb{};
+/// The volumes around the lens, where that ray begins. Where none scatters, those at the vertex:
+/// one is all along it. `behind`: as of PathVertex::media_along.
+[[nodiscard]] inline const MediumStack& media_from_lens(const Scene& scene,
+                                                        const CameraRays& camera,
+                                                        const PathVertex& v, const Vec3& to_lens,
+                                                        MediumStack& behind) {
+    return scene.has_scattering ? camera.media() : v.media_along(to_lens, behind);
 }
 
 }  // namespace alhazen

@@ -8,133 +8,213 @@
 
 namespace alhazen {
 
-bool RandomWalk::find(Ray& ray, const WalkLuck& luck, float time, bool inside) {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+/// Numbers of events on a walk: apart from those of the other walk of the sample.
+std::uint32_t of_walk(const WalkLuck& luck, std::uint32_t event) {
+    return luck.first_pair << 16 | event;
+}
+
+}  // namespace
+
+bool RandomWalk::scatters_within(Front& front, const Medium& medium,
+                                 const VolumeScattering& scattering, double length,
+                                 const WalkLuck& luck, const WalkStart& start) {
+    const VolumeStep step = step_in_volume(
+        front.waves.absorption(medium.absorption), front.waves.absorption(scattering.coefficient),
+        front.throughput, length, luck.chance.in_volume(luck.id, of_walk(luck, stretch_++)));
+    front.throughput = front.throughput * step.weight;
+    flight_.add(scattering_.extinction(&medium).of(*start.waves), step.distance);
+    if (!step.scatters) return false;
+    travelled_ += step.distance;
+    front.ray = {front.ray.at(step.distance), front.ray.direction};
+    return true;
+}
+
+RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const WalkStart& start) {
     segment_ = 0.0;
+    Ray& ray = front.ray;
+    const Medium* const medium = front.media.here();
+    const VolumeScattering* const scattering =
+        medium != nullptr ? scattering_.in(*medium) : nullptr;
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
         ++counters_[kind_].cast;
         hit_ = Hit();
-        if (!scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), time})) return false;
+        const bool found =
+            scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), start.time});
+        if (scattering != nullptr &&
+            scatters_within(front, *medium, *scattering, found ? hit_.t : kEndless, luck, start)) {
+            return Meets::Volume;
+        }
+        if (!found) return Meets::Nothing;
         ++counters_[kind_].hit;
-        set_shading_point(scene_, ray, hit_, {inside, 0.0, time, kind_ != RayKind::Eye},
+        set_shading_point(scene_, ray, hit_,
+                          {!front.media.empty(), 0.0, start.time, kind_ != RayKind::Eye},
                           {.constant = &constant_}, point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
-        if (luck.chance.stops(luck.id, luck.first_pair << 16 | met_++, point_.material->coverage)) {
-            return true;
+        if (luck.chance.stops(luck.id, of_walk(luck, met_++), point_.material->coverage)) {
+            return Meets::Surface;
         }
         ray = leaving_ray(point_.surface, ray.direction);
     }
-    return false;
+    return Meets::Nothing;
+}
+
+void RandomWalk::set_vertex(const Front& front, const WalkStart& start, Meets meets,
+                            const Ends& ends) {
+    PathVertex& v = ends.v;
+    double cosine = 1.0;
+    if (meets == Meets::Surface) {
+        v.surface.value = point_.surface;
+        v.coverage = point_.material->coverage;
+        cosine = std::abs(dot(front.ray.direction, point_.geometric));
+    } else {
+        const Medium& medium = *front.media.here();
+        v.surface.value.point = front.ray.origin;
+        v.volume = InsideVolume{front.ray.direction, scattering_.in(medium)->anisotropy,
+                                scattering_.extinction(&medium).of(*start.waves)};
+        v.in_volume = true;
+    }
+    v.throughput = front.throughput;
+    v.media = front.media;
+    v.distance = travelled_;
+    v.density = front.parallel ? front.density * cosine
+                               : front.density * cosine / (travelled_ * travelled_);
+    if (flight_.scatters()) {
+        v.forward = v.reached(flight_);
+        v.density *= v.forward;
+        v.backward = ends.before != nullptr ? ends.before->reached(flight_) : flight_.passing();
+    }
+}
+
+void RandomWalk::set_emission(const Front& front, const Ends& ends) const {
+    PathVertex& v = ends.v;
+    const bool lights_others = ends.before != nullptr && !ends.before->singular;
+    if (!point_.material->unlit || !lights_others) {
+        v.emission = emission_of(scene_, point_, front.waves);
+    }
+    if (v.emission.is_black()) return;
+    v.emit = lights_.emit_density(hit_, point_.surface, -front.ray.direction);
+    if (ends.before == nullptr) return;
+    const double cosine = std::abs(dot(front.ray.direction, point_.geometric));
+    v.joined = cosine / (travelled_ * travelled_) *
+               lights_.density(ends.before->lit(), front.ray, hit_, point_.surface, travelled_);
+}
+
+RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& front,
+                                                const WalkLuck& luck, std::uint32_t pair,
+                                                const Ends& ends) {
+    PathVertex& v = ends.v;
+    const bool from_eye = transport == Transport::Radiance;
+    if (from_eye) set_emission(front, ends);
+    v.scatter.set(scene_, point_, front.media, front.waves, true, &bsdfs_);
+    if (v.scatter.needs_hero()) {
+        front.waves.keep_hero(front.throughput);
+        v.throughput = front.throughput;
+    }
+    v.hero_only = front.waves.hero_only();
+    if (point_.material->unlit || (ends.last && !v.scatter.is_null_boundary())) return Step::Ends;
+    const Vec2 u = luck.chance.draw(luck.id, pair);
+    const Vec2 choices = luck.chance.draw(luck.id, pair + 1);
+    const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
+    // A thin sheet is passed straight by chance, and then is no vertex.
+    const double straight = v.scatter.straight_probability();
+    if (straight > 0.0 && straight < 1.0 && !(drawn && drawn->straight)) {
+        v.throughput = (1.0 / (1.0 - straight)) * v.throughput;
+    }
+    if (!drawn || drawn->weight.is_black()) return Step::Ends;
+    front.throughput = front.throughput * drawn->weight;
+    if (drawn->dispersed) front.waves.keep_hero(front.throughput);
+    if (!from_eye) {
+        front.throughput = v.scatter.importance_correction(drawn->direction) * front.throughput;
+    }
+    if (drawn->transmitted) v.scatter.cross(front.media);
+    kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
+    front.ray.direction = drawn->direction;
+    if (drawn->straight) return Step::Straight;
+    eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
+    v.singular = drawn->singular;
+    front.density = drawn->singular ? 1.0 : drawn->density;
+    v.back = drawn->singular ? 1.0 : v.scatter.reverse_density(drawn->direction);
+    return Step::Scattered;
+}
+
+RandomWalk::Step RandomWalk::scatter_in_volume(Front& front, const WalkLuck& luck,
+                                               std::uint32_t pair, const Ends& ends) {
+    PathVertex& v = ends.v;
+    v.hero_only = front.waves.hero_only();
+    if (ends.last || !(front.throughput.max() > 0.0)) return Step::Ends;
+    const InsideVolume& volume = v.volume.value;
+    const Vec3 direction =
+        sample_henyey_greenstein(volume.along, volume.anisotropy, luck.chance.draw(luck.id, pair));
+    kind_ = RayKind::Refraction;
+    front.ray.direction = direction;
+    front.density = v.back = v.density_along(direction);
+    return Step::Scattered;
 }
 
 void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuck& luck,
                       std::vector<PathVertex>& vertices) {
     vertices.clear();
     escape_ = {};
-    met_ = 0;
+    met_ = stretch_ = 0;
     travelled_ = 0.0;
+    flight_.begin();
+    eta_scale_ = 1.0;
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
-    Ray ray = start.ray;
-    Wavelengths waves = *start.waves;
-    Spectrum throughput = start.throughput;
-    double density = start.density;
-    bool parallel = start.parallel;
-    double eta_scale = 1.0;
-    MediumStack media = start.media;
-    for (std::uint32_t pair = luck.first_pair; static_cast<int>(vertices.size()) < luck.most;
-         pair += kWalkPairs) {
-        if (!find(ray, luck, start.time, !media.empty())) {
-            const Medium* const medium = media.here();
-            escape_.is = true;
-            if (medium != nullptr) {
-                throughput = throughput * transmittance(waves.absorption(medium->absorption),
-                                                        std::numeric_limits<double>::infinity());
-            }
-            escape_.direction = ray.direction;
-            escape_.throughput = throughput;
-            escape_.density = density;
+    Front front{start.ray,     *start.waves,   start.throughput,
+                start.density, start.parallel, start.media};
+    int count = 0;
+    for (std::uint32_t pair = luck.first_pair; count < luck.most; pair += kWalkPairs) {
+        const Meets meets = find(front, luck, start);
+        // What scatters has taken its share.
+        if (const Medium* const medium = front.media.here();
+            medium != nullptr && scattering_.in(*medium) == nullptr) {
+            front.throughput =
+                front.throughput * transmittance(front.waves.absorption(medium->absorption),
+                                                 meets == Meets::Nothing ? kEndless : segment_);
+        }
+        if (meets == Meets::Nothing) {
+            escape_ = {true, front.ray.direction, front.throughput,
+                       front.density * flight_.passing(),
+                       count == 0 ? 1.0 : vertices.back().reached(flight_)};
             return;
         }
-        if (const Medium* const medium = media.here(); medium != nullptr) {
-            throughput = throughput * transmittance(waves.absorption(medium->absorption), segment_);
-        }
-        const double cosine = std::abs(dot(ray.direction, point_.geometric));
         PathVertex& v = vertices.emplace_back();
-        v.surface = point_.surface;
-        v.throughput = throughput;
-        v.media = media;
-        v.distance = travelled_;
-        v.coverage = point_.material->coverage;
-        v.density = parallel ? density * cosine : density * cosine / (travelled_ * travelled_);
-        parallel = false;
-        if (from_eye) {
-            const bool lights_others =
-                vertices.size() >= 2 && !vertices[vertices.size() - 2].singular;
-            if (!point_.material->unlit || !lights_others) {
-                v.emission = emission_of(scene_, point_, waves);
-            }
-            if (!v.emission.is_black()) {
-                v.emit = lights_.emit_density(hit_, point_.surface, -ray.direction);
-                if (vertices.size() >= 2) {
-                    const PathVertex& before = vertices[vertices.size() - 2];
-                    const LitPoint at{before.surface.point, before.scatter.normal(),
-                                      before.scatter.transmits()};
-                    v.joined = cosine / (travelled_ * travelled_) *
-                               lights_.density(at, ray, hit_, point_.surface, travelled_);
-                }
-            }
-        }
-        v.scatter.set(scene_, point_, media, waves, true, &bsdfs_);
-        if (v.scatter.needs_hero()) {
-            waves.keep_hero(throughput);
-            v.throughput = throughput;
-        }
-        v.hero_only = waves.hero_only();
-        if (point_.material->unlit || static_cast<int>(vertices.size()) == luck.most) return;
-
-        const Vec2 u = luck.chance.draw(luck.id, pair);
-        const Vec2 choices = luck.chance.draw(luck.id, pair + 1);
-        const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
-        // A thin sheet is passed straight by chance, and then is no vertex.
-        const double straight = v.scatter.straight_probability();
-        if (straight > 0.0 && straight < 1.0 && !(drawn && drawn->straight)) {
-            v.throughput = (1.0 / (1.0 - straight)) * v.throughput;
-        }
-        if (!drawn || drawn->weight.is_black()) return;
-        throughput = throughput * drawn->weight;
-        if (drawn->dispersed) waves.keep_hero(throughput);
-        if (!from_eye) throughput = v.scatter.importance_correction(drawn->direction) * throughput;
-        if (drawn->transmitted) v.scatter.cross(media);
-        kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
-        if (drawn->straight) {
-            const double left = travelled_;
+        const Ends ends{v, count > 0 ? &v - 1 : nullptr, ++count == luck.most};
+        set_vertex(front, start, meets, ends);
+        const Step step = meets == Meets::Volume
+                              ? scatter_in_volume(front, luck, pair, ends)
+                              : scatter_at_surface(transport, front, luck, pair, ends);
+        if (step == Step::Ends) return;
+        if (step == Step::Straight) {
             vertices.pop_back();
-            ray = leaving_ray(point_.surface, drawn->direction);
-            travelled_ = left;
+            --count;
             if (++met_ > kMaxPassedSurfaces) return;
+            front.ray = leaving_ray(point_.surface, front.ray.direction);
             continue;
         }
-        eta_scale *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
-        v.singular = drawn->singular;
-        density = drawn->singular ? 1.0 : drawn->density;
-        v.back = drawn->singular ? 1.0 : v.scatter.reverse_density(drawn->direction);
-        if (vertices.size() >= 2) {
-            PathVertex& before = vertices[vertices.size() - 2];
-            const double facing = std::abs(dot(v.scatter.view(), before.scatter.geometric()));
-            before.reverse = v.back * facing / (v.distance * v.distance);
+        front.parallel = false;
+        if (ends.before != nullptr) {
+            ends.before->reverse =
+                v.back * ends.before->facing(v.view()) / (v.distance * v.distance) * v.backward;
         }
-        if (!throughput.is_finite()) return;
-        if (static_cast<int>(vertices.size()) >= luck.roulette) {
+        if (!front.throughput.is_finite()) return;
+        if (count >= luck.roulette) {
             constexpr double kMost = 0.95;
             // Of light its power counts, which has any scale: its share of what it began with.
             const double begun = from_eye ? 1.0 : start.throughput.max();
-            const double share = std::min(kMost, eta_scale * throughput.max() / begun);
+            const double share = std::min(kMost, eta_scale_ * front.throughput.max() / begun);
             if (!(luck.chance.draw(luck.id, pair + 2).x < share)) return;
-            throughput = (1.0 / share) * throughput;
+            front.throughput = (1.0 / share) * front.throughput;
         }
-        ray = leaving_ray(point_.surface, drawn->direction);
+        front.ray = v.leaving(front.ray.direction, kEndless);
         travelled_ = 0.0;
+        flight_.begin();
     }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Subpaths, one ray after the other: from the eye, or from a light.
+/// Subpaths, one ray after the other: from the eye, or from a light, through volumes that scatter.
 ///
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapters 8 and
 /// 10.
-/// Conventions: densities of vertices are by area. Singular directions count as of density 1 by
+/// Conventions: densities are those of path_vertex.h. Singular directions count as of density 1 by
 /// solid angle on both sides: every way to find a path has them. Surfaces that a path passes
 /// straight (coverage, thin sheets) are no vertices.
 
@@ -13,32 +13,10 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
-#include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/light_transport/path_vertex.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
 
 namespace alhazen {
-
-/// A surface where a subpath scatters, or where it ends at a light.
-struct PathVertex {
-    /// Not defaulted: all of it, which is large, would be zeroed first.
-    PathVertex() {}  // NOLINT(modernize-use-equals-default)
-
-    ShapeSurface surface;
-    ScatterPoint scatter;
-    Spectrum throughput;     ///< of the path up to the vertex
-    bool hero_only = false;  ///< `throughput` is of the hero, and stands for all four wavelengths
-    double density = 0;      ///< with which its own side finds it
-    double reverse = 0;      ///< with which the other side would, once it has two more vertices
-    double back = 0;         ///< by solid angle, of what it was found from, once it has one more
-    bool singular = false;   ///< the path went on from it by a singular lobe
-    MediumStack media;       ///< in front of it
-    Spectrum emission;       ///< of it towards the path
-    Illumination::EmitDensity emit;  ///< of that light
-    double joined = 0;               ///< density with which it is drawn for the vertex before
-    double distance = 0;             ///< from the vertex before
-    double coverage = 1;             ///< with which the path stopped there
-
-    [[nodiscard]] bool connects() const { return scatter.has_density(); }
-};
 
 /// The beginning of a walk.
 struct WalkStart {
@@ -70,6 +48,7 @@ class RandomWalk {
           lights_(lights),
           counters_(counters),
           stats_(stats),
+          scattering_(scene),
           constant_(scene),
           bsdfs_(scene) {}
 
@@ -82,18 +61,55 @@ class RandomWalk {
         bool is = false;
         Vec3 direction;
         Spectrum throughput;
-        double density = 0;  ///< 1: singular
+        double density = 0;   ///< 1: singular
+        double backward = 1;  ///< as of PathVertex
     };
     [[nodiscard]] const Escape& escape() const { return escape_; }
 
   private:
-    /// The next surface on which the path stops; false where there is none.
-    [[nodiscard]] bool find(Ray& ray, const WalkLuck& luck, float time, bool inside);
+    /// The end of a walk so far.
+    struct Front {
+        Ray ray;
+        Wavelengths waves;
+        Spectrum throughput;
+        double density = 0;
+        bool parallel = false;
+        MediumStack media;
+    };
+    enum class Meets : std::uint8_t { Nothing, Surface, Volume };
+    enum class Step : std::uint8_t { Ends, Straight, Scattered };
+
+    /// What it stops at next: a surface, or a point in a volume where the ray then begins.
+    [[nodiscard]] Meets find(Front& front, const WalkLuck& luck, const WalkStart& start);
+    /// Whether a stretch of that length in a medium that scatters does, before its end.
+    [[nodiscard]] bool scatters_within(Front& front, const Medium& medium,
+                                       const VolumeScattering& scattering, double length,
+                                       const WalkLuck& luck, const WalkStart& start);
+    /// The last vertex, and the one before; null: the first has none.
+    struct Ends {
+        PathVertex& v;
+        PathVertex* before;
+        bool last;  ///< of as many as the walk may have
+    };
+    /// All but what the vertex does with light. Inlined, as what follows: light_tracing takes half
+    /// a per cent fewer instructions.
+    [[gnu::always_inline]] inline void set_vertex(const Front& front, const WalkStart& start,
+                                                  Meets meets, const Ends& ends);
+    void set_emission(const Front& front, const Ends& ends) const;
+    /// Sets that, and goes on from there.
+    [[nodiscard, gnu::always_inline]] inline Step scatter_at_surface(Transport transport,
+                                                                     Front& front,
+                                                                     const WalkLuck& luck,
+                                                                     std::uint32_t pair,
+                                                                     const Ends& ends);
+    [[nodiscard]] Step scatter_in_volume(Front& front, const WalkLuck& luck, std::uint32_t pair,
+                                         const Ends& ends);
 
     const Scene& scene_;
     const Illumination& lights_;
     RayCounters& counters_;
     TraversalStats* stats_;
+    ScatteringMedia scattering_;
     MaterialCache constant_;
     BsdfCache bsdfs_;
     ShadingPoint point_;
@@ -101,6 +117,9 @@ class RandomWalk {
     double travelled_ = 0;  ///< since the last vertex
     double segment_ = 0;    ///< of it in the ray at hand
     std::uint32_t met_ = 0;
+    std::uint32_t stretch_ = 0;  ///< stretches through what scatters
+    FreeFlight flight_;          ///< since the last vertex
+    double eta_scale_ = 1;
     RayKind kind_ = RayKind::Eye;
     Escape escape_;
 };

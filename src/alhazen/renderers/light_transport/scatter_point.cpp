@@ -71,6 +71,8 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         place.etas = nullptr;
         set_bsdf(scene, surface, place, known, bsdf_);
     }
+    null_ = scene.has_scattering && all == Spectrum::all(1) && !thin_ && material.coverage >= 1.0 &&
+            material.emission.is_black() && !material.unlit && bsdf_.refracts_alone();
     from_behind_.reset();
     if (!both_ways || !bsdf_.has_density() || !bsdf_.transmits()) return;
     place.etas = nullptr;
@@ -127,6 +129,14 @@ double ScatterPoint::reverse_density(const Vec3& direction) const {
 
 std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
                                               Transport transport) const {
+    if (null_) {
+        return Scattered{.direction = -view_,
+                         .weight = straight(),
+                         .density = 1.0,
+                         .singular = true,
+                         .transmitted = true,
+                         .straight = true};
+    }
     const std::optional<BsdfSample> drawn = bsdf_.sample(local_view_, choice, u, transport);
     if (!drawn) return std::nullopt;
     Scattered s{frame_.to_world(drawn->direction), drawn->weight, drawn->density, drawn->singular,

@@ -5,6 +5,8 @@
 /// (shading normals are not symmetric).
 /// Conventions: the view is where the path came from. A direction counts as reflected or
 /// transmitted by the geometric normal; where the shading normal disagrees nothing is scattered.
+/// Null boundaries, in scenes with volumes that scatter, are those between volumes of the same
+/// index: they are passed straight, as thin sheets are.
 
 #include <array>
 #include <optional>
@@ -24,7 +26,7 @@ struct Scattered {
     bool singular = false;  ///< its direction has no density
     bool transmitted = false;
     double eta = 1;         ///< index where it enters over where it came from
-    bool straight = false;  ///< through a thin sheet, as if nothing were there
+    bool straight = false;  ///< through a thin sheet or a null boundary, no scattering
     /// Only light of the hero goes there: Wavelengths::keep_hero is then due.
     bool dispersed = false;
 };
@@ -62,8 +64,12 @@ class ScatterPoint {
     /// choice; none where one of them is all, at other surfaces, and where it disperses.
     [[nodiscard]] std::optional<std::array<Scattered, 2>> both_ways(Transport transport) const;
 
-    /// The share of light that goes straight on through a thin sheet.
-    [[nodiscard]] Spectrum straight() const { return bsdf_.straight(local_view_); }
+    [[nodiscard]] bool is_null_boundary() const { return null_; }
+    /// The share of light that goes straight on through a thin sheet or a null boundary.
+    [[nodiscard]] Spectrum straight() const {
+        return null_ ? bsdf_.singular(local_view_, Transport::Radiance).transmitted
+                     : bsdf_.straight(local_view_);
+    }
     /// With which `sample` does that.
     [[nodiscard]] double straight_probability() const {
         return thin_ ? bsdf_.straight_probability(local_view_) : 0.0;
@@ -108,6 +114,7 @@ class ScatterPoint {
     Vec3 geometric_, view_, local_view_;
     Medium inside_;  ///< of the volume that the surface bounds
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
+    bool null_ = false;
     bool media_known_ = false;  ///< a solid tells what is behind
     bool behind_inside_ = false;
 };

@@ -27,15 +27,13 @@ struct Extinction {
 
 class ScatteringMedia {
   public:
-    explicit ScatteringMedia(const Scene& scene) : scene_(scene) {
-        for (const Material& m : scene.materials) any_ |= !m.scattering.coefficient.is_black();
-    }
+    explicit ScatteringMedia(const Scene& scene) : scene_(scene) {}
 
     /// Whether some medium does.
-    [[nodiscard]] bool any() const { return any_; }
+    [[nodiscard]] bool any() const { return scene_.has_scattering; }
     /// Of a medium; null: it does not.
     [[nodiscard]] const VolumeScattering* in(const Medium& medium) const {
-        if (!any_) return nullptr;
+        if (!any()) return nullptr;
         const VolumeScattering& scattering = scene_.materials[medium.material].scattering;
         return scattering.coefficient.is_black() ? nullptr : &scattering;
     }
@@ -49,7 +47,6 @@ class ScatteringMedia {
 
   private:
     const Scene& scene_;
-    bool any_ = false;
 };
 
 }  // namespace alhazen

@@ -299,10 +299,8 @@ Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& 
     const ShapeSurface* from = &at_->surface;
     Vec3 direction = chain_.direction;
     const auto pass = [&](const MediumStack& in, double distance) {
-        const Medium* const medium = in.here();
-        const Rgb absorption = medium != nullptr ? medium->absorption : Rgb{};
         share = share * shadows_.passing(leaving_ray(*from, direction, kBeforeEnd * distance),
-                                         at_->time, absorption, at_->waves);
+                                         at_->time, in, at_->waves);
         return !share.is_black();
     };
     for (int i = 0; i < chain_.length(); ++i) {

@@ -238,11 +238,17 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         return;
     }
     add_emission(path, ray, hit, point, sum);
-    if (point.material->unlit || path.scatterings >= settings_.depth) {
+    const bool deepest = path.scatterings >= settings_.depth;
+    // What scatters in volumes has boundaries that are no scatterings.
+    if (point.material->unlit || (deepest && !media_.any())) {
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }
     scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
+    if (deepest && !scatter_.is_null_boundary()) {
+        record_step(path, PathStep::Deepest);
+        return;
+    }
     if (scatter_.needs_hero()) keep_hero(path);
     if (scatter_.has_density()) {
         add_direct_light(path, point, sum);
@@ -280,11 +286,10 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
         weight *= power_heuristic(drawn.density, scatter_.density(drawn.to_light));
     }
     light = path.throughput * (weight * light);
-    const Medium* medium = path.media.here();
-    if (dot(drawn.to_light, scatter_.geometric()) < 0.0) {
+    const bool goes_behind = dot(drawn.to_light, scatter_.geometric()) < 0.0;
+    if (goes_behind) {
         behind_ = path.media;
         scatter_.cross(behind_);
-        medium = behind_.here();
     }
     const Ray shadow = leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance);
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
@@ -292,7 +297,7 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     Spectrum& to = waiting != nullptr ? *waiting
                                       : place_of_joined(path, first_along(path, drawn.to_light),
                                                         &drawn.to_light, sum);
-    shadows_.add(shadow, path.time, media_.extinction(medium), waves(path), shown, to);
+    shadows_.add(shadow, path.time, goes_behind ? behind_ : path.media, waves(path), shown, to);
 }
 
 bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
@@ -324,7 +329,7 @@ bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ra
 void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray,
                                    Spectrum& sum) {
     const double g = media_.in(medium)->anisotropy;
-    const LitPoint at{ray.origin, ray.direction, true};
+    const LitPoint at = LitPoint::inside_volume(ray.origin);
     if (path.scatterings == 0) path.first = {.transmitted = true};
     const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
     const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
@@ -339,7 +344,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
         Spectrum* const waiting = record_shadow(path, to_light, shown);
         Spectrum& to =
             waiting != nullptr ? *waiting : place_of_joined(path, path.first, nullptr, sum);
-        shadows_.add(to_light, path.time, media_.extinction(&medium), waves(path), shown, to);
+        shadows_.add(to_light, path.time, path.media, waves(path), shown, to);
     }
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
     const Vec3 direction = sample_henyey_greenstein(ray.direction, g, u);

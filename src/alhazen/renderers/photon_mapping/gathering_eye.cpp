@@ -130,9 +130,8 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
             const DirectLight straight = direct_light(
                 place, numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, along_);
             if (!straight.light.is_black()) {
-                light += straight.light * shadows_.passing(straight.ray, path.time,
-                                                           next_.media().extinction(&place.medium),
-                                                           along_);
+                light +=
+                    straight.light * shadows_.passing(straight.ray, path.time, path.media, along_);
             }
             return sum + path.throughput * light;
         }

@@ -83,8 +83,10 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         }
         const ShadingPoint& point = next_.point();
         sum += emitted(path, at.last);
-        if (point.material->unlit || at.last.scatterings >= settings_.depth) return;
+        const bool deepest = at.last.scatterings >= settings_.depth;
+        if (point.material->unlit || (deepest && !next_.media().any())) return;
         scatter_.set(scene_, point, path.media, at.waves);
+        if (deepest && !scatter_.is_null_boundary()) return;
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
         if (scatter_.has_density()) {
             add_direct_light(id, event, path, waves, direct);
@@ -182,13 +184,12 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& p
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance), path.time,
-                 next_.media().extinction(media.here()), waves, path.throughput * (weight * light),
-                 direct);
+                 media, waves, path.throughput * (weight * light), direct);
 }
 
 PhotonEye::DirectLight PhotonEye::direct_light(const VolumePoint& at, double choice,
                                                const Vec2& place, const Wavelengths& waves) const {
-    const LightDraw drawn = lights_.draw({at.point, at.along, true}, choice, place, waves);
+    const LightDraw drawn = lights_.draw(LitPoint::inside_volume(at.point), choice, place, waves);
     if (!(drawn.density > 0.0)) return {};
     const double phase = henyey_greenstein(dot(at.along, drawn.to_light), at.anisotropy);
     return {(phase / drawn.density) * drawn.radiance,
@@ -203,8 +204,8 @@ void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& p
         direct_light(at, chance_.draw(id, event, PathChance::kChoices).y,
                      chance_.draw(id, event, PathChance::kLight), *path.waves);
     if (straight.light.is_black()) return;
-    shadows_.add(straight.ray, path.time, next_.media().extinction(&at.medium), waves,
-                 path.throughput * straight.light, direct);
+    shadows_.add(straight.ray, path.time, path.media, waves, path.throughput * straight.light,
+                 direct);
 }
 
 bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int event) const {

@@ -124,6 +124,14 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         if (point.material->unlit) return true;
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
         scatter_.set(scene_, point, path.media, waves);
+        if (scatter_.is_null_boundary()) {
+            // No event: its way goes on straight.
+            if (path.met > kMaxPassedSurfaces) return true;
+            NextSurface::go_on(path, point.surface, scatter_,
+                               *scatter_.sample(0.0, {}, Transport::Importance));
+            --surface;
+            continue;
+        }
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         if (scatter_.has_density()) store(kind, fall * path.throughput, waves, stored);
         const auto drawn =

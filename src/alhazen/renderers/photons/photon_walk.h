@@ -10,7 +10,8 @@
 /// photon at what its light gave it, and its colour changes. Shading normals: Veach's factor.
 /// Conventions: photons are numbered. What a photon does depends on the scene, the seed and its
 /// number alone. A photon in a volume stands for fluence: power times the way that it goes there.
-/// Surfaces that are passed straight (thin sheets) receive light and are no events.
+/// Surfaces that are passed straight (thin sheets) receive light and are no events; null boundaries
+/// receive none.
 
 #include <cstdint>
 #include <memory>

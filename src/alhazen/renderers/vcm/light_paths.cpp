@@ -19,7 +19,7 @@ std::array<float, 3> as_floats(double x, double y, double z) {
 
 /// Makes a density by solid angle from `v` one by area at the vertex before.
 double facing_from(const PathVertex& v, const PathVertex& before) {
-    return std::abs(dot(v.scatter.view(), before.scatter.geometric())) / (v.distance * v.distance);
+    return before.facing(v.view()) / (v.distance * v.distance) * v.backward;
 }
 
 }  // namespace
@@ -51,21 +51,22 @@ LightPathWalk::LightPathWalk(const LightPathNumbers& numbers, const Illumination
 
 SideSums LightPathWalk::begin(const LightRay& light, double& facing) const {
     const PathVertex& first = path_[0];
-    const Vec3 to_light = first.scatter.view();
+    const Vec3 to_light = first.view();
     const Illumination::LightPoint place = lights_.point_of_light(light.place, light.ray.origin);
-    const LitPoint at{first.surface.point, first.scatter.normal(), first.scatter.transmits()};
     facing = place.normal != Vec3{}
                  ? std::abs(dot(to_light, place.normal)) / (first.distance * first.distance)
                  : 1.0;
-    const double joined = facing * lights_.density(at, place, to_light, first.distance);
+    const double joined = facing * lights_.density(first.lit(), place, to_light, first.distance);
+    facing *= first.backward;
     return SideSums::at_light(place.infinite ? light.direction_density : light.place_density,
                               joined, place.is_hit, first.density);
 }
 
 void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facing,
                          std::size_t number, std::vector<LightVertex>& kept) const {
-    if (!v.connects() || v.throughput.is_black() || !v.throughput.is_finite()) return;
-    const Vec3& p = v.surface.point;
+    if (v.in_volume || !v.connects() || v.throughput.is_black() || !v.throughput.is_finite())
+        return;
+    const Vec3& p = v.point();
     Wavelengths waves = *shot_.waves;
     Spectrum ignored;
     if (v.hero_only) waves.keep_hero(ignored);
@@ -95,7 +96,8 @@ bool LightPathWalk::shoot(std::uint64_t number, std::vector<LightVertex>& kept) 
     double before = facing * path_[0].back;
     for (std::size_t a = 2; a <= path_.size(); ++a) {
         const PathVertex &last = path_[a - 2], &v = path_[a - 1];
-        sums = sums.after(before, last.singular, a > 2, shot_.merging, v.density);
+        sums =
+            sums.after(before, last.singular, a > 2 && !last.in_volume, shot_.merging, v.density);
         facing = facing_from(v, last);
         keep(v, sums, facing, a, kept);
         before = facing * v.back;

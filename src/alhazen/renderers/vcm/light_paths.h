@@ -4,8 +4,8 @@
 /// Source: Georgiev, Krivanek, Davidovic and Slusallek, "Light Transport Simulation with Vertex
 /// Connection and Merging", SIGGRAPH Asia 2012, section 5.
 /// Differs: connections have light paths of their own, one for each sample, as in `bidirectional`;
-/// a pass may have any number of paths to merge with. Vertices that a lamp lights straight are not
-/// kept.
+/// a pass may have any number of paths to merge with. Vertices that a lamp lights straight, and
+/// those in volumes, are not kept.
 /// Conventions: paths are numbered through all passes. What a path does depends on the scene, the
 /// seed and its number alone. Where a surface is there in part, what its vertices carry is divided
 /// by the coverage, for both paths stop there by chance.

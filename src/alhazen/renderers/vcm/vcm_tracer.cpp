@@ -29,9 +29,9 @@ void VcmTracer::merge(Spectrum& sum) {
             const PathVertex& last = path[b - 2];
             // What the vertex before it is found with by a path that comes from here.
             const double before = b >= 3 ? path[b - 3].reverse : 0.0;
-            sums = sums.after(before, last.singular, true, pass_.merging, z.density);
+            sums = sums.after(before, last.singular, !last.in_volume, pass_.merging, z.density);
         }
-        if (z.connects()) sum += z.throughput * merged_at(b, sums, merged);
+        if (z.connects() && !z.in_volume) sum += z.throughput * merged_at(b, sums, merged);
     }
     pass_.merged.fetch_add(merged, std::memory_order_relaxed);
 }
@@ -41,13 +41,12 @@ Spectrum VcmTracer::merged_at(std::size_t b, const SideSums& eye, std::uint64_t&
     double facing = 0.0;
     if (b >= 2) {
         const PathVertex& last = eye_path()[b - 2];
-        facing =
-            std::abs(dot(z.scatter.view(), last.scatter.geometric())) / (z.distance * z.distance);
+        facing = last.facing(z.scatter.view()) / (z.distance * z.distance) * z.backward;
     }
     const PhotonFits fits(z.scatter);
     const auto most = static_cast<std::uint32_t>(settings().depth) + 1;
     Spectrum light;
-    pass_.grid.for_near(z.surface.point, [&](const LightVertex& y) {
+    pass_.grid.for_near(z.point(), [&](const LightVertex& y) {
         if (y.number + b > most || !fits(y.photon)) return;
         ++merged;
         const Spectrum scattered =

@@ -350,4 +350,11 @@ bool Bsdf::has_rough_boundary() const {
     return std::ranges::any_of(
         parts_, [](const Part& p) { return std::holds_alternative<RoughDielectric>(p.lobe); });
 }
+
+bool Bsdf::refracts_alone() const {
+    return !parts_.empty() && std::ranges::all_of(parts_, [](const Part& p) {
+        return std::holds_alternative<SmoothDielectric>(p.lobe);
+    });
+}
+
 }  // namespace alhazen

@@ -78,6 +78,8 @@ class Bsdf {
     [[nodiscard]] bool transmits() const { return traits_.transmits; }
     /// Whether some lobe is a rough boundary between clear media.
     [[nodiscard]] bool has_rough_boundary() const;
+    /// Whether all lobes are smooth boundaries between clear media, and there is one.
+    [[nodiscard]] bool refracts_alone() const;
     /// Whether some lobe transmits, singular ones too.
     [[nodiscard]] bool lets_through() const { return traits_.lets_through; }
     /// What it does to polarised light from `direction`: by all singular lobes or by all others, as

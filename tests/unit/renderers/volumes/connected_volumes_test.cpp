@@ -1,0 +1,131 @@
+// What passes straight connections through volumes, and how likely walks are to.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/renderers/light_transport/free_flight.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/sampling/random.h"
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+Material absorbing(const Rgb& absorption, double index = 1.0) {
+    Material m;
+    m.index.value = index;
+    m.dielectric = Dielectric{absorption};
+    return m;
+}
+
+struct Passed {
+    Spectrum share, in_batch;
+    FreeFlight flight;
+    bool same = false;  ///< from the other end
+};
+
+/// Between two points, by all three ways to ask.
+Passed pass(const Scene& scene, const Vec3& from, const Vec3& to) {
+    RayCounters counters;
+    LightBatch batch(scene, counters, nullptr);
+    const MediaFinder finder(scene);
+    Passed passed;
+    const double distance = length(to - from);
+    const Ray ray{from, normalize(to - from), 0.0, distance};
+    const Ray back{to, normalize(from - to), 0.0, distance};
+    const MediumStack media = finder.around(from, 0), media_back = finder.around(to, 0);
+    passed.share = batch.passing(ray, 0, media, kColorChannels, &passed.flight);
+    const Spectrum other = batch.passing(back, 0, media_back, kColorChannels);
+    passed.same = true;
+    for (int i = 0; i < 4; ++i) {
+        passed.same = passed.same && std::abs(other[i] - passed.share[i]) < 1e-12;
+    }
+    batch.add(ray, 0, media, kColorChannels, Spectrum::all(1), passed.in_batch);
+    batch.finish();
+    return passed;
+}
+
+const Rgb kFog{0.1, 0.3, 0.2}, kDenser{0.5, 0.6, 0.9}, kAbsorbs{0.7, 0.1, 0.4};
+
+/// Fog from x = 0 to 10, in it what absorbs from 2 to 8, in that denser fog from 4 to 6.
+SceneMaker nested(double index = 1.0) {
+    SceneMaker maker;
+    const auto layer = [&](double lo, double hi, const Material& m) {
+        maker.add(BoxShape{{lo, -9, -9}, {hi, 9, 9}}, maker.material(m));
+    };
+    layer(0, 10, fog(kAbsorbs, kFog, 0.3, index));
+    layer(2, 8, absorbing(kAbsorbs, index));
+    layer(4, 6, fog({}, kDenser, 0, index));
+    return maker;
+}
+
+TEST(ConnectedVolumes, ARayTakesItsShareOfEachVolumeThatItCrosses) {
+    const Scene scene = nested().compile();
+    struct {
+        double from, to, in_fog, absorbed, in_denser;
+    } const ways[] = {{-3, 13, 4, 4, 2},   {1, 9, 2, 4, 2},  {3, 5, 0, 1, 1},
+                      {5, 5.5, 0, 0, 0.5}, {-3, 1, 1, 0, 0}, {7, 20, 2, 1, 0}};
+    for (const auto& way : ways) {
+        const Passed passed = pass(scene, {way.from, 0.1, 0.2}, {way.to, 0.1, 0.2});
+        EXPECT_TRUE(passed.same);
+        double passing = 0.0, stopping = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const double scattered =
+                (kFog[i] + kAbsorbs[i]) * way.in_fog + kDenser[i] * way.in_denser;
+            const double expected = std::exp(-scattered - kAbsorbs[i] * way.absorbed);
+            EXPECT_NEAR(passed.share[i], expected, 1e-12) << way.from << " " << i;
+            EXPECT_NEAR(passed.in_batch[i], expected, 1e-12) << way.from << " " << i;
+            const int times = i == 2 ? 2 : 1;  // blue twice
+            passing += 0.25 * times * std::exp(-scattered);
+            stopping += 0.25 * times * kDenser[i] * std::exp(-scattered);
+        }
+        EXPECT_NEAR(passed.flight.passing(), passing, 1e-12) << way.from;
+        EXPECT_NEAR(passed.flight.stopping({kDenser.r, kDenser.g, kDenser.b, kDenser.b}), stopping,
+                    1e-12);
+    }
+}
+
+TEST(ConnectedVolumes, WhatBendsLightBlocksConnections) {
+    for (const double index : {kNearlyOne, 1.3}) {
+        const Scene scene = nested(index).compile();
+        EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).share.is_black()) << index;
+        EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).in_batch.is_black()) << index;
+        // Between volumes of the same index nothing is bent.
+        EXPECT_FALSE(pass(scene, {1, 0.1, 0.2}, {3, 0.1, 0.2}).share.is_black()) << index;
+    }
+}
+
+TEST(ConnectedVolumes, SceneswhereNothingScattersKeepTheirBoundaries) {
+    SceneMaker maker;
+    maker.add(BoxShape{{0, -9, -9}, {10, 9, 9}}, maker.material(absorbing(kAbsorbs)));
+    const Scene scene = maker.compile();
+    EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).share.is_black());
+    EXPECT_NEAR(pass(scene, {1, 0.1, 0.2}, {3, 0.1, 0.2}).share.a, std::exp(-1.4), 1e-12);
+}
+
+TEST(ConnectedVolumes, SheetsAndCutOutsInVolumesLetLightThrough) {
+    SceneMaker maker = nested();
+    Material sheet = smooth_glass(), half = matt({1, 1, 1});
+    sheet.metallic_roughness->thickness.value = 0;
+    sheet.metallic_roughness->base_color.color = {0.5, 0.5, 0.5};
+    half.alpha_mode = AlphaMode::Blend;
+    half.alpha.value = 0.25;
+    const Scene clear = nested().compile();
+    maker.add(rectangle({1, -1, -1}, {0, 2, 0}, {0, 0, 2}), maker.material(half));
+    const Scene scene = maker.compile();
+    const Vec3 from{-1, 0.1, 0.2}, to{5, 0.1, 0.2};
+    EXPECT_NEAR(pass(scene, from, to).share.b, 0.75 * pass(clear, from, to).share.b, 1e-12);
+    maker.add(rectangle({5.5, -1, -1}, {0, 2, 0}, {0, 0, 2}), maker.material(sheet));
+    const Scene both = maker.compile();
+    const Vec3 in{5, 0.1, 0.2}, out{12, 0.1, 0.2};
+    const double tinted = pass(both, in, out).share.b / pass(clear, in, out).share.b;
+    EXPECT_GT(tinted, 0.4);
+    EXPECT_LT(tinted, 0.5);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE

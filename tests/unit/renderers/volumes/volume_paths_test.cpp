@@ -1,0 +1,193 @@
+// Paths from both ends through volumes that scatter: closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/renderers/light_transport/volume_scattering.h"
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+const std::vector<std::string> kJoining{"path_tracing", "light_tracing", "bidirectional",
+                                        "vcm:photons=50,radius=0.01,pilot=off"};
+
+/// `name` with a setting more.
+std::string with(const std::string& name, const std::string& setting) {
+    return name + (name.find(':') == std::string::npos ? ":" : ",") + setting;
+}
+
+/// Within 5.4 standard errors of eight pictures (a t of 7 degrees of freedom is beyond in one of
+/// 1000 cases), which are at most `most` of it.
+void expect_near(const Scene& scene, const std::string& renderer, const Rgb& expected, int samples,
+                 double most, int side = 4) {
+    constexpr int kRuns = 8;
+    Rgb sum, squares;
+    for (int run = 0; run < kRuns; ++run) {
+        const Rgb m = mean_of(picture_of(scene, renderer, side, samples, std::uint64_t(1 + run)));
+        sum += m;
+        squares += m * m;
+    }
+    for (int i = 0; i < 3; ++i) {
+        const double mean = sum[i] / kRuns;
+        const double se = std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1));
+        EXPECT_LE(se, most * expected[i]) << renderer << " " << i;
+        EXPECT_LE(std::abs(mean - expected[i]), 5.4 * se + 1e-9 * expected[i])
+            << renderer << " " << i << ": " << mean << " +- " << se << ", expected " << expected[i];
+    }
+}
+
+/// All of a ball of 1, and some of what is beside it.
+SceneMaker beside_a_ball() {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {2.4, 0, 0}, {0, 2.4, 0}};
+    return maker;
+}
+
+/// A furnace: what only scatters is invisible in even surroundings.
+TEST(VolumePaths, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
+    for (const double g : {0.0, 0.8, -0.5}) {
+        SceneMaker maker = beside_a_ball();
+        maker.description().picture.background = Rgb{1, 1, 1};
+        maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, {0.5, 1, 2}, g)));
+        const Scene scene = maker.compile();
+        for (const std::string& renderer : kJoining) {
+            expect_near(scene, with(renderer, "depth=200"), {1, 1, 1}, 128, 0.04);
+        }
+    }
+}
+
+/// The same behind a boundary that reflects and refracts: no light is lost, none is found twice.
+TEST(VolumePaths, ABallOfMilkIsInvisibleInEvenSurroundings) {
+    SceneMaker maker = beside_a_ball();
+    maker.description().picture.background = Rgb{1, 1, 1};
+    maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, {2, 3, 4}, 0.8, 1.35)));
+    const Scene scene = maker.compile();
+    for (const char* renderer : {"path_tracing:depth=500", "bidirectional:depth=500",
+                                 "vcm:photons=50,radius=0.01,pilot=off,depth=500"}) {
+        expect_near(scene, renderer, {1, 1, 1}, 64, 0.02);
+    }
+}
+
+/// Airlight: the light of a lamp that fog scatters once, along parallel views.
+TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
+    const Rgb absorption{0.1, 0, 0.4}, scattering{0.3, 0.2, 0.15};
+    const Vec3 lamp{1.6, 0, 1};
+    constexpr double kWide = 2.0;
+    for (const double g : {0.0, 0.8, -0.5}) {
+        SceneMaker maker;
+        maker.description().cameras[0].camera =
+            OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {kWide, 0, 0}, {0, kWide, 0}};
+        maker.description().conventions.shading.clamp_attenuation = false;
+        maker.add(BoxShape{{-50, -50, -1}, {50, 50, 3}},
+                  maker.material(fog(absorption, scattering, g)));
+        maker.light(PointLight{.position = lamp, .color = {3, 3, 3}, .attenuation = {0, 0, 1}});
+        Rgb expected;
+        constexpr int kSteps = 400, kGrid = 80;
+        for (int k = 0; k < kGrid * kGrid; ++k) {
+            const double x = kWide * ((k % kGrid + 0.5) / kGrid - 0.5);
+            const double y = kWide * ((k / kGrid + 0.5) / kGrid - 0.5);
+            for (int i = 0; i < kSteps; ++i) {
+                const double depth = 4.0 * (i + 0.5) / kSteps;
+                const Vec3 to = lamp - Vec3{x, y, 3 - depth};
+                const double d = length(to);
+                // A light of intensity 1 gives the irradiance pi at a distance of 1.
+                const double light = 4.0 / kSteps * henyey_greenstein(-to.z / d, g) * 3.0 * kPi /
+                                     (d * d) / (kGrid * kGrid);
+                for (int c = 0; c < 3; ++c) {
+                    const double extinction = absorption[c] + scattering[c];
+                    expected[c] += light * scattering[c] * std::exp(-extinction * (depth + d));
+                }
+            }
+        }
+        const Scene scene = maker.compile();
+        for (const std::string& renderer : kJoining) {
+            expect_near(scene, with(renderer, "depth=1"), expected, 200, 0.05);
+        }
+    }
+}
+
+/// A layer in the sun, through boundaries that are passed straight.
+TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
+    const Rgb absorption{0.1, 0.3, 0}, scattering{0.3, 0.2, 0.6};
+    constexpr double kThick = 1.5;
+    for (const double g : {0.0, -0.5}) {
+        SceneMaker maker;
+        maker.description().cameras[0].camera =
+            OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}};
+        maker.add(BoxShape{{-2, -2, -kThick}, {2, 2, 0}},
+                  maker.material(fog(absorption, scattering, g)));
+        maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+        Rgb expected;
+        for (int i = 0; i < 3; ++i) {
+            const double extinction = absorption[i] + scattering[i];
+            expected[i] = scattering[i] / (2.0 * extinction) * henyey_greenstein(-1.0, g) * kPi *
+                          (1.0 - std::exp(-2.0 * extinction * kThick));
+        }
+        const Scene scene = maker.compile();
+        for (const std::string& renderer : kJoining) {
+            expect_near(scene, with(renderer, "depth=1"), expected, 256, 0.05);
+        }
+    }
+}
+
+/// A small lamp in the middle of a ball of fog, seen by what the ball scatters once.
+TEST(VolumePaths, ALampInABallOfFogIsFoundFromOutside) {
+    const Rgb scattering{0.2, 0.5, 0.8};
+    SceneMaker maker = beside_a_ball();
+    maker.description().conventions.shading.clamp_attenuation = false;
+    maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, scattering)));
+    maker.light(PointLight{.position = {0, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    // By the distance r from the lamp: a shell sends its light to all sides alike; the view passes
+    // the way from there to the surface.
+    Rgb expected;
+    constexpr int kShells = 200, kCosines = 200;
+    for (int i = 0; i < kShells * kCosines; ++i) {
+        const double r = (i % kShells + 0.5) / kShells;
+        const double cosine = 2.0 * (i / kShells + 0.5) / kCosines - 1.0;
+        const double way = std::sqrt(1.0 - r * r * (1.0 - cosine * cosine)) - r * cosine;
+        for (int c = 0; c < 3; ++c) {
+            // Irradiance pi / r^2, over the volume 2 pi r^2 dr dcosine.
+            expected[c] += scattering[c] * std::exp(-scattering[c] * (r + way)) / (4.0 * kPi) *
+                           kPi * 2.0 * kPi / kShells * 2.0 / kCosines / (2.4 * 2.4);
+        }
+    }
+    const Scene scene = maker.compile();
+    // Views that pass the lamp closely have an endless variance where paths begin at the eye alone.
+    for (const std::string& renderer : kJoining) {
+        if (renderer == "path_tracing") continue;
+        expect_near(scene, with(renderer, "depth=1"), expected, 100, 0.02, 8);
+    }
+}
+
+TEST(VolumePaths, PicturesDependNeitherOnThreadsNorOnTiles) {
+    SceneMaker maker;
+    maker.description().picture.background = Rgb{0.5, 0.7, 1};
+    maker.add(ball({0, 0, 0}, 1), maker.material(fog({0.1, 0, 0}, {1, 2, 3}, 0.5)));
+    maker.add(ball({0.5, 0, 0}, 0.4), maker.material(fog({0.1, 0, 0}, {4, 2, 3}, 0.5, 1.3)));
+    maker.add(rectangle({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}),
+              maker.material(matt({0.5, 0.5, 0.5})));
+    maker.light(PointLight{.position = {1, 0.3, 2}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile("wide_bvh");
+    for (const std::string& name : kJoining) {
+        for (const std::string& renderer : {name, name + " --spectral"}) {
+            const Film a = picture_of(scene, renderer, 12, 4, 7, 1, 32);
+            const Film b = picture_of(scene, renderer, 12, 4, 7, 2, 5);
+            const Film c = picture_of(scene, renderer, 12, 4, 7, 3, 9);
+            for (int i = 0; i < 144; ++i) {
+                EXPECT_EQ(a.at(i % 12, i / 12), b.at(i % 12, i / 12)) << renderer << " " << i;
+                EXPECT_EQ(a.at(i % 12, i / 12), c.at(i % 12, i / 12)) << renderer << " " << i;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
