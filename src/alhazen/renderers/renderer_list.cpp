@@ -103,6 +103,8 @@ std::uint64_t photon_count(RendererSettings& settings, const char* name, std::ui
 PathSettings photon_paths(RendererSettings& settings) {
     PathSettings paths = path_settings(settings);
     paths.split = settings.number("split", paths.split, 1e-4, 1.0);
+    static constexpr const char* kTurns[] = {"1", "2", "4", "8", "16"};
+    paths.turns = 1u << settings.choice("turns", 4, kTurns);
     paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
     return paths;
 }

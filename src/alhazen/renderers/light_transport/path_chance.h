@@ -27,6 +27,7 @@ class PathChance {
   public:
     enum Pair : std::uint32_t { kLens = 1, kTime = 2, kFirstBounce = 3 };
     enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
+    static constexpr int kStratified = 3;  ///< bounces
 
     explicit PathChance(const RenderJob& job)
         : sampler_(job.round->sampler),
@@ -89,7 +90,6 @@ class PathChance {
     }
 
   private:
-    static constexpr std::uint32_t kStratified = 3;  ///< bounces
     static constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
     static constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
