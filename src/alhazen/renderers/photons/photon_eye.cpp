@@ -64,7 +64,7 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, const Wavelengths& wav
     path.time = camera_.time(chance_, id);
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
-    path.media = camera_.media();
+    path.media = camera_.media(path.ray, path.time);
     first.way = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kWays));
     waiting_.assign(1, first);
     splits_ = 0;
@@ -125,7 +125,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         // The numbers of mirrors and of total reflection are not used.
         const bool chosen = !(drawn->singular && is_certain(drawn->density));
         if (event == here && chosen) ++event;
-        at.chosen = at.chosen || chosen;
+        at.unlikely = at.unlikely || !(drawn->singular && drawn->density >= 0.5);
         if (!leave(id, event, *drawn, at)) return;
     }
 }
@@ -207,8 +207,9 @@ Spectrum PhotonEye::emitted(const Branch& at) const {
     const Spectrum light = path.throughput * emission_of(scene_, point, *path.waves);
     if (light.is_black()) return light;
     if (last.singular) {
-        // Of a way that all its samples go the sum over them is held, or dots would be left.
-        const double times = at.chosen ? 1.0 : at.stride;
+        // Of one of `stride` samples, for all. An unlikely way for all of them would be a white
+        // dot.
+        const double times = at.unlikely ? 1.0 : at.stride;
         const double most = last.scatterings > 0 ? times * settings_.clamp : 0.0;
         return most > 0.0 && light.max() > most ? (most / light.max()) * light : light;
     }

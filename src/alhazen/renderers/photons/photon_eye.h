@@ -89,7 +89,7 @@ class PhotonEye {
         Last last;
         Wavelengths waves;         ///< of the path, which may have only the hero left
         bool straight = true;      ///< no surface has been left yet
-        bool chosen = false;       ///< by chance, of several ways
+        bool unlikely = false;     ///< by chance it went a way of less than a half
         std::uint64_t way = 0;     ///< hash of the pixel and the ways gone at smooth glass
         std::uint32_t stride = 1;  ///< of so many successive samples one goes here
     };
