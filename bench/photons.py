@@ -143,7 +143,7 @@ def main():
     parser.add_argument("--side", type=int, default=160)
     parser.add_argument("--rounds", type=int, default=2)
     parser.add_argument("--caustics", type=int, default=600000, help="photons of the caustic map of alhazen")
-    parser.add_argument("--noise", type=float, default=0.065, help="of alhazen, as --noise of render")
+    parser.add_argument("--noise", type=float, default=0.08, help="of alhazen, as --noise of render")
     parser.add_argument("--split", type=float, default=0.2, help="of alhazen, as split of photon_mapping")
     parser.add_argument("--spp", type=int, default=160, help="of alhazen, at most")
     parser.add_argument("--photons", type=int, default=200000, help="of POV-Ray")
