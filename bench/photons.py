@@ -2,9 +2,13 @@
 """The cognac glass of scenes/light beside POV-Ray and its photons: time and noise, one thread, in turn.
 
 Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--spp N] [--photons N] [--keep DIR]
-Each program is measured against its own long reference, for the light of both differs: POV-Ray does not bounce light
-from wall to table here. Noise is the root of the mean squared difference of the pictures, 0 to 255 as they are shown,
-of all pixels and of those around the caustic. Processor seconds, the least of the rounds.
+Each program is measured against its own references, for the light of both differs: POV-Ray does not bounce light from
+wall to table here. A reference is the mean of pictures with more photons and samples, whose photons are others than
+those of the picture that is measured: of alhazen by the seed, of POV-Ray, which has none, by their number. Noise is the
+root of the mean squared difference from that mean, less the square of what is left of its own noise (by the spread of
+its pictures), 0 to 255 as shown; of all pixels, of those around the caustic and of those in the bowl. It has what is
+wrong in each picture with few photons, not what references have too. Deviation: between two pictures of the same
+settings and other photons, over the root of 2. Processor seconds, the least of the rounds.
 """
 
 import argparse
@@ -111,18 +115,26 @@ def pixels(path, side):
     return bytes(shown)
 
 
-def noise(a, b, side):
-    """Of all pixels, and of the lower right, where the caustic lies."""
-    whole, part, count = 0, 0, 0
-    for y in range(side):
-        for x in range(side):
-            at = 3 * (y * side + x)
-            squared = sum((a[at + c] - b[at + c]) ** 2 for c in range(3))
-            whole += squared
-            if x >= side // 2 and y >= side // 2:
-                part += squared
-                count += 1
-    return (whole / (3 * side * side)) ** 0.5, (part / (3 * count)) ** 0.5
+def parts(side):
+    """Pixels by name: all, the lower right, where the caustic lies, and the bowl."""
+    places = [(x, y) for y in range(side) for x in range(side)]
+    bowl = lambda x, y: ((x / side - 0.43) / 0.225) ** 2 + ((y / side - 0.36) / 0.23) ** 2 < 1
+    return {"all": places, "caustic": [(x, y) for x, y in places if 2 * x >= side and 2 * y >= side],
+            "bowl": [(x, y) for x, y in places if bowl(x, y)]}
+
+
+def squared_difference(a, b, side, places):
+    """The mean over places and channels."""
+    at = [3 * (y * side + x) + c for x, y in places for c in range(3)]
+    return sum((a[i] - b[i]) ** 2 for i in at) / len(at)
+
+
+def noise(picture, references, side, places):
+    """Of a picture beside the mean of references, and the noise of that mean itself."""
+    count = len(references)
+    mean = [sum(values) / count for values in zip(*references)]
+    own = sum(squared_difference(r, mean, side, places) for r in references) / (count - 1) / count
+    return max(0.0, squared_difference(picture, mean, side, places) - own) ** 0.5, own ** 0.5
 
 
 def main():
@@ -130,12 +142,13 @@ def main():
     parser.add_argument("alhazen")
     parser.add_argument("--side", type=int, default=160)
     parser.add_argument("--rounds", type=int, default=2)
-    parser.add_argument("--caustics", type=int, default=500000, help="photons of the caustic map of alhazen")
-    parser.add_argument("--noise", type=float, default=0.12, help="of alhazen, as --noise of render")
-    parser.add_argument("--split", type=float, default=0.05, help="of alhazen, as split of photon_mapping")
+    parser.add_argument("--caustics", type=int, default=600000, help="photons of the caustic map of alhazen")
+    parser.add_argument("--noise", type=float, default=0.08, help="of alhazen, as --noise of render")
+    parser.add_argument("--split", type=float, default=0.2, help="of alhazen, as split of photon_mapping")
     parser.add_argument("--spp", type=int, default=160, help="of alhazen, at most")
     parser.add_argument("--photons", type=int, default=200000, help="of POV-Ray")
-    parser.add_argument("--long", type=int, default=6, help="times the photons of references, ours at 0.3 of the noise")
+    parser.add_argument("--long", type=int, default=6, help="times the photons of references, ours at half of --noise")
+    parser.add_argument("--references", type=int, default=2, help="of each program, 2 or more")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
     args = parser.parse_args()
     if not shutil.which("povray"):
@@ -143,29 +156,41 @@ def main():
     folder = args.keep or tempfile.mkdtemp()
     os.makedirs(folder, exist_ok=True)
     at = lambda name: os.path.join(folder, name)
-    write_povray(at("cognac.pov"), args.photons)
-    write_povray(at("cognac_long.pov"), args.long * args.photons)
+    counts = {"povray": args.photons, "povray_other": args.photons * 199 // 200}
+    for k in range(args.references):
+        counts[f"povray_long{k}"] = args.long * args.photons * (12 - 2 * k) // 12
+    for name, count in counts.items():
+        write_povray(at(name + ".pov"), count)
 
     def povray(scene, out, more):
         return ["povray", f"+I{at(scene)}", f"+O{at(out)}", f"+W{args.side}", f"+H{args.side}", "+WT1", "-D", "-GA",
                 "+FN", "File_Gamma=sRGB"] + more
 
     def alhazen(out, times, noise, seed):
-        renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=150,"
+        renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=170,"
                     f"irradiance=on,every=4,clamp=1,roulette=16,split={args.split}")
         return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
                 f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", renderer, "--spp", str(args.spp),
                 "--noise", str(noise), "--seed", str(seed)]
 
-    runs = {"povray": (povray("cognac.pov", "povray.png", ["+A0.1", "+AM1", "+R3"]),
-                       povray("cognac_long.pov", "povray_long.png", ["+A0.0", "+AM1", "+R6"])),
-            "alhazen": (alhazen("alhazen.png", 1, args.noise, 1),
-                        alhazen("alhazen_long.png", args.long, 0.3 * args.noise, 2))}
-    seconds = {name: min(processor_seconds(run) for _ in range(args.rounds)) for name, (run, _) in runs.items()}
-    for name, (_, long_run) in runs.items():
-        processor_seconds(long_run)
-        whole, part = noise(pixels(at(name + ".png"), args.side), pixels(at(name + "_long.png"), args.side), args.side)
-        print(f"{name}: {seconds[name]:.2f} s, noise {whole:.2f}, around the caustic {part:.2f}", flush=True)
+    usual, fine = ["+A0.1", "+AM1", "+R3"], ["+A0.0", "+AM1", "+R4"]
+    long = [f"_long{k}" for k in range(args.references)]
+    runs = {"povray" + k: povray(f"povray{k}.pov", f"povray{k}.png", fine if k in long else usual)
+            for k in ["", "_other"] + long}
+    runs.update({"alhazen": alhazen("alhazen.png", 1, args.noise, 1),
+                 "alhazen_other": alhazen("alhazen_other.png", 1, args.noise, 2)})
+    runs.update({f"alhazen{k}": alhazen(f"alhazen{k}.png", args.long, 0.5 * args.noise, 11 + i)
+                 for i, k in enumerate(long)})
+    seconds = {name: min(processor_seconds(run) for _ in range(args.rounds if name in ("povray", "alhazen") else 1))
+               for name, run in runs.items()}
+    for name in ("povray", "alhazen"):
+        show = lambda more: pixels(at(name + more + ".png"), args.side)
+        picture, other, references = show(""), show("_other"), [show(k) for k in long]
+        print(f"{name}: {seconds[name]:.2f} s, references {seconds[name + long[0]]:.0f} s each")
+        for part, places in parts(args.side).items():
+            beside, own = noise(picture, references, args.side, places)
+            deviation = (0.5 * squared_difference(picture, other, args.side, places)) ** 0.5
+            print(f"  {part}: noise {beside:.2f} (references {own:.2f}), deviation {deviation:.2f}", flush=True)
 
 
 if __name__ == "__main__":

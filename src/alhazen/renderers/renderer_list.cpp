@@ -103,6 +103,8 @@ std::uint64_t photon_count(RendererSettings& settings, const char* name, std::ui
 PathSettings photon_paths(RendererSettings& settings) {
     PathSettings paths = path_settings(settings);
     paths.split = settings.number("split", paths.split, 1e-4, 1.0);
+    static constexpr const char* kTurns[] = {"1", "2", "4", "8", "16"};
+    paths.turns = 1u << settings.choice("turns", 4, kTurns);
     paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
     return paths;
 }
@@ -203,14 +205,15 @@ std::span<const RendererEntry> renderers() {
          "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
-         "irradiance cache for them), projection=on|off, split=SHARE, clamp=X, every=1|2|4|8 "
+         "irradiance cache for them), projection=on|off, split=SHARE, "
+         "turns=1|2|4|8|16 (samples of which one follows what has less), clamp=X, every=1|2|4|8 "
          "(successive samples of which one looks at the photons), irradiance=on|off (of the global "
          "map at its photons, Christensen 1999), memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "
          "(Hachisuka and Jensen 2009); photons=N (of a pass), radius=DISTANCE (of the first), "
-         "alpha=X, split=SHARE, clamp=X, memory=MB, depth=N, roulette=N",
+         "alpha=X, split=SHARE, turns=N, clamp=X, memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_sppm(settings); }, true},
         {"vcm",
          "bidirectional and photons together, weighed by what each finds, in passes, one for each "

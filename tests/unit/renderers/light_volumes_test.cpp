@@ -89,6 +89,26 @@ TEST(LightVolumes, AnEyeInGlassLooksThroughIt) {
     }
 }
 
+/// Of the picture, half begins in a block that absorbs, half beside it.
+TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
+    const double absorption = 0.7, way = 1;
+    SceneMaker maker = wall_of_light();
+    BoxShape block;
+    block.lo = {0, -4, 5 - way};
+    block.hi = {4, 4, 6};
+    maker.add(block, maker.material(glass({absorption, absorption, absorption}, 1.0)));
+    const Scene scene = maker.compile();
+    for (const char* renderer :
+         {"path_tracing", "bidirectional", "photon_mapping:photons=10,caustics=0",
+          "sppm:photons=10,radius=0.1", "vcm:photons=10,radius=0.1,pilot=off"}) {
+        const Film film = picture_of(scene, renderer, 4, 64);
+        for (int i = 0; i < 16; ++i) {
+            const double expected = i % 4 < 2 ? 1.0 : std::exp(-absorption * way);
+            EXPECT_NEAR(film.at(i % 4, i / 4).g, expected, 1e-9) << renderer << " " << i;
+        }
+    }
+}
+
 TEST(LightVolumes, ALampInGlassShinesThroughIt) {
     // A small lamp in the middle of a ball: its rays meet the glass straight on.
     const double radius = 0.5, lamp = 0.02, absorption = 1.5, high = 2;

@@ -108,12 +108,9 @@ TEST(PhotonVolumes, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     }
 }
 
-/// A room of coloured mist with a lamp in it, by colours and by wavelengths: direct light by shadow
-/// rays, all other by photons, against path_tracing, which draws each scattering.
-TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
+/// A room of coloured mist with a lamp in it.
+SceneMaker room_of_mist() {
     SceneMaker maker;
-    maker.description().cameras[0].camera =
-        look_along({0, -0.9, 1}, {0, 1, -0.2}, {0, 0, 1}, 0.9, 1.0);
     const auto wall = [&](const Vec3& corner, const Vec3& u, const Vec3& v, const Rgb& color) {
         maker.add(rectangle(corner, u, v), maker.material(matt(color)));
     };
@@ -126,33 +123,53 @@ TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
               maker.material(shining({6, 6, 5})));
     maker.add(BoxShape{{-3, -3, -3}, {3, 3, 3}},
               maker.material(fog({0.1, 0.05, 0}, {0.4, 0.5, 0.6}, 0.3)));
-    const Scene scene = maker.compile();
+    return maker;
+}
+
+/// Direct light by shadow rays, all other by photons, against path_tracing, which draws each
+/// scattering.
+void expect_light_of(const Scene& scene, const std::string& path_tracing,
+                     const std::vector<std::string>& renderers) {
     constexpr double kMost = 5.4, kBias = 0.03;  // as in photon_renderers_test
-    const auto expect_light_of = [&](const std::string& path_tracing,
-                                     const std::vector<std::string>& renderers) {
-        const Blocks truth = blocks_of(scene, path_tracing, 96, 8);
-        double whole = 0.0;
-        for (const double mean : truth.mean) whole += 0.25 * mean;
-        EXPECT_GT(whole, 0.1);
-        for (const std::string& renderer : renderers) {
-            const Blocks found = blocks_of(scene, renderer, 16, 8);
-            for (std::size_t i = 0; i < 4; ++i) {
-                const double error = std::hypot(found.error[i], truth.error[i]);
-                EXPECT_LE(error, 0.05 * whole) << renderer << ", block " << i;
-                EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), kMost * error + kBias * whole)
-                    << renderer << ", block " << i << ": " << found.mean[i] << " +- "
-                    << found.error[i] << ", path_tracing " << truth.mean[i] << " +- "
-                    << truth.error[i];
-            }
+    const Blocks truth = blocks_of(scene, path_tracing, 96, 8);
+    double whole = 0.0;
+    for (const double mean : truth.mean) whole += 0.25 * mean;
+    EXPECT_GT(whole, 0.1);
+    for (const std::string& renderer : renderers) {
+        const Blocks found = blocks_of(scene, renderer, 16, 8);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double error = std::hypot(found.error[i], truth.error[i]);
+            EXPECT_LE(error, 0.05 * whole) << renderer << ", block " << i;
+            EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), kMost * error + kBias * whole)
+                << renderer << ", block " << i << ": " << found.mean[i] << " +- " << found.error[i]
+                << ", path_tracing " << truth.mean[i] << " +- " << truth.error[i];
         }
-    };
-    expect_light_of("path_tracing", {"photon_mapping:photons=10000,caustics=0,nearest=40",
-                                     "photon_mapping:photons=10000,caustics=0,nearest=40,gather=4",
-                                     "sppm:photons=4000,radius=0.1"});
+    }
+}
+
+TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
+    SceneMaker maker = room_of_mist();
+    maker.description().cameras[0].camera =
+        look_along({0, -0.9, 1}, {0, 1, -0.2}, {0, 0, 1}, 0.9, 1.0);
+    const Scene scene = maker.compile();
+    expect_light_of(scene, "path_tracing",
+                    {"photon_mapping:photons=10000,caustics=0,nearest=40",
+                     "photon_mapping:photons=10000,caustics=0,nearest=40,gather=4",
+                     "sppm:photons=4000,radius=0.1"});
     // A sixteenth of the photons are looked at.
-    expect_light_of("path_tracing --spectral",
+    expect_light_of(scene, "path_tracing --spectral",
                     {"photon_mapping:photons=80000,caustics=0,nearest=320 --spectral",
                      "sppm:photons=4000,radius=0.1 --spectral"});
+}
+
+TEST(PhotonVolumes, AgreeWithPathTracingForAParallelCameraInMist) {
+    SceneMaker maker = room_of_mist();
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 1.5}, {0, 0, -1}, {1.6, 0, 0}, {0, 1.6, 0}};
+    const Scene scene = maker.compile();
+    expect_light_of(
+        scene, "path_tracing",
+        {"photon_mapping:photons=10000,caustics=0,nearest=40", "sppm:photons=4000,radius=0.1"});
 }
 
 TEST(PhotonVolumes, PicturesDependNeitherOnThreadsNorOnTiles) {

@@ -119,9 +119,53 @@ TEST(PhotonWaves, AgreeWithPathTracingOnWhatMoves) {
     ASSERT_TRUE(scene.has_motion);
     const Case cases[] = {
         {"photon_mapping:photons=8000,caustics=64000,nearest=96,filter=disc --spectral", 0.03, 16},
-        {"sppm:photons=2000,radius=0.06 --spectral", 0.03, 16},
+        {"sppm:photons=2000,radius=0.06 --spectral", 0.03, 32},
+        {"vcm:photons=2000,radius=0.06,pilot=off --spectral", 0.03, 32},
     };
     expect_light_of_path_tracing(scene, cases, "moving balls");
+}
+
+/// Light falls through a pane to the floor while one card is off its way; the eye sees the floor
+/// while another one is off: before it, or `at_once`. Both jump about the middle of the time.
+Scene floor_behind_cards(bool cards, bool at_once) {
+    SceneMaker maker;
+    SceneDescription& d = maker.description();
+    d.cameras[0].camera =
+        OrthographicCamera{{-0.8, 0, 0.8}, normalize(Vec3{1, 0, -1}), {0, 0.1, 0}, {0.07, 0, 0.07}};
+    maker.add(rectangle({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), maker.material(matt({0.8, 0.8, 0.8})));
+    maker.add(BoxShape{{-9, -9, 1}, {9, 9, 1.1}}, maker.material(testing::smooth_glass()));
+    maker.light(PointLight{.position = {0, 0, 3}, .color = {9, 9, 9}, .attenuation = {0, 0, 1}});
+    if (!cards) return maker.compile();
+    const MaterialId black = maker.material(matt({}));
+    const auto card = [&](const Rectangle& shape, double moment, bool leaves) {
+        maker.add(shape, black);
+        const Affine here, away = Affine::translate({0, 40, 0});
+        d.objects[0].parts.back().motion =
+            std::make_shared<const PartMotion>(PartMotion{{},
+                                                          {{0, leaves ? here : away},
+                                                           {moment - 0.001, leaves ? here : away},
+                                                           {moment + 0.001, leaves ? away : here},
+                                                           {1, leaves ? away : here}},
+                                                          {}});
+    };
+    card(rectangle({-5, -5, 2}, {10, 0, 0}, {0, 10, 0}), 0.503, true);
+    card(rectangle({-0.7, -0.1, 0.5}, {0.2, 0, 0.2}, {0, 0.2, 0}), 0.497, at_once);
+    d.shutter = {0, 1};
+    return maker.compile();
+}
+
+TEST(PhotonPasses, ShowTheLightOfTheMomentThatIsSeen) {
+    for (const std::string renderer : {"sppm:photons=2000,radius=0.1,alpha=1",
+                                       "vcm:photons=2000,radius=0.1,alpha=1,pilot=off"}) {
+        const auto light = [&](const Scene& scene) {
+            return mean_of(picture_of(scene, renderer, 8, 64)).g;
+        };
+        const double still = light(floor_behind_cards(false, false));
+        ASSERT_GT(still, 0.1) << renderer;
+        // Two of 64 passes are of the whole time, whose light a fourth of the pairs would have.
+        EXPECT_NEAR(light(floor_behind_cards(true, false)), 0.0, 0.02 * still) << renderer;
+        EXPECT_NEAR(light(floor_behind_cards(true, true)), 0.5 * still, 0.05 * still) << renderer;
+    }
 }
 
 TEST(PhotonWaves, ShowTheColoursOfMaterials) {

@@ -58,7 +58,7 @@ Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     Spectrum sum;
     const float time = camera_.time(chance_, id);
     const Ray ray = camera_.through_lens(chance_, id, central, time);
-    WalkStart start{.ray = ray, .time = time, .media = camera_.media()};
+    WalkStart start{.ray = ray, .time = time, .media = camera_.media(ray, time)};
     start.waves = &waves_;
     start.parallel = lens_.is_parallel();
     start.density =

@@ -24,6 +24,15 @@
 namespace alhazen {
 
 /// Samples first .. first + count - 1 of pixels.
+/// A part of the time that the shutter is open.
+struct ShutterPart {
+    double begin = 0, length = 1;
+    /// The moment for a number drawn in [0, 1); below 1, where the double may round up to it.
+    [[nodiscard]] float at(double u) const {
+        return std::min(static_cast<float>(begin + length * u), 0x1.fffffep-1f);
+    }
+};
+
 struct SampleRound {
     const Sampler& sampler;
     const FilterKernel& filter;
@@ -35,6 +44,7 @@ struct SampleRound {
     std::uint64_t seed = 0;  ///< of the sampler
     /// Takes the samples for all pixels in reach, too; `filter` is then the box of one pixel.
     SharedFilm* shared = nullptr;
+    ShutterPart shutter{};  ///< in which the samples are
 };
 
 class SampleLoop {

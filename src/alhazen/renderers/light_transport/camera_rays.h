@@ -12,18 +12,21 @@ class CameraRays {
     explicit CameraRays(const RenderJob& job)
         : lens_(job.camera),
           motion_(job.camera_motion),
-          moves_(job.scene.has_motion || job.camera_motion != nullptr) {
+          moves_(job.scene.has_motion || job.camera_motion != nullptr),
+          finder_(job.scene),
+          parallel_(std::holds_alternative<OrthographicCamera>(job.camera)) {
         if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
         const PicturePlane plane = picture_plane(job.camera);
         up_ = plane.up;
         mirrored_ = dot(cross(plane.right, plane.up), plane.forward) > 0.0;
-        if (!std::holds_alternative<OrthographicCamera>(job.camera)) {
-            media_ = MediaFinder(job.scene).around(picture_plane(job.camera).eye, 0.0f);
-        }
+        if (!parallel_) media_ = finder_.around(picture_plane(job.camera).eye, 0.0f);
     }
 
-    /// Around the eye as the shutter opens; none around parallel cameras.
-    [[nodiscard]] const MediumStack& media() const { return media_; }
+    /// Around the start of an eye ray: that of the eye as the shutter opens; of parallel cameras,
+    /// whose rays begin at many places, each its own.
+    [[nodiscard]] MediumStack media(const Ray& ray, float time) const {
+        return parallel_ ? finder_.around(ray.origin, time) : media_;
+    }
 
     /// The moment of a sample.
     [[nodiscard]] float time(const PathChance& chance, const SampleId& id) const {
@@ -50,6 +53,8 @@ class CameraRays {
     LensRays lens_;
     const TransformMotion* motion_;
     bool moves_;
+    MediaFinder finder_;
+    bool parallel_;
     bool mirrored_ = false;
     Vec3 up_;
     MediumStack media_;

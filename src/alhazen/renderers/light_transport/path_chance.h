@@ -27,11 +27,13 @@ class PathChance {
   public:
     enum Pair : std::uint32_t { kLens = 1, kTime = 2, kFirstBounce = 3 };
     enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
+    static constexpr int kStratified = 3;  ///< bounces
 
     explicit PathChance(const RenderJob& job)
         : sampler_(job.round->sampler),
           seed_(mix64(job.round->seed)),
           spectral_(job.spectral),
+          shutter_(job.round->shutter),
           hero_(random_at(seed_, kHero, 0, 0)),
           draws_(sampler_, kByHash) {}
 
@@ -83,13 +85,9 @@ class PathChance {
         return random_at(seed_, id.pixel.id(), id.number,
                          kExtra | std::uint64_t{place} << 32 | number);
     }
-    [[nodiscard]] float time(const SampleId& id) const {
-        // Below 1, where the double may round up to it.
-        return std::min(static_cast<float>(draw(id, kTime).x), 0x1.fffffep-1f);
-    }
+    [[nodiscard]] float time(const SampleId& id) const { return shutter_.at(draw(id, kTime).x); }
 
   private:
-    static constexpr std::uint32_t kStratified = 3;  ///< bounces
     static constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
     static constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
@@ -117,6 +115,7 @@ class PathChance {
     const Sampler& sampler_;
     std::uint64_t seed_;
     bool spectral_;
+    ShutterPart shutter_;
     double hero_;  ///< that of sample 0 of pixel (0, 0)
     SampleDraws draws_;
     std::span<const SampleId> ids_;

@@ -16,6 +16,10 @@ struct PathSettings {
     /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
     /// sample's light, both ways are followed, else one by chance.
     double split = 0.03;
+    /// Of the same: the dimmer way at smooth glass that has less than `split` is followed by one of
+    /// up to so many successive samples of a pixel, and counts as often. 1, 2, 4, 8 or 16. Not
+    /// with wavelengths, which samples have in turn, too.
+    std::uint32_t turns = 16;
     /// Of photon_mapping: of 1, 2, 4 or 8 successive samples one looks at the photons of the
     /// surface that it sees straight, and counts for all. Not with wavelengths, of which each set
     /// needs its looks.

@@ -44,9 +44,9 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         alive_.push_back(i);
         path.time = camera_.time(chance_, ids[i]);
         path.cone = job_.cone;
-        path.media = camera_.media();
-        path.inside = !path.media.empty();
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
+        path.media = camera_.media(rays_.back(), path.time);
+        path.inside = !path.media.empty();
         if (settings_.polarization) {
             const Vec3 axis = picture_axis(rays_.back().direction, camera_.up(path.time));
             polarized_.emplace_back().begin(axis);

@@ -14,6 +14,16 @@ namespace {
 
 constexpr int kMostSplits = 1000;  ///< of a sample
 
+/// Of hashes, each for one purpose.
+constexpr std::uint64_t kLooks = 0x6c6f6f6b, kWays = 0x77617973, kTurn = 0x7475726e;
+/// Those of the ways on from smooth glass.
+constexpr std::uint64_t kDimWay = 1, kBrightWay = 2;
+
+/// Of a choice among singular directions.
+bool is_certain(double probability) {
+    return probability > 1.0 - 0x1p-40;
+}
+
 }  // namespace
 
 PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
@@ -54,12 +64,15 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, const Wavelengths& wav
     path.time = camera_.time(chance_, id);
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
-    path.media = camera_.media();
+    path.media = camera_.media(path.ray, path.time);
+    first.way = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kWays));
     waiting_.assign(1, first);
     splits_ = 0;
-    for (int event = 0; !waiting_.empty(); ++event) {
+    for (int event = 0; !waiting_.empty();) {
         Branch at = waiting_.back();
         waiting_.pop_back();
+        // Numbers of the sampler are even over successive samples alone.
+        if (at.stride > 1) event = std::max(event, PathChance::kStratified);
         follow(id, at, event, waves, sum, direct);
     }
 }
@@ -69,7 +82,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
     PathEnd& path = at.path;
     path.waves = &at.waves;
     const PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
-    for (;; ++event) {
+    while (true) {
         const PathMeets meets = next_.find(path, numbers);
         if (meets == PathMeets::Nothing) {
             sum += escaped(path, at.last);
@@ -77,61 +90,96 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         }
         if (meets == PathMeets::Volume) {
             if (at.last.scatterings < settings_.depth) {
-                look_into_volume(id, event, path, waves, sum, direct);
+                look_into_volume(id, event++, path, waves, sum, direct);
             }
             return;
         }
         const ShadingPoint& point = next_.point();
-        sum += emitted(path, at.last);
+        sum += emitted(at);
         const bool deepest = at.last.scatterings >= settings_.depth;
         if (point.material->unlit || (deepest && !next_.media().any())) return;
         scatter_.set(scene_, point, path.media, at.waves);
         if (deepest && !scatter_.is_null_boundary()) return;
         if (scatter_.needs_hero()) at.waves.keep_hero(path.throughput);
+        const int here = event;
         if (scatter_.has_density()) {
-            add_direct_light(id, event, path, waves, direct);
-            const double times = event == 0 ? looks(id) : 1.0;
-            const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(event) + 1,
-                                  numbers.path, numbers.part};
+            ++event;
+            add_direct_light(id, here, path, waves, direct);
+            const double times = at.straight ? looks(id) : 1.0;
+            const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(here) + 1, numbers.path,
+                                  numbers.part};
             if (times > 0.0) {
                 sum +=
                     times * path.throughput *
                     photon_light({point.surface, scatter_, path, id.number % given_.size(), own});
             }
         }
-        if (const auto ways = scatter_.both_ways(Transport::Radiance);
-            ways && splits_ < kMostSplits) {
-            const auto share = [&](const Scattered& way) {
-                const double eta = way.transmitted ? way.eta * way.eta : 1.0;
-                return eta * at.last.eta_scale * (path.throughput * way.weight).max();
-            };
-            if (std::min(share((*ways)[0]), share((*ways)[1])) > settings_.split) {
-                ++splits_;
-                Branch other = at;
-                if (leave(id, event, (*ways)[0], other)) waiting_.push_back(other);
-                if (!leave(id, event, (*ways)[1], at)) return;
-                continue;
-            }
+        bool goes_on = false;
+        if (follow_both(id, event, at, goes_on)) {
+            if (!goes_on) return;
+            continue;
         }
         const auto drawn =
-            scatter_.sample(chance_.draw(id, event, PathChance::kChoices).x,
-                            chance_.draw(id, event, PathChance::kDirection), Transport::Radiance);
+            scatter_.sample(chance_.draw(id, here, PathChance::kChoices).x,
+                            chance_.draw(id, here, PathChance::kDirection), Transport::Radiance);
         if (!drawn || drawn->weight.is_black()) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
+        // The numbers of mirrors and of total reflection are not used.
+        const bool chosen = !(drawn->singular && is_certain(drawn->density));
+        if (event == here && chosen) ++event;
+        at.unlikely = at.unlikely || !(drawn->singular && drawn->density >= 0.5);
         if (!leave(id, event, *drawn, at)) return;
     }
 }
 
+bool PhotonEye::follow_both(const SampleId& id, int& event, Branch& at, bool& goes_on) {
+    if (splits_ >= kMostSplits) return false;
+    const auto ways = scatter_.both_ways(Transport::Radiance);
+    if (!ways) return false;
+    const auto share = [&](const Scattered& way) {
+        const double eta = way.transmitted ? way.eta * way.eta : 1.0;
+        return eta * at.last.eta_scale * (at.path.throughput * way.weight).max();
+    };
+    const std::size_t dim = share((*ways)[0]) < share((*ways)[1]) ? 0 : 1;
+    const std::uint32_t samples = turns(at, share((*ways)[dim]));
+    if (samples == 0) return false;
+    const std::uint64_t turn = mix64(at.way ^ kTurn) + id.number / at.stride;
+    if (turn % samples == 0) {
+        ++splits_;
+        Branch other = at;
+        other.way = mix64(at.way ^ kDimWay);
+        other.stride *= samples;
+        Scattered way = (*ways)[dim];
+        way.weight = samples * way.weight;
+        if (leave(id, event, way, other)) waiting_.push_back(other);
+    }
+    at.way = mix64(at.way ^ kBrightWay);
+    goes_on = leave(id, event, (*ways)[1 - dim], at);
+    return true;
+}
+
+std::uint32_t PhotonEye::turns(const Branch& at, double share) const {
+    if (share > settings_.split) return 1;
+    // Samples have wavelengths in turn, too.
+    if (at.waves.is_spectral() || !(share > 0.0)) return 0;
+    std::uint32_t samples = 2;
+    while (at.stride * samples <= settings_.turns) {
+        if (samples * share > settings_.split) return samples;
+        samples *= 2;
+    }
+    return 0;
+}
+
 double PhotonEye::looks(const SampleId& id) const {
     if (settings_.every <= 1) return 1.0;
-    constexpr std::uint64_t kTurn = 0x6c6f6f6b;  // of nothing else that is drawn
     const std::uint64_t turn =
-        mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kTurn)) % settings_.every;
+        mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kLooks)) % settings_.every;
     return (id.number + turn) % settings_.every == 0 ? settings_.every : 0.0;
 }
 
-bool PhotonEye::leave(const SampleId& id, int event, const Scattered& drawn, Branch& at) const {
+bool PhotonEye::leave(const SampleId& id, int& event, const Scattered& drawn, Branch& at) const {
     const ShadingPoint& point = next_.point();
+    at.straight = false;
     if (drawn.straight) {
         if (++at.path.met > kMaxPassedSurfaces) return false;
     } else {
@@ -153,13 +201,18 @@ Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
     return power_heuristic(last.density, other) * light;
 }
 
-Spectrum PhotonEye::emitted(const PathEnd& path, const Last& last) const {
+Spectrum PhotonEye::emitted(const Branch& at) const {
     const ShadingPoint& point = next_.point();
+    const PathEnd& path = at.path;
+    const Last& last = at.last;
     if (point.material->emission.is_black()) return {};
     const Spectrum light = path.throughput * emission_of(scene_, point, *path.waves);
     if (light.is_black()) return light;
     if (last.singular) {
-        const double most = last.scatterings > 0 ? settings_.clamp : 0.0;
+        // Of one of `stride` samples, for all. An unlikely way for all of them would be a white
+        // dot.
+        const double times = at.unlikely ? 1.0 : at.stride;
+        const double most = last.scatterings > 0 ? times * settings_.clamp : 0.0;
         return most > 0.0 && light.max() > most ? (most / light.max()) * light : light;
     }
     // What shows its colour whatever the light is no lamp.
@@ -208,14 +261,14 @@ void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& p
                  direct);
 }
 
-bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int event) const {
+bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int& event) const {
     if (!path.throughput.is_finite()) return false;
     if (last.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     // Ways that are followed for certain are dim already.
     const double light = last.eta_scale * path.throughput.max();
     const double share = light < kMost * settings_.split ? light / settings_.split : kMost;
-    if (!(chance_.draw(id, event, PathChance::kLuck).x < share)) return false;
+    if (!(chance_.draw(id, event++, PathChance::kLuck).x < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;
 }

@@ -87,27 +87,37 @@ class PhotonEye {
     struct Branch {
         PathEnd path;
         Last last;
-        Wavelengths waves;  ///< of the path, which may have only the hero left
+        Wavelengths waves;         ///< of the path, which may have only the hero left
+        bool straight = true;      ///< no surface has been left yet
+        bool unlikely = false;     ///< by chance it went a way of less than a half
+        std::uint64_t way = 0;     ///< hash of the pixel and the ways gone at smooth glass
+        std::uint32_t stride = 1;  ///< of so many successive samples one goes here
     };
     /// `waves`: of the sample; shadow rays keep them until they are cast.
     void trace(const SampleId& id, const Ray& ray, const Wavelengths& waves, Spectrum& sum,
                Spectrum& direct);
-    /// `event`: scatterings and straight passes of the sample so far, for random numbers.
+    /// `event`: at how many places the sample has drawn so far, for random numbers.
     void follow(const SampleId& id, Branch& at, int& event, const Wavelengths& waves, Spectrum& sum,
                 Spectrum& direct);
     /// How many times the photons of what the sample sees straight count: 0, 1 or `every`.
     [[nodiscard]] double looks(const SampleId& id) const;
+    /// Goes on by both ways at smooth glass: `at` by the brighter one, while the other one waits or
+    /// is the turn of another sample. False where one is to be chosen. `goes_on`: of `at`.
+    [[nodiscard]] bool follow_both(const SampleId& id, int& event, Branch& at, bool& goes_on);
+    /// Of how many samples that follow `at` one follows what has that share of the light: 0 where
+    /// that is left to chance.
+    [[nodiscard]] std::uint32_t turns(const Branch& at, double share) const;
     /// Leaves a surface; false where the path ends.
-    [[nodiscard]] bool leave(const SampleId& id, int event, const Scattered& drawn,
+    [[nodiscard]] bool leave(const SampleId& id, int& event, const Scattered& drawn,
                              Branch& at) const;
     [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
-    [[nodiscard]] Spectrum emitted(const PathEnd& path, const Last& last) const;
+    [[nodiscard]] Spectrum emitted(const Branch& at) const;
     void add_direct_light(const SampleId& id, int event, const PathEnd& path,
                           const Wavelengths& waves, Spectrum& direct);
     void look_into_volume(const SampleId& id, int event, const PathEnd& path,
                           const Wavelengths& waves, Spectrum& sum, Spectrum& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
-                                int event) const;
+                                int& event) const;
 
     const Illumination& lights_;
     PathChance chance_;

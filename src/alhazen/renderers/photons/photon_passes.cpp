@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -40,6 +41,18 @@ Wavelengths waves_of_pass(const RenderJob& job, std::uint32_t number) {
     constexpr std::uint64_t kWaves = 0x57617665;  // of nothing else that is drawn
     const double u = random_at(mix64(job.seed), kWaves, 0, 0) + kGolden * number;
     return Wavelengths::drawn(std::min(u - std::floor(u), 0x1.fffffffffffffp-1));
+}
+
+ShutterPart shutter_of_pass(const RenderJob& job, std::uint32_t number) {
+    if (!job.scene.has_motion || number < 2) return {};
+    constexpr std::uint64_t kShutter = 0x53687574;  // of nothing else that is drawn
+    const int bits = std::bit_width(number) - 1;
+    std::uint64_t part = mix64(mix64(job.seed) ^ kShutter) >> (64 - bits);
+    for (int k = 0; k < bits; ++k) {
+        part ^= std::uint64_t{(number >> k) & 1} << (bits - 1 - k);
+    }
+    const double length = std::ldexp(1.0, -bits);
+    return {static_cast<double>(part) * length, length};
 }
 
 void refuse_stop_rules(const RenderJob& job, const char* renderer) {
@@ -87,7 +100,8 @@ PhotonPasses::~PhotonPasses() = default;
 
 bool PhotonPasses::look(const Begin& begin) {
     const PassClock::time_point started = PassClock::now();
-    const SampleRound round{*sampler_, filter_, done_, 1, {}, sums_, job_.seed};
+    const SampleRound round{
+        *sampler_, filter_, done_, 1, {}, sums_, job_.seed, nullptr, shutter_of_pass(job_, done_)};
     RenderJob part = job_;
     part.round = &round;
     if (done_ > 0) part.aovs = nullptr;

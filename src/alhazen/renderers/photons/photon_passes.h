@@ -30,6 +30,11 @@ namespace alhazen {
 /// evenly spread over any few of them, each evenly over seeds.
 [[nodiscard]] Wavelengths waves_of_pass(const RenderJob& job, std::uint32_t number);
 
+/// In which all paths of pass `number` are, where something moves: photons and who looks at them.
+/// Passes 2^k to 2^(k + 1) - 1 have the 2^k parts of the shutter, in an order of van der Corput; so
+/// the parts shrink from pass to pass, and any few of them are evenly spread.
+[[nodiscard]] ShutterPart shutter_of_pass(const RenderJob& job, std::uint32_t number);
+
 /// Throws Error (Usage) where the job stops by a rule, not after a number of samples. `renderer`:
 /// its name.
 void refuse_stop_rules(const RenderJob& job, const char* renderer);

@@ -87,9 +87,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     const PathNumbers numbers{shot_.seed, number, 0};
     const LightRay light = leave_light(number);
     float time = 0.0f;
-    if (scene_.has_motion) {
-        time = std::min(static_cast<float>(numbers.at(kTimeOfPhoton)), 0x1.fffffep-1f);
-    }
+    if (scene_.has_motion) time = shot_.shutter.at(numbers.at(kTimeOfPhoton));
     const WalkStart start = start_of(light, time, media_, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     PathEnd path;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/renderers/photons/photon.h"
@@ -35,6 +36,7 @@ struct PhotonShot {
     const Wavelengths* waves = &kColorChannels;  ///< of all photons, as they leave their lights
     const ProjectionMap* projection = nullptr;   ///< where lights send them; null: everywhere
     PhotonKinds in_volumes;                      ///< to be stored there
+    ShutterPart shutter{};                       ///< in which they fly
 };
 
 class PhotonWalk {

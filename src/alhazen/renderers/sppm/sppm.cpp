@@ -84,6 +84,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
     for (std::uint32_t pass = 0; pass < passes.count(); ++pass) {
         const Wavelengths waves = waves_of_pass(job, pass);
         shot.waves = &waves;
+        shot.shutter = shutter_of_pass(passes.job(), pass);
         ShotPhotons photons;
         if (lights.shines()) photons = shoot_photons(passes.job(), lights, shot, most, "sppm");
         passes.report().counters += photons.counters;

@@ -82,7 +82,8 @@ bool LightPathWalk::shoot(std::uint64_t number, std::vector<LightVertex>& kept) 
     const SampleId id = LightPathNumbers::id(shot_.first + number);
     const LightRay light = lights_.emit(chance_.draw(id, kChoice).y, chance_.draw(id, kPlace),
                                         chance_.draw(id, kAlong), *shot_.waves);
-    const float time = job_.scene.has_motion ? chance_.time(id) : 0.0f;
+    const float time =
+        job_.scene.has_motion ? shot_.shutter.at(chance_.draw(id, PathChance::kTime).x) : 0.0f;
     const WalkStart start = start_of(light, time, media_, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     walk_.walk(

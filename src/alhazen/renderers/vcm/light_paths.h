@@ -14,6 +14,7 @@
 #include <memory>
 #include <vector>
 
+#include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
@@ -42,6 +43,7 @@ struct LightPathShot {
     PathSettings settings;
     double merging = 0;                          ///< WholePath::merging
     const Wavelengths* waves = &kColorChannels;  ///< of all paths
+    ShutterPart shutter{};                       ///< in which all are
 };
 
 /// The numbers of light paths: of one sampler for a whole picture.

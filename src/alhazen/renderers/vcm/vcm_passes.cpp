@@ -65,6 +65,7 @@ RenderReport render_merging(const RenderJob& job, Film& film, const VcmSettings&
     for (std::uint32_t pass = 0; pass < passes.count() && complete; ++pass) {
         const Wavelengths waves = waves_of_pass(job, pass);
         shot.waves = &waves;
+        shot.shutter = shutter_of_pass(passes.job(), pass);
         NumberedRecords<LightVertex> kept;
         shot.merging = kPi * radius * radius * static_cast<double>(shot.count);
         if (merges) {

@@ -9,6 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/photon_mapping/fill_cache.h"
+#include "alhazen/shapes/polygons/box_shape.h"
 #include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -94,6 +95,79 @@ TEST(PhotonLooks, InTurnFillTheIrradianceCacheAsAll) {
         EXPECT_EQ(a->max(), b->max()) << i;
     }
     EXPECT_GT(known, 200);
+}
+
+/// A slab of glass straight on: what is behind it shines with 1, what it mirrors with 3.
+constexpr double kMirrored = 0.04;
+constexpr double kTwoSides = 2 * kMirrored / (1 + kMirrored);  ///< mirror, again and again
+constexpr double kThroughSlab = (1 - kTwoSides) + 3 * kTwoSides;
+Scene slab_of_glass() {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 1}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+    maker.add(BoxShape{{-9, -9, -1}, {9, 9, 0}}, maker.material(testing::smooth_glass(1.5)));
+    maker.add(rectangle({-9, -9, -2}, {18, 0, 0}, {0, 18, 0}),
+              maker.material(testing::shining({1, 1, 1})));
+    maker.add(rectangle({-9, -9, 2}, {18, 0, 0}, {0, 18, 0}),
+              maker.material(testing::shining({3, 3, 3})));
+    return maker.compile();
+}
+
+/// The mean of the pixels' values, and their standard deviation.
+struct PixelValues {
+    double mean = 0, deviation = 0;
+};
+PixelValues pixels_of(const Scene& scene, const std::string& renderer, int samples) {
+    constexpr int kSide = 32;
+    const Film film = picture_of(scene, renderer, kSide, samples);
+    PixelValues values;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        values.mean += film.at(i % kSide, i / kSide).g / (kSide * kSide);
+    }
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double apart = film.at(i % kSide, i / kSide).g - values.mean;
+        values.deviation += apart * apart / (kSide * kSide);
+    }
+    values.deviation = std::sqrt(values.deviation);
+    return values;
+}
+
+TEST(DimWaysAtGlass, InTurnAreTheSameForAllPixels) {
+    const Scene scene = slab_of_glass();
+    for (const std::string renderer : {"photon_mapping:photons=10,caustics=0,split=0.3",
+                                       "sppm:photons=10,radius=0.1,split=0.3"}) {
+        const double by_chance = pixels_of(scene, renderer + ",turns=1", 16).deviation;
+        const double in_turn = pixels_of(scene, renderer + ",turns=16", 16).deviation;
+        EXPECT_GT(by_chance, 0.08) << renderer;
+        EXPECT_LT(in_turn, 0.15 * by_chance) << renderer;
+    }
+}
+
+TEST(DimWaysAtGlass, CountAsOftenAsTheirShare) {
+    const Scene scene = slab_of_glass();
+    for (const char* turns : {"1", "2", "4", "8", "16"}) {
+        for (const char* split : {"0.01", "0.1", "0.3", "1"}) {
+            for (const int samples : {1, 3, 16}) {
+                const std::string renderer =
+                    std::string("photon_mapping:photons=10,caustics=0,split=") + split +
+                    ",turns=" + turns;
+                const PixelValues seen = pixels_of(scene, renderer, samples);
+                // Four standard errors; some pixels may all miss the rarest ways.
+                EXPECT_NEAR(seen.mean, kThroughSlab, 4.0 * seen.deviation / 32 + 0.001)
+                    << renderer << ", " << samples << " samples";
+            }
+        }
+    }
+}
+
+/// A lamp in glass is as bright where its way is gone in turn as where it is gone always.
+TEST(DimWaysAtGlass, AreHeldByClampAsOften) {
+    const Scene scene = slab_of_glass();
+    const std::string renderer = "photon_mapping:photons=10,caustics=0,clamp=0.05,split=";
+    const double always = pixels_of(scene, renderer + "0.01", 16).mean;
+    EXPECT_NEAR(pixels_of(scene, renderer + "0.3", 16).mean, always, 0.01);
+    EXPECT_GT(always, 0.1);
+    EXPECT_LT(always, 0.2);
 }
 
 double largest_difference(const Film& a, const Film& b) {
