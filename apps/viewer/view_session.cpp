@@ -10,6 +10,8 @@
 #include "alhazen/explain/page/explanation_json.h"
 #include "alhazen/imaging/codecs/jpeg.h"
 #include "alhazen/imaging/codecs/png.h"
+#include "alhazen/imaging/image/screen_pixels.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/picture.h"
@@ -47,6 +49,18 @@ std::string raw_pixels(const EncodedImage& image) {
             bytes[4 * i + c] = static_cast<char>(image.samples[from] >> shift);
         }
     }
+    return bytes;
+}
+/// The same of colours as they are, by all threads.
+std::string raw_pixels(const Film& film, Encoding encoding, int threads) {
+    constexpr std::size_t kAtOnce = 16384;  // pixels of a part
+    const std::size_t pixels = film.crop().area();
+    std::string bytes(4 * pixels, '\0');
+    const auto write = [&](std::size_t begin, std::size_t end) {
+        write_screen_pixels(film.data() + 3 * begin, end - begin, encoding,
+                            reinterpret_cast<std::uint8_t*>(bytes.data()) + 4 * begin);
+    };
+    ThreadLimit(threads).run([&] { parallel_for(pixels, kAtOnce, write); });
     return bytes;
 }
 
@@ -176,8 +190,12 @@ Response ViewSession::frame(const json& request, Turn& turn) {
     json facts{{"seconds", result.seconds},    {"rays", result.counters.total_cast()},
                {"threads", result.threads},    {"version", here->version},
                {"width", *wish.options.width}, {"height", *wish.options.height}};
-    const EncodedImage image = picture_of(result, wish, here->scene.scene.conventions.film, facts);
-    return picture_answer(image, wish, facts);
+    const FilmConventions& film = here->scene.scene.conventions.film;
+    if (wish.raw && wish.layer == nullptr && wish.tone.changes_nothing()) {
+        return {200, "application/octet-stream", raw_pixels(result.film, film.encoding(), threads_),
+                text_of(facts), ""};
+    }
+    return picture_answer(picture_of(result, wish, film, facts), wish, facts);
 }
 
 Response ViewSession::explain(const json& request, Turn& turn) {

@@ -14,7 +14,7 @@ struct Mat3 {
     friend bool operator==(const Mat3&, const Mat3&) = default;
 };
 
-inline Vec3 operator*(const Mat3& m, const Vec3& v) {
+[[gnu::always_inline]] inline Vec3 operator*(const Mat3& m, const Vec3& v) {
     return v.x * m.x_axis + v.y * m.y_axis + v.z * m.z_axis;
 }
 inline Mat3 operator*(const Mat3& a, const Mat3& b) {
@@ -35,8 +35,10 @@ struct Affine {
     Mat3 linear;
     Vec3 translation;
 
-    [[nodiscard]] Vec3 point(const Vec3& p) const { return linear * p + translation; }
-    [[nodiscard]] Vec3 vector(const Vec3& v) const { return linear * v; }
+    [[nodiscard, gnu::always_inline]] Vec3 point(const Vec3& p) const {
+        return linear * p + translation;
+    }
+    [[nodiscard, gnu::always_inline]] Vec3 vector(const Vec3& v) const { return linear * v; }
     friend bool operator==(const Affine&, const Affine&) = default;
 
     [[nodiscard]] static Affine translate(const Vec3& offset) { return {{}, offset}; }

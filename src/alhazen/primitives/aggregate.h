@@ -87,6 +87,8 @@ class Aggregate {
     /// than single rays from about ten rays on, in any order.
     virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                Coherence coherence = Coherence::Any) const;
+    /// False where batches are known to be a loop over single rays.
+    [[nodiscard]] virtual bool gains_by_batches(Coherence) const { return true; }
     /// Whether each ray has any hit.
     virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                                 Coherence coherence = Coherence::Any) const;

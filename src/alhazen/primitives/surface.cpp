@@ -16,11 +16,7 @@ namespace alhazen {
 namespace {
 
 constexpr double kEpsilon = 0x1p-53;
-/// The first t of a ray that leaves a surface: not zero, and far enough from the subnormal numbers
-/// that no arithmetic on it is slow.
-constexpr double kBeyondZero = 0x1p-500;
-
-Vec3 times_abs(const Mat3& m, const Vec3& v) {
+inline Vec3 times_abs(const Mat3& m, const Vec3& v) {
     return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
 }
 
@@ -349,11 +345,7 @@ std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& 
 }
 
 Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction, double t_max) {
-    const double margin = 32.0 * dot(abs(surface.normal), surface.error);
-    const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal
-                                                              : (-margin) * surface.normal;
-    // The sum rounds by half an ulp, far less than the margin.
-    return {surface.point + offset, direction, kBeyondZero, t_max};
+    return LeavingRays(surface).along(direction, t_max);
 }
 
 }  // namespace alhazen

@@ -96,4 +96,27 @@ struct HitParts {
 [[nodiscard]] Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction,
                               double t_max = std::numeric_limits<double>::infinity());
 
+/// Leaving_ray for many rays of one surface.
+class LeavingRays {
+  public:
+    // Implicit: a surface is what rays leave.
+    LeavingRays(const ShapeSurface& surface) : normal_(surface.normal) {
+        const double margin = 32.0 * dot(abs(surface.normal), surface.error);
+        // The sums round by half an ulp, far less than the margin.
+        outside_ = surface.point + margin * surface.normal;
+        inside_ = surface.point + (-margin) * surface.normal;
+    }
+    [[nodiscard]] Ray along(const Vec3& direction,
+                            double t_max = std::numeric_limits<double>::infinity()) const {
+        return {dot(direction, normal_) >= 0.0 ? outside_ : inside_, direction, kBeyondZero, t_max};
+    }
+
+  private:
+    /// The first t: not zero, and far enough from the subnormal numbers that no arithmetic on it is
+    /// slow.
+    static constexpr double kBeyondZero = 0x1p-500;
+
+    Vec3 normal_, outside_, inside_;
+};
+
 }  // namespace alhazen

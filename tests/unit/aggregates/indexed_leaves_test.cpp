@@ -6,12 +6,16 @@
 #include <filesystem>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+/// Batches of small trees test the stream.
+const StreamOverride kStreams;
 
 using namespace testing;
 

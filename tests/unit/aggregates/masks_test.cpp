@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "support/scratch_folder.h"
@@ -11,6 +12,9 @@
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+/// Batches of small trees test the stream.
+const StreamOverride kStreams;
 
 using namespace testing;
 

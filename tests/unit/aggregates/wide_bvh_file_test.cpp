@@ -1,4 +1,5 @@
 #include "alhazen/aggregates/wide_bvh/wide_bvh_file.h"
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,9 @@
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+/// Batches of small trees test the stream.
+const StreamOverride kStreams;
 
 using testing::RandomEngine;
 using testing::ScratchFolder;

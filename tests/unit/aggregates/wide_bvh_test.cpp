@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/simd/targets.h"
@@ -12,6 +13,9 @@
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+/// Batches of small trees test the stream.
+const StreamOverride kStreams;
 
 using namespace testing;
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/imaging/image/screen_pixels.h"
 #include "unit/imaging/test_images.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -108,6 +109,21 @@ TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
     const EncodedImage encoded = encode(values.data(), pixels, 1, Encoding::Srgb, 8);
     for (std::size_t i = 0; i < values.size(); ++i) {
         ASSERT_EQ(encoded.samples[i], encode_channel(values[i], Encoding::Srgb, 8)) << values[i];
+    }
+    // Of more pixels than are written at once.
+    const auto count = static_cast<std::size_t>(pixels);
+    ASSERT_GT(count, 4096U);
+    for (const Encoding encoding : {Encoding::Srgb, Encoding::LinearTruncated}) {
+        std::vector<std::uint8_t> bytes(4 * count + 1, 7);
+        write_screen_pixels(values.data(), count, encoding, bytes.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double value = values[3 * i + c];
+                ASSERT_EQ(bytes[4 * i + c], encode_channel(value, encoding, 8)) << value;
+            }
+            ASSERT_EQ(bytes[4 * i + 3], 255);
+        }
+        EXPECT_EQ(bytes.back(), 7);
     }
 }
 

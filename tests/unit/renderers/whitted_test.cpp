@@ -340,5 +340,41 @@ TEST(LocalShading, ALightWithoutGlintsHasNoHighlightOnGlass) {
     }
 }
 
+/// Few shapes in a tree: shadow rays are cast at once. The list has them gathered.
+TEST(Whitted, ShadowRaysCastAtOnceShowThePictureOfBatches) {
+    for (const bool tinted : {false, true}) {
+        SceneMaker maker;
+        Material floor = plain(0.7), mirror;
+        floor.specular.color = {0.2, 0.2, 0.2};
+        floor.shininess.value = 10;
+        mirror.reflective.color = {0.8, 0.8, 0.8};
+        const MaterialId matt = maker.material(floor);
+        const MaterialId ball = maker.material(tinted ? glass({0.9, 0.5, 0.2}, 1.2) : plain(0.4));
+        maker.add(BoxShape{{-3, -1.2, -3}, {3, -1, 3}}, matt);
+        maker.add(Sphere{{-0.8, -0.4, 0}, 0.5}, ball);
+        maker.add(Sphere{{0.3, -0.5, 0.4}, 0.4}, maker.material(mirror));
+        maker.add(Sphere{{-0.2, 0.6, -0.4}, 0.3}, ball);
+        for (int i = 0; i < 4; ++i) maker.add(Sphere{{-1.2 + 0.8 * i, 0.1, -1}, 0.2}, matt);
+        maker.light(AmbientLight{{0.1, 0.1, 0.1}});
+        maker.light(PointLight{{1, 2, 2}, {0.6, 0.6, 0.6}});
+        maker.light(
+            DirectionalLight{.to_light = normalize(Vec3{-1, 2, 1}), .color = {0.4, 0.3, 0.2}});
+        const Scene scenes[] = {maker.compile("list"), maker.compile("wide_bvh")};
+        Film films[] = {{48, 48, {0, 0, 48, 48}}, {48, 48, {0, 0, 48, 48}}};
+        RayCount counts[2];
+        for (int k = 0; k < 2; ++k) {
+            EXPECT_EQ(scenes[k].aggregate->gains_by_batches(Coherence::Any), k == 0);
+            const RenderJob job{.scene = scenes[k], .camera = scenes[k].cameras[0].camera};
+            counts[k] = Whitted{}.render(job, films[k]).counters[RayKind::Shadow];
+        }
+        EXPECT_EQ(counts[0].cast, counts[1].cast);
+        EXPECT_EQ(counts[0].hit, counts[1].hit);
+        EXPECT_GT(counts[1].hit, 100U);
+        for (int y = 0; y < 48; ++y) {
+            for (int x = 0; x < 48; ++x) ASSERT_EQ(films[0].at(x, y), films[1].at(x, y));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -1,7 +1,9 @@
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/primitives/primitive_lanes.h"
 
 namespace alhazen {
@@ -11,6 +13,9 @@ namespace {
 /// Fewest primitives with a test in lanes for each one without, in trees of packets: the others are
 /// tested ray by ray, and packets were slower among them.
 constexpr std::size_t kLanePrimitivesPerScalar = 64;
+
+std::atomic<int> stream_overrides{0};
+
 struct ScheduledTree {
     std::size_t bytes;
     bool treeless;       ///< TreelessPackets takes all primitives
@@ -20,7 +25,10 @@ struct ScheduledTree {
 
 Schedule choose_schedule(const ScheduledTree& tree, Coherence coherence) {
     if (tree.treeless) return Schedule::TreelessPackets;
-    if (coherence == Coherence::Any) return Schedule::Stream;
+    if (coherence == Coherence::Any) {
+        const bool single = tree.bytes <= kMaxIncoherentSingleBytes && stream_overrides == 0;
+        return single ? Schedule::Single : Schedule::Stream;
+    }
     if (tree.suits_packets && tree.has_packets) return Schedule::Packets;
     return tree.bytes <= kMaxSingleTreeBytes ? Schedule::Single : Schedule::Stream;
 }
@@ -42,6 +50,13 @@ bool suits_packets(const PrimitiveTable& table, std::span<const PrimitiveId> unb
 }
 
 }  // namespace
+
+StreamOverride::StreamOverride() {
+    ++stream_overrides;
+}
+StreamOverride::~StreamOverride() {
+    --stream_overrides;
+}
 
 Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {

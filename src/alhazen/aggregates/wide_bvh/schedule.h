@@ -40,9 +40,10 @@ inline constexpr std::uint32_t kMaxPacketWork = 20;
 inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 /// Largest tree whose coherent rays in no packet are traced one by one, bytes. The stream hides the
 /// latency of memory; a tree in the caches has little, and neighbouring rays predict each other's
-/// branches. Single eye rays are 5 to 10 % faster than the stream's, shadow rays 25 %. Incoherent
-/// rays in trees below 1 MB would gain 10 to 15 %; in larger ones the stream is faster.
+/// branches. Single eye rays are 5 to 10 % faster than the stream's, shadow rays 25 %.
 inline constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
+/// The same of rays that are not coherent.
+inline constexpr std::size_t kMaxIncoherentSingleBytes = std::size_t{1} << 20;
 /// Fewest rays for the stream.
 inline constexpr std::size_t kMinStreamRays = 16;
 

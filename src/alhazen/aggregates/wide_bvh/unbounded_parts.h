@@ -25,6 +25,7 @@ class UnboundedParts {
 
     /// As PrimitiveTable::closest of each.
     void closest(const PrimitiveTable& table, const Ray& ray, Hit& best, RayQuery query) const {
+        if (parts_.empty()) return;
         Ray shrinking = ray;
         meet(table, shrinking, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
             if (hit != nullptr) {
@@ -90,14 +91,13 @@ class UnboundedParts {
                     continue;
                 }
                 if (!table.is_seen(part.id, query.mask)) continue;
-                ShapeHit hit;
                 const double t = plane_crossing(ray, part.point, part.unit_normal);
-                const bool met = report_crossing(ray, {t, 0, 0, 0}, &hit) != 0;
                 if constexpr (decltype(stats)::kCounts) {
                     if (!is_valid(ray)) return false;
                     stats.primitives(1);
                 }
-                if (!met || !is_valid(ray)) continue;
+                ShapeHit hit;
+                if (report_crossing(ray, {t, 0, 0, 0}, &hit) == 0 || !is_valid(ray)) continue;
                 stats.primitive_hits(1);
                 if (test(part.id, &hit, stats)) return true;
             }

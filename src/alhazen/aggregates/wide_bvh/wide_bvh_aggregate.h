@@ -51,6 +51,9 @@ class WideBvhAggregate final : public Aggregate {
     void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 RayQuery query) const override;
+    [[nodiscard]] bool gains_by_batches(Coherence coherence) const override {
+        return schedules_.of_batch(coherence) != Schedule::Single;
+    }
     void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                        Coherence coherence = Coherence::Any) const override;
     void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,

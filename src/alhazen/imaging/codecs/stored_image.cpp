@@ -30,13 +30,17 @@ std::vector<double> decoded_codes() {
     return values;
 }
 
+/// [code]
+template <class Code>
+const double* decoding() {
+    static const std::vector<double> values = decoded_codes<Code>();
+    return values.data();
+}
 double decoded(std::uint8_t code) {
-    static const std::vector<double> values = decoded_codes<std::uint8_t>();
-    return values[code];
+    return decoding<std::uint8_t>()[code];
 }
 double decoded(std::uint16_t code) {
-    static const std::vector<double> values = decoded_codes<std::uint16_t>();
-    return values[code];
+    return decoding<std::uint16_t>()[code];
 }
 double decoded(float sample) {
     return linear_from_srgb(double(sample));

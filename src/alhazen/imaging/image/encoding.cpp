@@ -58,9 +58,10 @@ class SrgbCodes {
     [[nodiscard]] std::uint16_t code(double c) const {
         if (!(c > 0.0)) return 0;  // NaN too
         if (c >= 1.0) return 255;
-        std::size_t k = first_[std::size_t(c * kSteps)];
-        while (c >= thresholds_[k + 1]) ++k;
-        return std::uint16_t(k);
+        // In range: c * kSteps < kSteps, and the last threshold is infinite.
+        const double* next = thresholds_.data() + first_.data()[int(c * kSteps)] + 1;
+        while (c >= *next) ++next;
+        return std::uint16_t(next - thresholds_.data() - 1);
     }
 
   private:
@@ -104,9 +105,7 @@ EncodedImage encode(const double* rgb, int width, int height, Encoding encoding,
     EncodedImage encoded = empty_encoded(width, height, 3, bits);
     if (encoding == Encoding::Srgb && bits == 8) {
         static const SrgbCodes kCodes;
-        for (std::size_t i = 0; i < encoded.samples.size(); ++i) {
-            encoded.samples[i] = kCodes.code(rgb[i]);
-        }
+        for (std::uint16_t& sample : encoded.samples) sample = kCodes.code(*rgb++);
         return encoded;
     }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.

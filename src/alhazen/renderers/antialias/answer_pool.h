@@ -19,17 +19,19 @@ class AnswerPool {
         : renderer_(renderer), job_(job) {}
 
     /// The rays of a round. Calls batch(answers, first, count, counters) for the rays 0 to `total`,
-    /// at most RayAnswers::kRaysAtOnce at a time, from many threads. Returns early after a stop.
+    /// at most RayAnswers::kRaysAtOnce at a time, from many threads: few rays in smaller batches,
+    /// so that there are some for each thread. Returns early after a stop.
     template <class Batch>
     void trace(std::size_t total, Batch&& batch) {
-        constexpr std::size_t kBatch = RayAnswers::kRaysAtOnce;
-        const std::size_t batches = (total + kBatch - 1) / kBatch;
+        constexpr std::size_t kFewest = 32, kPieces = 16;
+        const std::size_t most = std::clamp(total / kPieces, kFewest, RayAnswers::kRaysAtOnce);
+        const std::size_t batches = (total + most - 1) / most;
         std::size_t done = 0;  // under the mutex
-        parallel_for(batches, 4, [&](std::size_t begin, std::size_t end) {
+        parallel_for(batches, 1, [&](std::size_t begin, std::size_t end) {
             std::unique_ptr<RayAnswers> own = take();
             RayCounters counters;
             for (std::size_t b = begin; b < end && !job_.stop_requested(); ++b) {
-                batch(*own, b * kBatch, std::min(kBatch, total - b * kBatch), counters);
+                batch(*own, b * most, std::min(most, total - b * most), counters);
             }
             const std::lock_guard lock(mutex_);
             idle_.push_back(std::move(own));

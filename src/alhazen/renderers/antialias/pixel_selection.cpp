@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "alhazen/base/error.h"
-#include "alhazen/base/huge_pages.h"
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/surface.h"
@@ -24,7 +24,11 @@ namespace {
 /// Pixels x0 to x1 by y0 to y1, of the crop, both included; the corners have rays.
 struct SelectionCell {
     int x0, y0, x1, y1;
-    bool agreed = false;  ///< with all rays that were there in the last round
+    std::uint32_t place = 0;  ///< in the grid of the first cells
+    bool agreed = false;      ///< with all rays that were there in the last round
+
+    /// All of its pixels are corners: there is nothing to divide, and nothing to fill.
+    [[nodiscard]] bool is_done() const { return x1 - x0 <= 1 && y1 - y0 <= 1; }
 };
 
 /// Number of the part that a ray meets first, and of that which placed it in the scene.
@@ -41,6 +45,14 @@ bool differ(const Rgb& a, const Rgb& b, double threshold) {
     return std::abs(shown(a.r) - shown(b.r)) > threshold ||
            std::abs(shown(a.g) - shown(b.g)) > threshold ||
            std::abs(shown(a.b) - shown(b.b)) > threshold;
+}
+/// The linear mean, `u` of the way from a to b.
+Rgb mean(double u, const Rgb& a, const Rgb& b) {
+    return (1 - u) * a + u * b;
+}
+/// How far `i` is between the ends of a side.
+double part(int i, int first, int last) {
+    return last > first ? double(i - first) / (last - first) : 0.0;
 }
 
 /// The round that traced a pixel, from 1 on; or one of these.
@@ -60,8 +72,8 @@ class PixelSelection {
           pool_(renderer, job),
           width_(film.crop().width()),
           height_(film.crop().height()),
-          shades_(film.crop().area()),
-          things_(film.crop().area()),
+          shades_(film.from(film.crop().x0, film.crop().y0), film.crop().area()),
+          things_(std::make_unique_for_overwrite<std::uint64_t[]>(film.crop().area())),
           rounds_(film.crop().area(), kNoRay) {}
 
     RenderReport run() {
@@ -101,9 +113,17 @@ class PixelSelection {
     void select() {
         const PixelBox& crop = film_.crop();
         const std::vector<int> columns = marks(crop.x0, width_), rows = marks(crop.y0, height_);
+        across_ = columns.size() - 1;
+        changed_.assign(across_ * (rows.size() - 1), kNoRay);
         for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
             for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
-                add({columns[i], rows[j], columns[i + 1], rows[j + 1]});
+                const std::size_t place = j * across_ + i;
+                const SelectionCell c{columns[i], rows[j], columns[i + 1], rows[j + 1],
+                                      static_cast<std::uint32_t>(place)};
+                for (const int y : {c.y0, c.y1}) {
+                    for (const int x : {c.x0, c.x1}) ask(x, y);
+                }
+                add(c);
             }
         }
         do {
@@ -112,26 +132,20 @@ class PixelSelection {
         } while (divide());
     }
 
-    /// A cell, and rays of its corners.
+    void ask(int x, int y) {
+        PixelRound& known = rounds_[at(x, y)];
+        if (known != kNoRay) return;
+        asked_.push_back(static_cast<std::uint32_t>(at(x, y)));
+        known = kAskedFor;
+    }
     void add(const SelectionCell& c) {
-        cells_.push_back(c);
-        for (const int y : {c.y0, c.y1}) {
-            for (const int x : {c.x0, c.x1}) {
-                PixelRound& known = rounds_[at(x, y)];
-                if (known != kNoRay) continue;
-                asked_.push_back(static_cast<std::uint32_t>(at(x, y)));
-                known = kAskedFor;
-            }
-        }
+        if (!c.is_done()) cells_.push_back(c);
     }
 
     /// Divides cells that do not agree with their rays. False where there are none.
     bool divide() {
         parallel_for(cells_.size(), kCellsAtOnce, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                SelectionCell& c = cells_[i];
-                c.agreed = (c.x1 - c.x0 <= 1 && c.y1 - c.y0 <= 1) || agrees(c);
-            }
+            for (std::size_t i = begin; i < end; ++i) cells_[i].agreed = agrees(cells_[i]);
         });
         std::swap(cells_, before_);
         cells_.clear();
@@ -143,17 +157,35 @@ class PixelSelection {
                 continue;
             }
             any = true;
-            const int xm = (c.x0 + c.x1) / 2, ym = (c.y0 + c.y1) / 2;
+            mark_changed(c.place);
             const bool wide = c.x1 - c.x0 > 1, high = c.y1 - c.y0 > 1;
-            add({c.x0, c.y0, wide ? xm : c.x1, high ? ym : c.y1});
-            if (wide) add({xm, c.y0, c.x1, high ? ym : c.y1});
-            if (high) add({c.x0, ym, wide ? xm : c.x1, c.y1});
-            if (wide && high) add({xm, ym, c.x1, c.y1});
+            const int xm = wide ? (c.x0 + c.x1) / 2 : c.x1, ym = high ? (c.y0 + c.y1) / 2 : c.y1;
+            if (wide) ask(xm, c.y0);
+            if (high) ask(c.x0, ym);
+            if (wide && high) ask(xm, ym);
+            if (high) ask(c.x1, ym);
+            if (wide) ask(xm, c.y1);
+            add({c.x0, c.y0, xm, ym, c.place});
+            if (wide) add({xm, c.y0, c.x1, ym, c.place});
+            if (high) add({c.x0, ym, xm, c.y1, c.place});
+            if (wide && high) add({xm, ym, c.x1, c.y1, c.place});
         }
         return any;
     }
 
+    /// The next round has rays in a first cell, or on its sides.
+    void mark_changed(std::size_t place) {
+        const PixelRound next = round_ + 1;
+        const std::size_t column = place % across_;
+        changed_[place] = next;
+        if (column > 0) changed_[place - 1] = next;
+        if (column + 1 < across_) changed_[place + 1] = next;
+        if (place >= across_) changed_[place - across_] = next;
+        if (place + across_ < changed_.size()) changed_[place + across_] = next;
+    }
+
     [[nodiscard]] bool agrees(const SelectionCell& c) const {
+        if (c.agreed && changed_[c.place] != round_) return true;
         return (c.agreed || corners_agree(c)) && sides_agree(c);
     }
     [[nodiscard]] bool corners_agree(const SelectionCell& c) const {
@@ -169,39 +201,57 @@ class PixelSelection {
         }
         return true;
     }
+    /// With the rays on its sides; those that were there before the last round are known to agree
+    /// where the cell did.
     [[nodiscard]] bool sides_agree(const SelectionCell& c) const {
-        for (int x = c.x0 + 1; x < c.x1; ++x) {
-            if (!agrees_at(c, x, c.y0) || !agrees_at(c, x, c.y1)) return false;
+        const PixelRound* const rounds = rounds_.data();
+        const std::size_t first = at(c.x0, c.y0);
+        const std::size_t corners[] = {first, at(c.x1, c.y0), at(c.x0, c.y1), at(c.x1, c.y1)};
+        const auto agrees_at = [&](std::size_t k, double u, std::size_t a, std::size_t b) {
+            return things_[k] == things_[first] &&
+                   !differ(shades_[k], mean(u, shades_[a], shades_[b]), settings_.threshold);
+        };
+        const auto counts = [&](std::size_t k) {
+            return c.agreed ? rounds[k] == round_ : rounds[k] != kNoRay;
+        };
+        for (const std::size_t side : {0, 2}) {
+            for (int x = c.x0 + 1; x < c.x1; ++x) {
+                const std::size_t k = corners[side] + static_cast<std::size_t>(x - c.x0);
+                if (!counts(k)) continue;
+                if (!agrees_at(k, part(x, c.x0, c.x1), corners[side], corners[side + 1])) {
+                    return false;
+                }
+            }
         }
-        for (int y = c.y0 + 1; y < c.y1; ++y) {
-            if (!agrees_at(c, c.x0, y) || !agrees_at(c, c.x1, y)) return false;
+        for (const std::size_t side : {0, 1}) {
+            std::size_t k = corners[side];
+            for (int y = c.y0 + 1; y < c.y1; ++y) {
+                k += static_cast<std::size_t>(width_);
+                if (!counts(k)) continue;
+                if (!agrees_at(k, part(y, c.y0, c.y1), corners[side], corners[side + 2])) {
+                    return false;
+                }
+            }
         }
         return true;
     }
-    [[nodiscard]] bool agrees_at(const SelectionCell& c, int x, int y) const {
-        const std::size_t k = at(x, y);
-        if (rounds_[k] == kNoRay || rounds_[k] == kAskedFor) return true;
-        if (c.agreed && rounds_[k] != round_) return true;
-        return things_[k] == things_[at(c.x0, c.y0)] &&
-               !differ(shades_[k], between(c, x, y), settings_.threshold);
-    }
-    /// The bilinear mean of the corners' shades.
-    [[nodiscard]] Rgb between(const SelectionCell& c, int x, int y) const {
-        const double u = c.x1 > c.x0 ? double(x - c.x0) / (c.x1 - c.x0) : 0.0;
-        const double v = c.y1 > c.y0 ? double(y - c.y0) / (c.y1 - c.y0) : 0.0;
-        return (1 - v) * ((1 - u) * shades_[at(c.x0, c.y0)] + u * shades_[at(c.x1, c.y0)]) +
-               v * ((1 - u) * shades_[at(c.x0, c.y1)] + u * shades_[at(c.x1, c.y1)]);
-    }
 
-    /// Sets the pixels of a cell; its last column and row are those of its neighbours, where it has
-    /// any.
+    /// Sets the pixels of a cell without rays to the bilinear mean of its corners; its last column
+    /// and row are those of its neighbours, where it has any.
     void fill(const SelectionCell& c) {
-        const PixelBox& crop = film_.crop();
+        std::array<Rgb, AntialiasSettings::kLargestStep + 1> upper, lower;
         const int x_end = c.x1 + (c.x1 == width_ - 1), y_end = c.y1 + (c.y1 == height_ - 1);
+        for (int x = c.x0; x < x_end; ++x) {
+            const double u = part(x, c.x0, c.x1);
+            const auto i = static_cast<std::size_t>(x - c.x0);
+            upper[i] = mean(u, shades_[at(c.x0, c.y0)], shades_[at(c.x1, c.y0)]);
+            lower[i] = mean(u, shades_[at(c.x0, c.y1)], shades_[at(c.x1, c.y1)]);
+        }
         for (int y = c.y0; y < y_end; ++y) {
-            Rgb* const row = film_.from(crop.x0, crop.y0 + y);
+            const double v = part(y, c.y0, c.y1);
             for (int x = c.x0; x < x_end; ++x) {
-                row[x] = rounds_[at(x, y)] == kNoRay ? between(c, x, y) : shades_[at(x, y)];
+                const auto i = static_cast<std::size_t>(x - c.x0);
+                if (rounds_[at(x, y)] == kNoRay) shades_[at(x, y)] = mean(v, upper[i], lower[i]);
             }
         }
     }
@@ -242,12 +292,14 @@ class PixelSelection {
     EyeRays eye_;
     AnswerPool pool_;
     int width_, height_;
-    HugeVector<Rgb> shades_;             ///< [pixel of the crop] with a ray
-    HugeVector<std::uint64_t> things_;   ///< [pixel of the crop] with a ray
-    PixelRound round_ = 0;               ///< the last
-    std::vector<PixelRound> rounds_;     ///< [pixel of the crop]
-    std::vector<std::uint32_t> asked_;   ///< pixels of the next round
-    std::vector<SelectionCell> cells_;   ///< without gaps
+    std::span<Rgb> shades_;  ///< [pixel of the crop] the film; of those without a ray at last
+    std::unique_ptr<std::uint64_t[]> things_;  ///< [pixel of the crop] with a ray
+    PixelRound round_ = 0;                     ///< the last
+    std::vector<PixelRound> rounds_;           ///< [pixel of the crop]
+    std::vector<std::uint32_t> asked_;         ///< pixels of the next round
+    std::size_t across_ = 0;                   ///< first cells in a row
+    std::vector<PixelRound> changed_;    ///< [first cell] the last round with rays in or beside it
+    std::vector<SelectionCell> cells_;   ///< that are not done
     std::vector<SelectionCell> before_;  ///< those of the round before, while they are divided
 };
 

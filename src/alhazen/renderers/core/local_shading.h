@@ -28,10 +28,10 @@ struct BehindSurface {
 };
 
 /// The ray that leaves `surface`, of unit `direction`, by the conventions of the scene.
-[[nodiscard]] inline Ray onward_ray(const ShadingConventions& conventions, const Surface& surface,
-                                    const Vec3& direction,
+[[nodiscard]] inline Ray onward_ray(const ShadingConventions& conventions,
+                                    const LeavingRays& surface, const Vec3& direction,
                                     double t_max = std::numeric_limits<double>::infinity()) {
-    Ray ray = leaving_ray(surface, direction, t_max);
+    Ray ray = surface.along(direction, t_max);
     ray.t_min = std::min(std::max(ray.t_min, conventions.min_distance), t_max);
     return ray;
 }

@@ -27,50 +27,63 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
       stats_(stats),
       opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
       constant_(scene),
+      rays_(std::make_unique<Ray[]>(kMostRays)),
+      waiting_(std::make_unique<Waiting[]>(kMostRays)),
       met_(std::make_unique<bool[]>(kMostRays)),
       sorted_met_(std::make_unique<bool[]>(kMostRays)) {
-    rays_.reserve(kMostRays);
-    waiting_.reserve(kMostRays);
+    expect(Coherence::Any);
 }
 
-void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rgb& fraction,
+void ShadowBatch::expect(Coherence coherence) {
+    coherence_ = coherence;
+    at_once_ = !scene_.has_motion && scene_.conventions.shading.shadow_tint != ShadowTint::None &&
+               !scene_.aggregate->gains_by_batches(coherence);
+}
+
+Rgb ShadowBatch::arriving(const LeavingRays& surface, const LightSample& light, const Path& path) {
+    const Ray ray = onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance);
+    ++count_.cast;
+    return let_through(ray, path, !opaque_ || scene_.aggregate->occluded(ray, query()));
+}
+
+void ShadowBatch::add(const LeavingRays& surface, const LightSample& light, const Rgb& fraction,
                       const Path& path, Rgb& sum, std::size_t number) {
     if (scene_.conventions.shading.shadow_tint == ShadowTint::None) {
         sum += light.intensity * fraction;
         return;
     }
-    if (rays_.size() == kMostRays) finish();
-    rays_.push_back(
-        onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance));
-    waiting_.push_back({&sum, &path, light.intensity, fraction, number});
+    if (count_waiting_ == kMostRays) finish();
+    rays_[count_waiting_] =
+        onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance);
+    waiting_[count_waiting_] = {&sum, &path, light.intensity, fraction, number};
+    ++count_waiting_;
 }
 
 void ShadowBatch::finish() {
-    if (rays_.empty()) return;
-    const std::span<bool> met(met_.get(), rays_.size());
+    if (count_waiting_ == 0) return;
+    const std::span<bool> met(met_.get(), count_waiting_);
     if (asks_first()) {
         find_met(met);
     } else {
         std::fill(met.begin(), met.end(), true);
     }
-    count_.cast += rays_.size();
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
+    count_.cast += count_waiting_;
+    for (std::size_t i = 0; i < count_waiting_; ++i) {
         const Waiting& w = waiting_[i];
         const Rgb through = let_through(rays_[i], *w.path, met[i]);
         if (!through.is_black()) *w.sum += through * w.intensity * w.fraction;
     }
-    rays_.clear();
-    waiting_.clear();
+    count_waiting_ = 0;
 }
 
 void ShadowBatch::find_met(std::span<bool> met) {
     if (!scene_.has_motion) {
         if (coherence_ == Coherence::Coherent) return find_met_by_light(met);
-        return scene_.aggregate->occluded_batch(rays_, met, query(), coherence_);
+        return scene_.aggregate->occluded_batch(rays(), met, query(), coherence_);
     }
     times_.clear();
-    for (const Waiting& w : waiting_) times_.push_back(w.path->time);
-    scene_.aggregate->occluded_batch_at(rays_, times_, met, query(), coherence_);
+    for (const Waiting& w : waiting()) times_.push_back(w.path->time);
+    scene_.aggregate->occluded_batch_at(rays(), times_, met, query(), coherence_);
 }
 
 Coherence ShadowBatch::coherence_to(std::size_t light) const {
@@ -80,13 +93,13 @@ Coherence ShadowBatch::coherence_to(std::size_t light) const {
 
 void ShadowBatch::find_met_by_light(std::span<bool> met) {
     const Aggregate& aggregate = *scene_.aggregate;
-    const std::size_t light = waiting_.front().light;
-    if (std::all_of(waiting_.begin(), waiting_.end(),
+    const std::size_t light = waiting().front().light;
+    if (std::all_of(waiting().begin(), waiting().end(),
                     [&](const Waiting& w) { return w.light == light; })) {
-        return aggregate.occluded_batch(rays_, met, query(), coherence_to(light));
+        return aggregate.occluded_batch(rays(), met, query(), coherence_to(light));
     }
     order_.clear();
-    for (std::size_t i = 0; const Waiting& w : waiting_) {
+    for (std::size_t i = 0; const Waiting& w : waiting()) {
         order_.push_back(std::uint64_t{w.light} << 32 | i++);
     }
     std::sort(order_.begin(), order_.end());
@@ -104,10 +117,13 @@ void ShadowBatch::find_met_by_light(std::span<bool> met) {
     }
 }
 
-/// Whether to find first which rays hit anything, and crossings only for these. False while
-/// counting: counted tests must not depend on earlier rays.
+/// Whether to find first which rays hit anything, and crossings only for these: where that is
+/// faster for many rays at once. False while counting: counted tests must not depend on earlier
+/// rays.
 bool ShadowBatch::asks_first() const {
-    return opaque_ || (stats_ == nullptr && kFewMeet * count_.hit <= count_.cast);
+    if (opaque_) return true;
+    return stats_ == nullptr && kFewMeet * count_.hit <= count_.cast &&
+           scene_.aggregate->gains_by_batches(coherence_);
 }
 
 /// Transmittance along the ray; `met`: false where nothing is in between.

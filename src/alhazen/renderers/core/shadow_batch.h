@@ -3,8 +3,9 @@
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (shadow rays); UW CSE
 /// 457, Trace project (light through transparent surfaces).
-/// Differs: where few rays hit anything, crossings are found for these only;
-/// ShadingConventions::ShadowTint defines the effect of a crossing.
+/// Differs: where few rays hit anything, crossings are found for these only; where batches are no
+/// faster than single rays, each is cast at once. ShadingConventions::ShadowTint defines the effect
+/// of a crossing.
 
 #include <cstdint>
 #include <memory>
@@ -31,24 +32,35 @@ class ShadowBatch {
     /// reflected `fraction`. Sums are added to in the order of the calls. `path`: that of the ray
     /// that hit `surface`. `path` and `sum` must stay valid until `finish`. `number`: of the light
     /// in the scene, for coherent rays.
-    void add(const Surface& surface, const LightSample& light, const Rgb& fraction,
+    void add(const LeavingRays& surface, const LightSample& light, const Rgb& fraction,
              const Path& path, Rgb& sum, std::size_t number = 0);
     /// Casts the gathered rays.
     void finish();
     /// From now on, while no ray is gathered. Coherent: the surfaces are neighbours; the rays to
     /// one light are cast together then, and are coherent where it is a point.
-    void expect(Coherence coherence) { coherence_ = coherence; }
+    void expect(Coherence coherence);
+
+    /// Whether batches gain nothing: `arriving` does the same, and what the surface reflects is
+    /// computed only where light arrives.
+    [[nodiscard]] bool casts_at_once() const { return at_once_; }
+    /// Transmittance from the light to the surface, by a ray that is cast now.
+    [[nodiscard]] Rgb arriving(const LeavingRays& surface, const LightSample& light,
+                               const Path& path);
 
   private:
     struct Waiting {
-        Rgb* sum;
-        const Path* path;
+        Rgb* sum = nullptr;
+        const Path* path = nullptr;
         Rgb intensity, fraction;
-        std::size_t light;
+        std::size_t light = 0;
     };
 
     [[nodiscard]] RayQuery query(float time = 0.0f) const {
         return {stats_, mask_of(RayKind::Shadow), time};
+    }
+    [[nodiscard]] std::span<const Ray> rays() const { return {rays_.get(), count_waiting_}; }
+    [[nodiscard]] std::span<const Waiting> waiting() const {
+        return {waiting_.get(), count_waiting_};
     }
     void find_met(std::span<bool> met);
     void find_met_by_light(std::span<bool> met);
@@ -73,9 +85,12 @@ class ShadowBatch {
     ExactOptics* optics_ = nullptr;
     bool opaque_;  ///< any surface in between blocks the light
     Coherence coherence_ = Coherence::Any;
+    bool at_once_ = false;
     MaterialCache constant_;
-    std::vector<Ray> rays_;
-    std::vector<Waiting> waiting_;
+    // That wait.
+    std::size_t count_waiting_ = 0;
+    std::unique_ptr<Ray[]> rays_;
+    std::unique_ptr<Waiting[]> waiting_;
     std::vector<float> times_;  ///< [ray]; where something moves
     std::unique_ptr<bool[]> met_;
     std::vector<std::uint64_t> order_;  ///< number of the light, then of the ray in 32 bits

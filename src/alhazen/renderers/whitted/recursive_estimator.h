@@ -77,6 +77,9 @@ class RecursiveEstimator {
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
           chance_(job),
           split_(split) {
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            if (illuminates(scene_.lights[i])) lamps_.push_back(i);
+        }
         if (!conventions_.optics.any()) return;
         optics_.emplace(scene_, conventions_.optics);
         visible_.use(*optics_);
@@ -230,13 +233,14 @@ class RecursiveEstimator {
             return;
         }
         met.own = unshadowed_terms(conventions_, ambient_, point);
-        add_direct_light(seen, met.direct);
+        const LeavingRays from(point.surface);
+        add_direct_light(seen, from, met.direct);
         if (seen.depth < conventions_.max_depth) {
             Path onward = seen.path;
             onward.contribution = seen.path.contribution * met.share;
             onward.cone = seen.path.cone.from(seen.t);
-            if (conventions_.trace_reflections) reflect(seen, onward, met, front.next);
-            if (conventions_.trace_refractions) transmit(seen, onward, met, front);
+            if (conventions_.trace_reflections) reflect(seen, from, onward, met, front.next);
+            if (conventions_.trace_refractions) transmit(seen, from, onward, met, front);
         }
         met.filtered =
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
@@ -244,25 +248,30 @@ class RecursiveEstimator {
         if (met.filtered) met.filter = power(point.medium, seen.t);
     }
 
-    void add_direct_light(const Seen& seen, Rgb& sum) {
+    void add_direct_light(const Seen& seen, const LeavingRays& from, Rgb& sum) {
         const ShadingPoint& point = seen.point;
-        for (std::size_t number = 0; const Light& light : scene_.lights) {
-            const std::size_t here = number++;
-            if (!illuminates(light)) continue;
+        for (const std::size_t here : lamps_) {
             const LightSample l =
-                chance_.light_from(light, here, point.surface.point, conventions_.clamp_attenuation,
-                                   seen.path, seen.depth);
+                chance_.light_from(scene_.lights[here], here, point.surface.point,
+                                   conventions_.clamp_attenuation, seen.path, seen.depth);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
             if constexpr (TreeWatcher<Chance>) chance_.see_light(here, l, cosine);
             if (l.intensity.is_black()) continue;  // beyond the cone of a spot
-            shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
-                         seen.path, sum, here);
+            if (shadows_.casts_at_once()) {
+                const Rgb through = shadows_.arriving(from, l, seen.path);
+                if (through.is_black()) continue;
+                sum += through * l.intensity * reflected_fraction(conventions_, point, l, cosine);
+                continue;
+            }
+            shadows_.add(from, l, reflected_fraction(conventions_, point, l, cosine), seen.path,
+                         sum, here);
         }
     }
 
     /// `onward`: the path of the new ray, except for its kind and the effect of this surface.
-    void reflect(const Seen& seen, const Path& onward, MetSurface& met, Generation& next) {
+    void reflect(const Seen& seen, const LeavingRays& from, const Path& onward, MetSurface& met,
+                 Generation& next) {
         const ShadingPoint& point = seen.point;
         const Rgb& kr = point.material->reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
@@ -277,19 +286,22 @@ class RecursiveEstimator {
         }
         chance_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
-        met.reflected = next.add(onward_ray(conventions_, point.surface, direction), onward);
+        met.reflected = next.add(onward_ray(conventions_, from, direction), onward);
         Path& path = next.last_path();
         path.kind = RayKind::Reflection;
         path.contribution = contribution;
     }
 
-    void transmit(const Seen& seen, Path onward, MetSurface& met, Wavefront& front) {
+    void transmit(const Seen& seen, const LeavingRays& from, const Path& before, MetSurface& met,
+                  Wavefront& front) {
         const ShadingPoint& point = seen.point;
         const MaterialSample& material = *point.material;
         const Rgb& kt = point.passing;
+        const Rgb contribution = before.contribution * kt;
+        if (kt.is_black() || contribution.max() < conventions_.min_contribution) return;
+        Path onward = before;
         onward.kind = RayKind::Refraction;
-        onward.contribution = onward.contribution * kt;
-        if (kt.is_black() || onward.contribution.max() < conventions_.min_contribution) return;
+        onward.contribution = contribution;
         const bool tinted =
             optics_ || material.physical ||
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;
@@ -302,26 +314,28 @@ class RecursiveEstimator {
             onward.medium = behind.medium;
         }
         if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
-            split(seen, onward, met, front);
+            split(seen, from, onward, met, front);
         } else {
-            met.refracted = send_refracted(seen, onward, front.next);
+            met.refracted = send_refracted(seen, from, onward, front.next);
         }
         if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
     }
 
     /// A ray for each wavelength.
-    void split(const Seen& seen, const Path& onward, MetSurface& met, Wavefront& front) {
+    void split(const Seen& seen, const LeavingRays& from, const Path& onward, MetSurface& met,
+               Wavefront& front) {
         met.split = true;
         met.refracted = static_cast<std::uint32_t>(front.split.size());
         for (const WaveSplit::Wave& wave : split_->waves()) {
             Path path = onward;
             path.nm = static_cast<float>(wave.nm);
-            front.split.push_back(send_refracted(seen, path, front.next));
+            front.split.push_back(send_refracted(seen, from, path, front.next));
         }
     }
 
     /// Returns the number of the ray; kNotSent where all is reflected.
-    std::uint32_t send_refracted(const Seen& seen, const Path& onward, Generation& next) {
+    std::uint32_t send_refracted(const Seen& seen, const LeavingRays& from, const Path& onward,
+                                 Generation& next) {
         const ShadingPoint& point = seen.point;
         Vec3 direction = seen.ray.direction;
         if (!point.material->thin &&
@@ -330,7 +344,7 @@ class RecursiveEstimator {
             return MetSurface::kNotSent;
         }
         chance_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
-        return next.add(onward_ray(conventions_, point.surface, direction), onward);
+        return next.add(onward_ray(conventions_, from, direction), onward);
     }
 
     /// Index on the side of the ray over that behind; `nm` 0: that of all wavelengths.
@@ -363,6 +377,7 @@ class RecursiveEstimator {
     RayCounters& counters_;
     std::size_t rays_at_once_;
     const std::vector<Rgb> ambient_;
+    std::vector<std::size_t> lamps_;  ///< the lights with shadow rays
     // Of a batch that begins with its first ray.
     std::span<Hit> eye_hits_;          ///< see keep_hits
     std::span<const Hit> known_hits_;  ///< see start_from

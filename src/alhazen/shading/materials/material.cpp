@@ -93,16 +93,23 @@ namespace {
 /// takes as long again.
 MaterialSample evaluate_whitted(const Material& m, std::span<const Texture> textures,
                                 const SurfaceLookup& lookup) {
+    // Ambient and diffuse colours are often of one texture.
+    TextureId last = kNoTexture;
+    Rgb texel;
     const auto color = [&](const ColorInput& input) {
-        return input.texture == kNoTexture ? input.color : color_at(input, textures, lookup);
+        if (input.texture == kNoTexture) return input.color;
+        if (input.texture != last) texel = texel_at(input.texture, textures, lookup).rgb();
+        last = input.texture;
+        return input.color * texel;
     };
     const auto value = [&](const ScalarInput& input) {
         return input.texture == kNoTexture ? input.value : value_at(input, textures, lookup);
     };
     const Rgb vertex = lookup.color.rgb();
     const Rgb diffuse = vertex * color(m.diffuse);
+    const Rgb ambient = vertex * color(m.ambient);
     return {.emission = color(m.emission),
-            .ambient = vertex * color(m.ambient),
+            .ambient = ambient,
             .diffuse = diffuse,
             .specular = color(m.specular),
             .reflective = color(m.reflective),

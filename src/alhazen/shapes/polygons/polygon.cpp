@@ -46,18 +46,21 @@ Vec3 first_edge_direction(const Polygon& polygon) {
 /// Odd-even rule around the ray, in sheared space.
 bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
     const RayShear shear(ray.direction);
+    const Vec3* const vertices = polygon.vertices.data();
     const auto vertex = [&](std::size_t i) {
-        const Vec3& p = polygon.vertices[i];
+        const Vec3& p = vertices[i];
         return sheared<double>(p[shear.kx], p[shear.ky], p[shear.kz], ray.origin[shear.kx],
                                ray.origin[shear.ky], ray.origin[shear.kz], shear.sx, shear.sy);
     };
     bool inside = false;
     std::size_t first = 0;
     for (const std::size_t end : polygon.loop_ends) {
-        ShearedVertex<double> a = vertex(end - 1);
+        bool before = vertex(end - 1).y > 0.0;
         for (std::size_t i = first; i < end; ++i) {
-            const ShearedVertex<double> b = vertex(i);
-            if ((a.y > 0.0) != (b.y > 0.0)) {
+            // Of most edges y alone is computed.
+            const bool here = vertex(i).y > 0.0;
+            if (before != here) {
+                const ShearedVertex<double> a = vertex(i > first ? i - 1 : end - 1), b = vertex(i);
                 // Whether the edge crosses the positive x axis; usually decided by the signs of x.
                 if (a.x > 0.0 && b.x > 0.0) {
                     inside = !inside;
@@ -65,7 +68,7 @@ bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
                     if ((resolved_edge_sign(a, b) > 0) == (b.y > 0.0)) inside = !inside;
                 }
             }
-            a = b;
+            before = here;
         }
         first = end;
     }
@@ -167,6 +170,8 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
                              gamma_bound(16) * (std::abs(ray.origin[k]) + size[k]);
         if (p + slack < bounds.lo[k] || p - slack > bounds.hi[k]) return 0;
     }
+    // Most rays that begin so near to the polygon leave it.
+    if (!ray.covers(t) && !ray.covers(clamped_to_box(t, ray, bounds))) return 0;
     if (!surrounds_ray(*this, ray)) return 0;
     return report_crossing(ray, {clamped_to_box(t, ray, bounds), 0, 0, 0}, hits);
 }

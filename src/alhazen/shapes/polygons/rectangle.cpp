@@ -39,7 +39,7 @@ Interval Rectangle::extent(const Vec3& axis) const {
 
 int Rectangle::intersect(const Ray& ray, ShapeHit* hits) const {
     const double t = plane_crossing(ray, corner, unit_normal);
-    if (!std::isfinite(t)) return 0;
+    if (!ray.covers(t) || !std::isfinite(t)) return 0;
     const Vec3 offset = (ray.origin - corner) + t * ray.direction;
     const double u = dot(u_of, offset);
     const double v = dot(v_of, offset);
