@@ -1,7 +1,8 @@
 #pragma once
 /// What a surface emits towards the ray that met it, at the wavelengths of a path.
 ///
-/// Conventions: a single-sided surface shines to its front alone, as its emitter does (emitter.h).
+/// Conventions: a single-sided surface shines to its front alone, as its emitter does (emitter.h);
+/// what is unlit lights nothing and shows its colour on both sides.
 
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
@@ -14,9 +15,8 @@ namespace alhazen {
     if (color.is_black()) return waves.emission(color);
     const Material& material =
         scene.materials[static_cast<std::size_t>(point.surface.materials[0])];
-    if (!material.double_sided && dot(point.surface.normal, point.view) < 0.0) {
-        return waves.emission(Rgb{});
-    }
+    const bool one_sided = !material.double_sided && !point.material->unlit;
+    if (one_sided && dot(point.surface.normal, point.view) < 0.0) return waves.emission(Rgb{});
     return waves.is_spectral() ? waves.emission(color, material.illuminant) : waves.emission(color);
 }
 
