@@ -96,7 +96,7 @@ struct HitParts {
 [[nodiscard]] Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction,
                               double t_max = std::numeric_limits<double>::infinity());
 
-/// Leaving_ray for many rays of one surface.
+/// `leaving_ray` for many rays of one surface.
 class LeavingRays {
   public:
     // Implicit: a surface is what rays leave.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/verification/brute_force.h"
@@ -171,6 +172,7 @@ void count_all_crossings(const SceneDescription& description, const Scene& scene
 }  // namespace
 
 VerifyReport verify(const SceneDescription& description, const VerifyOptions& options) {
+    const StreamOverride streams;
     VerifyReport report;
     report.accelerator = options.accelerator;
     Scene fast;

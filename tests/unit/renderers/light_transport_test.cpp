@@ -70,13 +70,15 @@ TEST(LightTransport, ASingleSidedLampShinesToItsFrontAlone) {
 // A mirror sees the back of a surface that the eye does not.
 TEST(LightTransport, UnlitSurfacesShowTheirColourOnBothSides) {
     for (const char* renderer : {"path_tracing", "bidirectional"}) {
-        SceneMaker maker = floor_from_above(0.0);
+        SceneMaker maker = floor_from_above(0.2);
         Material mirror;
         mirror.reflective.color = {0.9, 0.9, 0.9};
         maker.add(rectangle({-2, -2, 0.01}, {4, 0, 0}, {0, 4, 0}), maker.material(mirror));
-        Material card = shining({0.2, 0.5, 0.8});
+        Material card;
+        card.metallic_roughness.emplace();
+        card.metallic_roughness->unlit = true;
+        card.metallic_roughness->base_color.color = {0.2, 0.5, 0.8};
         card.double_sided = false;
-        card.unlit = true;
         maker.add(rectangle({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}), maker.material(card));
         const Rgb seen = mean_of(picture_of(maker.compile(), renderer, 4, 4));
         EXPECT_GT(seen.b, 0.1) << renderer;

@@ -1,5 +1,5 @@
 #pragma once
-/// For tests: the stream for small trees, too.
+/// For tests and `verify`: the stream for small trees, too.
 ///
 /// Threads: aggregates choose their schedules when they are built, so force it before, from one
 /// thread.

@@ -23,7 +23,6 @@
 
 namespace alhazen {
 
-/// Samples first .. first + count - 1 of pixels.
 /// A part of the time that the shutter is open.
 struct ShutterPart {
     double begin = 0, length = 1;
@@ -33,6 +32,7 @@ struct ShutterPart {
     }
 };
 
+/// Samples first .. first + count - 1 of pixels.
 struct SampleRound {
     const Sampler& sampler;
     const FilterKernel& filter;

@@ -37,6 +37,7 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
 void ShadowBatch::expect(Coherence coherence) {
     coherence_ = coherence;
     at_once_ = !scene_.has_motion && scene_.conventions.shading.shadow_tint != ShadowTint::None &&
+               !scene_.aggregate->gains_by_batches(Coherence::Any) &&
                !scene_.aggregate->gains_by_batches(coherence);
 }
 

@@ -84,10 +84,10 @@ class LightTiles final : public TileRenderer {
         if (value.is_black()) return;
         Spectrum light =
             v.importance_correction(joined->to_lens) * joined->density * (v.throughput * value);
+        const Ray ray = from_lens(v, *joined);
         light =
-            light * joins_.seen(from_lens(v, *joined), time,
-                                media_from_lens(job_.scene, camera_, v, joined->to_lens, behind_),
-                                waves);
+            light * joins_.seen(ray, time,
+                                media_from_lens(job_.scene, camera_, ray, time, v, behind_), waves);
         if (!light.is_black() && !splats_.add(joined->film, waves.color(light))) {
             ++counters_.non_finite;
         }

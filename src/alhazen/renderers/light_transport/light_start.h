@@ -54,13 +54,15 @@ inline void set_falloff(const Illumination& lights, const LightRay& light, const
     return ray;
 }
 
-/// The volumes around the lens, where that ray begins. Where none scatters, those at the vertex:
-/// one is all along it. `behind`: as of PathVertex::media_along.
+/// The volumes around the start of that ray. Where none scatters, those at the vertex: one is all
+/// along it. `behind`: as of PathVertex::media_along; the result may be in it.
 [[nodiscard]] inline const MediumStack& media_from_lens(const Scene& scene,
-                                                        const CameraRays& camera,
-                                                        const PathVertex& v, const Vec3& to_lens,
+                                                        const CameraRays& camera, const Ray& ray,
+                                                        float time, const PathVertex& v,
                                                         MediumStack& behind) {
-    return scene.has_scattering ? camera.media() : v.media_along(to_lens, behind);
+    if (!scene.has_scattering) return v.media_along(-ray.direction, behind);
+    behind = camera.media(ray, time);
+    return behind;
 }
 
 }  // namespace alhazen

@@ -24,6 +24,13 @@ bool is_certain(double probability) {
     return probability > 1.0 - 0x1p-40;
 }
 
+/// Whether it is the turn of a sample: one of each `samples` successive ones, drawn by `key` for
+/// each run of them. Every `samples`-th one would lie in the same part of the pixel, and of the
+/// shutter, for ever: samplers go through both in the order of the numbers' bits.
+bool is_turn(std::uint64_t key, std::uint64_t number, std::uint64_t samples) {
+    return number % samples == mix64(key ^ mix64(number / samples)) % samples;
+}
+
 }  // namespace
 
 PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
@@ -143,8 +150,7 @@ bool PhotonEye::follow_both(const SampleId& id, int& event, Branch& at, bool& go
     const std::size_t dim = share((*ways)[0]) < share((*ways)[1]) ? 0 : 1;
     const std::uint32_t samples = turns(at, share((*ways)[dim]));
     if (samples == 0) return false;
-    const std::uint64_t turn = mix64(at.way ^ kTurn) + id.number / at.stride;
-    if (turn % samples == 0) {
+    if (is_turn(mix64(at.way ^ kTurn), id.number / at.stride, samples)) {
         ++splits_;
         Branch other = at;
         other.way = mix64(at.way ^ kDimWay);
@@ -172,9 +178,8 @@ std::uint32_t PhotonEye::turns(const Branch& at, double share) const {
 
 double PhotonEye::looks(const SampleId& id) const {
     if (settings_.every <= 1) return 1.0;
-    const std::uint64_t turn =
-        mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kLooks)) % settings_.every;
-    return (id.number + turn) % settings_.every == 0 ? settings_.every : 0.0;
+    const std::uint64_t key = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kLooks));
+    return is_turn(key, id.number, settings_.every) ? settings_.every : 0.0;
 }
 
 bool PhotonEye::leave(const SampleId& id, int& event, const Scattered& drawn, Branch& at) const {

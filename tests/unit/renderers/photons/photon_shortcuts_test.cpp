@@ -143,6 +143,33 @@ TEST(DimWaysAtGlass, InTurnAreTheSameForAllPixels) {
     }
 }
 
+/// What is mirrored ends within the pixels, or goes while the shutter is open: turns see all of
+/// the pixel and of the time.
+TEST(DimWaysAtGlass, SeeAllOfThePixelAndOfTheTime) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 1}, {0, 0, -1}, {1e-3, 0, 0}, {0, 1e-3, 0}};
+    maker.add(BoxShape{{-9, -9, -1}, {9, 9, 0}}, maker.material(testing::smooth_glass(1.5)));
+    // One of the 32 columns of pixels is cut in half.
+    maker.add(rectangle({-9, -9, 2}, {9 + 0.5e-3 / 32, 0, 0}, {0, 18, 0}),
+              maker.material(testing::shining({3, 3, 3})));
+    const Scene still = maker.compile();
+    const Film film = picture_of(still, "photon_mapping:photons=10,caustics=0,split=0.3", 32, 256);
+    for (int y = 0; y < 32; ++y) {
+        EXPECT_NEAR(film.at(16, y).g, 3 * kTwoSides / 2, 0.7 * 3 * kTwoSides / 2) << y;
+    }
+    maker.add(rectangle({-9, -9, 1.5}, {18, 0, 0}, {0, 18, 0}), maker.material(matt({0, 0, 0})));
+    auto& part = maker.description().objects[0].parts.back();
+    part.motion = std::make_shared<const PartMotion>(PartMotion{
+        {}, {{0, Affine{}}, {0.4999, Affine{}}, {0.5001, Affine::translate({0, 40, 0})}}, {}});
+    open_shutter(maker.description(), {0, 1});
+    const PixelValues moving =
+        pixels_of(maker.compile(), "sppm:photons=10,radius=0.1,split=0.3", 256);
+    const PixelValues drawn =
+        pixels_of(maker.compile(), "sppm:photons=10,radius=0.1,split=0.3,turns=1", 256);
+    EXPECT_LT(moving.deviation, 1.3 * drawn.deviation);
+}
+
 TEST(DimWaysAtGlass, CountAsOftenAsTheirShare) {
     const Scene scene = slab_of_glass();
     for (const char* turns : {"1", "2", "4", "8", "16"}) {

@@ -207,6 +207,14 @@ TEST(VolumeAgreement, ARoomOfFog) {
     expect_agreement(maker.compile(), "room of fog with a sheet", kBehindGlass, 16, 0.07);
 }
 
+/// Rays of a parallel camera, and paths that are joined to it, begin in the fog.
+TEST(VolumeAgreement, AParallelCameraInFog) {
+    SceneMaker maker = room_of_fog();
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, -0.9, 1}, {0, 1, -0.2}, {1.4, 0, 0}, {0, 0.28, 1.4}};
+    expect_agreement(maker.compile(), "parallel camera in fog", kAll, 20, 0.08);
+}
+
 /// A glass ball in fog, lit from outside through the boundary of the fog.
 TEST(VolumeAgreement, GlassInFog) {
     SceneMaker maker = over_a_floor();
