@@ -389,7 +389,7 @@ std::optional<PointOnSurface> ExactSurface::nearest_of(const Clipped& clipped, c
 std::optional<PointOnSurface> ExactSurface::nearest_of(const Annulus& annulus, const Vec3& from) {
     const Vec3 x = from - annulus.origin;
     const ClippedRegion::Plane& plane = annulus.outer->planes().front();
-    const Vec3 foot = x - dot(plane.normal, x) * plane.normal;
+    const Vec3 foot = across_axis(x, plane.normal);
     std::optional<PointOnSurface> best;
     if (annulus.outer->value(foot) <= 0.0 && !(annulus.hole && annulus.hole->value(foot) < 0.0)) {
         best = PointOnSurface{foot, plane.normal, length_squared(foot - x)};

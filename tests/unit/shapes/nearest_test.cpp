@@ -178,6 +178,54 @@ TYPED_TEST(NearestOf, NoFirstCrossingIsNearer) {
     EXPECT_EQ(check_type<TypeParam>(1, 60).refused, 0);
 }
 
+/// A point from far away is at the end of a normal, and no crossing near the shape is nearer.
+template <class S>
+void check_from_far(std::uint64_t seed, int rounds) {
+    Random random(seed);
+    for (int i = 0; i < rounds; ++i) {
+        const S shape = random_shape<S>({random, i % 3 == 2});
+        const Affine place = random_place(random, i % 3);
+        const Placed placed(shape, place);
+        const Box3 box = placed.box();
+        const double size = 1.0 + length(box.size()) + length(box.center());
+        std::vector<Vec3> crossings;
+        for (int k = 0; k < 200; ++k) {
+            const Vec3 at = box.lo + Vec3{random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
+                                          random.uniform(-0.5, 1.5)} *
+                                         box.size();
+            const Vec3 d = random.unit_vector();
+            const double t = placed.first(at, d);
+            if (std::isfinite(t)) crossings.push_back(at + t * d);
+        }
+        for (double far = 10; far < 2e8; far *= 10) {
+            const Vec3 from = box.center() + far * size * random.unit_vector();
+            SCOPED_TRACE(std::string(S::kName) + " " + std::to_string(i) + " " +
+                         std::to_string(far));
+            const PointOnSurface found = placed.nearest(from);
+            const double distance = std::sqrt(found.squared);
+            if (crossings.empty()) break;
+            ASSERT_TRUE(std::isfinite(distance));
+            const double tolerance =
+                1e-12 * (size + length(found.point)) + 1e-15 * (length(from) + distance);
+            EXPECT_NEAR(length(found.point - from), distance, tolerance);
+            EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
+            for (const Vec3& x : crossings) ASSERT_GT(length(x - from), distance - tolerance);
+            EXPECT_LT(std::sqrt(placed.nearest(found.point).squared),
+                      1e-12 * (size + length(found.point)));
+            // From near by, on the way there, it is the nearest point too.
+            const Vec3 out = (from - found.point) / distance;
+            const double by = std::min(size, 0.5 * distance);
+            EXPECT_NEAR(std::sqrt(placed.nearest(found.point + by * out).squared), by,
+                        1e-12 * (size + length(found.point)));
+            if (::testing::Test::HasFailure()) return;
+        }
+    }
+}
+
+TYPED_TEST(NearestOf, PointsFarAwayAreAsExact) {
+    check_from_far<TypeParam>(5, 60);
+}
+
 TEST(Nearest, ATorusIsKnownWhereAnglesAreKept) {
     const Known torus = check_type<Torus>(2, 30);
     EXPECT_EQ(torus.refused, 10);
@@ -282,6 +330,43 @@ TEST(Nearest, KnownDistancesAreExact) {
     EXPECT_DOUBLE_EQ(nearest_on(cone, {0, 0, 3}).squared, 4);
     EXPECT_NEAR(nearest_on(cone, {0, 0, 0.8}).squared, 0.02, 1e-16);
     EXPECT_DOUBLE_EQ(nearest_on(cone, {2, 0, 1}).squared, 2);
+}
+
+TEST(Nearest, RimsAreFoundFromFarAway) {
+    const Affine turned = Affine::rotate(normalize(Vec3{1, 2, 3}), 40 * kPi / 180);
+    EllipticCylinder pipe{.axis_a = {2, 0, 0}, .axis_b = {0, 1, 0}};
+    const Vec3 above{700, 900, -1000};
+    Paraboloid bowl;
+    const Vec3 aside{-1000, 200, 100};
+    double pipe_rim = kInfinity, bowl_rim = kInfinity;
+    for (int i = 0; i < 100000; ++i) {
+        const double a = i * kPi / 50000;
+        const Vec3 p{2 * std::cos(a), std::sin(a), 0}, q{std::cos(a), std::sin(a), 1};
+        pipe_rim = std::min(pipe_rim, length(turned.point(p) - above));
+        bowl_rim = std::min(bowl_rim, length(turned.point(q) - aside));
+    }
+    EXPECT_NEAR(std::sqrt(nearest_on(pipe, above, turned).squared), pipe_rim, 1e-6);
+    EXPECT_NEAR(std::sqrt(nearest_on(bowl, aside, turned).squared), bowl_rim, 1e-6);
+}
+
+// Beside an apex f is small, off the surface too.
+TEST(Nearest, PointsBesideAnApexAreOnTheSurface) {
+    const Affine stretched = Affine::scale({1, 2, 3});
+    const Cone cone{.base = {0, 0, 0}, .top = {0, 0, 1}, .base_radius = 1, .top_radius = 0};
+    for (double off = 1e-2; off > 1e-12; off *= 0.1) {
+        // Behind the apex, which is nearest.
+        const Vec3 behind = off * Vec3{0.1, 0.05, 1};
+        EXPECT_NEAR(std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + behind, stretched).squared),
+                    length(behind), 2e-15);
+        // Far within, as far from the sides at any scale.
+        const Vec3 within = off * Vec3{0.05, 0.1, -1};
+        EXPECT_NEAR(std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + within, stretched).squared),
+                    off * std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + within / off * 0.25, stretched)
+                                        .squared) *
+                        4,
+                    4e-15)
+            << off;
+    }
 }
 
 // Where the multiplier is at its pole, and beside it.

@@ -18,18 +18,35 @@ Vec3 foot_on(const ClippedRegion::Plane& plane, const Vec3& x) {
     return once - (dot(plane.normal, once) - plane.offset) * plane.normal;
 }
 
+/// Or nearly: of a frustum, the apex may be far beyond the end.
+bool holds_apex(const std::vector<ClippedRegion::Plane>& planes, const Vec3& apex) {
+    for (const ClippedRegion::Plane& plane : planes) {
+        if (!(dot(plane.normal, apex) <= plane.offset + std::abs(plane.offset))) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 ClippedRegion::ClippedRegion(const Mat3& a, const Vec3& b, double c, std::vector<Plane> planes,
                              bool capped, const std::optional<Vec3>& apex)
-    : has_quadric_(true), capped_(capped), planes_(std::move(planes)), apex_(apex) {
+    : has_quadric_(true), capped_(capped), planes_(std::move(planes)) {
     const double size =
         std::fmax(max_component(abs(a.x_axis)),
                   std::fmax(max_component(abs(a.y_axis)), max_component(abs(a.z_axis))));
     const double scale = size > 0.0 ? 1.0 / size : 1.0;
     a_ = {scale * a.x_axis, scale * a.y_axis, scale * a.z_axis};
-    b_ = scale * b;
-    c_ = scale * c;
+    if (apex && holds_apex(planes_, *apex)) {
+        // From the apex f has no other terms, and so no rounding of theirs.
+        origin_ = *apex;
+        has_apex_ = true;
+        rounding_ = length(origin_);
+        for (Plane& plane : planes_) plane.offset -= dot(plane.normal, origin_);
+        c_ = 0.0;
+    } else {
+        b_ = scale * b;
+        c_ = scale * c;
+    }
     const Eigensystem own = eigensystem(a_);
     axes_ = own.axes;
     diagonal_ = {3, own.values, transpose_times(axes_, b_), c_};
@@ -53,11 +70,14 @@ double ClippedRegion::magnitude(const Vec3& x) const {
 }
 
 Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
+    // A candidate from far away is beside the plane by rounding of the way to it.
+    if (plane != nullptr) x = foot_on(*plane, x);
     double off = std::abs(value(x));
     for (int i = 0; i < 6 && off > 0.0; ++i) {
         Vec3 gradient = half_gradient(x);
         if (plane != nullptr) gradient -= dot(gradient, plane->normal) * plane->normal;
-        const Vec3 next = x - (0.5 * value(x) / length_squared(gradient)) * gradient;
+        Vec3 next = x - (0.5 * value(x) / length_squared(gradient)) * gradient;
+        if (plane != nullptr) next = foot_on(*plane, next);
         const double still_off = std::abs(value(next));
         if (!(still_off < off)) break;
         x = next;
@@ -66,9 +86,9 @@ Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
     return x;
 }
 
-ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane, const Vec3& near) const {
+ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane) const {
     Conic conic;
-    conic.origin = foot_on(plane, near);
+    conic.origin = foot_on(plane, {});
     const Vec3 x = perpendicular(plane.normal), y = cross(plane.normal, x);
     const Vec3 ax = a_ * x, ay = a_ * y;
     const Eigensystem own = eigensystem(
@@ -87,10 +107,12 @@ ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane, const Vec3& nea
 
 void ClippedRegion::append_conic_points(const Plane& plane, const Vec3& from,
                                         std::vector<Vec3>& points) const {
-    // The origin is the foot: what is nearest to it is nearest to the point itself.
-    const Conic conic = conic_in(plane, from);
+    // What is nearest to the foot in the plane is nearest to the point itself.
+    const Conic conic = conic_in(plane);
+    const Vec3 foot = foot_on(plane, from) - conic.origin;
     std::vector<Vec3> found;
-    append_stationary_points(conic.form, {}, found);
+    append_stationary_points(conic.form, {dot(foot, conic.x_axis), dot(foot, conic.y_axis), 0.0},
+                             found);
     for (const Vec3& p : found) {
         points.push_back(
             onto_surface(conic.origin + p.x * conic.x_axis + p.y * conic.y_axis, &plane));
@@ -109,9 +131,7 @@ class ClippedRegion::Search {
             const Vec3 x = region_.onto_surface(region_.axes_ * p, nullptr);
             if (is_on_surface(x)) offer(x, surface_normal(x));
         }
-        if (region_.apex_ && planes_leave(*region_.apex_)) {
-            offer(*region_.apex_, unit_or(from_ - *region_.apex_, {0, 0, 1}));
-        }
+        if (region_.has_apex_ && planes_leave({})) offer({}, unit_or(from_, {0, 0, 1}));
     }
     void plane(std::size_t i) {
         const Plane& plane = region_.planes_[i];
@@ -133,19 +153,25 @@ class ClippedRegion::Search {
         if (!(squared > 1e-24)) return;
         const Vec3 unit = along / std::sqrt(squared);
         // The foot on the line, and once more from there.
-        Vec3 foot = from_;
-        for (int turn = 0; turn < 2; ++turn) {
-            const double over_p = dot(p.normal, foot) - p.offset;
-            const double over_q = dot(q.normal, foot) - q.offset;
-            foot -= (over_p * cross(q.normal, along) - over_q * cross(p.normal, along)) / squared;
-        }
+        const auto foot_of = [&](Vec3 foot) {
+            for (int turn = 0; turn < 2; ++turn) {
+                const double over_p = dot(p.normal, foot) - p.offset;
+                const double over_q = dot(q.normal, foot) - q.offset;
+                foot -=
+                    (over_p * cross(q.normal, along) - over_q * cross(p.normal, along)) / squared;
+            }
+            return foot;
+        };
+        const Vec3 foot = foot_of(from_);
         if (region_.capped_ && is_filled(foot)) offer(foot, p.normal);
         if (!region_.has_quadric_) return;
-        const Vec3 half = region_.half_gradient(foot);
+        // From beside the region, where roundings are small.
+        const Vec3 start = foot_of({});
+        const Vec3 half = region_.half_gradient(start);
         const QuadraticRoots roots = solve_half_b_quadratic(dot(unit, region_.a_ * unit),
-                                                            dot(half, unit), region_.value(foot));
+                                                            dot(half, unit), region_.value(start));
         for (int r = 0; r < roots.count; ++r) {
-            const Vec3 x = foot + (r == 0 ? roots.t0 : roots.t1) * unit;
+            const Vec3 x = start + (r == 0 ? roots.t0 : roots.t1) * unit;
             if (is_on_surface(x)) offer(x, rim_normal(x, p));
         }
     }
@@ -167,7 +193,7 @@ class ClippedRegion::Search {
 
     [[nodiscard]] bool planes_leave(const Vec3& x) const {
         for (const Plane& plane : region_.planes_) {
-            const double slack = kSlack * (length(x) + std::abs(plane.offset));
+            const double slack = kSlack * (length(x) + std::abs(plane.offset) + region_.rounding_);
             if (!(dot(plane.normal, x) <= plane.offset + slack)) return false;
         }
         return true;
@@ -195,7 +221,7 @@ class ClippedRegion::Search {
 };
 
 std::optional<PointOnSurface> ClippedRegion::nearest(const Vec3& from) const {
-    Search search(*this, from);
+    Search search(*this, from - origin_);
     if (has_quadric_) search.surface();
     for (std::size_t i = 0; i < planes_.size(); ++i) {
         search.plane(i);
@@ -204,7 +230,9 @@ std::optional<PointOnSurface> ClippedRegion::nearest(const Vec3& from) const {
             for (std::size_t m = k + 1; m < planes_.size(); ++m) search.corner(i, k, m);
         }
     }
-    return search.best();
+    std::optional<PointOnSurface> best = search.best();
+    if (best) best->point += origin_;
+    return best;
 }
 
 std::optional<PointOnSurface> ClippedRegion::nearest_in_plane(const Vec3& from,

@@ -41,7 +41,7 @@ class ClippedRegion {
 
     ClippedRegion() = default;
     /// The surface f = 0 and, where `capped`, the parts of the planes with f <= 0. `apex`: a point
-    /// of the surface where the gradient is 0.
+    /// of the surface where the gradient is 0, whether the planes leave it or not.
     ClippedRegion(const Mat3& a, const Vec3& b, double c, std::vector<Plane> planes, bool capped,
                   const std::optional<Vec3>& apex = {});
     /// A convex polyhedron.
@@ -50,7 +50,7 @@ class ClippedRegion {
     /// None where the planes leave nothing.
     [[nodiscard]] std::optional<PointOnSurface> nearest(const Vec3& from) const;
     /// The nearest point of the curve f = 0 in a plane, whatever the other planes; the normal is
-    /// that of the plane.
+    /// that of the plane. Precondition, of `value` and `planes` too: no apex.
     [[nodiscard]] std::optional<PointOnSurface> nearest_in_plane(const Vec3& from,
                                                                  const Plane& plane) const;
     [[nodiscard]] double value(const Vec3& x) const;
@@ -63,7 +63,7 @@ class ClippedRegion {
         DiagonalQuadric form;
         Vec3 origin, x_axis, y_axis;
     };
-    [[nodiscard]] Conic conic_in(const Plane& plane, const Vec3& near) const;
+    [[nodiscard]] Conic conic_in(const Plane& plane) const;
     void append_conic_points(const Plane& plane, const Vec3& from, std::vector<Vec3>& points) const;
     [[nodiscard]] Vec3 half_gradient(const Vec3& x) const { return a_ * x + b_; }
     /// Where the rounding of f ends.
@@ -78,7 +78,9 @@ class ClippedRegion {
     DiagonalQuadric diagonal_;  ///< in `axes_`
     Mat3 axes_;
     std::vector<Plane> planes_;
-    std::optional<Vec3> apex_;
+    Vec3 origin_;          ///< of all of these, from the caller's: the apex where there is one
+    double rounding_ = 0;  ///< the size of what the offsets were rounded from
+    bool has_apex_ = false;
 };
 
 }  // namespace alhazen

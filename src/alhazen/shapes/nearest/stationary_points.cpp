@@ -31,7 +31,11 @@ double middle(double lo, double hi) {
 class Multipliers {
   public:
     Multipliers(const DiagonalQuadric& q, const Vec3& from, std::vector<Vec3>& points)
-        : q_(q), from_(from), g_(q.half_gradient(from)), value_(q.value(from)), points_(points) {}
+        : q_(q),
+          from_(from),
+          g_(q.half_gradient(from)),
+          own_((q.a * from + 2.0 * q.b) * from),
+          points_(points) {}
 
     void run() {
         std::vector<int> axes;  // with a pole, the lowest pole first
@@ -72,13 +76,27 @@ class Multipliers {
         const double of_pole = q_.a[m.axis];
         return (of_pole - a) / of_pole + m.offset * a;
     }
+    /// Whether a multiplier with this divisor leads far: differences of the coordinates there and
+    /// here are rounded more than the ones there.
+    [[nodiscard]] static bool leads_far(double d) { return std::abs(d) > 2.0; }
+    /// Of the point of the multiplier m, which has divisor d along axis i.
+    [[nodiscard]] double coordinate(double m, double d, int i) const {
+        if (g_[i] == 0.0) return from_[i];
+        return leads_far(d) ? (from_[i] - m * q_.b[i]) / d : from_[i] - m * (g_[i] / d);
+    }
     /// f at the point of a multiplier.
     [[nodiscard]] double constraint(const Multiplier& m) const {
-        double sum = value_;
+        double sum = q_.c;
         for (int i = 0; i < q_.dimensions; ++i) {
-            if (g_[i] == 0.0) continue;
             const double d = divisor(m, i);
-            sum -= g_[i] / d * g_[i] * value(m) * ((1.0 + d) / d);
+            if (g_[i] == 0.0) {
+                sum += own_[i];
+            } else if (leads_far(d)) {
+                const double x = coordinate(value(m), d, i);
+                sum += (q_.a[i] * x + 2.0 * q_.b[i]) * x;
+            } else {
+                sum += own_[i] - g_[i] / d * g_[i] * value(m) * ((1.0 + d) / d);
+            }
         }
         return sum;
     }
@@ -94,9 +112,7 @@ class Multipliers {
     }
     void add(const Multiplier& m) {
         Vec3 x = from_;
-        for (int i = 0; i < q_.dimensions; ++i) {
-            if (g_[i] != 0.0) x[i] -= value(m) * (g_[i] / divisor(m, i));
-        }
+        for (int i = 0; i < q_.dimensions; ++i) x[i] = coordinate(value(m), divisor(m, i), i);
         if (is_finite(x)) points_.push_back(x);
     }
     /// A zero of f between two multipliers of one axis, at which its signs differ.
@@ -139,7 +155,7 @@ class Multipliers {
             if (is_same(i, k)) {
                 x[k] = -q_.b[k] / q_.a[k];
             } else {
-                x[k] -= m / (1.0 + m * q_.a[k]) * g_[k];
+                x[k] = coordinate(m, 1.0 + m * q_.a[k], k);
             }
         }
         const double squared = -q_.value(x) / q_.a[i];
@@ -153,7 +169,7 @@ class Multipliers {
 
     const DiagonalQuadric& q_;
     const Vec3 from_, g_;
-    const double value_;
+    const Vec3 own_;  ///< what the axes add to f at `from`
     std::vector<Vec3>& points_;
 };
 
