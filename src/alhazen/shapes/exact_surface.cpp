@@ -36,6 +36,30 @@ Mat3 transposed(const Mat3& m) {
             {m.x_axis.z, m.y_axis.z, m.z_axis.z}};
 }
 
+/// Of the form in a frame, in space.
+Eigensystem eigensystem_of(const Mat3& local_from_space, const QuadricForm& f, const Mat3& a) {
+    const Mat3 rows = transposed(local_from_space);
+    if (f.xy == 0.0 && f.yz == 0.0 && f.zx == 0.0) {
+        const auto sign = [](double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; };
+        const auto own = eigensystem_of_rows(
+            {std::sqrt(std::abs(f.xx)) * rows.x_axis, std::sqrt(std::abs(f.yy)) * rows.y_axis,
+             std::sqrt(std::abs(f.zz)) * rows.z_axis},
+            {sign(f.xx), sign(f.yy), sign(f.zz)});
+        if (own) return *own;
+    }
+    const Mat3 half = rows * (a * local_from_space);
+    Eigensystem own = eigensystem({0.5 * (half.x_axis + transposed(half).x_axis),
+                                   0.5 * (half.y_axis + transposed(half).y_axis),
+                                   0.5 * (half.z_axis + transposed(half).z_axis)});
+    // Rounding of a flat direction is no curvature.
+    const double least =
+        8 * std::numeric_limits<double>::epsilon() * max_component(abs(own.values));
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(own.values[i]) < least) own.values[i] = 0.0;
+    }
+    return own;
+}
+
 std::string too_many_planes(std::size_t count) {
     if (count <= ClippedRegion::kMostPlanes) return {};
     return "has more than " + std::to_string(ClippedRegion::kMostPlanes) + " planes";
@@ -255,12 +279,9 @@ class PieceMaker {
                                           const std::vector<ClipPlane>& local, bool capped) const {
         const Mat3 m = local_from_space(frame);
         const Mat3 a{{f.xx, f.xy, f.zx}, {f.xy, f.yy, f.yz}, {f.zx, f.yz, f.zz}};
-        const Mat3 half = transposed(m) * (a * m);
         std::vector<ClippedRegion::Plane> planes;
         for (const ClipPlane& plane : local) planes.push_back(plane_of(frame, plane));
-        return {{0.5 * (half.x_axis + transposed(half).x_axis),
-                 0.5 * (half.y_axis + transposed(half).y_axis),
-                 0.5 * (half.z_axis + transposed(half).z_axis)},
+        return {eigensystem_of(m, f, a),
                 transpose_times(m, {f.x, f.y, f.z}),
                 f.c,
                 std::move(planes),

@@ -6,10 +6,13 @@
 /// through its axis and the point.
 /// Differs: a placement may be any affine transform, under which quadrics and planes stay what they
 /// are and nearest points do not; a torus must be placed by one that keeps angles.
-/// ADD A SHAPE HERE: an overload of `refusal_of` or `append_pieces` in exact_surface.cpp.
+/// ADD A SHAPE HERE: a branch of `refusal_of` and an overload of `PieceMaker::add` in
+/// exact_surface.cpp.
 /// Conventions: points and normals are in space; normals are outward for closed shapes. What is
 /// left of the exact distance is some roundings of the largest coordinate
-/// (tests/unit/shapes/nearest_test.cpp).
+/// (tests/unit/shapes/nearest_test.cpp), that of the point asked from included. Cones and
+/// hyperboloids that are stretched aslant, and quadrics with mixed terms, lose more: as many as the
+/// squared ratio of their longest to their shortest axis, and beyond 2e7 they are taken for flat.
 /// Threads: const functions may be called from many.
 
 #include <memory>

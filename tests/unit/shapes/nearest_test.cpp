@@ -349,6 +349,48 @@ TEST(Nearest, RimsAreFoundFromFarAway) {
     EXPECT_NEAR(std::sqrt(nearest_on(bowl, aside, turned).squared), bowl_rim, 1e-6);
 }
 
+/// Points at known distances outside a convex surface, at the ends of its normals.
+template <class S>
+void check_outside(const S& shape, const Affine& place, const Vec3& on, const Vec3& gradient,
+                   const Affine& turned, double largest) {
+    const Vec3 normal = normalize(gradient);
+    for (const double away : {1e-3, 1.0, 1e3}) {
+        const double d =
+            std::sqrt(nearest_on(shape, turned.point(on + away * normal), place).squared);
+        EXPECT_NEAR(d, away, 4e-15 * (largest + away)) << away << " " << largest;
+    }
+}
+
+TEST(Nearest, SlenderQuadricsLoseNoDigits) {
+    Random random(11);
+    for (double c = 1e-8; c < 2e8; c *= 10) {
+        const Ellipsoid egg{.axis_a = {1, 0, 0}, .axis_b = {0, 1.5, 0}, .axis_c = {0, 0, c}};
+        EXPECT_DOUBLE_EQ(nearest_on(egg, {0, 0, 2 * c + 2}).squared, (c + 2) * (c + 2)) << c;
+        const EllipticCylinder pipe{.top = {0, 0, c}, .axis_a = {1, 0, 0}, .axis_b = {0, 1.5, 0}};
+        for (int i = 0; i < 20; ++i) {
+            const Affine turned =
+                i == 0 ? Affine{} : Affine::rotate(random.unit_vector(), random.uniform(0, 6));
+            const Affine stretched = turned * Affine::scale({1, 1.5, c});
+            const Vec3 u = random.unit_vector();
+            const Vec3 on{u.x, 1.5 * u.y, c * u.z}, gradient{u.x, u.y / 1.5, u.z / c};
+            check_outside(egg, turned, on, gradient, turned, std::max(1.5, c));
+            check_outside(Sphere{}, stretched, on, gradient, turned, std::max(1.5, c));
+            const double side = std::hypot(u.x, u.y), h = random.uniform(0.1, 0.9);
+            const Vec3 v{u.x / side, u.y / side, 0};
+            check_outside(pipe, turned, {v.x, 1.5 * v.y, c * h}, {v.x, v.y / 1.5, 0}, turned,
+                          std::max(1.5, c));
+            // Ends that are slender, whose rims are nearest.
+            const EllipticCylinder board{.axis_a = {1, 0, 0}, .axis_b = {0, c, 0}};
+            const Vec3 rim{v.x, c * v.y, 1};
+            const Vec3 aside = normalize(Vec3{v.x, v.y / c, 0});
+            check_outside(board, turned, rim, aside + Vec3{0, 0, h}, turned, std::max(1.5, c));
+            check_outside(Disc{.center = {0, 0, 1}}, turned * Affine::scale({1, c, 1}), rim,
+                          aside + Vec3{0, 0, h}, turned, std::max(1.5, c));
+            if (::testing::Test::HasFailure()) return;
+        }
+    }
+}
+
 // Beside an apex f is small, off the surface too.
 TEST(Nearest, PointsBesideAnApexAreOnTheSurface) {
     const Affine stretched = Affine::scale({1, 2, 3});
@@ -360,11 +402,13 @@ TEST(Nearest, PointsBesideAnApexAreOnTheSurface) {
                     length(behind), 2e-15);
         // Far within, as far from the sides at any scale.
         const Vec3 within = off * Vec3{0.05, 0.1, -1};
-        EXPECT_NEAR(std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + within, stretched).squared),
-                    off * std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + within / off * 0.25, stretched)
-                                        .squared) *
-                        4,
-                    4e-15)
+        EXPECT_NEAR(
+            std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + within, stretched).squared),
+            off *
+                std::sqrt(
+                    nearest_on(cone, Vec3{0, 0, 3} + within / off * 0.25, stretched).squared) *
+                4,
+            4e-15)
             << off;
     }
 }

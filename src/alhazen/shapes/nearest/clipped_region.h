@@ -42,8 +42,8 @@ class ClippedRegion {
     ClippedRegion() = default;
     /// The surface f = 0 and, where `capped`, the parts of the planes with f <= 0. `apex`: a point
     /// of the surface where the gradient is 0, whether the planes leave it or not.
-    ClippedRegion(const Mat3& a, const Vec3& b, double c, std::vector<Plane> planes, bool capped,
-                  const std::optional<Vec3>& apex = {});
+    ClippedRegion(const Eigensystem& a, const Vec3& b, double c, std::vector<Plane> planes,
+                  bool capped, const std::optional<Vec3>& apex = {});
     /// A convex polyhedron.
     explicit ClippedRegion(std::vector<Plane> planes);
 
@@ -63,19 +63,24 @@ class ClippedRegion {
         DiagonalQuadric form;
         Vec3 origin, x_axis, y_axis;
     };
+    /// Of f in a plane, x and y are two unit vectors of which at a right angle.
+    [[nodiscard]] Eigensystem own_in(const Vec3& x, const Vec3& y) const;
     [[nodiscard]] Conic conic_in(const Plane& plane) const;
     void append_conic_points(const Plane& plane, const Vec3& from, std::vector<Vec3>& points) const;
-    [[nodiscard]] Vec3 half_gradient(const Vec3& x) const { return a_ * x + b_; }
-    /// Where the rounding of f ends.
+    [[nodiscard]] Vec3 half_gradient(const Vec3& x) const {
+        return axes_ * form_.half_gradient(transpose_times(axes_, x));
+    }
+    /// v A w.
+    [[nodiscard]] double second(const Vec3& v, const Vec3& w) const {
+        return dot(transpose_times(axes_, v), form_.a * transpose_times(axes_, w));
+    }
+    /// What the rounding of f, and of x, is a part of.
     [[nodiscard]] double magnitude(const Vec3& x) const;
     /// Steps to f = 0 along `gradient`, projected to the plane where there is one.
     [[nodiscard]] Vec3 onto_surface(Vec3 x, const Plane* plane) const;
 
     bool has_quadric_ = false, capped_ = true;
-    Mat3 a_{{}, {}, {}};
-    Vec3 b_;
-    double c_ = -1;
-    DiagonalQuadric diagonal_;  ///< in `axes_`
+    DiagonalQuadric form_;  ///< along `axes_`: of slender ones other coordinates lose digits
     Mat3 axes_;
     std::vector<Plane> planes_;
     Vec3 origin_;          ///< of all of these, from the caller's: the apex where there is one

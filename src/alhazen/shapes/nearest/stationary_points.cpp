@@ -4,7 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
+
+#include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
 
@@ -216,6 +219,48 @@ Eigensystem eigensystem(const Mat3& m) {
     return {
         {a[0][0], a[1][1], a[2][2]},
         {{v[0][0], v[1][0], v[2][0]}, {v[0][1], v[1][1], v[2][1]}, {v[0][2], v[1][2], v[2][2]}}};
+}
+
+std::optional<Eigensystem> eigensystem_of_rows(std::array<Vec3, 3> rows, const Vec3& signs) {
+    constexpr double kRight = 4 * std::numeric_limits<double>::epsilon();
+    std::array<double, 3> sizes{};
+    bool done = false;
+    for (int sweep = 0; sweep < 30 && !done; ++sweep) {
+        done = true;
+        for (int k = 0; k < 3; ++k) sizes[k] = signs[k] != 0.0 ? length(rows[k]) : 0.0;
+        for (int p = 0; p < 2; ++p) {
+            for (int q = p + 1; q < 3; ++q) {
+                if (sizes[p] == 0.0 || sizes[q] == 0.0) continue;
+                const double over = dot(rows[p] / sizes[p], rows[q] / sizes[q]);
+                if (std::abs(over) <= kRight) continue;
+                if (signs[p] != signs[q]) return std::nullopt;
+                done = false;
+                const double ratio = sizes[q] / sizes[p];
+                const double theta = (ratio - 1.0 / ratio) / (2.0 * over);
+                const double t =
+                    (theta < 0.0 ? -1.0 : 1.0) / (std::abs(theta) + std::hypot(theta, 1.0));
+                const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
+                const Vec3 x = rows[p], y = rows[q];
+                rows[p] = c * x - s * y;
+                rows[q] = s * x + c * y;
+                sizes[p] = length(rows[p]);
+                sizes[q] = length(rows[q]);
+            }
+        }
+    }
+    if (!done) return std::nullopt;
+    // Flat directions are at right angles to the others.
+    Eigensystem result{};
+    std::array<Vec3*, 3> axes{&result.axes.x_axis, &result.axes.y_axis, &result.axes.z_axis};
+    std::array<int, 3> order{0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](int i, int k) { return sizes[i] > sizes[k]; });
+    if (!(sizes[order[0]] > 0.0) || !std::isfinite(sizes[order[0]])) return std::nullopt;
+    const auto axis = [&](int i) { return rows[order[i]] / sizes[order[i]]; };
+    *axes[order[0]] = axis(0);
+    *axes[order[1]] = sizes[order[1]] > 0.0 ? axis(1) : perpendicular(axis(0));
+    *axes[order[2]] = sizes[order[2]] > 0.0 ? axis(2) : cross(*axes[order[0]], *axes[order[1]]);
+    for (int k = 0; k < 3; ++k) result.values[k] = signs[k] * sizes[k] * sizes[k];
+    return result;
 }
 
 double DiagonalQuadric::value(const Vec3& x) const {
