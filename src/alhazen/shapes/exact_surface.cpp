@@ -72,6 +72,18 @@ bool has_lines_only(const Profile& profile) {
     return true;
 }
 
+/// Open loops begin and end on the axis, which closes them.
+Profile with_axis(const Profile& profile) {
+    Profile closed = profile;
+    std::size_t begin = 0;
+    for (const std::size_t end : profile.loop_ends) {
+        const Vec2 first = profile.curves[begin].p[0], last = profile.curves[end - 1].p[3];
+        if (first != last) closed.curves.push_back(line_curve(last, first));
+        begin = end;
+    }
+    return closed;
+}
+
 /// Whether the right side of a line of the profile is inside: the other lines that the normal of
 /// its middle crosses there are odd in number.
 bool lies_inside(const Profile& profile, const ProfileCurve& line) {
@@ -199,16 +211,22 @@ class PieceMaker {
     void add(const Cylinder& s) { add_frustum(s.frustum, s.capped); }
     void add(const Cone& s) { add_frustum(s.frustum, s.capped); }
     void add(const Lathe& s) {
-        for (const ProfileCurve& curve : s.profile.curves) {
+        const Profile closed = s.is_closed ? with_axis(s.profile) : s.profile;
+        for (std::size_t i = 0; i < closed.curves.size(); ++i) {
+            const ProfileCurve& curve = closed.curves[i];
             const Vec2 &a = curve.p[0], &b = curve.p[3];
+            if (a.x == 0.0 && b.x == 0.0) continue;  // the axis
+            // Inside is on the right or the left of the line from a to b.
+            const bool to_left = s.is_closed && lies_inside(closed, curve);
             if (a.y != b.y) {
                 const bool up = a.y < b.y;
                 const Vec2 &low = up ? a : b, &high = up ? b : a;
-                if (low.x == 0.0 && high.x == 0.0) continue;  // the axis
-                add_frustum(Frustum({0, 0, low.y}, {0, 0, high.y}, low.x, high.x), false);
+                add_frustum(Frustum({0, 0, low.y}, {0, 0, high.y}, low.x, high.x), false,
+                            s.is_closed && up == to_left);
             } else if (a.x != b.x) {
                 Disc disc;
                 disc.center = {0, 0, a.y};
+                if (s.is_closed) disc.normal = {0, 0, (a.x < b.x) == to_left ? 1.0 : -1.0};
                 disc.radius = std::fmax(a.x, b.x);
                 disc.inner_radius = std::fmin(a.x, b.x);
                 disc.prepare();
@@ -300,25 +318,26 @@ class PieceMaker {
         return world_.outer_from_inner.vector(frame.object_from_local * center);
     }
     void add_quadric(const SolidFrame& frame, const QuadricForm& form,
-                     const std::vector<ClipPlane>& planes, bool capped) {
-        add_region(frame, region_of(frame, form, planes, capped));
+                     const std::vector<ClipPlane>& planes, bool capped, bool hollow = false) {
+        add_region(frame, region_of(frame, form, planes, capped), hollow);
     }
-    void add_region(const SolidFrame& frame, ClippedRegion region) {
+    void add_region(const SolidFrame& frame, ClippedRegion region, bool hollow = false) {
         pieces_.emplace_back(ExactSurface::Clipped{
-            point(frame.origin), std::make_shared<const ClippedRegion>(std::move(region))});
+            point(frame.origin), std::make_shared<const ClippedRegion>(std::move(region)), hollow});
     }
-    void add_frustum(const Frustum& f, bool capped) {
+    void add_frustum(const Frustum& f, bool capped, bool hollow = false) {
         if (const auto scale = similarity(world_.outer_from_inner.linear)) {
             pieces_.emplace_back(ExactSurface::Spindle{
                 point(f.center), normalize(world_.outer_from_inner.vector(f.axis)),
-                *scale * f.half_height, *scale * f.base_radius, *scale * f.top_radius, capped});
+                *scale * f.half_height, *scale * f.base_radius, *scale * f.top_radius, capped,
+                hollow});
             return;
         }
         QuadricForm form{1, 1, -f.slope * f.slope};
         form.z = -f.middle_radius * f.slope;
         form.c = -f.middle_radius * f.middle_radius;
         add_quadric({f.center, {f.x_axis, f.y_axis, f.axis}}, form,
-                    {{{0, 0, 1}, f.half_height}, {{0, 0, -1}, f.half_height}}, capped);
+                    {{{0, 0, 1}, f.half_height}, {{0, 0, -1}, f.half_height}}, capped, hollow);
     }
     void add_wall(const Vec3& at, const Vec3& normal) {
         pieces_.emplace_back(ExactSurface::Wall{
@@ -393,6 +412,7 @@ std::optional<PointOnSurface> ExactSurface::nearest_of(const Spindle& s, const V
         line({0.0, base.y}, base);
         line(top, {0.0, top.y});
     }
+    if (s.hollow) best->normal = -best->normal;
     return best;
 }
 
@@ -403,7 +423,9 @@ std::optional<PointOnSurface> ExactSurface::nearest_of(const Wall& wall, const V
 
 std::optional<PointOnSurface> ExactSurface::nearest_of(const Clipped& clipped, const Vec3& from) {
     std::optional<PointOnSurface> found = clipped.region->nearest(from - clipped.origin);
-    if (found) found->point += clipped.origin;
+    if (!found) return found;
+    found->point += clipped.origin;
+    if (clipped.hollow) found->normal = -found->normal;
     return found;
 }
 

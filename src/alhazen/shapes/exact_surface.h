@@ -52,6 +52,7 @@ class ExactSurface {
         Vec3 center, axis;
         double half_height = 1, base_radius = 1, top_radius = 1;
         bool capped = true;
+        bool hollow = false;  ///< the normals lead to the axis
     };
     struct Wall {
         Vec3 point, normal;
@@ -60,6 +61,7 @@ class ExactSurface {
     struct Clipped {
         Vec3 origin;
         std::shared_ptr<const ClippedRegion> region;
+        bool hollow = false;  ///< the normals lead to where f < 0
     };
     /// What a plane cuts out of the first region and leaves of the second, which may be null.
     struct Annulus {

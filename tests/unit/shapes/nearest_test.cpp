@@ -35,6 +35,25 @@ class Placed {
                    static_cast<const AnalyticShapes::Variant&>(any_));
         return hits.size() > 0 ? hits[0].t : kInfinity;
     }
+    /// Of the first crossing at about `t`; 0 where there is none.
+    [[nodiscard]] Vec3 normal_at(const Vec3& from, const Vec3& direction, double t,
+                                 double slack) const {
+        const Ray ray{world_.inner_from_outer.point(from),
+                      world_.inner_from_outer.vector(direction), 0.0, kInfinity};
+        ShapeHits hits;
+        return std::visit(
+            [&](const auto& s) {
+                append_hits(s, ray, hits);
+                if (hits.size() == 0 || !(std::abs(hits[0].t - t) < slack)) return Vec3{};
+                return normalize(transpose_times(world_.inner_from_outer.linear,
+                                                 s.surface(ray, hits[0]).normal));
+            },
+            static_cast<const AnalyticShapes::Variant&>(any_));
+    }
+    [[nodiscard]] bool closed() const {
+        return std::visit([](const auto& s) { return s.closed(); },
+                          static_cast<const AnalyticShapes::Variant&>(any_));
+    }
     [[nodiscard]] Box3 box() const {
         Box3 box;
         const Box3 own = std::visit([](const auto& s) { return s.box(); },
@@ -89,6 +108,22 @@ bool is_there(const Placed& shape, const Vec3& point, Random& random, double siz
     return false;
 }
 
+/// Whether rays beside the point, from both sides, tell one normal; expects that one.
+bool check_normal(const Placed& shape, const PointOnSurface& found, Random& random, double size) {
+    const double away = 1e-4 * size;
+    Vec3 normal;
+    for (int i = 0; i < 12; ++i) {
+        const Vec3 out = i % 2 == 0 ? found.normal : -found.normal;
+        const Vec3 aim = found.point + 1e-6 * size * random.unit_vector();
+        const Vec3 n = shape.normal_at(aim + away * out, -out, away, 0.1 * away);
+        if (n == Vec3{} || (i > 0 && length(n - normal) > 1e-2)) return false;
+        normal = n;
+    }
+    const double cosine = dot(normal, found.normal);
+    EXPECT_GT(shape.closed() ? cosine : std::abs(cosine), 0.999);
+    return true;
+}
+
 void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, double size) {
     const PointOnSurface found = shape.nearest(from);
     const double distance = std::sqrt(found.squared);
@@ -102,6 +137,7 @@ void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, do
     EXPECT_NEAR(length(found.point - from), distance, 1e-12 * size);
     EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
     EXPECT_TRUE(is_there(shape, found.point, random, size));
+    check_normal(shape, found, random, size);
     // Nothing is nearer.
     const Box3 box = shape.box();
     std::vector<std::pair<double, Vec3>> starts;
@@ -250,6 +286,12 @@ void check_at_random_places(const auto& shape, std::uint64_t seed) {
     }
 }
 
+template <class S>
+PointOnSurface nearest_on(S shape, const Vec3& from, const Affine& place = {}) {
+    shape.prepare();
+    return ExactSurface(shape, {place, inverse(place)}).nearest(from);
+}
+
 /// Loops of lines.
 Profile outline(const std::vector<std::vector<Vec2>>& loops, bool closed) {
     Profile profile;
@@ -287,6 +329,45 @@ TEST(Nearest, SweptOutlinesOfStraightLinesAreKnown) {
     EXPECT_NE(nearest_refusal(vase, {}), "");
 }
 
+TEST(Nearest, NormalsOfLathesLeadOutOfTheMaterial) {
+    const std::vector<std::vector<Vec2>> profiles{
+        {{1, 0}, {2, 0}, {2, 1}, {1, 1}},                                  // a pipe
+        {{0, 0}, {2, 0}, {1, 2}, {0, 2}},                                  // with the axis
+        {{0, 0}, {2, 0}, {2, 3}, {1.5, 3}, {1, 1}, {0, 0.5}},              // a cup
+        {{1, 1}, {2, 1}, {2, 0}, {1, 0}},                                  // the other way round
+        {{0.5, 0}, {3, 1}, {3, 4}, {2.5, 4}, {2.5, 2}, {1, 1.5}, {1, 5}},  // an undercut
+    };
+    Random random(4);
+    for (const std::vector<Vec2>& profile : profiles) {
+        for (const bool open : {false, true}) {
+            // An axis may be left out of the profile.
+            if (open && (profile.front().x > 0 || profile.back().x > 0)) continue;
+            Lathe lathe;
+            lathe.profile = outline({profile}, !open);
+            lathe.prepare();
+            ASSERT_TRUE(lathe.closed());
+            for (int kind = 0; kind < 3; ++kind) {
+                const Affine place = random_place(random, kind);
+                const Placed placed(lathe, place);
+                const Box3 box = placed.box();
+                int seen = 0;
+                for (int i = 0; i < 100; ++i) {
+                    const Vec3 u{random.uniform(-0.2, 1.2), random.uniform(-0.2, 1.2),
+                                 random.uniform(-0.2, 1.2)};
+                    const PointOnSurface found = placed.nearest(box.lo + u * box.size());
+                    seen += check_normal(placed, found, random, length(box.size())) ? 1 : 0;
+                }
+                EXPECT_GT(seen, 20);  // the others are edges
+                if (::testing::Test::HasFailure()) return;
+            }
+        }
+    }
+    Lathe pipe;
+    pipe.profile = outline({profiles[0]}, true);
+    EXPECT_EQ(nearest_on(pipe, {0.25, 0, 0.5}).normal, (Vec3{-1, 0, 0}));
+    EXPECT_EQ(nearest_on(pipe, {1.5, 0, 0.25}).normal, (Vec3{0, 0, -1}));
+}
+
 TEST(Nearest, ShapesWithoutNearestPointsSayWhy) {
     const Affine stretched = Affine::scale({1, 1, 2});
     EXPECT_EQ(nearest_refusal(Torus{}, {}), "");
@@ -296,12 +377,6 @@ TEST(Nearest, ShapesWithoutNearestPointsSayWhy) {
                                   AnyShape(Blob{}), AnyShape(BezierPatch{})}) {
         EXPECT_NE(nearest_refusal(shape, {}), "");
     }
-}
-
-template <class S>
-PointOnSurface nearest_on(S shape, const Vec3& from, const Affine& place = {}) {
-    shape.prepare();
-    return ExactSurface(shape, {place, inverse(place)}).nearest(from);
 }
 
 TEST(Nearest, KnownDistancesAreExact) {
