@@ -370,6 +370,20 @@ PointOnSurface ExactSurface::nearest(const Vec3& from) const {
     return best.value_or(PointOnSurface{{}, {}, std::numeric_limits<double>::infinity()});
 }
 
+std::size_t ExactSurface::bytes() const {
+    std::size_t sum = sizeof(*this) + pieces_.capacity() * sizeof(Piece);
+    for (const Piece& piece : pieces_) {
+        if (const auto* const clipped = std::get_if<Clipped>(&piece)) {
+            sum += clipped->region->bytes();
+        } else if (const auto* const ring = std::get_if<Annulus>(&piece)) {
+            sum += ring->outer->bytes() + (ring->hole ? ring->hole->bytes() : 0);
+        } else if (const auto* const flat = std::get_if<Flat>(&piece)) {
+            sum += flat->region->bytes();
+        }
+    }
+    return sum;
+}
+
 std::optional<PointOnSurface> ExactSurface::nearest_of(const Ball& ball, const Vec3& from) {
     const Vec3 n = unit_or(from - ball.center, {0, 0, 1});
     const Vec3 x = ball.center + ball.radius * n;

@@ -36,6 +36,8 @@ class ExactSurface {
 
     /// `from` is finite.
     [[nodiscard]] PointOnSurface nearest(const Vec3& from) const;
+    /// With all that it keeps elsewhere.
+    [[nodiscard]] std::size_t bytes() const;
 
   private:
     friend class PieceMaker;

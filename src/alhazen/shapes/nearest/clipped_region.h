@@ -55,6 +55,9 @@ class ClippedRegion {
                                                                  const Plane& plane) const;
     [[nodiscard]] double value(const Vec3& x) const;
     [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(*this) + planes_.capacity() * sizeof(Plane);
+    }
 
   private:
     class Search;
