@@ -1,6 +1,7 @@
 #include "alhazen/shapes/exact_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -36,17 +37,49 @@ Mat3 transposed(const Mat3& m) {
             {m.x_axis.z, m.y_axis.z, m.z_axis.z}};
 }
 
+bool has_mixed_terms(const QuadricForm& f) {
+    return f.xy != 0.0 || f.yz != 0.0 || f.zx != 0.0;
+}
+
+/// The form without mixed terms is the sum of signs_i (rows_i x)^2 in space.
+std::array<Vec3, 3> rows_of(const Mat3& local_from_space, const QuadricForm& f) {
+    const Mat3 rows = transposed(local_from_space);
+    return {std::sqrt(std::abs(f.xx)) * rows.x_axis, std::sqrt(std::abs(f.yy)) * rows.y_axis,
+            std::sqrt(std::abs(f.zz)) * rows.z_axis};
+}
+Vec3 signs_of(const QuadricForm& f) {
+    const auto sign = [](double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; };
+    return {sign(f.xx), sign(f.yy), sign(f.zz)};
+}
+
+/// Whether the axes that the form has in space are known to too few digits: rows of different signs
+/// aslant, in a ratio whose square leaves less than some 5 digits.
+bool is_too_slender(const Mat3& local_from_space, const QuadricForm& f) {
+    constexpr double kMostRatio = 1e5;
+    if (has_mixed_terms(f)) return false;
+    const std::array<Vec3, 3> rows = rows_of(local_from_space, f);
+    if (eigensystem_of_rows(rows, signs_of(f))) return false;
+    const double sum = length_squared(rows[0]) + length_squared(rows[1]) + length_squared(rows[2]);
+    // Flat directions are left out.
+    const auto entry = [&](int i, int k) {
+        const double product = dot(rows[i], rows[k]);
+        return i == k && product == 0.0 ? sum : product;
+    };
+    const Vec3 squares = eigensystem({{entry(0, 0), entry(1, 0), entry(2, 0)},
+                                      {entry(0, 1), entry(1, 1), entry(2, 1)},
+                                      {entry(0, 2), entry(1, 2), entry(2, 2)}})
+                             .values;
+    const double least = std::fmin(squares.x, std::fmin(squares.y, squares.z));
+    return !(least * kMostRatio * kMostRatio > max_component(squares));
+}
+
 /// Of the form in a frame, in space.
 Eigensystem eigensystem_of(const Mat3& local_from_space, const QuadricForm& f, const Mat3& a) {
-    const Mat3 rows = transposed(local_from_space);
-    if (f.xy == 0.0 && f.yz == 0.0 && f.zx == 0.0) {
-        const auto sign = [](double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; };
-        const auto own = eigensystem_of_rows(
-            {std::sqrt(std::abs(f.xx)) * rows.x_axis, std::sqrt(std::abs(f.yy)) * rows.y_axis,
-             std::sqrt(std::abs(f.zz)) * rows.z_axis},
-            {sign(f.xx), sign(f.yy), sign(f.zz)});
+    if (!has_mixed_terms(f)) {
+        const auto own = eigensystem_of_rows(rows_of(local_from_space, f), signs_of(f));
         if (own) return *own;
     }
+    const Mat3 rows = transposed(local_from_space);
     const Mat3 half = rows * (a * local_from_space);
     Eigensystem own = eigensystem({0.5 * (half.x_axis + transposed(half).x_axis),
                                    0.5 * (half.y_axis + transposed(half).y_axis),
@@ -115,6 +148,7 @@ std::size_t plane_count(const ClippedQuadric& solid) {
 template <class S>
 std::string refusal_of(const S& shape, const Affine& world) {
     constexpr const char* kUnknown = "is of a kind without a closed form";
+    constexpr const char* kSlender = "is stretched aslant, its axes in a ratio above 1e5";
     if constexpr (std::is_same_v<S, Torus>) {
         return similarity(world.linear) ? "" : "is placed with different scales along its axes";
     } else if constexpr (std::is_same_v<S, Tgc>) {
@@ -122,14 +156,19 @@ std::string refusal_of(const S& shape, const Affine& world) {
     } else if constexpr (std::is_same_v<S, Polyhedron>) {
         return too_many_planes(shape.faces.size());
     } else if constexpr (requires { plane_count(shape.solid); }) {
+        const Mat3 local = shape.solid.frame.local_from_object * inverse(world).linear;
+        if (is_too_slender(local, shape.solid.quadric.form())) return kSlender;
         return too_many_planes(plane_count(shape.solid));
+    } else if constexpr (std::is_same_v<S, Cone>) {
+        const Frustum& f = shape.frustum;
+        const Mat3 local = transposed({f.x_axis, f.y_axis, f.axis}) * inverse(world).linear;
+        return is_too_slender(local, {1, 1, -f.slope * f.slope}) ? kSlender : "";
     } else if constexpr (std::is_same_v<S, Lathe> || std::is_same_v<S, Prism>) {
         return has_lines_only(shape.profile) ? "" : "has curves in its profile";
     } else if constexpr (std::is_same_v<S, Sphere> || std::is_same_v<S, Plane> ||
                          std::is_same_v<S, HalfSpace> || std::is_same_v<S, Disc> ||
                          std::is_same_v<S, Rectangle> || std::is_same_v<S, BoxShape> ||
-                         std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone> ||
-                         std::is_same_v<S, Polygon>) {
+                         std::is_same_v<S, Cylinder> || std::is_same_v<S, Polygon>) {
         return {};
     } else {
         return kUnknown;

@@ -12,7 +12,7 @@
 /// left of the exact distance is some roundings of the largest coordinate
 /// (tests/unit/shapes/nearest_test.cpp), that of the point asked from included. Cones and
 /// hyperboloids that are stretched aslant, and quadrics with mixed terms, lose more: as many as the
-/// squared ratio of their longest to their shortest axis, and beyond 2e7 they are taken for flat.
+/// squared ratio of their longest to their shortest axis; the former are refused beyond 1e5.
 /// Threads: const functions may be called from many.
 
 #include <memory>

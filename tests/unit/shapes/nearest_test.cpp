@@ -373,6 +373,20 @@ TEST(Nearest, ShapesWithoutNearestPointsSayWhy) {
     EXPECT_EQ(nearest_refusal(Torus{}, {}), "");
     EXPECT_NE(nearest_refusal(Torus{}, stretched), "");
     EXPECT_EQ(nearest_refusal(Sphere{}, stretched), "");
+    // Where the axes that f has in space would have no digits left.
+    const Affine turned = Affine::rotate(normalize(Vec3{1, 2, 3}), 1);
+    const Affine aslant = Affine::scale({1, 1, 1e6}) * turned;
+    Cone round;
+    round.prepare();
+    EllipticCone cone;
+    cone.prepare();
+    for (const AnyShape& shape : {AnyShape(round), AnyShape(cone)}) {
+        EXPECT_NE(nearest_refusal(shape, aslant), "");
+        EXPECT_EQ(nearest_refusal(shape, Affine::scale({1, 1, 1e3}) * turned), "");
+        EXPECT_EQ(nearest_refusal(shape, turned * Affine::scale({1, 1, 1e6})), "");
+    }
+    EXPECT_EQ(nearest_refusal(Sphere{}, aslant), "");
+    EXPECT_EQ(nearest_refusal(Cylinder{}, aslant), "");
     for (const AnyShape& shape : {AnyShape(Algebraic{}), AnyShape(Superellipsoid{}),
                                   AnyShape(Blob{}), AnyShape(BezierPatch{})}) {
         EXPECT_NE(nearest_refusal(shape, {}), "");
