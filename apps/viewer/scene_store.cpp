@@ -129,10 +129,13 @@ void SceneStore::read_files(Reading& reading) {
     framing.aspect = free_aspect(scene.description.picture, {});
     (void)complete_view(scene.description, scene.scene, framing);
     Json menus = view_menus(scene);
+    // What was there until now is freed after the lock.
+    std::shared_ptr<const Loaded> last = std::move(next);
+    Moved last_moved;
     const std::lock_guard lock(mutex_);
-    loaded_ = std::move(next);
-    moved_ = {};
-    menus_ = std::move(menus);
+    loaded_.swap(last);
+    std::swap(moved_, last_moved);
+    menus_.swap(menus);
 }
 
 std::shared_ptr<const SceneStore::Loaded> SceneStore::with(const std::string& accelerator,
@@ -204,8 +207,10 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::moved(
     ThreadLimit(load_.threads).run([&] {
         next->scene = with_moved_surfaces(here->scene, surfaces, options);
     });
+    // The last one is freed after the lock.
+    Moved last{here, surfaces, next};
     const std::lock_guard lock(mutex_);
-    moved_ = {here, surfaces, next};
+    std::swap(moved_, last);
     return next;
 }
 

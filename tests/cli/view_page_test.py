@@ -320,6 +320,18 @@ class ViewPage(unittest.TestCase):
         self.assertEqual(self.picture(), first)
         self.assertEqual(page.value(summary), "lights: all of 4 on")
         self.assertEqual(page.value("viewer.controls.lights.changes().length"), 0)
+        # Of another kind with as many sizes it has those of the file.
+        self.changes(lambda: type_in("lamp radius", "0.75"))
+        disc = next(line for line in LIGHTS.split("\n") if line.startswith("disc_light"))
+        rectangle = ('rectangle_light "lamp" { corner = (0.8, 2.4, -0.6); edge_u = (1.5, 0, 0); edge_v = (0, 0, 1.25); '
+                     'radiance = (2, 2, 1) }')
+        self.changes(lambda: self.edit(LIGHTS.replace(disc, rectangle)))
+        lamp = "viewer.controls.lights.changes().find(c => c.name === 'lamp')"
+        self.assertIsNone(page.value(f"{lamp}.sizes ?? null"))
+        self.assertEqual([page.value(f"{field(f'lamp {name}')}.value") for name in ("width", "height")], ["1.5", "1.25"])
+        self.changes(lambda: self.edit(LIGHTS))
+        self.assertEqual(page.value(f"{field('lamp radius')}.value"), "0.75")
+        self.changes(lambda: page.value("viewer.undo()"))
         # The file with the blocks shows what was seen.
         kept = [line for line in LIGHTS.split("\n") if not line.startswith(("spot_light", "disc_light", "point_light"))]
         self.changes(lambda: self.edit("\n".join(kept).replace("emission = (0.9, 0.3, 0.05)", "emission = (0.2, 0.3, 0.05)") + blocks))

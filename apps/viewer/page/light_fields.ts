@@ -4,13 +4,14 @@ import {element} from "../../../src/alhazen/explain/page/basics";
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
 import type {LightEntry} from "./state";
 
+type LightSize = NonNullable<LightEntry["sizes"]>[number];
 /** What a light has instead of what the file says; its colour is `times` `color`. */
 export interface LightValues {
   position?: Vec3;
   direction?: Vec3;
   color: Vec3;
   times: number;
-  sizes: number[];
+  sizes: LightSize[];
 }
 type VectorKey = "position" | "direction" | "color";
 const AXES: Record<VectorKey, string[]> = {
@@ -18,6 +19,11 @@ const AXES: Record<VectorKey, string[]> = {
 const LABELS: Record<VectorKey, string> = {position: "position", direction: "direction", color: "colour"};
 const MOST = 1e15;
 
+/** The sizes among what was chosen; undefined where the light now has others: the file may have given it another kind. */
+export function chosenSizes(light: LightEntry, values: LightValues | undefined) {
+  const own = light.sizes ?? [], chosen = values?.sizes;
+  return chosen?.length === own.length && chosen.every((s, i) => s.name === own[i].name) ? chosen : undefined;
+}
 function capital(text: string) {
   return text[0].toUpperCase() + text.slice(1);
 }
@@ -58,18 +64,18 @@ export class LightFields {
     // The file may have given the light another kind meanwhile.
     this.values = {position: values?.position ?? file.position, direction: values?.direction ?? file.direction,
                    color: values?.color ?? file.color, times: values?.times ?? 1,
-                   sizes: values?.sizes.length === file.sizes.length ? values.sizes : file.sizes};
+                   sizes: chosenSizes(this.light, values) ?? file.sizes};
     for (const {key, fields} of this.vectors) {
       fields.forEach((field, i) => this.set(field, this.values[key]![i]));
     }
     this.set(this.times, this.values.times);
-    this.sizes.forEach((field, i) => this.set(field, this.values.sizes[i]));
+    this.sizes.forEach((field, i) => this.set(field, this.values.sizes[i].value));
     this.reset.disabled = values === undefined;
   }
 
   private ofFile(): LightValues {
     const {position, direction, color, sizes} = this.light;
-    return {position, direction, color, times: 1, sizes: (sizes ?? []).map(s => s.value)};
+    return {position, direction, color, times: 1, sizes: sizes ?? []};
   }
   private set(field: HTMLInputElement, x: number) {
     field.removeAttribute("aria-invalid");
@@ -97,7 +103,7 @@ export class LightFields {
     }
     const size = this.sizes.indexOf(field);
     if (size >= 0) {
-      values.sizes = values.sizes.map((old, i) => i === size ? x : old);
+      values.sizes = values.sizes.map((old, i) => i === size ? {...old, value: x} : old);
       good &&= this.areSizes(values.sizes);
     }
     for (const {key, fields} of this.vectors) {
@@ -118,12 +124,12 @@ export class LightFields {
     this.changed(this.isOfFile() ? undefined : values, mark);
   }
   // Above 0, and a hole smaller than what is around it.
-  private areSizes(sizes: number[]) {
-    const names = this.light.sizes!.map(s => s.name);
-    return sizes.every((x, i) => names[i] === "inner radius" ? x >= 0 && x < sizes[names.indexOf("radius")] : x > 0);
+  private areSizes(sizes: LightSize[]) {
+    const radius = sizes.find(s => s.name === "radius")?.value ?? 0;
+    return sizes.every(({name, value}) => name === "inner radius" ? value >= 0 && value < radius : value > 0);
   }
   private isOfFile() {
     const file = this.ofFile();
-    return this.values.times === 1 && this.values.sizes.every((x, i) => x === file.sizes[i]) && this.vectors.every(({key}) => this.values[key]!.every((x, i) => x === file[key]![i]));
+    return this.values.times === 1 && this.values.sizes.every((s, i) => s.value === file.sizes[i].value) && this.vectors.every(({key}) => this.values[key]!.every((x, i) => x === file[key]![i]));
   }
 }

@@ -2,7 +2,7 @@
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
-import {LightFields} from "./light_fields";
+import {chosenSizes, LightFields} from "./light_fields";
 import type {LightValues} from "./light_fields";
 import type {LightChange, LightEntry} from "./state";
 
@@ -45,10 +45,10 @@ export class LightList {
     return this.lights.flatMap(light => {
       const values = this.values.get(light.name);
       if (!values) return [];
-      const {position, direction, color, times, sizes} = values;
+      const {position, direction, color, times} = values, sizes = chosenSizes(light, values);
       return [{name: light.name, ...(light.position && position ? {position} : {}),
                ...(light.direction && direction ? {direction} : {}),
-               ...(sizes.length && sizes.length === light.sizes?.length ? {sizes} : {}),
+               ...(sizes?.length ? {sizes: sizes.map(s => s.value)} : {}),
                color: color.map(c => c * times) as Vec3}];
     });
   }

@@ -268,7 +268,7 @@ class Scene:
         polyhedra, spheres, cylinders, cones, all quadrics, tori, and lathes of straight lines, however they are placed
         (tori: without stretching). Other shapes, and solids made of others, are an error that names the first. Without
         surfaces distances are infinite, of points that are not finite NaN; ids are then INVALID_ID. Instances count at
-        each of their places, with at most 2^25 triangles and shapes in all.
+        each of their places, with at most 5.5 GB in all: 2^25 triangles, fewer shapes.
         """
         return self._scene().closest_points(points, self._at_most(threads))
 

@@ -18,14 +18,16 @@ namespace {
 
 /// Of an aggregate with what its instances hold.
 struct Census {
-    double count = 0;         ///< of instances nested in each other there may be many
+    double bytes = 0;         ///< of instances nested in each other there may be many
     std::string first_solid;  ///< its name
     bool has_instances = false;
 };
 
 class CensusTaker {
   public:
-    explicit CensusTaker(const SceneDescription& description) : description_(description) {}
+    /// Nothing is weighed without instances: all is there once.
+    CensusTaker(const SceneDescription& description, const Aggregate& scene)
+        : description_(description), weighs_(!scene.primitives().instances.empty()) {}
 
     const Census& of(const Aggregate& aggregate, std::uint32_t part) {
         const auto [known, fresh] = known_.try_emplace(&aggregate);
@@ -44,17 +46,43 @@ class CensusTaker {
             return census;
         }
         const PrimitiveTable& table = aggregate.primitives();
-        census.count = table.first(kInstanceKind);
+        for (const PlacedMesh& mesh : table.meshes) {
+            census.bytes +=
+                PlacedSurfaces::kTriangleBytes * static_cast<double>(mesh.mesh->triangles.size());
+        }
+        if (weighs_) {
+            std::apply([&](const auto&... column) { ((census.bytes += bytes_of(column)), ...); },
+                       table.columns);
+        }
         for (const Instance& instance : table.instances) {
             const Census& inner = of(*instance.aggregate, instance.part);
-            census.count += inner.count;
+            census.bytes += inner.bytes;
             census.has_instances = true;
             if (census.first_solid.empty()) census.first_solid = inner.first_solid;
         }
         return census;
     }
 
+    /// Of shapes that an instance may stretch.
+    template <class S>
+    static double bytes_of(const ShapeColumn<S>& column) {
+        const Affine stretch = Affine::scale({1, 2, 3});
+        const Placement stretched{stretch, inverse(stretch)};
+        double sum = 0;
+        for (const S& shape : column.shapes) {
+            interruption_point();
+            const AnyShape any(shape);
+            // Those whose nearest points are not known are an error soon.
+            if (!nearest_refusal(any, {}).empty()) continue;
+            sum += static_cast<double>(ExactSurface(any, stretched).bytes() + kTreeBytes);
+        }
+        return sum;
+    }
+
+    /// Of a shape: its id, its box and its part of the tree.
+    static constexpr std::size_t kTreeBytes = 128;
     const SceneDescription& description_;
+    const bool weighs_;
     std::unordered_map<const Aggregate*, Census> known_;
 };
 
@@ -65,11 +93,12 @@ void check(const Census& census) {
                                 "made of others",
                                 census.first_solid));
     }
-    if (census.has_instances && census.count > PlacedSurfaces::kMost) {
+    if (census.has_instances && census.bytes > PlacedSurfaces::kMostBytes) {
         throw Error(ErrorKind::Resource,
-                    fmt::format("the scene has {:.0f} triangles and shapes, counted at each place "
-                                "of an instance; the nearest points are found of at most {}",
-                                census.count, PlacedSurfaces::kMost));
+                    fmt::format("the scene's triangles and shapes, counted at each place of an "
+                                "instance, take up to {:.2g} GB; the nearest points are found of "
+                                "at most {:.2g} GB",
+                                1e-9 * census.bytes, 1e-9 * PlacedSurfaces::kMostBytes));
     }
 }
 
@@ -94,7 +123,7 @@ class PlacedSurfaces::Collector {
   public:
     Collector(const Tracer& tracer, const SceneDescription& description)
         : tracer_(tracer), description_(description) {
-        check(CensusTaker(description).of(tracer.aggregate(), 0));
+        check(CensusTaker(description, tracer.aggregate()).of(tracer.aggregate(), 0));
         visit(tracer.aggregate(), {}, false);
     }
     std::vector<Run> runs;

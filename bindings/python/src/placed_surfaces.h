@@ -20,11 +20,13 @@ namespace alhazen::python {
 
 class PlacedSurfaces {
   public:
-    /// More are refused where there are instances: their tree would take 5.5 GB.
-    static constexpr std::size_t kMost = std::size_t{1} << 25;
+    /// More are refused where there are instances. A triangle takes `kTriangleBytes` with its part
+    /// of the tree; a shape what it keeps where it is stretched (ExactSurface::bytes).
+    static constexpr double kTriangleBytes = 164;
+    static constexpr double kMostBytes = kTriangleBytes * (1 << 25);
 
     /// Throws Error: Usage where there are solids made of others, or shapes whose nearest points
-    /// are not known (exact_surface.h), naming the first; Resource for too many primitives. Can be
+    /// are not known (exact_surface.h), naming the first; Resource for too many of them. Can be
     /// interrupted.
     PlacedSurfaces(const Tracer& tracer, const SceneDescription& description);
 

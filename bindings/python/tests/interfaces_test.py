@@ -318,6 +318,23 @@ class Open3D(unittest.TestCase):
         np.testing.assert_allclose(np.abs(found["normals"]), [[1, 0, 0], [0, 0, 1], np.abs(found["normals"][2]), [0, 1, 0], [0, 0, 1]],
                                    atol=1e-14)
 
+    def test_shapes_in_very_many_instances_are_refused_by_their_bytes(self):
+        # 280^3 stretched balls are fewer than the 2^25 triangles that there may be, and take more.
+        def scene(depth):
+            text = 'alhazen 1\nobject "0" { sphere "ball" { radius = 1 } }\n'
+            for i in range(1, depth + 1):
+                places = " ".join(f'instance "{i - 1}" {{ transform = translate({3 * 280 ** (i - 1) * k}, 0, 0) }}'
+                                  for k in range(280))
+                text += f'object "{i}" {{ {places} }}\n'
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "scene.alhazen"
+                path.write_text(text + f'instance "{depth}" {{ transform = scale(1, 1, 2) }}\n', encoding="utf-8")
+                return alhazen.load(path)
+
+        with self.assertRaisesRegex(alhazen.ResourceError, r"take up to [\d.]+ GB"):
+            scene(3).closest_points([[0, 0, 5]])
+        self.assertEqual(scene(1).closest_points([[0, 0, 5]])["distance"].tolist(), [3])
+
     def test_nearest_points_of_instances_are_those_of_their_copies(self):
         # Turned, mirrored and stretched, in each other, beside a mesh that is no instance.
         vertices, faces = cube(-0.5, 0.5)

@@ -59,6 +59,16 @@ void describe(const Light& light, LightChoice& choice) {
                light);
 }
 
+/// Each change is beside the description: a second one of a light would forget the first.
+void check_names(const std::vector<LightChange>& changes) {
+    std::unordered_set<std::string> names;
+    for (const LightChange& change : changes) {
+        if (names.insert(change.name).second) continue;
+        throw Error(ErrorKind::Usage,
+                    fmt::format("the light '{}' is changed more than once", change.name));
+    }
+}
+
 void check(const LightChange& change, const LightChoice& choice) {
     const auto refuse = [&](const std::string& what) {
         throw Error(ErrorKind::Usage, fmt::format("the light '{}' {}", change.name, what));
@@ -199,6 +209,7 @@ std::vector<LightChange> surface_changes(const SceneDescription& description,
                                          const std::vector<LightChange>& changes) {
     std::vector<LightChange> result;
     if (changes.empty()) return result;
+    check_names(changes);
     const std::vector<Switch> all = switches(description);
     for (const LightChange& change : changes) {
         const Switch& s = find(all, change.name);
@@ -233,18 +244,17 @@ LoadedScene with_moved_surfaces(const LoadedScene& loaded, const std::vector<Lig
 
 Scene with_lighting(const Scene& scene, const SceneDescription& description,
                     const Lighting& lighting) {
+    check_names(lighting.changes);
     Scene result = scene;
     const std::vector<Switch> all = switches(description);
     const auto material_of = [&](const Switch& s) -> Material& {
         return result.materials[static_cast<std::size_t>(*s.material)];
     };
-    std::unordered_map<std::size_t, Light> changed;
     for (const LightChange& change : lighting.changes) {
         const Switch& s = find(all, change.name);
         check(change, s.choice);
         if (s.light) {
-            Light& light =
-                changed.try_emplace(*s.light, description.lights[*s.light].light).first->second;
+            Light light = description.lights[*s.light].light;
             apply(change, light);
             result.lights[*s.light] = ready_to_sample(light);
         }
@@ -263,6 +273,7 @@ Scene with_lighting(const Scene& scene, const SceneDescription& description,
 
 std::string changed_light_blocks(const SceneDescription& description,
                                  const std::vector<LightChange>& changes) {
+    check_names(changes);
     const std::vector<Switch> all = switches(description);
     std::string text;
     for (const LightChange& change : changes) {

@@ -29,7 +29,7 @@ struct LightChoice {
 };
 [[nodiscard]] std::vector<LightChoice> light_choices(const SceneDescription& description);
 
-/// What is other than in the file: fields that the choice has.
+/// What is other than in the file: fields that the choice has. Of a light there is one change.
 struct LightChange {
     std::string name;
     std::optional<Vec3> position, direction;  ///< the direction of any length but 0
@@ -66,8 +66,8 @@ struct Lighting {
 
 /// The scene with that lighting. All geometry is shared: `scene` has the surfaces of its lights
 /// where they are to be, `description` is that of the file. Throws Error (Usage) for a light that
-/// there is not, listing those that there are, for a field that a light has not, and for numbers
-/// that no light can have.
+/// there is not, listing those that there are, for a light that is changed more than once, for a
+/// field that a light has not, and for numbers that no light can have.
 [[nodiscard]] Scene with_lighting(const Scene& scene, const SceneDescription& description,
                                   const Lighting& lighting);
 

@@ -1,6 +1,7 @@
 #include "alhazen/shapes/exact_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -36,6 +37,62 @@ Mat3 transposed(const Mat3& m) {
             {m.x_axis.z, m.y_axis.z, m.z_axis.z}};
 }
 
+bool has_mixed_terms(const QuadricForm& f) {
+    return f.xy != 0.0 || f.yz != 0.0 || f.zx != 0.0;
+}
+
+/// The form without mixed terms is the sum of signs_i (rows_i x)^2 in space.
+std::array<Vec3, 3> rows_of(const Mat3& local_from_space, const QuadricForm& f) {
+    const Mat3 rows = transposed(local_from_space);
+    return {std::sqrt(std::abs(f.xx)) * rows.x_axis, std::sqrt(std::abs(f.yy)) * rows.y_axis,
+            std::sqrt(std::abs(f.zz)) * rows.z_axis};
+}
+Vec3 signs_of(const QuadricForm& f) {
+    const auto sign = [](double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; };
+    return {sign(f.xx), sign(f.yy), sign(f.zz)};
+}
+
+/// Whether the axes that the form has in space are known to too few digits: rows of different signs
+/// aslant, in a ratio whose square leaves less than some 5 digits.
+bool is_too_slender(const Mat3& local_from_space, const QuadricForm& f) {
+    constexpr double kMostRatio = 1e5;
+    if (has_mixed_terms(f)) return false;
+    const std::array<Vec3, 3> rows = rows_of(local_from_space, f);
+    if (eigensystem_of_rows(rows, signs_of(f))) return false;
+    const double sum = length_squared(rows[0]) + length_squared(rows[1]) + length_squared(rows[2]);
+    // Flat directions are left out.
+    const auto entry = [&](int i, int k) {
+        const double product = dot(rows[i], rows[k]);
+        return i == k && product == 0.0 ? sum : product;
+    };
+    const Vec3 squares = eigensystem({{entry(0, 0), entry(1, 0), entry(2, 0)},
+                                      {entry(0, 1), entry(1, 1), entry(2, 1)},
+                                      {entry(0, 2), entry(1, 2), entry(2, 2)}})
+                             .values;
+    const double least = std::fmin(squares.x, std::fmin(squares.y, squares.z));
+    return !(least * kMostRatio * kMostRatio > max_component(squares));
+}
+
+/// Of the form in a frame, in space.
+Eigensystem eigensystem_of(const Mat3& local_from_space, const QuadricForm& f, const Mat3& a) {
+    if (!has_mixed_terms(f)) {
+        const auto own = eigensystem_of_rows(rows_of(local_from_space, f), signs_of(f));
+        if (own) return *own;
+    }
+    const Mat3 rows = transposed(local_from_space);
+    const Mat3 half = rows * (a * local_from_space);
+    Eigensystem own = eigensystem({0.5 * (half.x_axis + transposed(half).x_axis),
+                                   0.5 * (half.y_axis + transposed(half).y_axis),
+                                   0.5 * (half.z_axis + transposed(half).z_axis)});
+    // Rounding of a flat direction is no curvature.
+    const double least =
+        8 * std::numeric_limits<double>::epsilon() * max_component(abs(own.values));
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(own.values[i]) < least) own.values[i] = 0.0;
+    }
+    return own;
+}
+
 std::string too_many_planes(std::size_t count) {
     if (count <= ClippedRegion::kMostPlanes) return {};
     return "has more than " + std::to_string(ClippedRegion::kMostPlanes) + " planes";
@@ -46,6 +103,18 @@ bool has_lines_only(const Profile& profile) {
         if (!curve.line) return false;
     }
     return true;
+}
+
+/// Open loops begin and end on the axis, which closes them.
+Profile with_axis(const Profile& profile) {
+    Profile closed = profile;
+    std::size_t begin = 0;
+    for (const std::size_t end : profile.loop_ends) {
+        const Vec2 first = profile.curves[begin].p[0], last = profile.curves[end - 1].p[3];
+        if (first != last) closed.curves.push_back(line_curve(last, first));
+        begin = end;
+    }
+    return closed;
 }
 
 /// Whether the right side of a line of the profile is inside: the other lines that the normal of
@@ -79,6 +148,7 @@ std::size_t plane_count(const ClippedQuadric& solid) {
 template <class S>
 std::string refusal_of(const S& shape, const Affine& world) {
     constexpr const char* kUnknown = "is of a kind without a closed form";
+    constexpr const char* kSlender = "is stretched aslant, its axes in a ratio above 1e5";
     if constexpr (std::is_same_v<S, Torus>) {
         return similarity(world.linear) ? "" : "is placed with different scales along its axes";
     } else if constexpr (std::is_same_v<S, Tgc>) {
@@ -86,14 +156,19 @@ std::string refusal_of(const S& shape, const Affine& world) {
     } else if constexpr (std::is_same_v<S, Polyhedron>) {
         return too_many_planes(shape.faces.size());
     } else if constexpr (requires { plane_count(shape.solid); }) {
+        const Mat3 local = shape.solid.frame.local_from_object * inverse(world).linear;
+        if (is_too_slender(local, shape.solid.quadric.form())) return kSlender;
         return too_many_planes(plane_count(shape.solid));
+    } else if constexpr (std::is_same_v<S, Cone>) {
+        const Frustum& f = shape.frustum;
+        const Mat3 local = transposed({f.x_axis, f.y_axis, f.axis}) * inverse(world).linear;
+        return is_too_slender(local, {1, 1, -f.slope * f.slope}) ? kSlender : "";
     } else if constexpr (std::is_same_v<S, Lathe> || std::is_same_v<S, Prism>) {
         return has_lines_only(shape.profile) ? "" : "has curves in its profile";
     } else if constexpr (std::is_same_v<S, Sphere> || std::is_same_v<S, Plane> ||
                          std::is_same_v<S, HalfSpace> || std::is_same_v<S, Disc> ||
                          std::is_same_v<S, Rectangle> || std::is_same_v<S, BoxShape> ||
-                         std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone> ||
-                         std::is_same_v<S, Polygon>) {
+                         std::is_same_v<S, Cylinder> || std::is_same_v<S, Polygon>) {
         return {};
     } else {
         return kUnknown;
@@ -175,16 +250,22 @@ class PieceMaker {
     void add(const Cylinder& s) { add_frustum(s.frustum, s.capped); }
     void add(const Cone& s) { add_frustum(s.frustum, s.capped); }
     void add(const Lathe& s) {
-        for (const ProfileCurve& curve : s.profile.curves) {
+        const Profile closed = s.is_closed ? with_axis(s.profile) : s.profile;
+        for (std::size_t i = 0; i < closed.curves.size(); ++i) {
+            const ProfileCurve& curve = closed.curves[i];
             const Vec2 &a = curve.p[0], &b = curve.p[3];
+            if (a.x == 0.0 && b.x == 0.0) continue;  // the axis
+            // Inside is on the right or the left of the line from a to b.
+            const bool to_left = s.is_closed && lies_inside(closed, curve);
             if (a.y != b.y) {
                 const bool up = a.y < b.y;
                 const Vec2 &low = up ? a : b, &high = up ? b : a;
-                if (low.x == 0.0 && high.x == 0.0) continue;  // the axis
-                add_frustum(Frustum({0, 0, low.y}, {0, 0, high.y}, low.x, high.x), false);
+                add_frustum(Frustum({0, 0, low.y}, {0, 0, high.y}, low.x, high.x), false,
+                            s.is_closed && up == to_left);
             } else if (a.x != b.x) {
                 Disc disc;
                 disc.center = {0, 0, a.y};
+                if (s.is_closed) disc.normal = {0, 0, (a.x < b.x) == to_left ? 1.0 : -1.0};
                 disc.radius = std::fmax(a.x, b.x);
                 disc.inner_radius = std::fmin(a.x, b.x);
                 disc.prepare();
@@ -255,12 +336,9 @@ class PieceMaker {
                                           const std::vector<ClipPlane>& local, bool capped) const {
         const Mat3 m = local_from_space(frame);
         const Mat3 a{{f.xx, f.xy, f.zx}, {f.xy, f.yy, f.yz}, {f.zx, f.yz, f.zz}};
-        const Mat3 half = transposed(m) * (a * m);
         std::vector<ClippedRegion::Plane> planes;
         for (const ClipPlane& plane : local) planes.push_back(plane_of(frame, plane));
-        return {{0.5 * (half.x_axis + transposed(half).x_axis),
-                 0.5 * (half.y_axis + transposed(half).y_axis),
-                 0.5 * (half.z_axis + transposed(half).z_axis)},
+        return {eigensystem_of(m, f, a),
                 transpose_times(m, {f.x, f.y, f.z}),
                 f.c,
                 std::move(planes),
@@ -279,25 +357,26 @@ class PieceMaker {
         return world_.outer_from_inner.vector(frame.object_from_local * center);
     }
     void add_quadric(const SolidFrame& frame, const QuadricForm& form,
-                     const std::vector<ClipPlane>& planes, bool capped) {
-        add_region(frame, region_of(frame, form, planes, capped));
+                     const std::vector<ClipPlane>& planes, bool capped, bool hollow = false) {
+        add_region(frame, region_of(frame, form, planes, capped), hollow);
     }
-    void add_region(const SolidFrame& frame, ClippedRegion region) {
+    void add_region(const SolidFrame& frame, ClippedRegion region, bool hollow = false) {
         pieces_.emplace_back(ExactSurface::Clipped{
-            point(frame.origin), std::make_shared<const ClippedRegion>(std::move(region))});
+            point(frame.origin), std::make_shared<const ClippedRegion>(std::move(region)), hollow});
     }
-    void add_frustum(const Frustum& f, bool capped) {
+    void add_frustum(const Frustum& f, bool capped, bool hollow = false) {
         if (const auto scale = similarity(world_.outer_from_inner.linear)) {
             pieces_.emplace_back(ExactSurface::Spindle{
                 point(f.center), normalize(world_.outer_from_inner.vector(f.axis)),
-                *scale * f.half_height, *scale * f.base_radius, *scale * f.top_radius, capped});
+                *scale * f.half_height, *scale * f.base_radius, *scale * f.top_radius, capped,
+                hollow});
             return;
         }
         QuadricForm form{1, 1, -f.slope * f.slope};
         form.z = -f.middle_radius * f.slope;
         form.c = -f.middle_radius * f.middle_radius;
         add_quadric({f.center, {f.x_axis, f.y_axis, f.axis}}, form,
-                    {{{0, 0, 1}, f.half_height}, {{0, 0, -1}, f.half_height}}, capped);
+                    {{{0, 0, 1}, f.half_height}, {{0, 0, -1}, f.half_height}}, capped, hollow);
     }
     void add_wall(const Vec3& at, const Vec3& normal) {
         pieces_.emplace_back(ExactSurface::Wall{
@@ -328,6 +407,20 @@ PointOnSurface ExactSurface::nearest(const Vec3& from) const {
         if (found) keep_nearer(best, *found);
     }
     return best.value_or(PointOnSurface{{}, {}, std::numeric_limits<double>::infinity()});
+}
+
+std::size_t ExactSurface::bytes() const {
+    std::size_t sum = sizeof(*this) + pieces_.capacity() * sizeof(Piece);
+    for (const Piece& piece : pieces_) {
+        if (const auto* const clipped = std::get_if<Clipped>(&piece)) {
+            sum += clipped->region->bytes();
+        } else if (const auto* const ring = std::get_if<Annulus>(&piece)) {
+            sum += ring->outer->bytes() + (ring->hole ? ring->hole->bytes() : 0);
+        } else if (const auto* const flat = std::get_if<Flat>(&piece)) {
+            sum += flat->region->bytes();
+        }
+    }
+    return sum;
 }
 
 std::optional<PointOnSurface> ExactSurface::nearest_of(const Ball& ball, const Vec3& from) {
@@ -372,6 +465,7 @@ std::optional<PointOnSurface> ExactSurface::nearest_of(const Spindle& s, const V
         line({0.0, base.y}, base);
         line(top, {0.0, top.y});
     }
+    if (s.hollow) best->normal = -best->normal;
     return best;
 }
 
@@ -382,14 +476,16 @@ std::optional<PointOnSurface> ExactSurface::nearest_of(const Wall& wall, const V
 
 std::optional<PointOnSurface> ExactSurface::nearest_of(const Clipped& clipped, const Vec3& from) {
     std::optional<PointOnSurface> found = clipped.region->nearest(from - clipped.origin);
-    if (found) found->point += clipped.origin;
+    if (!found) return found;
+    found->point += clipped.origin;
+    if (clipped.hollow) found->normal = -found->normal;
     return found;
 }
 
 std::optional<PointOnSurface> ExactSurface::nearest_of(const Annulus& annulus, const Vec3& from) {
     const Vec3 x = from - annulus.origin;
     const ClippedRegion::Plane& plane = annulus.outer->planes().front();
-    const Vec3 foot = x - dot(plane.normal, x) * plane.normal;
+    const Vec3 foot = across_axis(x, plane.normal);
     std::optional<PointOnSurface> best;
     if (annulus.outer->value(foot) <= 0.0 && !(annulus.hole && annulus.hole->value(foot) < 0.0)) {
         best = PointOnSurface{foot, plane.normal, length_squared(foot - x)};

@@ -6,10 +6,13 @@
 /// through its axis and the point.
 /// Differs: a placement may be any affine transform, under which quadrics and planes stay what they
 /// are and nearest points do not; a torus must be placed by one that keeps angles.
-/// ADD A SHAPE HERE: an overload of `refusal_of` or `append_pieces` in exact_surface.cpp.
+/// ADD A SHAPE HERE: a branch of `refusal_of` and an overload of `PieceMaker::add` in
+/// exact_surface.cpp.
 /// Conventions: points and normals are in space; normals are outward for closed shapes. What is
 /// left of the exact distance is some roundings of the largest coordinate
-/// (tests/unit/shapes/nearest_test.cpp).
+/// (tests/unit/shapes/nearest_test.cpp), that of the point asked from included. Cones and
+/// hyperboloids that are stretched aslant, and quadrics with mixed terms, lose more: as many as the
+/// squared ratio of their longest to their shortest axis; the former are refused beyond 1e5.
 /// Threads: const functions may be called from many.
 
 #include <memory>
@@ -33,6 +36,8 @@ class ExactSurface {
 
     /// `from` is finite.
     [[nodiscard]] PointOnSurface nearest(const Vec3& from) const;
+    /// With all that it keeps elsewhere.
+    [[nodiscard]] std::size_t bytes() const;
 
   private:
     friend class PieceMaker;
@@ -49,6 +54,7 @@ class ExactSurface {
         Vec3 center, axis;
         double half_height = 1, base_radius = 1, top_radius = 1;
         bool capped = true;
+        bool hollow = false;  ///< the normals lead to the axis
     };
     struct Wall {
         Vec3 point, normal;
@@ -57,6 +63,7 @@ class ExactSurface {
     struct Clipped {
         Vec3 origin;
         std::shared_ptr<const ClippedRegion> region;
+        bool hollow = false;  ///< the normals lead to where f < 0
     };
     /// What a plane cuts out of the first region and leaves of the second, which may be null.
     struct Annulus {

@@ -257,6 +257,20 @@ TEST(Lighting, OnlySurfacesThatMoveAreBuiltAnew) {
     EXPECT_EQ(lit.aggregate, hidden.scene.aggregate);
 }
 
+TEST(Lighting, ALightIsChangedOnceInARequest) {
+    const LoadedScene file = loaded(kLamps);
+    // Each is beside the file: the surface and the light would be at different places.
+    const std::vector<LightChange> twice{{"sphere", Vec3{0, 1, 4}, {}, {}, {}},
+                                         {"disc", {}, {}, Rgb{5, 5, 5}, {}},
+                                         {"sphere", {}, {}, {}, {0.5}}};
+    Lighting lighting;
+    lighting.changes = twice;
+    EXPECT_THROW((void)surface_changes(file.description, twice), Error);
+    EXPECT_THROW((void)with_moved_surfaces(file, twice, {}), Error);
+    EXPECT_THROW((void)with_lighting(file.scene, file.description, lighting), Error);
+    EXPECT_THROW((void)changed_light_blocks(file.description, twice), Error);
+}
+
 TEST(Lighting, WhatALightCannotBeIsRefused) {
     const Lit lit;
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

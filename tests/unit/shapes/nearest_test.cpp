@@ -35,6 +35,25 @@ class Placed {
                    static_cast<const AnalyticShapes::Variant&>(any_));
         return hits.size() > 0 ? hits[0].t : kInfinity;
     }
+    /// Of the first crossing at about `t`; 0 where there is none.
+    [[nodiscard]] Vec3 normal_at(const Vec3& from, const Vec3& direction, double t,
+                                 double slack) const {
+        const Ray ray{world_.inner_from_outer.point(from),
+                      world_.inner_from_outer.vector(direction), 0.0, kInfinity};
+        ShapeHits hits;
+        return std::visit(
+            [&](const auto& s) {
+                append_hits(s, ray, hits);
+                if (hits.size() == 0 || !(std::abs(hits[0].t - t) < slack)) return Vec3{};
+                return normalize(transpose_times(world_.inner_from_outer.linear,
+                                                 s.surface(ray, hits[0]).normal));
+            },
+            static_cast<const AnalyticShapes::Variant&>(any_));
+    }
+    [[nodiscard]] bool closed() const {
+        return std::visit([](const auto& s) { return s.closed(); },
+                          static_cast<const AnalyticShapes::Variant&>(any_));
+    }
     [[nodiscard]] Box3 box() const {
         Box3 box;
         const Box3 own = std::visit([](const auto& s) { return s.box(); },
@@ -89,6 +108,22 @@ bool is_there(const Placed& shape, const Vec3& point, Random& random, double siz
     return false;
 }
 
+/// Whether rays beside the point, from both sides, tell one normal; expects that one.
+bool check_normal(const Placed& shape, const PointOnSurface& found, Random& random, double size) {
+    const double away = 1e-4 * size;
+    Vec3 normal;
+    for (int i = 0; i < 12; ++i) {
+        const Vec3 out = i % 2 == 0 ? found.normal : -found.normal;
+        const Vec3 aim = found.point + 1e-6 * size * random.unit_vector();
+        const Vec3 n = shape.normal_at(aim + away * out, -out, away, 0.1 * away);
+        if (n == Vec3{} || (i > 0 && length(n - normal) > 1e-2)) return false;
+        normal = n;
+    }
+    const double cosine = dot(normal, found.normal);
+    EXPECT_GT(shape.closed() ? cosine : std::abs(cosine), 0.999);
+    return true;
+}
+
 void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, double size) {
     const PointOnSurface found = shape.nearest(from);
     const double distance = std::sqrt(found.squared);
@@ -102,6 +137,7 @@ void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, do
     EXPECT_NEAR(length(found.point - from), distance, 1e-12 * size);
     EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
     EXPECT_TRUE(is_there(shape, found.point, random, size));
+    check_normal(shape, found, random, size);
     // Nothing is nearer.
     const Box3 box = shape.box();
     std::vector<std::pair<double, Vec3>> starts;
@@ -178,6 +214,54 @@ TYPED_TEST(NearestOf, NoFirstCrossingIsNearer) {
     EXPECT_EQ(check_type<TypeParam>(1, 60).refused, 0);
 }
 
+/// A point from far away is at the end of a normal, and no crossing near the shape is nearer.
+template <class S>
+void check_from_far(std::uint64_t seed, int rounds) {
+    Random random(seed);
+    for (int i = 0; i < rounds; ++i) {
+        const S shape = random_shape<S>({random, i % 3 == 2});
+        const Affine place = random_place(random, i % 3);
+        const Placed placed(shape, place);
+        const Box3 box = placed.box();
+        const double size = 1.0 + length(box.size()) + length(box.center());
+        std::vector<Vec3> crossings;
+        for (int k = 0; k < 200; ++k) {
+            const Vec3 at = box.lo + Vec3{random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
+                                          random.uniform(-0.5, 1.5)} *
+                                         box.size();
+            const Vec3 d = random.unit_vector();
+            const double t = placed.first(at, d);
+            if (std::isfinite(t)) crossings.push_back(at + t * d);
+        }
+        for (double far = 10; far < 2e8; far *= 10) {
+            const Vec3 from = box.center() + far * size * random.unit_vector();
+            SCOPED_TRACE(std::string(S::kName) + " " + std::to_string(i) + " " +
+                         std::to_string(far));
+            const PointOnSurface found = placed.nearest(from);
+            const double distance = std::sqrt(found.squared);
+            if (crossings.empty()) break;
+            ASSERT_TRUE(std::isfinite(distance));
+            const double tolerance =
+                1e-12 * (size + length(found.point)) + 1e-15 * (length(from) + distance);
+            EXPECT_NEAR(length(found.point - from), distance, tolerance);
+            EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
+            for (const Vec3& x : crossings) ASSERT_GT(length(x - from), distance - tolerance);
+            EXPECT_LT(std::sqrt(placed.nearest(found.point).squared),
+                      1e-12 * (size + length(found.point)));
+            // From near by, on the way there, it is the nearest point too.
+            const Vec3 out = (from - found.point) / distance;
+            const double by = std::min(size, 0.5 * distance);
+            EXPECT_NEAR(std::sqrt(placed.nearest(found.point + by * out).squared), by,
+                        1e-12 * (size + length(found.point)));
+            if (::testing::Test::HasFailure()) return;
+        }
+    }
+}
+
+TYPED_TEST(NearestOf, PointsFarAwayAreAsExact) {
+    check_from_far<TypeParam>(5, 60);
+}
+
 TEST(Nearest, ATorusIsKnownWhereAnglesAreKept) {
     const Known torus = check_type<Torus>(2, 30);
     EXPECT_EQ(torus.refused, 10);
@@ -200,6 +284,12 @@ void check_at_random_places(const auto& shape, std::uint64_t seed) {
             if (::testing::Test::HasFailure()) return;
         }
     }
+}
+
+template <class S>
+PointOnSurface nearest_on(S shape, const Vec3& from, const Affine& place = {}) {
+    shape.prepare();
+    return ExactSurface(shape, {place, inverse(place)}).nearest(from);
 }
 
 /// Loops of lines.
@@ -239,21 +329,68 @@ TEST(Nearest, SweptOutlinesOfStraightLinesAreKnown) {
     EXPECT_NE(nearest_refusal(vase, {}), "");
 }
 
+TEST(Nearest, NormalsOfLathesLeadOutOfTheMaterial) {
+    const std::vector<std::vector<Vec2>> profiles{
+        {{1, 0}, {2, 0}, {2, 1}, {1, 1}},                                  // a pipe
+        {{0, 0}, {2, 0}, {1, 2}, {0, 2}},                                  // with the axis
+        {{0, 0}, {2, 0}, {2, 3}, {1.5, 3}, {1, 1}, {0, 0.5}},              // a cup
+        {{1, 1}, {2, 1}, {2, 0}, {1, 0}},                                  // the other way round
+        {{0.5, 0}, {3, 1}, {3, 4}, {2.5, 4}, {2.5, 2}, {1, 1.5}, {1, 5}},  // an undercut
+    };
+    Random random(4);
+    for (const std::vector<Vec2>& profile : profiles) {
+        for (const bool open : {false, true}) {
+            // An axis may be left out of the profile.
+            if (open && (profile.front().x > 0 || profile.back().x > 0)) continue;
+            Lathe lathe;
+            lathe.profile = outline({profile}, !open);
+            lathe.prepare();
+            ASSERT_TRUE(lathe.closed());
+            for (int kind = 0; kind < 3; ++kind) {
+                const Affine place = random_place(random, kind);
+                const Placed placed(lathe, place);
+                const Box3 box = placed.box();
+                int seen = 0;
+                for (int i = 0; i < 100; ++i) {
+                    const Vec3 u{random.uniform(-0.2, 1.2), random.uniform(-0.2, 1.2),
+                                 random.uniform(-0.2, 1.2)};
+                    const PointOnSurface found = placed.nearest(box.lo + u * box.size());
+                    seen += check_normal(placed, found, random, length(box.size())) ? 1 : 0;
+                }
+                EXPECT_GT(seen, 20);  // the others are edges
+                if (::testing::Test::HasFailure()) return;
+            }
+        }
+    }
+    Lathe pipe;
+    pipe.profile = outline({profiles[0]}, true);
+    EXPECT_EQ(nearest_on(pipe, {0.25, 0, 0.5}).normal, (Vec3{-1, 0, 0}));
+    EXPECT_EQ(nearest_on(pipe, {1.5, 0, 0.25}).normal, (Vec3{0, 0, -1}));
+}
+
 TEST(Nearest, ShapesWithoutNearestPointsSayWhy) {
     const Affine stretched = Affine::scale({1, 1, 2});
     EXPECT_EQ(nearest_refusal(Torus{}, {}), "");
     EXPECT_NE(nearest_refusal(Torus{}, stretched), "");
     EXPECT_EQ(nearest_refusal(Sphere{}, stretched), "");
+    // Where the axes that f has in space would have no digits left.
+    const Affine turned = Affine::rotate(normalize(Vec3{1, 2, 3}), 1);
+    const Affine aslant = Affine::scale({1, 1, 1e6}) * turned;
+    Cone round;
+    round.prepare();
+    EllipticCone cone;
+    cone.prepare();
+    for (const AnyShape& shape : {AnyShape(round), AnyShape(cone)}) {
+        EXPECT_NE(nearest_refusal(shape, aslant), "");
+        EXPECT_EQ(nearest_refusal(shape, Affine::scale({1, 1, 1e3}) * turned), "");
+        EXPECT_EQ(nearest_refusal(shape, turned * Affine::scale({1, 1, 1e6})), "");
+    }
+    EXPECT_EQ(nearest_refusal(Sphere{}, aslant), "");
+    EXPECT_EQ(nearest_refusal(Cylinder{}, aslant), "");
     for (const AnyShape& shape : {AnyShape(Algebraic{}), AnyShape(Superellipsoid{}),
                                   AnyShape(Blob{}), AnyShape(BezierPatch{})}) {
         EXPECT_NE(nearest_refusal(shape, {}), "");
     }
-}
-
-template <class S>
-PointOnSurface nearest_on(S shape, const Vec3& from, const Affine& place = {}) {
-    shape.prepare();
-    return ExactSurface(shape, {place, inverse(place)}).nearest(from);
 }
 
 TEST(Nearest, KnownDistancesAreExact) {
@@ -282,6 +419,87 @@ TEST(Nearest, KnownDistancesAreExact) {
     EXPECT_DOUBLE_EQ(nearest_on(cone, {0, 0, 3}).squared, 4);
     EXPECT_NEAR(nearest_on(cone, {0, 0, 0.8}).squared, 0.02, 1e-16);
     EXPECT_DOUBLE_EQ(nearest_on(cone, {2, 0, 1}).squared, 2);
+}
+
+TEST(Nearest, RimsAreFoundFromFarAway) {
+    const Affine turned = Affine::rotate(normalize(Vec3{1, 2, 3}), 40 * kPi / 180);
+    EllipticCylinder pipe{.axis_a = {2, 0, 0}, .axis_b = {0, 1, 0}};
+    const Vec3 above{700, 900, -1000};
+    Paraboloid bowl;
+    const Vec3 aside{-1000, 200, 100};
+    double pipe_rim = kInfinity, bowl_rim = kInfinity;
+    for (int i = 0; i < 100000; ++i) {
+        const double a = i * kPi / 50000;
+        const Vec3 p{2 * std::cos(a), std::sin(a), 0}, q{std::cos(a), std::sin(a), 1};
+        pipe_rim = std::min(pipe_rim, length(turned.point(p) - above));
+        bowl_rim = std::min(bowl_rim, length(turned.point(q) - aside));
+    }
+    EXPECT_NEAR(std::sqrt(nearest_on(pipe, above, turned).squared), pipe_rim, 1e-6);
+    EXPECT_NEAR(std::sqrt(nearest_on(bowl, aside, turned).squared), bowl_rim, 1e-6);
+}
+
+/// Points at known distances outside a convex surface, at the ends of its normals.
+template <class S>
+void check_outside(const S& shape, const Affine& place, const Vec3& on, const Vec3& gradient,
+                   const Affine& turned, double largest) {
+    const Vec3 normal = normalize(gradient);
+    for (const double away : {1e-3, 1.0, 1e3}) {
+        const double d =
+            std::sqrt(nearest_on(shape, turned.point(on + away * normal), place).squared);
+        EXPECT_NEAR(d, away, 4e-15 * (largest + away)) << away << " " << largest;
+    }
+}
+
+TEST(Nearest, SlenderQuadricsLoseNoDigits) {
+    Random random(11);
+    for (double c = 1e-8; c < 2e8; c *= 10) {
+        const Ellipsoid egg{.axis_a = {1, 0, 0}, .axis_b = {0, 1.5, 0}, .axis_c = {0, 0, c}};
+        EXPECT_DOUBLE_EQ(nearest_on(egg, {0, 0, 2 * c + 2}).squared, (c + 2) * (c + 2)) << c;
+        const EllipticCylinder pipe{.top = {0, 0, c}, .axis_a = {1, 0, 0}, .axis_b = {0, 1.5, 0}};
+        for (int i = 0; i < 20; ++i) {
+            const Affine turned =
+                i == 0 ? Affine{} : Affine::rotate(random.unit_vector(), random.uniform(0, 6));
+            const Affine stretched = turned * Affine::scale({1, 1.5, c});
+            const Vec3 u = random.unit_vector();
+            const Vec3 on{u.x, 1.5 * u.y, c * u.z}, gradient{u.x, u.y / 1.5, u.z / c};
+            check_outside(egg, turned, on, gradient, turned, std::max(1.5, c));
+            check_outside(Sphere{}, stretched, on, gradient, turned, std::max(1.5, c));
+            const double side = std::hypot(u.x, u.y), h = random.uniform(0.1, 0.9);
+            const Vec3 v{u.x / side, u.y / side, 0};
+            check_outside(pipe, turned, {v.x, 1.5 * v.y, c * h}, {v.x, v.y / 1.5, 0}, turned,
+                          std::max(1.5, c));
+            // Ends that are slender, whose rims are nearest.
+            const EllipticCylinder board{.axis_a = {1, 0, 0}, .axis_b = {0, c, 0}};
+            const Vec3 rim{v.x, c * v.y, 1};
+            const Vec3 aside = normalize(Vec3{v.x, v.y / c, 0});
+            check_outside(board, turned, rim, aside + Vec3{0, 0, h}, turned, std::max(1.5, c));
+            check_outside(Disc{.center = {0, 0, 1}}, turned * Affine::scale({1, c, 1}), rim,
+                          aside + Vec3{0, 0, h}, turned, std::max(1.5, c));
+            if (::testing::Test::HasFailure()) return;
+        }
+    }
+}
+
+// Beside an apex f is small, off the surface too.
+TEST(Nearest, PointsBesideAnApexAreOnTheSurface) {
+    const Affine stretched = Affine::scale({1, 2, 3});
+    const Cone cone{.base = {0, 0, 0}, .top = {0, 0, 1}, .base_radius = 1, .top_radius = 0};
+    for (double off = 1e-2; off > 1e-12; off *= 0.1) {
+        // Behind the apex, which is nearest.
+        const Vec3 behind = off * Vec3{0.1, 0.05, 1};
+        EXPECT_NEAR(std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + behind, stretched).squared),
+                    length(behind), 2e-15);
+        // Far within, as far from the sides at any scale.
+        const Vec3 within = off * Vec3{0.05, 0.1, -1};
+        EXPECT_NEAR(
+            std::sqrt(nearest_on(cone, Vec3{0, 0, 3} + within, stretched).squared),
+            off *
+                std::sqrt(
+                    nearest_on(cone, Vec3{0, 0, 3} + within / off * 0.25, stretched).squared) *
+                4,
+            4e-15)
+            << off;
+    }
 }
 
 // Where the multiplier is at its pole, and beside it.

@@ -1285,6 +1285,10 @@ var AXES = {
 };
 var LABELS = { position: "position", direction: "direction", color: "colour" };
 var MOST = 1e15;
+function chosenSizes(light, values) {
+  const own = light.sizes ?? [], chosen = values?.sizes;
+  return chosen?.length === own.length && chosen.every((s, i) => s.name === own[i].name) ? chosen : void 0;
+}
 function capital(text) {
   return text[0].toUpperCase() + text.slice(1);
 }
@@ -1330,18 +1334,18 @@ var LightFields = class {
       direction: values?.direction ?? file.direction,
       color: values?.color ?? file.color,
       times: values?.times ?? 1,
-      sizes: values?.sizes.length === file.sizes.length ? values.sizes : file.sizes
+      sizes: chosenSizes(this.light, values) ?? file.sizes
     };
     for (const { key, fields } of this.vectors) {
       fields.forEach((field, i) => this.set(field, this.values[key][i]));
     }
     this.set(this.times, this.values.times);
-    this.sizes.forEach((field, i) => this.set(field, this.values.sizes[i]));
+    this.sizes.forEach((field, i) => this.set(field, this.values.sizes[i].value));
     this.reset.disabled = values === void 0;
   }
   ofFile() {
     const { position, direction, color, sizes } = this.light;
-    return { position, direction, color, times: 1, sizes: (sizes ?? []).map((s) => s.value) };
+    return { position, direction, color, times: 1, sizes: sizes ?? [] };
   }
   set(field, x) {
     field.removeAttribute("aria-invalid");
@@ -1372,7 +1376,7 @@ var LightFields = class {
     }
     const size = this.sizes.indexOf(field);
     if (size >= 0) {
-      values.sizes = values.sizes.map((old, i) => i === size ? x : old);
+      values.sizes = values.sizes.map((old, i) => i === size ? { ...old, value: x } : old);
       good &&= this.areSizes(values.sizes);
     }
     for (const { key, fields } of this.vectors) {
@@ -1394,12 +1398,12 @@ var LightFields = class {
   }
   // Above 0, and a hole smaller than what is around it.
   areSizes(sizes) {
-    const names = this.light.sizes.map((s) => s.name);
-    return sizes.every((x, i) => names[i] === "inner radius" ? x >= 0 && x < sizes[names.indexOf("radius")] : x > 0);
+    const radius = sizes.find((s) => s.name === "radius")?.value ?? 0;
+    return sizes.every(({ name, value }) => name === "inner radius" ? value >= 0 && value < radius : value > 0);
   }
   isOfFile() {
     const file = this.ofFile();
-    return this.values.times === 1 && this.values.sizes.every((x, i) => x === file.sizes[i]) && this.vectors.every(({ key }) => this.values[key].every((x, i) => x === file[key][i]));
+    return this.values.times === 1 && this.values.sizes.every((s, i) => s.value === file.sizes[i].value) && this.vectors.every(({ key }) => this.values[key].every((x, i) => x === file[key][i]));
   }
 };
 
@@ -1445,12 +1449,12 @@ var LightList = class {
     return this.lights.flatMap((light) => {
       const values = this.values.get(light.name);
       if (!values) return [];
-      const { position, direction, color, times, sizes } = values;
+      const { position, direction, color, times } = values, sizes = chosenSizes(light, values);
       return [{
         name: light.name,
         ...light.position && position ? { position } : {},
         ...light.direction && direction ? { direction } : {},
-        ...sizes.length && sizes.length === light.sizes?.length ? { sizes } : {},
+        ...sizes?.length ? { sizes: sizes.map((s) => s.value) } : {},
         color: color.map((c) => c * times)
       }];
     });

@@ -1,5 +1,6 @@
 #include "alhazen/shapes/nearest/clipped_region.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,46 +19,60 @@ Vec3 foot_on(const ClippedRegion::Plane& plane, const Vec3& x) {
     return once - (dot(plane.normal, once) - plane.offset) * plane.normal;
 }
 
+/// Or nearly: of a frustum, the apex may be far beyond the end.
+bool holds_apex(const std::vector<ClippedRegion::Plane>& planes, const Vec3& apex) {
+    for (const ClippedRegion::Plane& plane : planes) {
+        if (!(dot(plane.normal, apex) <= plane.offset + std::abs(plane.offset))) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
-ClippedRegion::ClippedRegion(const Mat3& a, const Vec3& b, double c, std::vector<Plane> planes,
-                             bool capped, const std::optional<Vec3>& apex)
-    : has_quadric_(true), capped_(capped), planes_(std::move(planes)), apex_(apex) {
-    const double size =
-        std::fmax(max_component(abs(a.x_axis)),
-                  std::fmax(max_component(abs(a.y_axis)), max_component(abs(a.z_axis))));
+ClippedRegion::ClippedRegion(const Eigensystem& own, const Vec3& b, double c,
+                             std::vector<Plane> planes, bool capped,
+                             const std::optional<Vec3>& apex)
+    : has_quadric_(true), capped_(capped), axes_(own.axes), planes_(std::move(planes)) {
+    const double size = max_component(abs(own.values));
     const double scale = size > 0.0 ? 1.0 / size : 1.0;
-    a_ = {scale * a.x_axis, scale * a.y_axis, scale * a.z_axis};
-    b_ = scale * b;
-    c_ = scale * c;
-    const Eigensystem own = eigensystem(a_);
-    axes_ = own.axes;
-    diagonal_ = {3, own.values, transpose_times(axes_, b_), c_};
-    // Rounding of a flat direction is no curvature.
+    form_ = {3, scale * own.values, {}, 0.0};
+    if (apex && holds_apex(planes_, *apex)) {
+        // From the apex f has no other terms, and so no rounding of theirs.
+        origin_ = *apex;
+        has_apex_ = true;
+        rounding_ = length(origin_);
+        for (Plane& plane : planes_) plane.offset -= dot(plane.normal, origin_);
+        return;
+    }
+    form_.b = scale * transpose_times(axes_, b);
+    form_.c = scale * c;
+    // Rounding of other components is no slope.
     for (int i = 0; i < 3; ++i) {
-        if (std::abs(diagonal_.a[i]) < 8 * kEpsilon) diagonal_.a[i] = 0.0;
-        if (std::abs(diagonal_.b[i]) < 8 * kEpsilon * length(b_)) diagonal_.b[i] = 0.0;
+        if (std::abs(form_.b[i]) < 8 * kEpsilon * scale * length(b)) form_.b[i] = 0.0;
     }
 }
 
 ClippedRegion::ClippedRegion(std::vector<Plane> planes) : planes_(std::move(planes)) {}
 
 double ClippedRegion::value(const Vec3& x) const {
-    return has_quadric_ ? dot(x, a_ * x + 2.0 * b_) + c_ : -1.0;
+    return has_quadric_ ? form_.value(transpose_times(axes_, x)) : -1.0;
 }
 
 double ClippedRegion::magnitude(const Vec3& x) const {
-    const Vec3 m = abs(x);
-    const Mat3 a{abs(a_.x_axis), abs(a_.y_axis), abs(a_.z_axis)};
-    return dot(m, a * m + 2.0 * abs(b_)) + std::abs(c_);
+    const Vec3 y = transpose_times(axes_, x), m = abs(y);
+    const double terms = dot(m, abs(form_.a) * m + 2.0 * abs(form_.b)) + std::abs(form_.c);
+    return terms + 2.0 * length(form_.half_gradient(y)) * length(x);
 }
 
 Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
+    // A candidate from far away is beside the plane by rounding of the way to it.
+    if (plane != nullptr) x = foot_on(*plane, x);
     double off = std::abs(value(x));
     for (int i = 0; i < 6 && off > 0.0; ++i) {
         Vec3 gradient = half_gradient(x);
         if (plane != nullptr) gradient -= dot(gradient, plane->normal) * plane->normal;
-        const Vec3 next = x - (0.5 * value(x) / length_squared(gradient)) * gradient;
+        Vec3 next = x - (0.5 * value(x) / length_squared(gradient)) * gradient;
+        if (plane != nullptr) next = foot_on(*plane, next);
         const double still_off = std::abs(value(next));
         if (!(still_off < off)) break;
         x = next;
@@ -66,31 +81,59 @@ Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
     return x;
 }
 
-ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane, const Vec3& near) const {
-    Conic conic;
-    conic.origin = foot_on(plane, near);
-    const Vec3 x = perpendicular(plane.normal), y = cross(plane.normal, x);
-    const Vec3 ax = a_ * x, ay = a_ * y;
-    const Eigensystem own = eigensystem(
-        {{dot(x, ax), dot(x, ay), 0.0}, {dot(x, ay), dot(y, ay), 0.0}, {0.0, 0.0, 0.0}});
+Eigensystem ClippedRegion::own_in(const Vec3& x, const Vec3& y) const {
+    // Two curved axes in the plane are all there is to it: mostly it is at a right angle to one.
+    const Vec3 along_x = transpose_times(axes_, x), along_y = transpose_times(axes_, y);
+    std::array<Vec3, 3> rows;
+    Vec3 signs;
+    int count = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 row{along_x[i], along_y[i], 0.0};
+        if (form_.a[i] == 0.0 || length(row) <= 4 * kEpsilon) continue;
+        if (count < 2) {
+            rows[count] = std::sqrt(std::abs(form_.a[i])) * row;
+            signs[count] = form_.a[i] > 0.0 ? 1.0 : -1.0;
+        }
+        ++count;
+    }
+    if (count == 1) {
+        const Vec3 first = normalize(rows[0]);
+        return {{signs[0] * length_squared(rows[0]), 0.0, 0.0},
+                {first, {-first.y, first.x, 0.0}, {0.0, 0.0, 1.0}}};
+    }
+    if (count == 2) {
+        if (const auto own = eigensystem_of_rows(rows, signs)) return *own;
+    }
     // The third axis stays the third: there is nothing to rotate it with.
+    Eigensystem own =
+        eigensystem({{second(x, x), second(x, y), 0.0}, {second(x, y), second(y, y), 0.0}, {}});
+    for (int i = 0; i < 2; ++i) {
+        if (std::abs(own.values[i]) < 8 * kEpsilon) own.values[i] = 0.0;
+    }
+    return own;
+}
+
+ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane) const {
+    Conic conic;
+    conic.origin = foot_on(plane, {});
+    const Vec3 x = perpendicular(plane.normal), y = cross(plane.normal, x);
+    const Eigensystem own = own_in(x, y);
     conic.x_axis = own.axes.x_axis.x * x + own.axes.x_axis.y * y;
     conic.y_axis = own.axes.y_axis.x * x + own.axes.y_axis.y * y;
     const Vec3 b = half_gradient(conic.origin);
     conic.form = {
         2, own.values, {dot(b, conic.x_axis), dot(b, conic.y_axis), 0.0}, value(conic.origin)};
-    for (int i = 0; i < 2; ++i) {
-        if (std::abs(conic.form.a[i]) < 8 * kEpsilon) conic.form.a[i] = 0.0;
-    }
     return conic;
 }
 
 void ClippedRegion::append_conic_points(const Plane& plane, const Vec3& from,
                                         std::vector<Vec3>& points) const {
-    // The origin is the foot: what is nearest to it is nearest to the point itself.
-    const Conic conic = conic_in(plane, from);
+    // What is nearest to the foot in the plane is nearest to the point itself.
+    const Conic conic = conic_in(plane);
+    const Vec3 foot = foot_on(plane, from) - conic.origin;
     std::vector<Vec3> found;
-    append_stationary_points(conic.form, {}, found);
+    append_stationary_points(conic.form, {dot(foot, conic.x_axis), dot(foot, conic.y_axis), 0.0},
+                             found);
     for (const Vec3& p : found) {
         points.push_back(
             onto_surface(conic.origin + p.x * conic.x_axis + p.y * conic.y_axis, &plane));
@@ -104,14 +147,12 @@ class ClippedRegion::Search {
 
     void surface() {
         std::vector<Vec3> found;
-        append_stationary_points(region_.diagonal_, transpose_times(region_.axes_, from_), found);
+        append_stationary_points(region_.form_, transpose_times(region_.axes_, from_), found);
         for (const Vec3& p : found) {
             const Vec3 x = region_.onto_surface(region_.axes_ * p, nullptr);
             if (is_on_surface(x)) offer(x, surface_normal(x));
         }
-        if (region_.apex_ && planes_leave(*region_.apex_)) {
-            offer(*region_.apex_, unit_or(from_ - *region_.apex_, {0, 0, 1}));
-        }
+        if (region_.has_apex_ && planes_leave({})) offer({}, unit_or(from_, {0, 0, 1}));
     }
     void plane(std::size_t i) {
         const Plane& plane = region_.planes_[i];
@@ -133,19 +174,25 @@ class ClippedRegion::Search {
         if (!(squared > 1e-24)) return;
         const Vec3 unit = along / std::sqrt(squared);
         // The foot on the line, and once more from there.
-        Vec3 foot = from_;
-        for (int turn = 0; turn < 2; ++turn) {
-            const double over_p = dot(p.normal, foot) - p.offset;
-            const double over_q = dot(q.normal, foot) - q.offset;
-            foot -= (over_p * cross(q.normal, along) - over_q * cross(p.normal, along)) / squared;
-        }
+        const auto foot_of = [&](Vec3 foot) {
+            for (int turn = 0; turn < 2; ++turn) {
+                const double over_p = dot(p.normal, foot) - p.offset;
+                const double over_q = dot(q.normal, foot) - q.offset;
+                foot -=
+                    (over_p * cross(q.normal, along) - over_q * cross(p.normal, along)) / squared;
+            }
+            return foot;
+        };
+        const Vec3 foot = foot_of(from_);
         if (region_.capped_ && is_filled(foot)) offer(foot, p.normal);
         if (!region_.has_quadric_) return;
-        const Vec3 half = region_.half_gradient(foot);
-        const QuadraticRoots roots = solve_half_b_quadratic(dot(unit, region_.a_ * unit),
-                                                            dot(half, unit), region_.value(foot));
+        // From beside the region, where roundings are small.
+        const Vec3 start = foot_of({});
+        const Vec3 half = region_.half_gradient(start);
+        const QuadraticRoots roots = solve_half_b_quadratic(region_.second(unit, unit),
+                                                            dot(half, unit), region_.value(start));
         for (int r = 0; r < roots.count; ++r) {
-            const Vec3 x = foot + (r == 0 ? roots.t0 : roots.t1) * unit;
+            const Vec3 x = start + (r == 0 ? roots.t0 : roots.t1) * unit;
             if (is_on_surface(x)) offer(x, rim_normal(x, p));
         }
     }
@@ -167,7 +214,7 @@ class ClippedRegion::Search {
 
     [[nodiscard]] bool planes_leave(const Vec3& x) const {
         for (const Plane& plane : region_.planes_) {
-            const double slack = kSlack * (length(x) + std::abs(plane.offset));
+            const double slack = kSlack * (length(x) + std::abs(plane.offset) + region_.rounding_);
             if (!(dot(plane.normal, x) <= plane.offset + slack)) return false;
         }
         return true;
@@ -195,7 +242,7 @@ class ClippedRegion::Search {
 };
 
 std::optional<PointOnSurface> ClippedRegion::nearest(const Vec3& from) const {
-    Search search(*this, from);
+    Search search(*this, from - origin_);
     if (has_quadric_) search.surface();
     for (std::size_t i = 0; i < planes_.size(); ++i) {
         search.plane(i);
@@ -204,7 +251,9 @@ std::optional<PointOnSurface> ClippedRegion::nearest(const Vec3& from) const {
             for (std::size_t m = k + 1; m < planes_.size(); ++m) search.corner(i, k, m);
         }
     }
-    return search.best();
+    std::optional<PointOnSurface> best = search.best();
+    if (best) best->point += origin_;
+    return best;
 }
 
 std::optional<PointOnSurface> ClippedRegion::nearest_in_plane(const Vec3& from,

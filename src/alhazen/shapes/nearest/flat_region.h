@@ -20,6 +20,10 @@ class FlatRegion {
                const Vec3& normal);
 
     [[nodiscard]] PointOnSurface nearest(const Vec3& from) const;
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(*this) + vertices_.capacity() * sizeof(Vec3) +
+               flat_.capacity() * sizeof(Vec2) + loop_ends_.capacity() * sizeof(std::uint32_t);
+    }
 
   private:
     [[nodiscard]] bool holds(const Vec2& p) const;

@@ -4,7 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
+
+#include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
 
@@ -31,7 +34,11 @@ double middle(double lo, double hi) {
 class Multipliers {
   public:
     Multipliers(const DiagonalQuadric& q, const Vec3& from, std::vector<Vec3>& points)
-        : q_(q), from_(from), g_(q.half_gradient(from)), value_(q.value(from)), points_(points) {}
+        : q_(q),
+          from_(from),
+          g_(q.half_gradient(from)),
+          own_((q.a * from + 2.0 * q.b) * from),
+          points_(points) {}
 
     void run() {
         std::vector<int> axes;  // with a pole, the lowest pole first
@@ -72,13 +79,27 @@ class Multipliers {
         const double of_pole = q_.a[m.axis];
         return (of_pole - a) / of_pole + m.offset * a;
     }
+    /// Whether a multiplier with this divisor leads far: differences of the coordinates there and
+    /// here are rounded more than the ones there.
+    [[nodiscard]] static bool leads_far(double d) { return std::abs(d) > 2.0; }
+    /// Of the point of the multiplier m, which has divisor d along axis i.
+    [[nodiscard]] double coordinate(double m, double d, int i) const {
+        if (g_[i] == 0.0) return from_[i];
+        return leads_far(d) ? (from_[i] - m * q_.b[i]) / d : from_[i] - m * (g_[i] / d);
+    }
     /// f at the point of a multiplier.
     [[nodiscard]] double constraint(const Multiplier& m) const {
-        double sum = value_;
+        double sum = q_.c;
         for (int i = 0; i < q_.dimensions; ++i) {
-            if (g_[i] == 0.0) continue;
             const double d = divisor(m, i);
-            sum -= g_[i] / d * g_[i] * value(m) * ((1.0 + d) / d);
+            if (g_[i] == 0.0) {
+                sum += own_[i];
+            } else if (leads_far(d)) {
+                const double x = coordinate(value(m), d, i);
+                sum += (q_.a[i] * x + 2.0 * q_.b[i]) * x;
+            } else {
+                sum += own_[i] - g_[i] / d * g_[i] * value(m) * ((1.0 + d) / d);
+            }
         }
         return sum;
     }
@@ -94,9 +115,7 @@ class Multipliers {
     }
     void add(const Multiplier& m) {
         Vec3 x = from_;
-        for (int i = 0; i < q_.dimensions; ++i) {
-            if (g_[i] != 0.0) x[i] -= value(m) * (g_[i] / divisor(m, i));
-        }
+        for (int i = 0; i < q_.dimensions; ++i) x[i] = coordinate(value(m), divisor(m, i), i);
         if (is_finite(x)) points_.push_back(x);
     }
     /// A zero of f between two multipliers of one axis, at which its signs differ.
@@ -139,7 +158,7 @@ class Multipliers {
             if (is_same(i, k)) {
                 x[k] = -q_.b[k] / q_.a[k];
             } else {
-                x[k] -= m / (1.0 + m * q_.a[k]) * g_[k];
+                x[k] = coordinate(m, 1.0 + m * q_.a[k], k);
             }
         }
         const double squared = -q_.value(x) / q_.a[i];
@@ -153,7 +172,7 @@ class Multipliers {
 
     const DiagonalQuadric& q_;
     const Vec3 from_, g_;
-    const double value_;
+    const Vec3 own_;  ///< what the axes add to f at `from`
     std::vector<Vec3>& points_;
 };
 
@@ -200,6 +219,48 @@ Eigensystem eigensystem(const Mat3& m) {
     return {
         {a[0][0], a[1][1], a[2][2]},
         {{v[0][0], v[1][0], v[2][0]}, {v[0][1], v[1][1], v[2][1]}, {v[0][2], v[1][2], v[2][2]}}};
+}
+
+std::optional<Eigensystem> eigensystem_of_rows(std::array<Vec3, 3> rows, const Vec3& signs) {
+    constexpr double kRight = 4 * std::numeric_limits<double>::epsilon();
+    std::array<double, 3> sizes{};
+    bool done = false;
+    for (int sweep = 0; sweep < 30 && !done; ++sweep) {
+        done = true;
+        for (int k = 0; k < 3; ++k) sizes[k] = signs[k] != 0.0 ? length(rows[k]) : 0.0;
+        for (int p = 0; p < 2; ++p) {
+            for (int q = p + 1; q < 3; ++q) {
+                if (sizes[p] == 0.0 || sizes[q] == 0.0) continue;
+                const double over = dot(rows[p] / sizes[p], rows[q] / sizes[q]);
+                if (std::abs(over) <= kRight) continue;
+                if (signs[p] != signs[q]) return std::nullopt;
+                done = false;
+                const double ratio = sizes[q] / sizes[p];
+                const double theta = (ratio - 1.0 / ratio) / (2.0 * over);
+                const double t =
+                    (theta < 0.0 ? -1.0 : 1.0) / (std::abs(theta) + std::hypot(theta, 1.0));
+                const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
+                const Vec3 x = rows[p], y = rows[q];
+                rows[p] = c * x - s * y;
+                rows[q] = s * x + c * y;
+                sizes[p] = length(rows[p]);
+                sizes[q] = length(rows[q]);
+            }
+        }
+    }
+    if (!done) return std::nullopt;
+    // Flat directions are at right angles to the others.
+    Eigensystem result{};
+    std::array<Vec3*, 3> axes{&result.axes.x_axis, &result.axes.y_axis, &result.axes.z_axis};
+    std::array<int, 3> order{0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](int i, int k) { return sizes[i] > sizes[k]; });
+    if (!(sizes[order[0]] > 0.0) || !std::isfinite(sizes[order[0]])) return std::nullopt;
+    const auto axis = [&](int i) { return rows[order[i]] / sizes[order[i]]; };
+    *axes[order[0]] = axis(0);
+    *axes[order[1]] = sizes[order[1]] > 0.0 ? axis(1) : perpendicular(axis(0));
+    *axes[order[2]] = sizes[order[2]] > 0.0 ? axis(2) : cross(*axes[order[0]], *axes[order[1]]);
+    for (int k = 0; k < 3; ++k) result.values[k] = signs[k] * sizes[k] * sizes[k];
+    return result;
 }
 
 double DiagonalQuadric::value(const Vec3& x) const {

@@ -12,6 +12,7 @@
 /// Complexity: some microseconds.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "alhazen/math/affine.h"
@@ -26,6 +27,13 @@ struct Eigensystem {
 /// `m` is symmetric.
 /// Source: Golub and Van Loan, "Matrix Computations", 4th ed., section 8.5 (Jacobi's rotations).
 [[nodiscard]] Eigensystem eigensystem(const Mat3& m);
+
+/// Of the sum of signs_i rows_i rows_i^T, each eigenvalue to some roundings of itself. None where
+/// rows of different signs are not at a right angle: there only the largest one is that exact.
+/// Source: Demmel and Veselic, "Jacobi's Method is More Accurate than QR", SIAM Journal on Matrix
+/// Analysis and Applications 13(4), 1992, section 4 (one-sided rotations).
+[[nodiscard]] std::optional<Eigensystem> eigensystem_of_rows(std::array<Vec3, 3> rows,
+                                                             const Vec3& signs);
 
 /// f along its own axes: sum of a_i x_i^2 + 2 b_i x_i, plus c.
 struct DiagonalQuadric {
