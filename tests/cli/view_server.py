@@ -75,6 +75,18 @@ class Server:
     def connect(self):
         return socket.create_connection((self.address.strip("[]"), self.port), timeout=20 * SLOWDOWN)
 
+    def connect_slowly(self, count):
+        """Sockets whose requests begin and do not go on."""
+        sockets = []
+        for _ in range(count):
+            s = self.connect()
+            try:
+                s.sendall(b"POST /state HTTP/1.1\r\nHost: ")
+            except OSError:
+                pass  # refused at once
+            sockets.append(s)
+        return sockets
+
     def raw(self, data):
         """Sends bytes; returns all that comes back."""
         with self.connect() as s:

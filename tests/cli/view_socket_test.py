@@ -104,13 +104,7 @@ class ViewSocket(ServerTest):
         alone, memory, sockets = [seconds() for _ in range(9)], self.server.state()["memory"], []
 
         def come():
-            for _ in range(200):
-                s = self.server.connect()
-                try:
-                    s.sendall(b"POST /state HTTP/1.1\r\nHost: ")
-                except OSError:
-                    pass  # refused at once
-                sockets.append(s)
+            sockets.extend(self.server.connect_slowly(200))
 
         slow = threading.Thread(target=come)
         slow.start()

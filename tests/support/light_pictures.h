@@ -99,6 +99,18 @@ inline Film picture_of(const Scene& scene, const std::string& renderer, int side
     return film;
 }
 
+/// Pictures of 12 by 12 pixels of 1, 2 and 3 threads, in tiles of three sizes.
+inline void expect_same_for_threads_and_tiles(const Scene& scene, const std::string& renderer,
+                                              int samples) {
+    const Film a = picture_of(scene, renderer, 12, samples, 7, 1, 32);
+    const Film b = picture_of(scene, renderer, 12, samples, 7, 2, 5);
+    const Film c = picture_of(scene, renderer, 12, samples, 7, 3, 9);
+    for (int i = 0; i < 144; ++i) {
+        EXPECT_EQ(a.at(i % 12, i / 12), b.at(i % 12, i / 12)) << renderer << " pixel " << i;
+        EXPECT_EQ(a.at(i % 12, i / 12), c.at(i % 12, i / 12)) << renderer << " pixel " << i;
+    }
+}
+
 inline Rgb mean_of(const Film& film) {
     Rgb sum;
     const int n = film.frame_width();

@@ -259,13 +259,7 @@ TEST(Vcm, WithoutMergingIsBidirectional) {
 TEST(Vcm, PicturesDependNeitherOnThreadsNorOnTiles) {
     const Scene scene = room_of_glass();
     for (const char* renderer : {"vcm:photons=5000,pilot=off", "vcm:photons=500,pilot=choose"}) {
-        const Film a = picture_of(scene, renderer, 12, 2, 7, 1, 32);
-        const Film b = picture_of(scene, renderer, 12, 2, 7, 2, 5);
-        const Film c = picture_of(scene, renderer, 12, 2, 7, 3, 9);
-        for (int i = 0; i < 144; ++i) {
-            EXPECT_EQ(a.at(i % 12, i / 12), b.at(i % 12, i / 12)) << renderer << " pixel " << i;
-            EXPECT_EQ(a.at(i % 12, i / 12), c.at(i % 12, i / 12)) << renderer << " pixel " << i;
-        }
+        testing::expect_same_for_threads_and_tiles(scene, renderer, 2);
     }
 }
 

@@ -178,13 +178,7 @@ TEST(VolumePaths, PicturesDependNeitherOnThreadsNorOnTiles) {
     const Scene scene = maker.compile("wide_bvh");
     for (const std::string& name : kJoining) {
         for (const std::string& renderer : {name, name + " --spectral"}) {
-            const Film a = picture_of(scene, renderer, 12, 4, 7, 1, 32);
-            const Film b = picture_of(scene, renderer, 12, 4, 7, 2, 5);
-            const Film c = picture_of(scene, renderer, 12, 4, 7, 3, 9);
-            for (int i = 0; i < 144; ++i) {
-                EXPECT_EQ(a.at(i % 12, i / 12), b.at(i % 12, i / 12)) << renderer << " " << i;
-                EXPECT_EQ(a.at(i % 12, i / 12), c.at(i % 12, i / 12)) << renderer << " " << i;
-            }
+            testing::expect_same_for_threads_and_tiles(scene, renderer, 4);
         }
     }
 }
