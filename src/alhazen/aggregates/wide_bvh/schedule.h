@@ -30,8 +30,9 @@ inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 
 /// Fewest rays of a packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;
-/// Work of a packet: 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the finer
-/// filter decides, and so much for a shape and group of rays. A unit is about 50 instructions.
+/// Work of a packet: 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the
+/// finer filter decides, and so much for a shape and group of rays. A unit is about 50
+/// instructions.
 struct PacketWork {
     std::uint32_t shape;
     /// For each ray: from here on the rays are as fast one by one. A packet that took more counts
