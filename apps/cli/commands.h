@@ -23,7 +23,9 @@ void add_generate(CLI::App& app, int& exit_status);
 void add_info(CLI::App& app, int& exit_status);
 void add_verify(CLI::App& app, int& exit_status);
 void add_compare(CLI::App& app, int& exit_status);
-void add_solid_queries(CLI::App& app, int& exit_status);  ///< spans, inside, thickness
+void add_spans(CLI::App& app, int& exit_status);
+void add_thickness(CLI::App& app, int& exit_status);
+void add_inside(CLI::App& app, int& exit_status);
 void add_measure(CLI::App& app, int& exit_status);
 void add_samples(CLI::App& app, int& exit_status);
 void add_view(CLI::App& app, int& exit_status);

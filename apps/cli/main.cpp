@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <iterator>
 #include <new>
+#include <string_view>
 
 #include "alhazen/base/error.h"
 #include "alhazen/session/statistics.h"
@@ -35,6 +38,26 @@ int exit_status_of(ErrorKind kind) {
     return kCheckFailed;
 }
 
+/// Adds the command that is named; all of them, for help and suggestions, when none is.
+void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
+    struct Row {
+        std::string_view name;
+        void (*add)(CLI::App&, int&);
+    };
+    static constexpr Row kRows[] = {
+        {"render", add_render},       {"convert", add_convert}, {"generate", add_generate},
+        {"info", add_info},           {"verify", add_verify},   {"compare", add_compare},
+        {"explain", add_explain},     {"spans", add_spans},     {"inside", add_inside},
+        {"thickness", add_thickness}, {"measure", add_measure}, {"section", add_section},
+        {"samples", add_samples},     {"vector", add_vector},   {"view", add_view},
+        {"diff", add_diff},           {"list", add_list},
+    };
+    const auto* const named = std::find_if(std::begin(kRows), std::end(kRows),
+                                           [&](const Row& row) { return row.name == name; });
+    if (named != std::end(kRows)) return named->add(app, exit_status);
+    for (const Row& row : kRows) row.add(app, exit_status);
+}
+
 int run(int argc, char** argv) {
     CLI::App app{
         "Alhazen traces rays through exact solids and meshes.\n"
@@ -49,21 +72,7 @@ int run(int argc, char** argv) {
         "not finite;\n"
         "75 stopped by a signal, what was done is written.");
     int exit_status = kDone;
-    add_render(app, exit_status);
-    add_convert(app, exit_status);
-    add_generate(app, exit_status);
-    add_info(app, exit_status);
-    add_verify(app, exit_status);
-    add_compare(app, exit_status);
-    add_explain(app, exit_status);
-    add_solid_queries(app, exit_status);
-    add_measure(app, exit_status);
-    add_section(app, exit_status);
-    add_samples(app, exit_status);
-    add_vector(app, exit_status);
-    add_view(app, exit_status);
-    add_diff(app, exit_status);
-    add_list(app, exit_status);
+    add_commands(app, argc > 1 ? argv[1] : "", exit_status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version

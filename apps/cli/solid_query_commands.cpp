@@ -100,6 +100,8 @@ std::shared_ptr<SolidQueryArguments> add_ray_arguments(CLI::App& command) {
                          "OX,OY,OZ,DX,DY,DZ[,TMIN,TMAX]");
 }
 
+}  // namespace
+
 void add_spans(CLI::App& app, int& exit_status) {
     CLI::App* command =
         app.add_subcommand("spans", "Where rays enter and leave the solids of a scene, as JSON");
@@ -155,14 +157,6 @@ void add_inside(CLI::App& app, int& exit_status) {
         });
         exit_status = kDone;
     });
-}
-
-}  // namespace
-
-void add_solid_queries(CLI::App& app, int& exit_status) {
-    add_spans(app, exit_status);
-    add_inside(app, exit_status);
-    add_thickness(app, exit_status);
 }
 
 }  // namespace alhazen::cli

@@ -102,7 +102,7 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
         Leaves leaves(scene, rays, results, packet);
         const bool done = traverse_packet<Leaves::kOrdered>(
             layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet, leaves,
-            kMaxPacketWork * count, stats);
+            Leaves::kWork.most * count, stats);
         work += leaves.work;
         if (!done) continue;
         leaves.finish(stats);
@@ -110,7 +110,7 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     }
     alone |= rest;
     const auto traced = static_cast<std::uint32_t>(std::popcount(wanted & ~alone));
-    return {alone, work > kFairPacketWork * traced || (traced == 0 && wanted != 0)};
+    return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as

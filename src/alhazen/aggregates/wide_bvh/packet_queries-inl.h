@@ -21,6 +21,7 @@
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/primitives/primitive_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -124,7 +125,7 @@ class PacketLeaves {
                 std::uint32_t groups =
                     among & packet_.meet_groups(&boxes.rows()[0][lane], kBlockWidth);
                 if (groups != 0) groups &= packet_.meet_ball(b.center, b.radius);
-                work += 6 * static_cast<std::uint32_t>(std::popcount(groups));
+                work += Derived::kWork.shape * static_cast<std::uint32_t>(std::popcount(groups));
                 changed_ |= visit_shape(blocks->ids[lane].id(), groups, stats);
             }
         }
@@ -154,6 +155,7 @@ class PacketLeaves {
 class ClosestPacket : public PacketLeaves<ClosestPacket> {
   public:
     static constexpr bool kOrdered = true;
+    static constexpr PacketWork kWork = kClosestPacketWork;
 
     HWY_INLINE ClosestPacket(const WideBvhScene& scene, std::span<const Ray> rays,
                              std::span<Hit> best, RayPacket& packet)
@@ -231,6 +233,7 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
 class OccludedPacket : public PacketLeaves<OccludedPacket> {
   public:
     static constexpr bool kOrdered = false;
+    static constexpr PacketWork kWork = kOccludedPacketWork;
 
     HWY_INLINE OccludedPacket(const WideBvhScene& scene, std::span<const Ray> rays,
                               std::span<bool> occluded, RayPacket& packet)

@@ -30,12 +30,19 @@ inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 
 /// Fewest rays of a packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;
-/// Work of a packet for each of its rays, from which on it is no faster than they are one by one:
-/// 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the finer filter decides;
-/// a unit is about 50 instructions. A packet that took more counts as a failure.
-inline constexpr std::uint32_t kFairPacketWork = 14;
-/// Work for each of its rays after which a packet gives up.
-inline constexpr std::uint32_t kMaxPacketWork = 20;
+/// Work of a packet: 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the
+/// finer filter decides, and so much for a shape and group of rays. A unit is about 50
+/// instructions.
+struct PacketWork {
+    std::uint32_t shape;
+    /// For each ray: from here on the rays are as fast one by one. A packet that took more counts
+    /// as a failure.
+    std::uint32_t fair;
+    std::uint32_t most;  ///< for each ray; then the packet gives up
+};
+inline constexpr PacketWork kClosestPacketWork = {6, 14, 20};
+/// A single ray that may end at any hit is soon done.
+inline constexpr PacketWork kOccludedPacketWork = {12, 10, 14};
 /// After n failures in a row, n at most this, 2^n - 1 packets are not tried.
 inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 /// Largest tree whose coherent rays in no packet are traced one by one, bytes. The stream hides the

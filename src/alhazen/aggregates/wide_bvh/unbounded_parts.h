@@ -37,6 +37,7 @@ class UnboundedParts {
         });
     }
     [[nodiscard]] bool occluded(const PrimitiveTable& table, const Ray& ray, RayQuery query) const {
+        if (parts_.empty()) return false;
         return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
             return hit != nullptr ||
                    table.occluded(id, ray, shear_of(table, id, ray), stats, query.mask);
@@ -44,6 +45,7 @@ class UnboundedParts {
     }
     void all_hits(const PrimitiveTable& table, const Ray& ray, std::vector<Hit>& hits,
                   RayQuery query) const {
+        if (parts_.empty()) return;
         meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
             if (hit != nullptr) {
                 append_hit(hits, *hit, id);
@@ -56,6 +58,7 @@ class UnboundedParts {
     /// True where one of them blocks the ray.
     [[nodiscard]] bool shadowed(const PrimitiveTable& table, const Ray& ray,
                                 std::vector<Hit>& crossings, RayQuery query) const {
+        if (parts_.empty()) return false;
         return meet(table, ray, query, [&](PrimitiveId id, const ShapeHit* hit, auto stats) {
             if (hit == nullptr) {
                 return table.shadowed(id, ray, shear_of(table, id, ray), crossings, stats,
@@ -83,7 +86,6 @@ class UnboundedParts {
     /// pointer for what the table must be asked about.
     template <class Test>
     bool meet(const PrimitiveTable& table, const Ray& ray, RayQuery query, Test&& test) const {
-        if (parts_.empty()) return false;
         return with_stats(query.stats, [&](auto stats) {
             for (const Part& part : parts_) {
                 if (!part.is_plane) {

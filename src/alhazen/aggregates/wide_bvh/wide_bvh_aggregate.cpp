@@ -165,7 +165,8 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
 
 void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
                                       RayQuery query, Coherence coherence) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    std::fill(occluded.begin(), occluded.end(), false);
+    for (std::size_t i = 0; i < rays.size() && !outside_.empty(); ++i) {
         occluded[i] = outside_.occluded(table_, rays[i], query);
     }
     if (layout_.tree.empty) return;

@@ -1,8 +1,8 @@
-#include <cairo-pdf.h>
-
 #include <memory>
+#include <string>
 
 #include "alhazen/base/error.h"
+#include "alhazen/imaging/drawing/cairo_library.h"
 #include "alhazen/imaging/drawing/drawing_style.h"
 
 namespace alhazen {
@@ -10,9 +10,9 @@ namespace alhazen {
 namespace {
 
 struct Release {
-    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-    void operator()(cairo_t* context) const { cairo_destroy(context); }
-    void operator()(cairo_pattern_t* pattern) const { cairo_pattern_destroy(pattern); }
+    void operator()(cairo_surface_t* surface) const { cairo().surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo().destroy(context); }
+    void operator()(cairo_pattern_t* pattern) const { cairo().pattern_destroy(pattern); }
 };
 template <class T>
 using Owned = std::unique_ptr<T, Release>;
@@ -25,31 +25,31 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
 void trace(cairo_t* page, const std::vector<Vec2>& points, bool closed) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (i == 0) {
-            cairo_move_to(page, points[i].x, points[i].y);
+            cairo().move_to(page, points[i].x, points[i].y);
         } else {
-            cairo_line_to(page, points[i].x, points[i].y);
+            cairo().line_to(page, points[i].x, points[i].y);
         }
     }
-    if (closed) cairo_close_path(page);
+    if (closed) cairo().close_path(page);
 }
 
 /// As the unit circle seen through the half diameters; the line itself keeps its width.
 void trace(cairo_t* page, const DrawingArc& arc) {
     cairo_matrix_t shown, ellipse;
-    cairo_get_matrix(page, &shown);
-    cairo_matrix_init(&ellipse, arc.u.x, arc.u.y, arc.v.x, arc.v.y, arc.center.x, arc.center.y);
-    cairo_transform(page, &ellipse);
-    cairo_new_sub_path(page);
+    cairo().get_matrix(page, &shown);
+    cairo().matrix_init(&ellipse, arc.u.x, arc.u.y, arc.v.x, arc.v.y, arc.center.x, arc.center.y);
+    cairo().transform(page, &ellipse);
+    cairo().new_sub_path(page);
     if (arc.to > arc.from) {
-        cairo_arc(page, 0, 0, 1, arc.from, arc.to);
+        cairo().arc(page, 0, 0, 1, arc.from, arc.to);
     } else {
-        cairo_arc_negative(page, 0, 0, 1, arc.from, arc.to);
+        cairo().arc_negative(page, 0, 0, 1, arc.from, arc.to);
     }
-    cairo_set_matrix(page, &shown);
+    cairo().set_matrix(page, &shown);
 }
 
 void set_color(cairo_t* page, const Rgb& c) {
-    cairo_set_source_rgb(page, c.r, c.g, c.b);
+    cairo().set_source_rgb(page, c.r, c.g, c.b);
 }
 
 /// `seams`: with a line around it.
@@ -58,30 +58,30 @@ void fill(cairo_t* page, const DrawingRegion& region, bool seams) {
     if (region.gradient) {
         const DrawingGradient& g = *region.gradient;
         const Owned<cairo_pattern_t> pattern(
-            cairo_pattern_create_linear(g.from.x, g.from.y, g.to.x, g.to.y));
-        cairo_pattern_add_color_stop_rgb(pattern.get(), 0, g.at_from.r, g.at_from.g, g.at_from.b);
-        cairo_pattern_add_color_stop_rgb(pattern.get(), 1, g.at_to.r, g.at_to.g, g.at_to.b);
-        cairo_set_source(page, pattern.get());
+            cairo().pattern_create_linear(g.from.x, g.from.y, g.to.x, g.to.y));
+        cairo().pattern_add_color_stop_rgb(pattern.get(), 0, g.at_from.r, g.at_from.g, g.at_from.b);
+        cairo().pattern_add_color_stop_rgb(pattern.get(), 1, g.at_to.r, g.at_to.g, g.at_to.b);
+        cairo().set_source(page, pattern.get());
     } else {
         set_color(page, region.color);
     }
-    if (!seams) return cairo_fill(page);
-    cairo_fill_preserve(page);
-    cairo_set_line_width(page, kSeam);
-    cairo_stroke(page);
+    if (!seams) return cairo().fill(page);
+    cairo().fill_preserve(page);
+    cairo().set_line_width(page, kSeam);
+    cairo().stroke(page);
 }
 
 void draw(cairo_t* page, const DrawingLine& line) {
     const LineLook& look = look_of(line.style);
-    cairo_set_line_width(page, look.width);
-    cairo_set_dash(page, look.dash.data(), look.dash[0] > 0 ? 2 : 0, 0);
+    cairo().set_line_width(page, look.width);
+    cairo().set_dash(page, look.dash.data(), look.dash[0] > 0 ? 2 : 0, 0);
     set_color(page, {0, 0, 0});
     if (line.arc) {
         trace(page, *line.arc);
     } else {
         trace(page, line.points, line.closed);
     }
-    cairo_stroke(page);
+    cairo().stroke(page);
 }
 
 }  // namespace
@@ -89,13 +89,13 @@ void draw(cairo_t* page, const DrawingLine& line) {
 std::string drawing_pdf(const Drawing& drawing) {
     std::string bytes;
     const Owned<cairo_surface_t> surface(
-        cairo_pdf_surface_create_for_stream(append, &bytes, drawing.width, drawing.height));
-    const Owned<cairo_t> page(cairo_create(surface.get()));
-    cairo_set_fill_rule(page.get(), CAIRO_FILL_RULE_EVEN_ODD);
-    cairo_set_line_join(page.get(), CAIRO_LINE_JOIN_ROUND);
-    cairo_set_tolerance(page.get(), 0.01);  // of curves in place of arcs
+        cairo().pdf_surface_create_for_stream(append, &bytes, drawing.width, drawing.height));
+    const Owned<cairo_t> page(cairo().create(surface.get()));
+    cairo().set_fill_rule(page.get(), CAIRO_FILL_RULE_EVEN_ODD);
+    cairo().set_line_join(page.get(), CAIRO_LINE_JOIN_ROUND);
+    cairo().set_tolerance(page.get(), 0.01);  // of curves in place of arcs
     set_color(page.get(), drawing.background);
-    cairo_paint(page.get());
+    cairo().paint(page.get());
     // Readers smooth the edges of regions, so that what lies below shines through between two that
     // abut: below are the same regions, a little larger.
     for (const bool seams : {true, false}) {
@@ -103,14 +103,14 @@ std::string drawing_pdf(const Drawing& drawing) {
             for (const DrawingRegion& region : group.regions) fill(page.get(), region, seams);
         }
     }
-    cairo_set_line_cap(page.get(), CAIRO_LINE_CAP_ROUND);
+    cairo().set_line_cap(page.get(), CAIRO_LINE_CAP_ROUND);
     for (const DrawingLine& line : drawing.lines) draw(page.get(), line);
-    cairo_show_page(page.get());
-    cairo_surface_finish(surface.get());
-    const cairo_status_t status = cairo_surface_status(surface.get());
-    if (status != CAIRO_STATUS_SUCCESS || cairo_status(page.get()) != CAIRO_STATUS_SUCCESS) {
+    cairo().show_page(page.get());
+    cairo().surface_finish(surface.get());
+    const cairo_status_t status = cairo().surface_status(surface.get());
+    if (status != CAIRO_STATUS_SUCCESS || cairo().status(page.get()) != CAIRO_STATUS_SUCCESS) {
         throw Error(ErrorKind::Resource, std::string("the PDF could not be made: ") +
-                                             cairo_status_to_string(cairo_status(page.get())));
+                                             cairo().status_to_string(cairo().status(page.get())));
     }
     return bytes;
 }
