@@ -21,8 +21,8 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
     view.select(ray);
     outline.select(ray, reveal);
   };
-  const canvas = element("canvas", {class: "space", tabindex: "0", role: "img", "aria-label":
-    `${rays.length} rays in space. Arrow keys turn the view, plus and minus come nearer, 0 goes back.`});
+  const canvas = element("canvas", {class: "space", tabindex: "0", role: "application", "aria-label":
+    `${rays.length} rays in space`, "aria-describedby": "space-keys"});
   const section = (id: string, title: string, ...children: Child[]) => element("section", {id, "aria-labelledby": `${id}-title`},
     element("h2", {id: `${id}-title`}, title), ...children);
   const tree = element("div", {class: "outline"});
@@ -31,7 +31,9 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
   root.replaceChildren(
     header(data, picture),
     element("div", {class: "top"},
-      section("space", "The rays in space", canvas, legend(data, () => view)),
+      section("space", "The rays in space", canvas, element("p", {id: "space-keys", class: "unseen"},
+        "Arrow keys turn the view, with shift they move it, plus and minus come nearer and go back, 0 is the view of the beginning. " +
+        "The outline below tells the same rays."), legend(data, () => view)),
       section("tree", "The tree of rays", element("p", {class: "soft"},
         "I = ke + \u03a3 ka Ia + \u03a3 S I [kd (N\u00b7L) + ks highlight] + kr I(reflected) + kt I(refracted). " +
         "The numbers are those of the renderer; each table adds up to the colour of its ray."),
