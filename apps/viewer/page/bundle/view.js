@@ -1603,7 +1603,7 @@ var LightList = class {
 
 // apps/viewer/page/controls.ts
 var MOVING = [
-  { name: "steady", what: "the same renderer, 20 pictures a second: fewer pixels, then fewer generations of rays; shades between rays where they agree" },
+  { name: "steady", what: "the same renderer, 20 pictures a second: fewer generations of rays, then fewer pixels; shades between rays where they agree" },
   { name: "coarser", what: "the same renderer at its depth: as many pixels as 20 pictures a second allow" },
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
@@ -1949,7 +1949,7 @@ var AIM = 46;
 var GROWTH = 1.6;
 var GUESS = 1.3;
 var LATE = 0.4;
-var FADE = 5e-3;
+var FADE = 2e-3;
 var Pace = class {
   width;
   depth;
@@ -2017,7 +2017,7 @@ function widthFor(cost, most) {
   return most * (AIM / Math.max(cost, 0.1)) ** (1 / GROWTH);
 }
 function leastWidth(depth, limits) {
-  return depth > 1 ? limits.full / 2 : depth > 0 ? limits.full / 4 : 0;
+  return depth > 0 ? limits.full / 2 : 0;
 }
 function clamped(x, lo, hi) {
   return Math.min(hi, Math.max(lo, x));
