@@ -360,14 +360,18 @@ export class Viewer {
     const width = this.full(), at = (w: number, n: number) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
     this.explainPixel(at(u, width), at(v, this.heightFor(width)));
   }
-  private explainPixel(x: number, y: number) {
+  private explainPixel(x: number, y: number, sample = 0) {
     const camera = this.camera;
     if (!camera) return;
-    const wish = this.wish(camera, this.full()), own = this.explaining = {};
+    const wish = {...this.wish(camera, this.full()), samples: this.controls.number("samples")}, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
-      const answer = await this.ask("/explain", {...wish, x, y, steps: this.controls.get("steps")});
+      let answer: Response | null = null;
+      // A frame that was asked for before may come after it, and end it.
+      for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
+        answer = await this.ask("/explain", {...wish, x, y, sample, steps: this.controls.get("steps")});
+      }
       if (this.explaining !== own) return;
       this.explaining = undefined;
       this.status.textContent = this.described;
@@ -379,7 +383,7 @@ export class Viewer {
       const root = document.getElementById("explanation")!;
       root.hidden = false;
       root.ariaLabel = `Explanation of pixel ${x},${y}`;
-      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9));
+      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9), i => this.explainPixel(x, y, i));
       root.scrollIntoView({behavior: scrollBehavior()});
       root.focus({preventScroll: true});
     });

@@ -1117,7 +1117,7 @@ var TraversalSteps = class {
 };
 
 // src/alhazen/explain/page/explanation_view.ts
-function showExplanation(root, data, picture) {
+function showExplanation(root, data, picture, choose) {
   const rays = raysOf(data.tree);
   let view, outline;
   const select = (ray, reveal = true) => {
@@ -1163,7 +1163,7 @@ function showExplanation(root, data, picture) {
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
     data.traversal ? section("steps", "How the first surface is found", steps) : "",
-    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : ""
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data, choose)) : ""
   );
   view = new SceneView(canvas, data, rays, select);
   outline = new RayOutline(tree, data, select);
@@ -1220,7 +1220,7 @@ function legend(data, view) {
     element("button", { type: "button", click: () => view().home() }, "Home view")
   );
 }
-function sampleTable(data) {
+function sampleTable(data, choose) {
   const plot = element(
     "svg:svg",
     { class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel" },
@@ -1236,10 +1236,11 @@ function sampleTable(data) {
     dot2.style.fill = css(s.radiance);
     plot.append(dot2);
   });
+  const name = (i) => choose && i !== data.sample ? element("button", { type: "button", class: "link", "aria-label": `Explain sample ${i}`, click: () => choose(i) }, String(i)) : String(i);
   const rows = data.samples.map((s, i) => element(
     "tr",
-    {},
-    element("th", { scope: "row" }, String(i)),
+    i === data.sample ? { class: "selected", "aria-current": "true" } : {},
+    element("th", { scope: "row" }, name(i)),
     ...s.radiance.map((c) => element("td", {}, number(c))),
     element("td", {}, swatch(s.radiance))
   ));
@@ -2427,14 +2428,17 @@ var Viewer = class {
     const width = this.full(), at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
     this.explainPixel(at(u, width), at(v, this.heightFor(width)));
   }
-  explainPixel(x, y) {
+  explainPixel(x, y, sample = 0) {
     const camera = this.camera;
     if (!camera) return;
-    const wish = this.wish(camera, this.full()), own = this.explaining = {};
+    const wish = { ...this.wish(camera, this.full()), samples: this.controls.number("samples") }, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
-      const answer = await this.ask("/explain", { ...wish, x, y, steps: this.controls.get("steps") });
+      let answer = null;
+      for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
+        answer = await this.ask("/explain", { ...wish, x, y, sample, steps: this.controls.get("steps") });
+      }
       if (this.explaining !== own) return;
       this.explaining = void 0;
       this.status.textContent = this.described;
@@ -2446,7 +2450,7 @@ var Viewer = class {
       const root = document.getElementById("explanation");
       root.hidden = false;
       root.ariaLabel = `Explanation of pixel ${x},${y}`;
-      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9));
+      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9), (i) => this.explainPixel(x, y, i));
       root.scrollIntoView({ behavior: scrollBehavior() });
       root.focus({ preventScroll: true });
     });

@@ -14,7 +14,8 @@ import {SceneView} from "./scene_view";
 import {spanBars} from "./span_bars";
 import {TraversalSteps} from "./traversal_steps";
 
-export function showExplanation(root: HTMLElement, data: Explanation, picture: string | null) {
+/** `choose`: shows the explanation of another sample; left out where there is none to be had. */
+export function showExplanation(root: HTMLElement, data: Explanation, picture: string | null, choose?: (sample: number) => void) {
   const rays = raysOf(data.tree);
   let view: SceneView, outline: RayOutline;
   const select = (ray: AnyRay, reveal = true) => {
@@ -46,7 +47,7 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
     data.traversal ? section("steps", "How the first surface is found", steps) : "",
-    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : "");
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data, choose)) : "");
   view = new SceneView(canvas, data, rays, select);
   outline = new RayOutline(tree, data, select);
   spanBars(spans, data);
@@ -97,7 +98,7 @@ function legend(data: Explanation, view: () => SceneView) {
     element("label", {}, shadows, " show shadow rays"),
     element("button", {type: "button", click: () => view().home()}, "Home view"));
 }
-function sampleTable(data: Explanation) {
+function sampleTable(data: Explanation, choose?: (sample: number) => void) {
   const plot = element("svg:svg", {class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel"},
     element("svg:rect", {class: "frame", x: 0, y: 0, width: 100, height: 100}));
   data.samples.forEach((s, i) => {
@@ -106,7 +107,10 @@ function sampleTable(data: Explanation) {
     dot.style.fill = css(s.radiance);
     plot.append(dot);
   });
-  const rows = data.samples.map((s, i) => element("tr", {}, element("th", {scope: "row"}, String(i)),
+  const name = (i: number) => choose && i !== data.sample
+    ? element("button", {type: "button", class: "link", "aria-label": `Explain sample ${i}`, click: () => choose(i)}, String(i)) : String(i);
+  const rows = data.samples.map((s, i) => element("tr", i === data.sample ? {class: "selected", "aria-current": "true"} : {},
+    element("th", {scope: "row"}, name(i)),
     ...s.radiance.map(c => element("td", {}, number(c))), element("td", {}, swatch(s.radiance))));
   return element("div", {class: "samples"}, plot, scrolling("Samples", element("table", {},
     headRow(["sample", "red", "green", "blue", ""]), element("tbody", {}, ...rows))));

@@ -1117,7 +1117,7 @@ var TraversalSteps = class {
 };
 
 // src/alhazen/explain/page/explanation_view.ts
-function showExplanation(root2, data, picture) {
+function showExplanation(root2, data, picture, choose) {
   const rays = raysOf(data.tree);
   let view, outline;
   const select = (ray, reveal = true) => {
@@ -1163,7 +1163,7 @@ function showExplanation(root2, data, picture) {
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
     data.traversal ? section("steps", "How the first surface is found", steps) : "",
-    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : ""
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data, choose)) : ""
   );
   view = new SceneView(canvas, data, rays, select);
   outline = new RayOutline(tree, data, select);
@@ -1220,7 +1220,7 @@ function legend(data, view) {
     element("button", { type: "button", click: () => view().home() }, "Home view")
   );
 }
-function sampleTable(data) {
+function sampleTable(data, choose) {
   const plot = element(
     "svg:svg",
     { class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel" },
@@ -1236,10 +1236,11 @@ function sampleTable(data) {
     dot2.style.fill = css(s.radiance);
     plot.append(dot2);
   });
+  const name = (i) => choose && i !== data.sample ? element("button", { type: "button", class: "link", "aria-label": `Explain sample ${i}`, click: () => choose(i) }, String(i)) : String(i);
   const rows = data.samples.map((s, i) => element(
     "tr",
-    {},
-    element("th", { scope: "row" }, String(i)),
+    i === data.sample ? { class: "selected", "aria-current": "true" } : {},
+    element("th", { scope: "row" }, name(i)),
     ...s.radiance.map((c) => element("td", {}, number(c))),
     element("td", {}, swatch(s.radiance))
   ));
