@@ -431,11 +431,14 @@ function isShadow(light) {
   return light !== void 0 && light.kind === "shadow";
 }
 var RayOutline = class {
+  // what the weights are shares of
   constructor(root, data, onSelect) {
     this.onSelect = onSelect;
+    this.whole = data.samples.length > 1 ? "sample" : "pixel";
     root.append(element("ul", { "aria-label": "Rays" }, listItem(1, this.ray(data.tree))));
   }
   places = /* @__PURE__ */ new Map();
+  whole;
   select(ray, reveal) {
     for (const [other, place2] of this.places) {
       place2.classList.toggle("selected", other === ray);
@@ -463,7 +466,7 @@ var RayOutline = class {
       "details",
       { open: ray.depth < 3, class: "ray" },
       summary,
-      element("p", { class: "soft" }, `radiance (${triple(ray.radiance)}) \xD7 weight (${triple(ray.weight)}) = (${triple(ray.in_pixel)}) of the pixel`),
+      element("p", { class: "soft" }, `radiance (${triple(ray.radiance)}) \xD7 weight (${triple(ray.weight)}) = (${triple(ray.in_pixel)}) of the ${this.whole}`),
       element("details", {}, element("summary", { class: "soft" }, "where it runs"), element(
         "p",
         { class: "mono" },

@@ -49,8 +49,10 @@ function isShadow(light: LightTerm | undefined): light is ShadowRay {
 
 export class RayOutline {
   private readonly places = new Map<AnyRay, HTMLElement>();
+  private readonly whole: string;  // what the weights are shares of
 
   constructor(root: HTMLElement, data: Explanation, private readonly onSelect: Select) {
+    this.whole = data.samples.length > 1 ? "sample" : "pixel";
     root.append(element("ul", {"aria-label": "Rays"}, listItem(1, this.ray(data.tree))));
   }
   select(ray: AnyRay, reveal: boolean) {
@@ -73,7 +75,7 @@ export class RayOutline {
       first ? `meets ${met} at t = ${number(first.t)}` : "meets nothing", " ", swatch(ray.radiance));
     const body = element("details", {open: ray.depth < 3, class: "ray"}, summary,
       element("p", {class: "soft"}, `radiance (${triple(ray.radiance)}) \u00d7 weight (${triple(ray.weight)}) = ` +
-              `(${triple(ray.in_pixel)}) of the pixel`),
+              `(${triple(ray.in_pixel)}) of the ${this.whole}`),
       element("details", {}, element("summary", {class: "soft"}, "where it runs"), element("p", {class: "mono"},
               `origin (${triple(ray.origin)}), direction (${triple(ray.direction)})`,
               ray.inside ? "; it starts inside something transparent" : "")));
