@@ -208,6 +208,7 @@ Response ViewSession::explain(const json& request, Turn& turn) {
     options.scene = other ? &*other : nullptr;
     options.render = wish.options;
     options.render.aovs = {};
+    options.render.antialias.reset();  // the tree is of one ray
     options.render.view = &wish.camera;
     options.render.threads = threads_;
     options.render.stop = &turn.flag();

@@ -8,12 +8,13 @@ Skipped, with a message, without a browser: `scripts/setup --browser` installs o
 
 import pathlib
 import signal
+import struct
 import sys
 import tempfile
 import time
 import unittest
 
-from browser_session import BrowserSession, browser
+from browser_session import SLOWDOWN, BrowserSession, browser
 from view_server import LIGHTS, SCENE, Server
 
 ALHAZEN = sys.argv[1]
@@ -459,13 +460,49 @@ class ViewPage(unittest.TestCase):
                 self.assertNotEqual(page.value(ink), drawn)
                 page.value("document.querySelector('#path input').click()")
                 self.assertEqual(page.value(ink), drawn)
-                # The picture has 4 samples; the explanation is of one with 1.
                 self.assertEqual(page.value("document.getElementById('path-title').textContent"),
-                                 "One path of a picture with 1 sample")
+                                 "One path of a picture with 4 samples")
                 self.shoot("view_path_space")
                 page.value("document.getElementById('path').scrollIntoView()")
                 self.shoot("view_path")
         self.check_quiet()
+
+    def test_samples_of_the_pixel_are_shown_and_explained_one_by_one(self):
+        self.open("1300,1000")
+        page = self.page
+        radiance = "[...document.querySelectorAll('.samples tbody tr')].map(r => [1, 2, 3].map(i => Number(r.cells[i].textContent)))"
+        # Where the ball hides the floor behind it.
+        page.value("viewer.explainPixel(56, 46)")
+        page.wait("document.querySelectorAll('.samples tbody tr').length === 4")
+        page.value("document.getElementById('samples').scrollIntoView()")
+        self.shoot("view_samples")
+        samples = page.value(radiance)
+        self.assertGreater(len(set(map(tuple, samples))), 1)
+        shown = "document.querySelector('.samples .selected').rowIndex - 1"
+        told = "document.querySelector('#tree .ray p').textContent"
+        self.assertEqual(page.value(shown), 0)
+        for i in (2, 3):
+            page.value(f"document.querySelector('[aria-label=\"Explain sample {i}\"]').click()")
+            page.wait(f"{shown} === {i}")
+            self.assertEqual(page.value(radiance), samples)
+            self.assertIn("radiance (" + ", ".join(f"{c:.4g}" for c in samples[i]) + ")", page.value(told))
+        # As many as are chosen.
+        self.choose("samples", "9")
+        page.value("viewer.explainPixel(56, 46)")
+        page.wait("document.querySelectorAll('.samples tbody tr').length === 9")
+        self.check_quiet()
+
+    def test_the_picture_is_saved(self):
+        self.open("900,700")
+        self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
+        self.page.value("[...document.querySelectorAll('button')].find(b => b.textContent === 'Save picture').click()")
+        saved = self.folder / "view.png"
+        for _ in range(int(400 * SLOWDOWN)):
+            if saved.exists():
+                break
+            time.sleep(0.05)
+        data = saved.read_bytes()
+        self.assertEqual((data[:8], struct.unpack(">2I", data[16:24])), (b"\x89PNG\r\n\x1a\n", (160, 120)))
 
     def test_methods_are_explained_by_their_cones_and_beams(self):
         self.scene.write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith(("sphere", "plane"))) +

@@ -6,7 +6,7 @@ import type {LightState} from "./lights";
 import type {Choice, LightChange, Scene} from "./state";
 
 const MOVING: Choice[] = [
-  {name: "steady", what: "the same renderer, 20 pictures a second: fewer pixels, then fewer generations of rays; shades between " +
+  {name: "steady", what: "the same renderer, 20 pictures a second: fewer generations of rays, then fewer pixels; shades between " +
                          "rays where they agree"},
   {name: "coarser", what: "the same renderer at its depth: as many pixels as 20 pictures a second allow"},
   {name: "flat", what: "ray_casting: no shadows, mirrors, glass"}];

@@ -1,7 +1,7 @@
 // What the page says in words: messages, work in hand, the numbers below the picture, the scale of a layer.
 
 import {element, number} from "../../../src/alhazen/explain/page/basics";
-import type {FrameFacts, LayerFacts, Scene, Work} from "./state";
+import type {CameraData, FrameFacts, LayerFacts, Scene, Work} from "./state";
 
 export type Topic = "server" | "file" | "frame" | "explain";
 
@@ -12,6 +12,7 @@ export class Messages {
   constructor(private readonly place: HTMLElement) {}
 
   say(topic: Topic, text: string) {
+    if ((this.texts.get(topic) ?? "") === text) return;
     this.texts.set(topic, text);
     const all = [...this.texts.values()].filter(t => t).join("\n");
     this.place.hidden = !all;
@@ -54,6 +55,16 @@ export function statusText(shown: Shown, full: number, depth: number, memory: nu
              `${(facts.rays / facts.seconds / 1e6).toFixed(2)} M rays/s on ${facts.threads} threads`,
              `${(memory / 1048576).toFixed(0)} MiB`);
   return parts.join(" \u00b7 ");
+}
+
+/** The picture in words; `there`: whether the view is still the camera's. */
+export function pictureName(scene: string, camera: CameraData, there: boolean, renderer: string, layer: string) {
+  const from = `from ${there ? "" : "a view that began at "}camera ${camera.name || "without a name"}`;
+  return `Picture of ${scene}, ${layer ? `layer ${layer}, ` : ""}${from}, by ${renderer}`;
+}
+/** Said once, when nothing finer follows. */
+export function doneText({width, height, seconds}: FrameFacts, samples: number) {
+  return `The picture is done: ${width} by ${height}, ${samples} sample${samples > 1 ? "s" : ""} a pixel, ${timeText(1000 * seconds)}`;
 }
 
 function timeText(ms: number) {

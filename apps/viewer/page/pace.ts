@@ -1,5 +1,5 @@
-// What a picture may cost while the view moves, so that 20 a second come: fewer generations of rays first, down to one,
-// then fewer pixels, down to a quarter of the width, then no generations, by the times of the pictures before.
+// What a picture may cost while the view moves, so that 20 a second come at half the width: fewer generations of rays
+// first, then fewer pixels, by the times of the pictures before.
 
 import type {FrameFacts} from "./state";
 
@@ -7,7 +7,7 @@ const AIM = 46;      // milliseconds from picture to picture
 const GROWTH = 1.6;  // power of the width by which the time grows, about
 const GUESS = 1.3;   // what one more generation costs, times, where it is not known
 const LATE = 0.4;    // share of the late pictures in the mean
-const FADE = 0.005;  // of what was measured of another depth, with each picture: views change
+const FADE = 0.002;  // of what was measured of another depth, with each picture: views change
 
 export interface PaceLimits {
   full: number;      // width of the whole picture
@@ -84,7 +84,7 @@ function widthFor(cost: number, most: number) {
 }
 /** Below it generations are given up before pixels are. */
 function leastWidth(depth: number, limits: PaceLimits) {
-  return depth > 1 ? limits.full / 2 : depth > 0 ? limits.full / 4 : 0;
+  return depth > 0 ? limits.full / 2 : 0;
 }
 
 function clamped(x: number, lo: number, hi: number) {

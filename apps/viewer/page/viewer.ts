@@ -1,6 +1,6 @@
 // The viewer: a picture that follows the view at once and refines while nothing moves.
 
-import {element} from "../../../src/alhazen/explain/page/basics";
+import {element, scrollBehavior} from "../../../src/alhazen/explain/page/basics";
 import type {Explanation} from "../../../src/alhazen/explain/page/explanation_data";
 import {showExplanation} from "../../../src/alhazen/explain/page/explanation_view";
 import {ViewCamera} from "./camera";
@@ -8,8 +8,9 @@ import {Controls} from "./controls";
 import type {Key, Settings} from "./controls";
 import {listen} from "./input";
 import {FrameLink} from "./link";
-import {Messages, WorkLine, drawScale, statusText} from "./notices";
+import {Messages, WorkLine, doneText, drawScale, pictureName, statusText} from "./notices";
 import {Pace} from "./pace";
+import {PixelChoice} from "./pixel_choice";
 import type {CameraData, FrameFacts, FrameHead, LightChange, Scene, State, Wish} from "./state";
 
 const WIDEST = 4096;          // that the server draws
@@ -31,7 +32,7 @@ interface Asked {
 export class Viewer {
   // What tests look at, too.
   readonly client = Math.random().toString(36).slice(2);
-  readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "The scene",
+  readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "No picture yet",
                                       "aria-describedby": "help"});
   readonly scale = element("div", {class: "scale", hidden: true});
   readonly controls = new Controls((key, before) => this.chosen(key, before), changes => this.lightBlocks(changes));
@@ -47,6 +48,9 @@ export class Viewer {
   private readonly messages = new Messages(document.getElementById("message")!);
   private readonly work = new WorkLine();
   private readonly status = element("p", {id: "status"});
+  // What readers hear; the numbers of each picture would be too much.
+  private readonly spoken = element("p", {id: "spoken", class: "unseen", role: "status"});
+  private readonly pixel = new PixelChoice((x, y) => this.explainPixel(x, y));
   private readonly block = element("textarea", {id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true});
   private readonly readAgain = element("button", {type: "button", hidden: true, click: () => void this.ask("/read")}, "Read again");
   private readonly g = this.image.getContext("2d")!;
@@ -98,8 +102,8 @@ export class Viewer {
     const help = element("p", {id: "help"}, "Drag or arrow keys turn, with shift they move; wheel, two fingers, + and \u2212 " +
       "zoom; W A S D walk. Click or Enter: why a pixel has its colour. Escape ends what is computed.");
     document.getElementById("viewer")!.append(
-      element("div", {}, element("div", {class: "stage"}, this.image), this.scale, this.status, this.work.line, help),
-      element("section", {"aria-label": "Settings and actions"}, this.controls.form, buttons, block));
+      element("div", {}, element("div", {class: "stage"}, this.image), this.scale, this.status, this.spoken, this.work.line, help),
+      element("section", {"aria-label": "Settings and actions"}, this.controls.form, buttons, block, this.pixel.element));
     listen(this.image, this);
   }
   // Null where the server does not answer, which the link says.
@@ -125,6 +129,7 @@ export class Viewer {
     const scene = this.scene = {...known, ...state} as Scene;
     if (!known) {
       document.title = `${scene.scene} \u2013 Alhazen`;
+      document.getElementById("title")!.textContent = scene.scene;
       this.fill(scene);
       this.see(scene.cameras[0]);
     } else if (known.version !== scene.version) {
@@ -173,7 +178,7 @@ export class Viewer {
   }
   private wish(camera: ViewCamera, width: number): Wish {
     const {eye, look, right, up, parallel} = camera, controls = this.controls;
-    return {camera: {eye, look, right, up, parallel}, width, height: Math.max(1, Math.round(width / camera.aspect)),
+    return {camera: {eye, look, right, up, parallel}, width, height: this.heightFor(width),
             renderer: controls.get("renderer"), accelerator: controls.get("accelerator"), layer: controls.get("layer"),
             depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1,
             environment: controls.get("environment"), lights_off: controls.lights.off(), lights: controls.lights.changes()};
@@ -204,6 +209,7 @@ export class Viewer {
   changed() {
     if (!this.camera || !this.scene) return;
     if (!this.block.hidden) this.block.value = this.camera.block();
+    this.name();
     ++this.generation;
     this.level = 0;
     this.halted = false;
@@ -212,6 +218,16 @@ export class Viewer {
       this.status.textContent = this.described;
     }
     this.request();
+  }
+  // The picture in words.
+  private name() {
+    const scene = this.scene!, camera = scene.cameras[Number(this.controls.get("camera"))], width = this.full();
+    const name = pictureName(scene.scene, camera, !!this.camera?.isAt(camera), this.controls.get("renderer"), this.controls.get("layer"));
+    if (this.image.getAttribute("aria-label") !== name) this.image.setAttribute("aria-label", name);
+    this.pixel.fit(width, this.heightFor(width));
+  }
+  private heightFor(width: number) {
+    return Math.max(1, Math.round(width / (this.camera?.aspect ?? 1)));
   }
   private request() {
     if (!this.camera || this.held || this.halted || this.done()) return;
@@ -245,6 +261,7 @@ export class Viewer {
     if (!newest || asked.id !== this.lastId) return;
     // What would not be larger than what is there is left out.
     do ++this.level; while (this.level < 3 && this.levels()[this.level][0] * this.full() <= head.facts.width);
+    if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
   }
   private async draw(head: FrameHead, facts: FrameFacts, body: Uint8Array) {
@@ -310,6 +327,7 @@ export class Viewer {
     this.asked.clear();
     if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
     void this.ask("/stop");
+    this.spoken.textContent = "Stopped";
     this.messages.say("explain", "");
     this.status.textContent = this.described;
   }
@@ -336,24 +354,37 @@ export class Viewer {
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     });
   }
+  /** `u`, `v`: parts of the width and the height. */
   explain(u: number, v: number) {
+    if (!this.camera) return;
+    const width = this.full(), at = (w: number, n: number) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
+    this.explainPixel(at(u, width), at(v, this.heightFor(width)));
+  }
+  private explainPixel(x: number, y: number, sample = 0) {
     const camera = this.camera;
     if (!camera) return;
-    const wish = this.wish(camera, this.full()), own = this.explaining = {};
-    const at = (w: number, n: number) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
-    this.status.textContent = "Explaining \u2026 (Escape ends it)";
+    const wish = {...this.wish(camera, this.full()), samples: this.controls.number("samples")}, own = this.explaining = {};
+    this.pixel.show(x, y);
+    this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
-      const answer = await this.ask("/explain", {...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps")});
+      let answer: Response | null = null;
+      // A frame that was asked for before may come after it, and end it.
+      for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
+        answer = await this.ask("/explain", {...wish, x, y, sample, steps: this.controls.get("steps")});
+      }
       if (this.explaining !== own) return;
       this.explaining = undefined;
       this.status.textContent = this.described;
+      this.spoken.textContent = "";
       if (!answer || answer.status === 204) return;
       const data = await answer.json() as Explanation & {error?: string};
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");
       if (!answer.ok) return;
       const root = document.getElementById("explanation")!;
-      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9));
-      root.scrollIntoView({behavior: "smooth"});
+      root.hidden = false;
+      root.ariaLabel = `Explanation of pixel ${x},${y}`;
+      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9), i => this.explainPixel(x, y, i));
+      root.scrollIntoView({behavior: scrollBehavior()});
       root.focus({preventScroll: true});
     });
   }

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -30,13 +31,20 @@ void in_ranges(std::size_t count, int threads, const Work& work) {
     alhazen::ThreadLimit(threads).run([&] { alhazen::parallel_for(count, kGrain, work); });
 }
 
+/// Seconds of the clock, or of processor time of all threads.
+double now(bool processor) {
+    if (processor) return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
 class Direct {
   public:
     Direct(const Doubles& vertices, const Faces& faces) : tracer_(scene_of(vertices, faces)) {}
 
-    /// Seconds of Tracer::intersect over all rays, which lie ready, as do the hits; with `normals`,
-    /// also of the normal of each hit.
-    double seconds(const Doubles& numbers, int threads, bool normals) {
+    /// Seconds, or seconds of processor time, of Tracer::intersect over all rays, which lie ready,
+    /// as do the hits; with `normals`, also of the normal of each hit.
+    double seconds(const Doubles& numbers, int threads, bool normals, bool processor) {
         const auto count = static_cast<std::size_t>(numbers.shape(0));
         if (rays_.size() != count) {
             rays_.resize(count);
@@ -47,7 +55,7 @@ class Direct {
             }
         }
         normals_.resize(count);
-        const auto start = std::chrono::steady_clock::now();
+        const double start = now(processor);
         const auto trace = [&](std::size_t begin, std::size_t end) {
             tracer_.intersect(std::span<const alhazen::Ray>(rays_).subspan(begin, end - begin),
                               std::span(hits_).subspan(begin, end - begin));
@@ -63,7 +71,7 @@ class Direct {
         } else {
             in_ranges(count, threads, trace);
         }
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return now(processor) - start;
     }
 
   private:

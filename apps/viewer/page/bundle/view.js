@@ -36,11 +36,17 @@ function swatch(color) {
   made.style.background = css(color);
   return made;
 }
+function listItem(level, ...children) {
+  return element("li", { "aria-level": level }, ...children);
+}
+function scrollBehavior() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
+}
 function scrolling(name, table) {
   return element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": name }, table);
 }
 function headRow(heads) {
-  return element("thead", {}, element("tr", {}, ...heads.map((h) => element("th", { scope: "col" }, h))));
+  return element("thead", {}, element("tr", {}, ...heads.map((h) => h ? element("th", { scope: "col" }, h) : element("td"))));
 }
 var KINDS = { eye: "eye ray", shadow: "shadow ray", reflection: "reflected ray", refraction: "refracted ray" };
 
@@ -143,7 +149,11 @@ var BeamPieces = class {
     chain.forEach((p) => svg.append(path(p.outline, `chosen ${p.kind}`)));
     for (const light of this.chosen?.lights ?? []) if (light.outline) svg.append(path(light.outline, "lit"));
     svg.append(element("svg:rect", { class: "here", x, y, width: 1, height: 1 }));
-    for (const [p, row2] of this.rows) row2.classList.toggle("selected", p === this.chosen);
+    for (const [p, row2] of this.rows) {
+      row2.classList.toggle("selected", p === this.chosen);
+      if (p === this.chosen) row2.setAttribute("aria-current", "true");
+      else row2.removeAttribute("aria-current");
+    }
   }
 };
 
@@ -164,7 +174,7 @@ var ConeTree = class {
     }
     root.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. A cone\u2019s radiance is the sum of weight \xD7 colour, and what is left of it times the background."));
     if (cones.cut) root.append(element("p", { class: "cut" }, "The tree is cut: it has more than 2000 cones."));
-    root.append(element("div", { class: "outline" }, this.cone(cones.tree)));
+    root.append(element("div", { class: "outline" }, element("ul", { "aria-label": "Cones" }, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
     view.draw();
   }
@@ -185,7 +195,9 @@ var ConeTree = class {
       summary,
       element("p", { class: "soft" }, `radius ${number(c.radius)} where it starts, ` + (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\xB0)`) + (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : ""))
     );
-    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap((p) => p.cones.map((k) => this.cone(k, p.object))));
+    if (shadow) return body;
+    const onward = c.parts.flatMap((p) => p.cones.map((k) => listItem(c.depth + 2, this.cone(k, p.object))));
+    body.append(this.pieces(c), onward.length ? element("ul", { "aria-label": `Cones from this ${CONE_NAMES[c.kind]}` }, ...onward) : "");
     return body;
   }
   pieces(c) {
@@ -419,17 +431,24 @@ function isShadow(light) {
   return light !== void 0 && light.kind === "shadow";
 }
 var RayOutline = class {
+  // what the weights are shares of
   constructor(root, data, onSelect) {
     this.onSelect = onSelect;
-    root.append(this.ray(data.tree));
+    this.whole = data.samples.length > 1 ? "sample" : "pixel";
+    root.append(element("ul", { "aria-label": "Rays" }, listItem(1, this.ray(data.tree))));
   }
   places = /* @__PURE__ */ new Map();
+  whole;
   select(ray, reveal) {
-    for (const [other, place2] of this.places) place2.classList.toggle("selected", other === ray);
+    for (const [other, place2] of this.places) {
+      place2.classList.toggle("selected", other === ray);
+      if (other === ray) place2.setAttribute("aria-current", "true");
+      else place2.removeAttribute("aria-current");
+    }
     const place = this.places.get(ray);
     if (!place || !reveal) return;
     for (let at = place.parentElement; at; at = at.parentElement) if (at instanceof HTMLDetailsElement) at.open = true;
-    place.scrollIntoView({ block: "nearest", behavior: "smooth" });
+    place.scrollIntoView({ block: "nearest", behavior: scrollBehavior() });
   }
   ray(ray) {
     const met = ray.surfaces.map((s) => `\u2018${s.object}\u2019`).join(", then ");
@@ -447,7 +466,7 @@ var RayOutline = class {
       "details",
       { open: ray.depth < 3, class: "ray" },
       summary,
-      element("p", { class: "soft" }, `radiance (${triple(ray.radiance)}) \xD7 weight (${triple(ray.weight)}) = (${triple(ray.in_pixel)}) of the pixel`),
+      element("p", { class: "soft" }, `radiance (${triple(ray.radiance)}) \xD7 weight (${triple(ray.weight)}) = (${triple(ray.in_pixel)}) of the ${this.whole}`),
       element("details", {}, element("summary", { class: "soft" }, "where it runs"), element(
         "p",
         { class: "mono" },
@@ -458,11 +477,12 @@ var RayOutline = class {
     summary.addEventListener("click", () => this.onSelect(ray));
     summary.addEventListener("focus", () => this.onSelect(ray, false));
     this.places.set(ray, summary);
-    ray.surfaces.forEach((s) => body.append(this.surface(s)));
+    ray.surfaces.forEach((s) => body.append(this.surface(s, ray.depth + 2)));
     if (ray.left) body.append(element("p", {}, ray.given_up ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.` : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
-  surface(s) {
+  // `level`: of the rays that leave it, in the outline.
+  surface(s, level) {
     const box = element("div", { class: "surface" });
     box.append(element(
       "p",
@@ -474,7 +494,8 @@ var RayOutline = class {
       s.share.some((c) => c !== 1) ? `, share of the ray (${triple(s.share)})` : ""
     ));
     box.append(this.equation(s));
-    for (const term of [s.reflected, s.refracted]) if (term?.ray) box.append(this.ray(term.ray));
+    const onward = [s.reflected, s.refracted].flatMap((term) => term?.ray ? [listItem(level, this.ray(term.ray))] : []);
+    if (onward.length) box.append(element("ul", { "aria-label": `Rays from ${s.object}` }, ...onward));
     return box;
   }
   equation(s) {
@@ -847,10 +868,17 @@ var SceneView = class {
       },
       "0": () => this.home()
     };
+    const withShift = {
+      ArrowLeft: () => this.pan(30, 0),
+      ArrowRight: () => this.pan(-30, 0),
+      ArrowUp: () => this.pan(0, 30),
+      ArrowDown: () => this.pan(0, -30)
+    };
     c.addEventListener("keydown", (e) => {
-      if (!keys[e.key] || e.ctrlKey || e.metaKey) return;
+      const act = (e.shiftKey ? withShift[e.key] : void 0) ?? keys[e.key];
+      if (!act || e.ctrlKey || e.metaKey) return;
       e.preventDefault();
-      keys[e.key]();
+      act();
       this.draw();
     });
   }
@@ -1047,7 +1075,11 @@ var TraversalSteps = class {
     const at = Number(this.range.value);
     const step = this.steps.at(at - 1);
     this.text.textContent = `Step ${at} of ${this.steps.length}${at > 0 && step ? `: ${this.describe(step)}` : ""}`;
-    this.items.forEach((item, i) => item.classList.toggle("current", i === at - 1));
+    this.items.forEach((item, i) => {
+      item.classList.toggle("current", i === at - 1);
+      if (i === at - 1) item.setAttribute("aria-current", "step");
+      else item.removeAttribute("aria-current");
+    });
     this.view.step = at - 1;
     this.view.draw();
   }
@@ -1055,6 +1087,7 @@ var TraversalSteps = class {
     if (this.timer !== void 0) return this.stop();
     if (Number(this.range.value) >= this.steps.length) this.range.value = "0";
     this.playButton.textContent = "Stop";
+    this.text.ariaLive = "off";
     this.timer = setInterval(() => {
       this.range.value = String(Number(this.range.value) + 1);
       this.show();
@@ -1064,6 +1097,8 @@ var TraversalSteps = class {
   stop() {
     clearInterval(this.timer);
     this.timer = void 0;
+    this.text.ariaLive = "polite";
+    this.show();
     this.playButton.textContent = "Play";
   }
   table(work) {
@@ -1085,14 +1120,14 @@ var TraversalSteps = class {
 };
 
 // src/alhazen/explain/page/explanation_view.ts
-function showExplanation(root, data, picture) {
+function showExplanation(root, data, picture, choose) {
   const rays = raysOf(data.tree);
   let view, outline;
   const select = (ray, reveal = true) => {
     view.select(ray);
     outline.select(ray, reveal);
   };
-  const canvas = element("canvas", { class: "space", tabindex: "0", role: "img", "aria-label": `${rays.length} rays in space. Arrow keys turn the view, plus and minus come nearer, 0 goes back.` });
+  const canvas = element("canvas", { class: "space", tabindex: "0", role: "application", "aria-label": `${rays.length} rays in space`, "aria-describedby": "space-keys" });
   const section = (id, title, ...children) => element(
     "section",
     { id, "aria-labelledby": `${id}-title` },
@@ -1107,7 +1142,11 @@ function showExplanation(root, data, picture) {
     element(
       "div",
       { class: "top" },
-      section("space", "The rays in space", canvas, legend(data, () => view)),
+      section("space", "The rays in space", canvas, element(
+        "p",
+        { id: "space-keys", class: "unseen" },
+        "Arrow keys turn the view, with shift they move it, plus and minus come nearer and go back, 0 is the view of the beginning. The outline below tells the same rays."
+      ), legend(data, () => view)),
       section(
         "tree",
         "The tree of rays",
@@ -1127,7 +1166,7 @@ function showExplanation(root, data, picture) {
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
     data.traversal ? section("steps", "How the first surface is found", steps) : "",
-    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : ""
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data, choose)) : ""
   );
   view = new SceneView(canvas, data, rays, select);
   outline = new RayOutline(tree, data, select);
@@ -1184,7 +1223,7 @@ function legend(data, view) {
     element("button", { type: "button", click: () => view().home() }, "Home view")
   );
 }
-function sampleTable(data) {
+function sampleTable(data, choose) {
   const plot = element(
     "svg:svg",
     { class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel" },
@@ -1200,10 +1239,11 @@ function sampleTable(data) {
     dot2.style.fill = css(s.radiance);
     plot.append(dot2);
   });
+  const name = (i) => choose && i !== data.sample ? element("button", { type: "button", class: "link", "aria-label": `Explain sample ${i}`, click: () => choose(i) }, String(i)) : String(i);
   const rows = data.samples.map((s, i) => element(
     "tr",
-    {},
-    element("th", { scope: "row" }, String(i)),
+    i === data.sample ? { class: "selected", "aria-current": "true" } : {},
+    element("th", { scope: "row" }, name(i)),
     ...s.radiance.map((c) => element("td", {}, number(c))),
     element("td", {}, swatch(s.radiance))
   ));
@@ -1567,7 +1607,7 @@ var LightList = class {
 
 // apps/viewer/page/controls.ts
 var MOVING = [
-  { name: "steady", what: "the same renderer, 20 pictures a second: fewer pixels, then fewer generations of rays; shades between rays where they agree" },
+  { name: "steady", what: "the same renderer, 20 pictures a second: fewer generations of rays, then fewer pixels; shades between rays where they agree" },
   { name: "coarser", what: "the same renderer at its depth: as many pixels as 20 pictures a second allow" },
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
@@ -1843,6 +1883,7 @@ var Messages = class {
   }
   texts = /* @__PURE__ */ new Map();
   say(topic, text) {
+    if ((this.texts.get(topic) ?? "") === text) return;
     this.texts.set(topic, text);
     const all = [...this.texts.values()].filter((t) => t).join("\n");
     this.place.hidden = !all;
@@ -1880,6 +1921,13 @@ function statusText(shown, full, depth, memory) {
   );
   return parts.join(" \xB7 ");
 }
+function pictureName(scene, camera, there, renderer, layer) {
+  const from = `from ${there ? "" : "a view that began at "}camera ${camera.name || "without a name"}`;
+  return `Picture of ${scene}, ${layer ? `layer ${layer}, ` : ""}${from}, by ${renderer}`;
+}
+function doneText({ width, height, seconds }, samples) {
+  return `The picture is done: ${width} by ${height}, ${samples} sample${samples > 1 ? "s" : ""} a pixel, ${timeText(1e3 * seconds)}`;
+}
 function timeText(ms) {
   return ms < 1e3 ? `${ms.toFixed(ms < 100 ? 1 : 0)} ms` : `${(ms / 1e3).toFixed(ms < 1e4 ? 2 : 1)} s`;
 }
@@ -1905,7 +1953,7 @@ var AIM = 46;
 var GROWTH = 1.6;
 var GUESS = 1.3;
 var LATE = 0.4;
-var FADE = 5e-3;
+var FADE = 2e-3;
 var Pace = class {
   width;
   depth;
@@ -1973,11 +2021,41 @@ function widthFor(cost, most) {
   return most * (AIM / Math.max(cost, 0.1)) ** (1 / GROWTH);
 }
 function leastWidth(depth, limits) {
-  return depth > 1 ? limits.full / 2 : depth > 0 ? limits.full / 4 : 0;
+  return depth > 0 ? limits.full / 2 : 0;
 }
 function clamped(x, lo, hi) {
   return Math.min(hi, Math.max(lo, x));
 }
+
+// apps/viewer/page/pixel_choice.ts
+var PixelChoice = class {
+  column = this.field("Column of the pixel, from the left");
+  row = this.field("Row of the pixel, from the top");
+  element;
+  width = 0;
+  height = 0;
+  constructor(explain) {
+    this.element = element("form", { class: "row pixel-choice", "aria-label": "Pixel", submit: (e) => {
+      e.preventDefault();
+      explain(this.column.valueAsNumber, this.row.valueAsNumber);
+    } }, element("span", { "aria-hidden": "true" }, "pixel"), this.column, this.row, element("button", {}, "Explain"));
+  }
+  /** Of a picture of another size it is the one in the middle. */
+  fit(width, height) {
+    if (width === this.width && height === this.height) return;
+    [this.width, this.height] = [width, height];
+    this.column.max = String(width - 1);
+    this.row.max = String(height - 1);
+    this.show(width >> 1, height >> 1);
+  }
+  show(x, y) {
+    this.column.value = String(x);
+    this.row.value = String(y);
+  }
+  field(label) {
+    return element("input", { type: "number", min: 0, required: true, "aria-label": label });
+  }
+};
 
 // apps/viewer/page/viewer.ts
 var WIDEST = 4096;
@@ -1993,7 +2071,7 @@ var Viewer = class {
     class: "picture",
     tabindex: "0",
     role: "application",
-    "aria-label": "The scene",
+    "aria-label": "No picture yet",
     "aria-describedby": "help"
   });
   scale = element("div", { class: "scale", hidden: true });
@@ -2012,6 +2090,9 @@ var Viewer = class {
   messages = new Messages(document.getElementById("message"));
   work = new WorkLine();
   status = element("p", { id: "status" });
+  // What readers hear; the numbers of each picture would be too much.
+  spoken = element("p", { id: "spoken", class: "unseen", role: "status" });
+  pixel = new PixelChoice((x, y) => this.explainPixel(x, y));
   block = element("textarea", { id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true });
   readAgain = element("button", { type: "button", hidden: true, click: () => void this.ask("/read") }, "Read again");
   g = this.image.getContext("2d");
@@ -2072,8 +2153,8 @@ var Viewer = class {
     );
     const help = element("p", { id: "help" }, "Drag or arrow keys turn, with shift they move; wheel, two fingers, + and \u2212 zoom; W A S D walk. Click or Enter: why a pixel has its colour. Escape ends what is computed.");
     document.getElementById("viewer").append(
-      element("div", {}, element("div", { class: "stage" }, this.image), this.scale, this.status, this.work.line, help),
-      element("section", { "aria-label": "Settings and actions" }, this.controls.form, buttons, block)
+      element("div", {}, element("div", { class: "stage" }, this.image), this.scale, this.status, this.spoken, this.work.line, help),
+      element("section", { "aria-label": "Settings and actions" }, this.controls.form, buttons, block, this.pixel.element)
     );
     listen(this.image, this);
   }
@@ -2102,6 +2183,7 @@ var Viewer = class {
     const scene = this.scene = { ...known, ...state };
     if (!known) {
       document.title = `${scene.scene} \u2013 Alhazen`;
+      document.getElementById("title").textContent = scene.scene;
       this.fill(scene);
       this.see(scene.cameras[0]);
     } else if (known.version !== scene.version) {
@@ -2152,7 +2234,7 @@ var Viewer = class {
     return {
       camera: { eye, look, right, up, parallel },
       width,
-      height: Math.max(1, Math.round(width / camera.aspect)),
+      height: this.heightFor(width),
       renderer: controls.get("renderer"),
       accelerator: controls.get("accelerator"),
       layer: controls.get("layer"),
@@ -2190,6 +2272,7 @@ var Viewer = class {
   changed() {
     if (!this.camera || !this.scene) return;
     if (!this.block.hidden) this.block.value = this.camera.block();
+    this.name();
     ++this.generation;
     this.level = 0;
     this.halted = false;
@@ -2198,6 +2281,16 @@ var Viewer = class {
       this.status.textContent = this.described;
     }
     this.request();
+  }
+  // The picture in words.
+  name() {
+    const scene = this.scene, camera = scene.cameras[Number(this.controls.get("camera"))], width = this.full();
+    const name = pictureName(scene.scene, camera, !!this.camera?.isAt(camera), this.controls.get("renderer"), this.controls.get("layer"));
+    if (this.image.getAttribute("aria-label") !== name) this.image.setAttribute("aria-label", name);
+    this.pixel.fit(width, this.heightFor(width));
+  }
+  heightFor(width) {
+    return Math.max(1, Math.round(width / (this.camera?.aspect ?? 1)));
   }
   request() {
     if (!this.camera || this.held || this.halted || this.done()) return;
@@ -2233,6 +2326,7 @@ var Viewer = class {
     do
       ++this.level;
     while (this.level < 3 && this.levels()[this.level][0] * this.full() <= head.facts.width);
+    if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
   }
   async draw(head, facts, body) {
@@ -2304,6 +2398,7 @@ var Viewer = class {
     this.asked.clear();
     if (this.scene) this.controls.set("accelerator", this.scene.accelerator);
     void this.ask("/stop");
+    this.spoken.textContent = "Stopped";
     this.messages.say("explain", "");
     this.status.textContent = this.described;
   }
@@ -2330,24 +2425,36 @@ var Viewer = class {
       setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
     });
   }
+  /** `u`, `v`: parts of the width and the height. */
   explain(u, v) {
+    if (!this.camera) return;
+    const width = this.full(), at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
+    this.explainPixel(at(u, width), at(v, this.heightFor(width)));
+  }
+  explainPixel(x, y, sample = 0) {
     const camera = this.camera;
     if (!camera) return;
-    const wish = this.wish(camera, this.full()), own = this.explaining = {};
-    const at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
-    this.status.textContent = "Explaining \u2026 (Escape ends it)";
+    const wish = { ...this.wish(camera, this.full()), samples: this.controls.number("samples") }, own = this.explaining = {};
+    this.pixel.show(x, y);
+    this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
-      const answer = await this.ask("/explain", { ...wish, x: at(u, wish.width), y: at(v, wish.height), steps: this.controls.get("steps") });
+      let answer = null;
+      for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
+        answer = await this.ask("/explain", { ...wish, x, y, sample, steps: this.controls.get("steps") });
+      }
       if (this.explaining !== own) return;
       this.explaining = void 0;
       this.status.textContent = this.described;
+      this.spoken.textContent = "";
       if (!answer || answer.status === 204) return;
       const data = await answer.json();
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");
       if (!answer.ok) return;
       const root = document.getElementById("explanation");
-      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9));
-      root.scrollIntoView({ behavior: "smooth" });
+      root.hidden = false;
+      root.ariaLabel = `Explanation of pixel ${x},${y}`;
+      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9), (i) => this.explainPixel(x, y, i));
+      root.scrollIntoView({ behavior: scrollBehavior() });
       root.focus({ preventScroll: true });
     });
   }

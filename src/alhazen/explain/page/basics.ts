@@ -59,11 +59,18 @@ export function swatch(color: Vec3) {
   made.style.background = css(color);
   return made;
 }
+// Of a list whose items may hold lists: `level` from 1.
+export function listItem(level: number, ...children: Child[]) {
+  return element("li", {"aria-level": level}, ...children);
+}
+export function scrollBehavior(): ScrollBehavior {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
+}
 // A table of its own width, which scrolls by itself.
 export function scrolling(name: string, table: HTMLTableElement) {
   return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": name}, table);
 }
 export function headRow(heads: string[]) {
-  return element("thead", {}, element("tr", {}, ...heads.map(h => element("th", {scope: "col"}, h))));
+  return element("thead", {}, element("tr", {}, ...heads.map(h => h ? element("th", {scope: "col"}, h) : element("td"))));
 }
 export const KINDS = {eye: "eye ray", shadow: "shadow ray", reflection: "reflected ray", refraction: "refracted ray"};

@@ -81,6 +81,10 @@ class BeamPieces {
     chain.forEach(p => svg.append(path(p.outline, `chosen ${p.kind}`)));
     for (const light of this.chosen?.lights ?? []) if (light.outline) svg.append(path(light.outline, "lit"));
     svg.append(element("svg:rect", {class: "here", x, y, width: 1, height: 1}));
-    for (const [p, row] of this.rows) row.classList.toggle("selected", p === this.chosen);
+    for (const [p, row] of this.rows) {
+      row.classList.toggle("selected", p === this.chosen);
+      if (p === this.chosen) row.setAttribute("aria-current", "true");
+      else row.removeAttribute("aria-current");
+    }
   }
 }

@@ -1,6 +1,6 @@
 // The cones behind a pixel: what each covers, as a disc, a table and in space.
 
-import {css, element, headRow, number, scrolling, swatch, triple} from "./basics";
+import {css, element, headRow, listItem, number, scrolling, swatch, triple} from "./basics";
 import type {Cone, Cones, SeeingCone, Unavailable} from "./explanation_data";
 import type {SceneView} from "./scene_view";
 
@@ -23,7 +23,7 @@ export class ConeTree {
     root.append(element("p", {class: "soft"}, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. " +
       "A cone\u2019s radiance is the sum of weight \u00d7 colour, and what is left of it times the background."));
     if (cones.cut) root.append(element("p", {class: "cut"}, "The tree is cut: it has more than 2000 cones."));
-    root.append(element("div", {class: "outline"}, this.cone(cones.tree)));
+    root.append(element("div", {class: "outline"}, element("ul", {"aria-label": "Cones"}, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
     view.draw();
   }
@@ -39,7 +39,9 @@ export class ConeTree {
       element("p", {class: "soft"}, `radius ${number(c.radius)} where it starts, ` +
         (c.spread === 0 ? "parallel" : `${c.spread < 0 ? "narrows" : "widens"} by ${number(Math.abs(c.spread))} a unit (${angle}\u00b0)`) +
         (c.narrowed < 1 ? `; of it a part ${number(c.narrowed)} as wide was searched, for it met too many pieces` : "")));
-    if (!shadow) body.append(this.pieces(c), ...c.parts.flatMap(p => p.cones.map(k => this.cone(k, p.object))));
+    if (shadow) return body;
+    const onward = c.parts.flatMap(p => p.cones.map(k => listItem(c.depth + 2, this.cone(k, p.object))));
+    body.append(this.pieces(c), onward.length ? element("ul", {"aria-label": `Cones from this ${CONE_NAMES[c.kind]}`}, ...onward) : "");
     return body;
   }
   private pieces(c: SeeingCone) {

@@ -14,15 +14,16 @@ import {SceneView} from "./scene_view";
 import {spanBars} from "./span_bars";
 import {TraversalSteps} from "./traversal_steps";
 
-export function showExplanation(root: HTMLElement, data: Explanation, picture: string | null) {
+/** `choose`: shows the explanation of another sample; left out where there is none to be had. */
+export function showExplanation(root: HTMLElement, data: Explanation, picture: string | null, choose?: (sample: number) => void) {
   const rays = raysOf(data.tree);
   let view: SceneView, outline: RayOutline;
   const select = (ray: AnyRay, reveal = true) => {
     view.select(ray);
     outline.select(ray, reveal);
   };
-  const canvas = element("canvas", {class: "space", tabindex: "0", role: "img", "aria-label":
-    `${rays.length} rays in space. Arrow keys turn the view, plus and minus come nearer, 0 goes back.`});
+  const canvas = element("canvas", {class: "space", tabindex: "0", role: "application", "aria-label":
+    `${rays.length} rays in space`, "aria-describedby": "space-keys"});
   const section = (id: string, title: string, ...children: Child[]) => element("section", {id, "aria-labelledby": `${id}-title`},
     element("h2", {id: `${id}-title`}, title), ...children);
   const tree = element("div", {class: "outline"});
@@ -31,7 +32,9 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
   root.replaceChildren(
     header(data, picture),
     element("div", {class: "top"},
-      section("space", "The rays in space", canvas, legend(data, () => view)),
+      section("space", "The rays in space", canvas, element("p", {id: "space-keys", class: "unseen"},
+        "Arrow keys turn the view, with shift they move it, plus and minus come nearer and go back, 0 is the view of the beginning. " +
+        "The outline below tells the same rays."), legend(data, () => view)),
       section("tree", "The tree of rays", element("p", {class: "soft"},
         "I = ke + \u03a3 ka Ia + \u03a3 S I [kd (N\u00b7L) + ks highlight] + kr I(reflected) + kt I(refracted). " +
         "The numbers are those of the renderer; each table adds up to the colour of its ray."),
@@ -44,7 +47,7 @@ export function showExplanation(root: HTMLElement, data: Explanation, picture: s
     data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
     data.patches.length ? section("patches", "Patches subdivided for the ray", patches) : "",
     data.traversal ? section("steps", "How the first surface is found", steps) : "",
-    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : "");
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data, choose)) : "");
   view = new SceneView(canvas, data, rays, select);
   outline = new RayOutline(tree, data, select);
   spanBars(spans, data);
@@ -95,7 +98,7 @@ function legend(data: Explanation, view: () => SceneView) {
     element("label", {}, shadows, " show shadow rays"),
     element("button", {type: "button", click: () => view().home()}, "Home view"));
 }
-function sampleTable(data: Explanation) {
+function sampleTable(data: Explanation, choose?: (sample: number) => void) {
   const plot = element("svg:svg", {class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel"},
     element("svg:rect", {class: "frame", x: 0, y: 0, width: 100, height: 100}));
   data.samples.forEach((s, i) => {
@@ -104,7 +107,10 @@ function sampleTable(data: Explanation) {
     dot.style.fill = css(s.radiance);
     plot.append(dot);
   });
-  const rows = data.samples.map((s, i) => element("tr", {}, element("th", {scope: "row"}, String(i)),
+  const name = (i: number) => choose && i !== data.sample
+    ? element("button", {type: "button", class: "link", "aria-label": `Explain sample ${i}`, click: () => choose(i)}, String(i)) : String(i);
+  const rows = data.samples.map((s, i) => element("tr", i === data.sample ? {class: "selected", "aria-current": "true"} : {},
+    element("th", {scope: "row"}, name(i)),
     ...s.radiance.map(c => element("td", {}, number(c))), element("td", {}, swatch(s.radiance))));
   return element("div", {class: "samples"}, plot, scrolling("Samples", element("table", {},
     headRow(["sample", "red", "green", "blue", ""]), element("tbody", {}, ...rows))));

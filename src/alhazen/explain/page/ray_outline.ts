@@ -1,7 +1,7 @@
 // The tree of rays as an outline that folds: each ray, each surface that it meets, and the shading equation there, term
 // by term.
 
-import {KINDS, element, headRow, number, scrolling, swatch, triple} from "./basics";
+import {KINDS, element, headRow, listItem, number, scrollBehavior, scrolling, swatch, triple} from "./basics";
 import type {Vec3} from "./basics";
 import type {Explanation, LightTerm, OnwardTerm, SurfacePoint, TreeRay} from "./explanation_data";
 
@@ -49,16 +49,22 @@ function isShadow(light: LightTerm | undefined): light is ShadowRay {
 
 export class RayOutline {
   private readonly places = new Map<AnyRay, HTMLElement>();
+  private readonly whole: string;  // what the weights are shares of
 
   constructor(root: HTMLElement, data: Explanation, private readonly onSelect: Select) {
-    root.append(this.ray(data.tree));
+    this.whole = data.samples.length > 1 ? "sample" : "pixel";
+    root.append(element("ul", {"aria-label": "Rays"}, listItem(1, this.ray(data.tree))));
   }
   select(ray: AnyRay, reveal: boolean) {
-    for (const [other, place] of this.places) place.classList.toggle("selected", other === ray);
+    for (const [other, place] of this.places) {
+      place.classList.toggle("selected", other === ray);
+      if (other === ray) place.setAttribute("aria-current", "true");
+      else place.removeAttribute("aria-current");
+    }
     const place = this.places.get(ray);
     if (!place || !reveal) return;
     for (let at = place.parentElement; at; at = at.parentElement) if (at instanceof HTMLDetailsElement) at.open = true;
-    place.scrollIntoView({block: "nearest", behavior: "smooth"});
+    place.scrollIntoView({block: "nearest", behavior: scrollBehavior()});
   }
 
   private ray(ray: TreeRay) {
@@ -69,28 +75,30 @@ export class RayOutline {
       first ? `meets ${met} at t = ${number(first.t)}` : "meets nothing", " ", swatch(ray.radiance));
     const body = element("details", {open: ray.depth < 3, class: "ray"}, summary,
       element("p", {class: "soft"}, `radiance (${triple(ray.radiance)}) \u00d7 weight (${triple(ray.weight)}) = ` +
-              `(${triple(ray.in_pixel)}) of the pixel`),
+              `(${triple(ray.in_pixel)}) of the ${this.whole}`),
       element("details", {}, element("summary", {class: "soft"}, "where it runs"), element("p", {class: "mono"},
               `origin (${triple(ray.origin)}), direction (${triple(ray.direction)})`,
               ray.inside ? "; it starts inside something transparent" : "")));
     summary.addEventListener("click", () => this.onSelect(ray));
     summary.addEventListener("focus", () => this.onSelect(ray, false));
     this.places.set(ray, summary);
-    ray.surfaces.forEach(s => body.append(this.surface(s)));
+    ray.surfaces.forEach(s => body.append(this.surface(s, ray.depth + 2)));
     if (ray.left) body.append(element("p", {}, ray.given_up
       ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.`
       : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
 
-  private surface(s: SurfacePoint) {
+  // `level`: of the rays that leave it, in the outline.
+  private surface(s: SurfacePoint, level: number) {
     const box = element("div", {class: "surface"});
     box.append(element("p", {}, element("b", {}, `\u2018${s.object}\u2019`),
       s.material ? `, material \u2018${s.material}\u2019` : "", `, t = ${number(s.t)}, `,
       s.entering ? "from outside" : "from inside",
       s.share.some(c => c !== 1) ? `, share of the ray (${triple(s.share)})` : ""));
     box.append(this.equation(s));
-    for (const term of [s.reflected, s.refracted]) if (term?.ray) box.append(this.ray(term.ray));
+    const onward = [s.reflected, s.refracted].flatMap(term => term?.ray ? [listItem(level, this.ray(term.ray))] : []);
+    if (onward.length) box.append(element("ul", {"aria-label": `Rays from ${s.object}`}, ...onward));
     return box;
   }
 

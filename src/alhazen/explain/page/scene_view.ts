@@ -327,10 +327,14 @@ export class SceneView {
       ArrowLeft: () => this.orbit(-0.1, 0), ArrowRight: () => this.orbit(0.1, 0), ArrowUp: () => this.orbit(0, 0.1),
       ArrowDown: () => this.orbit(0, -0.1), "+": () => { this.distance *= 0.87; }, "-": () => { this.distance /= 0.87; },
       "0": () => this.home()};
+    const withShift: Record<string, () => void> = {
+      ArrowLeft: () => this.pan(30, 0), ArrowRight: () => this.pan(-30, 0), ArrowUp: () => this.pan(0, 30),
+      ArrowDown: () => this.pan(0, -30)};
     c.addEventListener("keydown", e => {
-      if (!keys[e.key] || e.ctrlKey || e.metaKey) return;
+      const act = (e.shiftKey ? withShift[e.key] : undefined) ?? keys[e.key];
+      if (!act || e.ctrlKey || e.metaKey) return;
       e.preventDefault();
-      keys[e.key]();
+      act();
       this.draw();
     });
   }

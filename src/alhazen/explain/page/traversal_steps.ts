@@ -44,7 +44,11 @@ export class TraversalSteps {
     const at = Number(this.range.value);
     const step = this.steps.at(at - 1);
     this.text.textContent = `Step ${at} of ${this.steps.length}${at > 0 && step ? `: ${this.describe(step)}` : ""}`;
-    this.items.forEach((item, i) => item.classList.toggle("current", i === at - 1));
+    this.items.forEach((item, i) => {
+      item.classList.toggle("current", i === at - 1);
+      if (i === at - 1) item.setAttribute("aria-current", "step");
+      else item.removeAttribute("aria-current");
+    });
     this.view.step = at - 1;
     this.view.draw();
   }
@@ -52,6 +56,7 @@ export class TraversalSteps {
     if (this.timer !== undefined) return this.stop();
     if (Number(this.range.value) >= this.steps.length) this.range.value = "0";
     this.playButton.textContent = "Stop";
+    this.text.ariaLive = "off";  // readers hear the last step
     this.timer = setInterval(() => {
       this.range.value = String(Number(this.range.value) + 1);
       this.show();
@@ -61,6 +66,8 @@ export class TraversalSteps {
   private stop() {
     clearInterval(this.timer);
     this.timer = undefined;
+    this.text.ariaLive = "polite";
+    this.show();
     this.playButton.textContent = "Play";
   }
   private table(work: AcceleratorWork[]) {
