@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
+#include "alhazen/accel/wide_bvh/build/sah_split.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 
@@ -18,11 +20,85 @@ constexpr std::uint32_t kTaskSize = 4096;
 /// The cheapest conversions of the subtree of a binary node to at most i wide subtrees.
 template <std::uint32_t kWidth>
 struct ChoiceOf {
-    std::array<float, kWidth + 1> cost;         ///< [i]; of at most i subtrees
-    std::array<std::uint8_t, kWidth + 1> left;  ///< [i] number for the left child, 0: as for i - 1
-    std::uint8_t inner_left;  ///< as left[kWidth], for a wide node made of this node
-    bool as_leaf;             ///< the single subtree is a leaf
+    std::array<float, kWidth> costs;         ///< [i - 1]; of at most i subtrees
+    std::array<std::uint8_t, kWidth> lefts;  ///< [i - 1] number for the left child, 0: as for i - 1
+    std::uint8_t inner_left;                 ///< as left(kWidth), for a wide node made of this node
+    bool as_leaf;                            ///< the single subtree is a leaf
+
+    [[nodiscard]] float cost(std::uint32_t i) const { return costs[i - 1]; }
+    [[nodiscard]] std::uint32_t left(std::uint32_t i) const { return lefts[i - 1]; }
 };
+
+/// [j - 1] The least cost of a node's two children as at most j subtrees in all, and how many of
+/// these are the left child's; nothing for j = 1.
+template <std::uint32_t kWidth>
+struct SpreadOf {
+    std::array<float, kWidth> cost;
+    std::array<std::uint32_t, kWidth> left;
+};
+
+/// Costs of the children of a node: [i - 1] of at most i subtrees.
+template <std::uint32_t kWidth>
+SpreadOf<kWidth> spread_of(const std::array<float, kWidth>& l, const std::array<float, kWidth>& r) {
+    SpreadOf<kWidth> spread;
+    for (std::uint32_t j = 1; j <= kWidth; ++j) {
+        float least = kNever;
+        std::uint32_t at = 1;
+        for (std::uint32_t k = 1; k < j; ++k) {
+            const float cost = l[k - 1] + r[j - k - 1];
+            at = cost < least ? k : at;
+            least = cost < least ? cost : least;
+        }
+        spread.cost[j - 1] = least;
+        spread.left[j - 1] = at;
+    }
+    return spread;
+}
+
+/// Four numbers of subtrees in lanes.
+struct SpreadLanes {
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    Float4 cost{kNever, kNever, kNever, kNever};
+    Int4 left{1, 1, 1, 1};
+
+    void offer(float left_cost, Float4 right_cost, int left_count) {
+        const Float4 sum = left_cost + right_cost;
+        const Int4 better = sum < cost;
+        left = (better & left_count) | (~better & left);
+        cost = lesser(sum, cost);
+    }
+    void store(float* costs, std::uint32_t* lefts) const {
+        std::memcpy(costs, &cost, sizeof(cost));
+        std::memcpy(lefts, &left, sizeof(left));
+    }
+};
+
+template <>
+SpreadOf<8> spread_of<8>(const std::array<float, 8>& l, const std::array<float, 8>& r) {
+    const Float4 none{kNever, kNever, kNever, kNever};
+    Float4 r0, r1;
+    std::memcpy(&r0, r.data(), sizeof(r0));
+    std::memcpy(&r1, r.data() + 4, sizeof(r1));
+    // The right child's costs for 1 to 3 subtrees less than lanes 0 to 3 have.
+    const Float4 less1 = __builtin_shufflevector(none, r0, 0, 4, 5, 6);
+    const Float4 less2 = __builtin_shufflevector(none, r0, 0, 1, 4, 5);
+    const Float4 less3 = __builtin_shufflevector(none, r0, 0, 1, 2, 4);
+    SpreadLanes low, high;
+    low.offer(l[0], less1, 1);
+    low.offer(l[1], less2, 2);
+    low.offer(l[2], less3, 3);
+    high.offer(l[0], __builtin_shufflevector(r0, r1, 3, 4, 5, 6), 1);
+    high.offer(l[1], __builtin_shufflevector(r0, r1, 2, 3, 4, 5), 2);
+    high.offer(l[2], __builtin_shufflevector(r0, r1, 1, 2, 3, 4), 3);
+    high.offer(l[3], r0, 4);
+    high.offer(l[4], less1, 5);
+    high.offer(l[5], less2, 6);
+    high.offer(l[6], less3, 7);
+    SpreadOf<8> spread;
+    low.store(spread.cost.data(), spread.left.data());
+    high.store(spread.cost.data() + 4, spread.left.data() + 4);
+    return spread;
+}
 
 /// Numbers of nodes and blocks of a wide subtree, or where it begins.
 struct Extent {
@@ -108,8 +184,8 @@ class WideCollapse {
         const BinaryNode& node = binary_.nodes[index];
         Choice& choice = choices_[index];
         const float area = node.box.weight();
-        choice.cost.fill(leaf_cost(node, area));
-        choice.left.fill(0);
+        choice.costs.fill(leaf_cost(node, area));
+        choice.lefts.fill(0);
         choice.as_leaf = true;
         if (node.is_leaf()) return;
         const auto left = [&] { choose(index + 1); };
@@ -132,37 +208,29 @@ class WideCollapse {
     }
 
     static void weigh(Choice& choice, const Choice& l, const Choice& r, float area) {
-        std::array<float, kWidth + 1>
-            spread{};  // [j]: exactly these children, at most j subtrees in all
-        for (std::uint32_t j = 2; j <= kWidth; ++j) {
-            float least = kNever;
-            std::uint32_t at = 1;
-            for (std::uint32_t k = 1; k < j; ++k) {
-                const float cost = l.cost[k] + r.cost[j - k];
-                at = cost < least ? k : at;
-                least = cost < least ? cost : least;
-            }
-            spread[j] = least;
-            choice.left[j] = static_cast<std::uint8_t>(at);
-        }
-        const float inner = area + spread[kWidth];
-        choice.as_leaf = choice.cost[1] <= inner && choice.cost[1] < kNever;
-        choice.cost[1] = std::min(choice.cost[1], inner);
-        choice.inner_left = choice.left[kWidth];
-        for (std::uint32_t j = 2; j <= kWidth; ++j) {
-            choice.cost[j] = std::min(spread[j], choice.cost[j - 1]);
-            if (!(spread[j] < choice.cost[j - 1])) choice.left[j] = 0;
+        const SpreadOf<kWidth> spread = spread_of<kWidth>(l.costs, r.costs);
+        const float inner = area + spread.cost[kWidth - 1];
+        float least = choice.cost(1);
+        choice.as_leaf = least <= inner && least < kNever;
+        least = std::min(least, inner);
+        choice.costs[0] = least;
+        choice.inner_left = static_cast<std::uint8_t>(spread.left[kWidth - 1]);
+        for (std::uint32_t i = 1; i < kWidth; ++i) {
+            const bool better = spread.cost[i] < least;
+            choice.lefts[i] = static_cast<std::uint8_t>(better ? spread.left[i] : 0);
+            least = better ? spread.cost[i] : least;
+            choice.costs[i] = least;
         }
     }
 
     /// Appends the subtrees, at most `budget`, chosen for a subtree.
     void gather(std::uint32_t index, std::uint32_t budget, Children& out) const {
         const Choice& choice = choices_[index];
-        while (budget > 1 && choice.left[budget] == 0) --budget;
+        while (budget > 1 && choice.left(budget) == 0) --budget;
         if (budget == 1) {
             out.node[out.count++] = index;
         } else {
-            divide(index, choice.left[budget], budget, out);
+            divide(index, choice.left(budget), budget, out);
         }
     }
     void divide(std::uint32_t index, std::uint32_t left, std::uint32_t budget,
