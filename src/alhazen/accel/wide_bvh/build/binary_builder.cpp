@@ -98,7 +98,7 @@ class Builder {
 
 }  // namespace
 
-BinaryBvh build_binary(std::vector<BuildReference>& references, const LeafKinds& kinds) {
+BinaryBvh build_binary(std::span<BuildReference> references, const LeafKinds& kinds) {
     if (references.empty()) return {};
     return Builder(references, kinds).build();
 }

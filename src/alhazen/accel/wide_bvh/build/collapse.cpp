@@ -17,15 +17,17 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 /// Subtrees of at least this many references are separate tasks.
 constexpr std::uint32_t kTaskSize = 4096;
 
+/// [i - 1] The least cost of the subtree of a binary node as at most i wide subtrees.
+template <std::uint32_t kWidth>
+using CostsOf = std::array<float, kWidth>;
+
 /// The cheapest conversions of the subtree of a binary node to at most i wide subtrees.
 template <std::uint32_t kWidth>
 struct ChoiceOf {
-    std::array<float, kWidth> costs;         ///< [i - 1]; of at most i subtrees
     std::array<std::uint8_t, kWidth> lefts;  ///< [i - 1] number for the left child, 0: as for i - 1
     std::uint8_t inner_left;                 ///< as left(kWidth), for a wide node made of this node
     bool as_leaf;                            ///< the single subtree is a leaf
 
-    [[nodiscard]] float cost(std::uint32_t i) const { return costs[i - 1]; }
     [[nodiscard]] std::uint32_t left(std::uint32_t i) const { return lefts[i - 1]; }
 };
 
@@ -37,9 +39,9 @@ struct SpreadOf {
     std::array<std::uint32_t, kWidth> left;
 };
 
-/// Costs of the children of a node: [i - 1] of at most i subtrees.
+/// `l`, `r`: of the children.
 template <std::uint32_t kWidth>
-SpreadOf<kWidth> spread_of(const std::array<float, kWidth>& l, const std::array<float, kWidth>& r) {
+SpreadOf<kWidth> spread_of(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r) {
     SpreadOf<kWidth> spread;
     for (std::uint32_t j = 1; j <= kWidth; ++j) {
         float least = kNever;
@@ -74,7 +76,7 @@ struct SpreadLanes {
 };
 
 template <>
-SpreadOf<8> spread_of<8>(const std::array<float, 8>& l, const std::array<float, 8>& r) {
+SpreadOf<8> spread_of<8>(const CostsOf<8>& l, const CostsOf<8>& r) {
     const Float4 none{kNever, kNever, kNever, kNever};
     Float4 r0, r1;
     std::memcpy(&r0, r.data(), sizeof(r0));
@@ -142,11 +144,52 @@ float promise_of(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
 }
 
+/// As WideNodeOf::set_order. Ranks the children of all octants at once, an octant a lane, without
+/// branches, as the order is unpredictable.
+template <std::size_t Width>
+void set_order(WideNodeOf<Width>& node, std::uint32_t used) {
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    Float4 along[Width];
+    Int4 rank[Width];  // from the farthest
+    for (std::uint32_t i = 0; i < used; ++i) {
+        float center2[3];
+        for (std::size_t k = 0; k < 3; ++k) center2[k] = node.planes[k][i] + node.planes[k + 3][i];
+        const Float4 here = Float4{center2[0], -center2[0], center2[0], -center2[0]} +
+                            Float4{center2[1], center2[1], -center2[1], -center2[1]} +
+                            Float4{center2[2], center2[2], center2[2], center2[2]};
+        along[i] = here;
+        Int4 sooner = Int4{} + static_cast<int>(i);
+        for (std::uint32_t k = 0; k < i; ++k) {
+            const Int4 later = along[k] < here;  // -1 where true
+            rank[k] -= later;
+            sooner += later;
+        }
+        rank[i] = sooner;
+    }
+    using Order = typename WideNodeOf<Width>::Order;
+    constexpr std::uint32_t kBits = WideNodeOf<Width>::kSlotBits;
+    std::uint64_t all[4]{}, across[4]{};  // the opposite octant has the reverse order
+    for (std::uint32_t i = 0; i < used; ++i) {
+        for (int octant = 0; octant < 4; ++octant) {
+            const auto place = static_cast<std::uint32_t>(rank[i][octant]);
+            all[octant] |= std::uint64_t{i} << kBits * place;
+            across[octant] |= std::uint64_t{i} << kBits * (used - 1 - place);
+        }
+    }
+    std::uint64_t free = 0;  // free slots stay
+    for (std::uint32_t i = used; i < Width; ++i) free |= std::uint64_t{i} << kBits * i;
+    for (std::size_t octant = 0; octant < 4; ++octant) {
+        node.order[octant] = static_cast<Order>(all[octant] | free);
+        node.order[7 - octant] = static_cast<Order>(across[octant] | free);
+    }
+}
+
 /// Three passes: choose the conversion of each binary node, bottom-up; count the nodes and blocks
 /// of each wide subtree; write all subtrees, each to its place.
 template <std::uint32_t kWidth>
 class WideCollapse {
     using Choice = ChoiceOf<kWidth>;
+    using Costs = CostsOf<kWidth>;
     using Children = ChildrenOf<kWidth>;
     using Node = WideNodeOf<kWidth>;
 
@@ -160,7 +203,8 @@ class WideCollapse {
           choices_(make_huge_array<Choice>(binary.index_count)) {}
 
     WideBvh run() {
-        choose(0);
+        Costs costs;
+        choose(0, costs);
         const Plan all = plan(0, 1);
         const auto& blocks = all.extent.blocks;
         if (all.depth > kMaxWideDepth || all.extent.nodes >= NodeRef::kMaxNodes ||
@@ -180,23 +224,24 @@ class WideCollapse {
   private:
     [[nodiscard]] static bool is_task(const BinaryNode& node) { return node.size() >= kTaskSize; }
 
-    void choose(std::uint32_t index) {
+    void choose(std::uint32_t index, Costs& costs) {
         const BinaryNode& node = binary_.nodes[index];
-        Choice& choice = choices_[index];
         const float area = node.box.weight();
-        choice.costs.fill(leaf_cost(node, area));
-        choice.lefts.fill(0);
-        choice.as_leaf = true;
-        if (node.is_leaf()) return;
-        const auto left = [&] { choose(index + 1); };
-        const auto right = [&] { choose(node.right); };
-        if (is_task(node)) {
-            parallel_invoke(left, right);
-        } else {
-            left();
-            right();
+        const float as_leaf = leaf_cost(node, area);
+        if (node.is_leaf()) {
+            costs.fill(as_leaf);
+            choices_[index] = {{}, 0, true};
+            return;
         }
-        weigh(choice, choices_[index + 1], choices_[node.right], area);
+        Costs of_left, of_right;
+        if (is_task(node)) {
+            parallel_invoke([&] { choose(index + 1, of_left); },
+                            [&] { choose(node.right, of_right); });
+        } else {
+            choose(index + 1, of_left);
+            choose(node.right, of_right);
+        }
+        choices_[index] = weigh(of_left, of_right, area, as_leaf, costs);
     }
 
     [[nodiscard]] float leaf_cost(const BinaryNode& node, float area) const {
@@ -207,20 +252,23 @@ class WideCollapse {
         return area * kind.cost * static_cast<float>(blocks);
     }
 
-    static void weigh(Choice& choice, const Choice& l, const Choice& r, float area) {
-        const SpreadOf<kWidth> spread = spread_of<kWidth>(l.costs, r.costs);
+    /// Of an inner node of the binary tree: sets its costs.
+    static Choice weigh(const Costs& l, const Costs& r, float area, float as_leaf, Costs& costs) {
+        const SpreadOf<kWidth> spread = spread_of<kWidth>(l, r);
         const float inner = area + spread.cost[kWidth - 1];
-        float least = choice.cost(1);
-        choice.as_leaf = least <= inner && least < kNever;
-        least = std::min(least, inner);
-        choice.costs[0] = least;
+        Choice choice;
+        choice.as_leaf = as_leaf <= inner && as_leaf < kNever;
         choice.inner_left = static_cast<std::uint8_t>(spread.left[kWidth - 1]);
+        float least = std::min(as_leaf, inner);
+        costs[0] = least;
+        choice.lefts[0] = 0;
         for (std::uint32_t i = 1; i < kWidth; ++i) {
             const bool better = spread.cost[i] < least;
             choice.lefts[i] = static_cast<std::uint8_t>(better ? spread.left[i] : 0);
             least = better ? spread.cost[i] : least;
-            choice.costs[i] = least;
+            costs[i] = least;
         }
+        return choice;
     }
 
     /// Appends the subtrees, at most `budget`, chosen for a subtree.
@@ -337,7 +385,7 @@ class WideCollapse {
             node.set_box(slot, binary_.nodes[all.node[order[slot]]].box);
             node.child[slot] = emitted[order[slot]].ref;
         }
-        node.set_order();
+        set_order(node, all.count);
         return sum;
     }
 

@@ -177,9 +177,9 @@ ObjectSplit split_mixed_by_bins(std::span<const BuildReference> references, cons
 struct AxisBoxes {
     Box4 of[3];
 
-    /// As Box4::weight.
+    /// As Box4::weight; of an empty box as of a point.
     [[nodiscard]] Float4 weights() const {
-        const Float4 a = of[0].hi - of[0].lo, b = of[1].hi - of[1].lo, c = of[2].hi - of[2].lo;
+        const Float4 a = size(of[0]), b = size(of[1]), c = size(of[2]);
         const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
         const Float4 high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
         const Float4 x = __builtin_shufflevector(low, c, 0, 1, 4, 4);
@@ -187,6 +187,9 @@ struct AxisBoxes {
         const Float4 z = __builtin_shufflevector(high, c, 0, 1, 6, 6);
         return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
     }
+
+  private:
+    static Float4 size(const Box4& box) { return greater(box.hi - box.lo, Float4{}); }
 };
 
 /// `mask` ? a : b, lane by lane; a mask has all bits of a lane or none.
@@ -272,10 +275,22 @@ class PlainBins {
 
 void fill(std::span<const BuildReference> references, const Binning& all, PlainBins& bins) {
     const Binning binning = all;  // seen not to change
-    for (const BuildReference& r : references) {
+    const auto add = [&](const BuildReference& r, PlainBins& to) {
         const Box4 box(r);
-        bins.include(box, binning.bin(box.center2()));
+        to.include(box, binning.bin(box.center2()));
+    };
+    const BuildReference* r = references.data();
+    const BuildReference* const end = r + references.size();
+    if (binning.bins == kMaxBins) {
+        // Neighbors often fall into one bin, and would wait for each other.
+        PlainBins others(kMaxBins);
+        for (; end - r >= 2; r += 2) {
+            add(r[0], bins);
+            add(r[1], others);
+        }
+        bins.include(others, kMaxBins);
     }
+    for (; r != end; ++r) add(*r, bins);
 }
 
 /// For primitives of one kind: all axes at once, in lanes.

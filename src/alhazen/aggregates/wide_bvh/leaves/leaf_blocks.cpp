@@ -107,14 +107,15 @@ class Packer final : public LeafSink {
         const std::uint32_t first = table_.first(kTriangleKind);
         std::array<LeafTriangle, kBlockWidth * NodeRef::kMaxBlocks> room;
         const std::span triangles = std::span(room).first(ids.size());
+        const PlacedMesh* const only = table_.meshes.size() == 1 ? table_.meshes.data() : nullptr;
         for (const PrimitiveId id : ids) {
             const std::uint32_t triangle = static_cast<std::uint32_t>(id) - first;
-            const PlacedMesh& placed = table_.mesh_of(triangle);
+            const PlacedMesh& placed = only != nullptr ? *only : table_.mesh_of(triangle);
             __builtin_prefetch(placed.mesh->triangles.data() + (triangle - placed.first_triangle));
         }
         for (std::size_t i = 0; i < ids.size(); ++i) {
             const std::uint32_t triangle = static_cast<std::uint32_t>(ids[i]) - first;
-            const PlacedMesh& placed = table_.mesh_of(triangle);
+            const PlacedMesh& placed = only != nullptr ? *only : table_.mesh_of(triangle);
             const TriangleMesh& mesh = *placed.mesh;
             const auto& corners = mesh.triangles.data()[triangle - placed.first_triangle];
             LeafTriangle& out = triangles[i];
@@ -181,10 +182,8 @@ Box3 box_of_bounded(const BoundedPrimitives& bounded) {
 
 namespace {
 
-BinaryBvh build_binary_of(BuildQuality quality, std::vector<BuildReference>& references,
-                          const LocalFrame& frame, const PrimitiveTable& table) {
-    if (quality == BuildQuality::Fast) return build_by_clustering(references, kLeafKindTable);
-    if (quality == BuildQuality::Default) return build_binary(references, kLeafKindTable);
+BinaryBvh build_of_high_quality(std::vector<BuildReference>& references, const LocalFrame& frame,
+                                const PrimitiveTable& table) {
     const TriangleSplitter splitter(table, frame);
     DraftBvh draft =
         draft_of(build_with_spatial_splits(references, kLeafKindTable, splitter), kLeafKindTable);
@@ -202,11 +201,22 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
     check_node_width(options.width);
     WideBvhLayout layout;
     layout.frame = LocalFrame(box_of_bounded(bounded));
-    std::vector<BuildReference> references(bounded.size());
-    make_references(table, bounded, layout.frame, references);
-    const BinaryBvh binary = build_binary_of(options.quality, references, layout.frame, table);
     Packer packer(table, options.leaves, layout);
     const std::uint32_t width = options.precision == Precision::Fast ? 8 : options.width;
+    if (options.quality == BuildQuality::High) {
+        // Splits add references.
+        std::vector<BuildReference> references(bounded.size());
+        make_references(table, bounded, layout.frame, references);
+        const BinaryBvh binary = build_of_high_quality(references, layout.frame, table);
+        layout.tree = collapse(binary, references, kLeafKindTable, packer, width);
+        return layout;
+    }
+    const auto room = make_huge_array<BuildReference>(bounded.size());
+    const std::span references(room.get(), bounded.size());
+    make_references(table, bounded, layout.frame, references);
+    const BinaryBvh binary = options.quality == BuildQuality::Fast
+                                 ? build_by_clustering(references, kLeafKindTable)
+                                 : build_binary(references, kLeafKindTable);
     layout.tree = collapse(binary, references, kLeafKindTable, packer, width);
     return layout;
 }
