@@ -37,6 +37,22 @@ inline Double2 greater(Double2 a, Double2 b) {
 #endif
 }
 
+/// Whether a <= b, or a == b, in both lanes.
+inline bool both_at_most(Double2 a, Double2 b) {
+#ifdef __SSE2__
+    return _mm_movemask_pd(_mm_cmple_pd(a, b)) == 3;
+#else
+    return a[0] <= b[0] && a[1] <= b[1];
+#endif
+}
+inline bool both_equal(Double2 a, Double2 b) {
+#ifdef __SSE2__
+    return _mm_movemask_pd(_mm_cmpeq_pd(a, b)) == 3;
+#else
+    return a[0] == b[0] && a[1] == b[1];
+#endif
+}
+
 /// A point in two registers.
 struct PointLanes {
     Double2 xy;
@@ -44,8 +60,7 @@ struct PointLanes {
 
     explicit PointLanes(const Vec3& p) : z(p.z) { std::memcpy(&xy, &p.x, sizeof(xy)); }
     [[nodiscard]] bool operator==(const PointLanes& p) const {
-        const auto same = xy == p.xy;
-        return (same[0] & same[1]) != 0 && z == p.z;
+        return both_equal(xy, p.xy) && z == p.z;
     }
 };
 static_assert(offsetof(Vec3, y) == offsetof(Vec3, x) + sizeof(double));
@@ -77,8 +92,7 @@ struct TriangleBounds {
         deep = lesser(b.deep, deep);
     }
     [[nodiscard]] bool empty() const {
-        const auto some = lower <= upper;
-        return !((some[0] & some[1]) != 0 && deep[0] <= -deep[1]);
+        return !(both_at_most(lower, upper) && deep[0] <= -deep[1]);
     }
     [[nodiscard]] Box3 box() const {
         return {{lower[0], lower[1], deep[0]}, {upper[0], upper[1], -deep[1]}};

@@ -74,8 +74,11 @@ class Partners {
 
     /// Writes the partners of the clusters from `begin` to `end`, at most kChunk.
     void find(std::size_t begin, std::size_t end, std::uint32_t* partners) {
-        load(begin, end);
-        weigh(end - begin);
+        if (load(begin, end)) {
+            weigh<true>(end - begin);
+        } else {
+            weigh<false>(end - begin);
+        }
         choose(begin, end - begin, partners);
     }
 
@@ -85,16 +88,18 @@ class Partners {
     static constexpr std::size_t kRoom = kChunk + kMargin;
 
     /// Clusters from kRadius before the chunk to kRadius behind it, a row for each number. Where
-    /// there is none, an infinite box stands.
-    void load(std::size_t begin, std::size_t end) {
+    /// there is none, an infinite box stands. Returns whether kinds differ.
+    bool load(std::size_t begin, std::size_t end) {
         constexpr float kFar = std::numeric_limits<float>::infinity();
         const std::size_t rows = end - begin + kMargin;
+        const std::uint32_t kind = clusters_[begin].kind;
+        bool mixed = kind == kLeafKinds;
         for (std::size_t i = 0; i < rows; ++i) {
             const std::size_t from = begin + i - kRadius;  // wraps around before the first one
             if (from >= count_) {
                 for (auto& row : lo_) row[i] = -kFar;
                 for (auto& row : hi_) row[i] = kFar;
-                kind_[i] = 0;
+                kind_[i] = kind;
                 continue;
             }
             const Cluster& c = clusters_[from];
@@ -103,7 +108,9 @@ class Partners {
                 hi_[k][i] = c.box.hi[k];
             }
             kind_[i] = c.kind;
+            mixed = mixed || c.kind != kind;
         }
+        return mixed;
     }
     template <class V, class T>
     static V lanes(const T* from) {
@@ -112,56 +119,62 @@ class Partners {
         return v;
     }
     /// weight_[d - 1][i]: of rows i and i + d together.
+    template <bool kMixed>
     void weigh(std::size_t size) {
         for (std::size_t i = 0; i < size + kRadius + kLanes; i += kLanes) {
-            Float4 lo[3], hi[3];
-            for (std::size_t k = 0; k < 3; ++k) {
-                lo[k] = lanes<Float4>(&lo_[k][i]);
-                hi[k] = lanes<Float4>(&hi_[k][i]);
-            }
-            const Int4 kind = lanes<Int4>(&kind_[i]);
+            const Float4 lo[3] = {lanes<Float4>(&lo_[0][i]), lanes<Float4>(&lo_[1][i]),
+                                  lanes<Float4>(&lo_[2][i])};
+            const Float4 hi[3] = {lanes<Float4>(&hi_[0][i]), lanes<Float4>(&hi_[1][i]),
+                                  lanes<Float4>(&hi_[2][i])};
             for (std::size_t d = 1; d <= kRadius; ++d) {
-                Float4 size_of[3];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    size_of[k] = greater(lanes<Float4>(&hi_[k][i + d]), hi[k]) -
-                                 lesser(lanes<Float4>(&lo_[k][i + d]), lo[k]);
-                }
-                const auto& [x, y, z] = size_of;
+                // Not a loop: the compiler would keep the boxes in memory.
+                const auto size_along = [&](std::size_t k) {
+                    return greater(lanes<Float4>(&hi_[k][i + d]), hi[k]) -
+                           lesser(lanes<Float4>(&lo_[k][i + d]), lo[k]);
+                };
+                const Float4 x = size_along(0), y = size_along(1), z = size_along(2);
                 // As Box4::weight.
                 Float4 weight = x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
-                // Kinds do not share blocks.
-                const Int4 differ = lanes<Int4>(&kind_[i + d]) != kind;
-                weight += masked(weight, differ);
+                if constexpr (kMixed) {
+                    // Kinds do not share blocks.
+                    const Int4 differ = lanes<Int4>(&kind_[i + d]) != lanes<Int4>(&kind_[i]);
+                    weight += bits_as<Float4>(bits_as<Int4>(weight) & differ);
+                }
                 std::memcpy(&weight_[d - 1][i], &weight, sizeof(weight));
             }
         }
     }
-    static Float4 masked(Float4 v, Int4 mask) {
-        Int4 bits;
-        std::memcpy(&bits, &v, sizeof(bits));
-        bits &= mask;
-        std::memcpy(&v, &bits, sizeof(v));
-        return v;
+    template <class To, class From>
+    static To bits_as(From from) {
+        To to;
+        static_assert(sizeof(to) == sizeof(from));
+        std::memcpy(&to, &from, sizeof(to));
+        return to;
     }
     void choose(std::size_t begin, std::size_t size, std::uint32_t* partners) const {
         for (std::size_t i = 0; i < size; i += kLanes) {
-            const auto number = static_cast<std::int32_t>(begin + i);
-            const Int4 self = Int4{0, 1, 2, 3} + number;
-            Float4 least = Float4{1, 1, 1, 1} * std::numeric_limits<float>::infinity();
-            Int4 apart{};
-            const auto offer = [&](Float4 weight, Int4 other) {
-                const Int4 differ = self ^ other;
-                const Int4 better = (weight < least) | ((weight == least) & (differ < apart));
-                least = lesser(weight, least);
-                apart = (better & differ) | (~better & apart);
+            Float4 least = lanes<Float4>(&weight_[0][kRadius + i]);
+            for (std::size_t d = 1; d <= kRadius; ++d) {
+                least = lesser(lanes<Float4>(&weight_[d - 1][kRadius + i]), least);
+                least = lesser(lanes<Float4>(&weight_[d - 1][kRadius + i - d]), least);
+            }
+            // Of those with the least weight, the one whose number differs least. Numbers are
+            // compared by their bits as those of floats, which have the same order; others are
+            // larger by a bit that no number has.
+            const Int4 self = Int4{0, 1, 2, 3} + static_cast<std::int32_t>(begin + i);
+            constexpr std::int32_t kOther = 1 << 30;
+            Float4 apart = bits_as<Float4>(Int4{} + kOther);
+            const auto offer = [&](const float* weights, Int4 other) {
+                const Int4 heavier = lanes<Float4>(weights) != least;
+                const Int4 differ = (self ^ other) & (kOther - 1);
+                apart = lesser(bits_as<Float4>(differ | (heavier & kOther)), apart);
             };
             for (std::size_t d = 1; d <= kRadius; ++d) {
                 const auto distance = static_cast<std::int32_t>(d);
-                const float* const row = weight_[d - 1];
-                offer(lanes<Float4>(row + kRadius + i), self + distance);
-                offer(lanes<Float4>(row + kRadius + i - d), self - distance);
+                offer(&weight_[d - 1][kRadius + i], self + distance);
+                offer(&weight_[d - 1][kRadius + i - d], self - distance);
             }
-            const Int4 partner = self ^ apart;
+            const Int4 partner = self ^ bits_as<Int4>(apart);
             std::memcpy(partners + begin + i, &partner,
                         std::min(kLanes, size - i) * sizeof(std::uint32_t));
         }

@@ -84,6 +84,8 @@ class Linearizer {
             std::vector<std::uint32_t> leaves = leaves_of(index);
             return write_balanced(leaves, place, begin);
         }
+        __builtin_prefetch(&draft_.nodes[node.right]);
+        __builtin_prefetch(&sums_[node.right]);
         const Sums& left_sums = sums_[node.left];
         const std::uint32_t right = place + 2 * left_sums.leaves;
         const auto write_left = [&] { write(node.left, place + 1, begin, level + 1); };
