@@ -76,13 +76,11 @@ struct TriangleBounds {
     }
     /// As PrimitiveTable::box: padded, and empty for a triangle with two equal corners.
     TriangleBounds(const Vec3& a, const Vec3& b, const Vec3& c) : TriangleBounds() {
-        const PointLanes p[3] = {PointLanes(a), PointLanes(b), PointLanes(c)};
-        if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return;
-        for (const PointLanes& corner : p) {
-            lower = lesser(corner.xy, lower);
-            upper = greater(corner.xy, upper);
-            deep = lesser(Double2{corner.z, -corner.z}, deep);
-        }
+        const PointLanes p(a), q(b), r(c);
+        if (p == q || q == r || r == p) return;
+        include(p);
+        include(q);
+        include(r);
         pad();
     }
 
@@ -99,6 +97,11 @@ struct TriangleBounds {
     }
 
   private:
+    void include(const PointLanes& p) {
+        lower = lesser(p.xy, lower);
+        upper = greater(p.xy, upper);
+        deep = lesser(Double2{p.z, -p.z}, deep);
+    }
     static Double2 magnitude(Double2 v) { return greater(v, -v); }
     /// As `padded`.
     void pad() {

@@ -9,6 +9,7 @@
 #include "alhazen/accel/wide_bvh/build/sah_split.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/touch_pages.h"
 
 namespace alhazen {
 namespace {
@@ -214,8 +215,11 @@ class WideCollapse {
         wide_.empty = false;
         wide_.depth = all.depth;
         wide_.width = kWidth;
-        nodes_of<kWidth>(wide_).resize(all.extent.nodes);
-        nodes_ = nodes_of<kWidth>(wide_).data();
+        auto& nodes = nodes_of<kWidth>(wide_);
+        nodes.reserve(all.extent.nodes);
+        touch_pages(nodes.data(), all.extent.nodes * sizeof(Node));
+        nodes.resize(all.extent.nodes);
+        nodes_ = nodes.data();
         sink_.resize(blocks);
         wide_.root = emit(0, all, {}).ref;
         return std::move(wide_);

@@ -23,7 +23,7 @@ class TriangleReferences {
           center_{frame.center.x, frame.center.y},
           deep_center_{frame.center.z, -frame.center.z} {}
 
-    [[nodiscard]] BuildReference operator()(const TriangleBounds& bounds, std::uint32_t id) const {
+    void operator()(const TriangleBounds& bounds, std::uint32_t id, BuildReference& to) const {
 #ifdef __SSE2__
         const Double2 lower = scale_ * (bounds.lower - center_);
         const Double2 deep = scale_ * (bounds.deep - deep_center_);
@@ -38,20 +38,23 @@ class TriangleReferences {
         const __m128 hi =
             rounded_down(_mm_shuffle_ps(high, mid, _MM_SHUFFLE(1, 1, 1, 0)),
                          _mm_shuffle_ps(high_above, mid_above, _MM_SHUFFLE(2, 2, 2, 0)));
-        BuildReference reference;
+        // In registers to the end: what is stored by parts is slow to read again.
+        const auto number = static_cast<std::int32_t>(id);
         const __m128 up = _mm_xor_ps(hi, _mm_set1_ps(-0.0f));
-        std::memcpy(reference.lo, &lo, sizeof(lo));
-        std::memcpy(reference.hi, &up, sizeof(up));
-        reference.id = id;
-        reference.kind = kTriangles;
-        return reference;
+        const __m128i low_part = with_fourth(lo, number), high_part = with_fourth(up, kTriangles);
+        std::memcpy(to.lo, &low_part, sizeof(low_part));
+        std::memcpy(to.hi, &high_part, sizeof(high_part));
 #else
-        return {frame_.local(bounds.box()), id, kTriangles};
+        to = {frame_.local(bounds.box()), id, kTriangles};
 #endif
     }
 
   private:
 #ifdef __SSE2__
+    static __m128i with_fourth(__m128 v, std::int32_t fourth) {
+        const __m128i three = _mm_and_si128(_mm_castps_si128(v), _mm_set_epi32(0, -1, -1, -1));
+        return _mm_or_si128(three, _mm_slli_si128(_mm_cvtsi32_si128(fourth), 12));
+    }
     /// A mask of the lanes, each twice, in which rounding to float went up.
     static __m128 above(__m128 rounded, Double2 exact) {
         return _mm_castpd_ps(_mm_cmpgt_pd(_mm_cvtps_pd(rounded), exact));
@@ -96,7 +99,7 @@ void make_references(const PrimitiveTable& table, const BoundedPrimitives& bound
         others(begin, std::min(end, first));
         for_triangles(table, std::max(begin, first), std::min(end, last),
                       [&](std::uint32_t id, const Vec3& a, const Vec3& b, const Vec3& c) {
-                          references[id] = to_triangle(TriangleBounds(a, b, c), id);
+                          to_triangle(TriangleBounds(a, b, c), id, references.data()[id]);
                       });
         others(std::max(begin, last), end);
     });

@@ -12,6 +12,7 @@
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_splitter.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/touch_pages.h"
 #include "alhazen/primitives/bounded_primitives.h"
 #include "alhazen/primitives/primitive_table.h"
 
@@ -32,15 +33,15 @@ class Packer final : public LeafSink {
     void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
         const std::size_t triangles = blocks[static_cast<std::size_t>(LeafType::Triangles)];
         if (leaves_ == Leaves::Indices) {
-            layout_.indices.resize(triangles);
+            resize(layout_.indices, triangles);
             indices_ = layout_.indices.data();
         } else {
-            layout_.triangles.resize(triangles);
+            resize(layout_.triangles, triangles);
             triangles_ = layout_.triangles.data();
         }
-        layout_.spheres.resize(blocks[static_cast<std::size_t>(LeafType::Spheres)]);
-        layout_.frustums.resize(blocks[static_cast<std::size_t>(LeafType::Frustums)]);
-        layout_.others.resize(blocks[static_cast<std::size_t>(LeafType::Others)]);
+        resize(layout_.spheres, blocks[static_cast<std::size_t>(LeafType::Spheres)]);
+        resize(layout_.frustums, blocks[static_cast<std::size_t>(LeafType::Frustums)]);
+        resize(layout_.others, blocks[static_cast<std::size_t>(LeafType::Others)]);
     }
 
     float pack(std::uint32_t kind, std::size_t offset,
@@ -59,6 +60,12 @@ class Packer final : public LeafSink {
     }
 
   private:
+    template <class Block>
+    static void resize(MappableVector<Block>& blocks, std::size_t count) {
+        blocks.reserve(count);
+        touch_pages(blocks.data(), count * sizeof(Block));
+        blocks.resize(count);
+    }
     /// Few ids by their ranks, without branches that depend on them.
     static void sort_ids(std::span<const BuildReference> references, std::span<PrimitiveId> ids) {
         const std::size_t size = references.size();
