@@ -13,6 +13,7 @@ namespace alhazen {
 namespace {
 
 constexpr int kMaxBins = 32;
+constexpr std::size_t kTwoSets = 128;         // from this size on, two sets of bins are used
 constexpr std::size_t kBinningChunk = 32768;  // references read by one task
 
 using Int4 = std::int32_t __attribute__((vector_size(16)));
@@ -281,14 +282,14 @@ void fill(std::span<const BuildReference> references, const Binning& all, PlainB
     };
     const BuildReference* r = references.data();
     const BuildReference* const end = r + references.size();
-    if (binning.bins == kMaxBins) {
+    if (references.size() >= kTwoSets) {
         // Neighbors often fall into one bin, and would wait for each other.
-        PlainBins others(kMaxBins);
+        PlainBins others(binning.bins);
         for (; end - r >= 2; r += 2) {
             add(r[0], bins);
             add(r[1], others);
         }
-        bins.include(others, kMaxBins);
+        bins.include(others, binning.bins);
     }
     for (; r != end; ++r) add(*r, bins);
 }
