@@ -159,15 +159,15 @@ class Partners {
                 least = lesser(lanes<Float4>(&weight_[d - 1][kRadius + i - d]), least);
             }
             // Of those with the least weight, the one whose number differs least. Numbers are
-            // compared by their bits as those of floats, which have the same order; others are
-            // larger by a bit that no number has.
+            // compared by their bits as those of floats, which have the same order; what stands for
+            // others is larger than all.
             const Int4 self = Int4{0, 1, 2, 3} + static_cast<std::int32_t>(begin + i);
             constexpr std::int32_t kOther = 1 << 30;
             Float4 apart = bits_as<Float4>(Int4{} + kOther);
             const auto offer = [&](const float* weights, Int4 other) {
                 const Int4 heavier = lanes<Float4>(weights) != least;
                 const Int4 differ = (self ^ other) & (kOther - 1);
-                apart = lesser(bits_as<Float4>(differ | (heavier & kOther)), apart);
+                apart = lesser(bits_as<Float4>((~heavier & differ) | (heavier & kOther)), apart);
             };
             for (std::size_t d = 1; d <= kRadius; ++d) {
                 const auto distance = static_cast<std::int32_t>(d);
