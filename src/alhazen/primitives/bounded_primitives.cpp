@@ -1,6 +1,9 @@
 #include "alhazen/primitives/bounded_primitives.h"
 
+#include <algorithm>
+
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/primitives/triangle_bounds.h"
 
 namespace alhazen {
 namespace {
@@ -12,24 +15,50 @@ bool within_reach(const Box3& box) {
            is_finite(box.lo) && is_finite(box.hi);
 }
 
+/// The box of some primitives, and whether all of them are bounded.
+struct Share {
+    Box3 box;
+    bool bounded = true;
+
+    void include(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end) {
+        const std::uint32_t first = table.first(kTriangleKind), last = table.first(kInstanceKind);
+        include_others(table, begin, std::min(end, first));
+        include_triangles(table, std::max(begin, first), std::min(end, last));
+        include_others(table, std::max(begin, last), end);
+    }
+
+  private:
+    void include_others(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const Box3 one = table.box(i);
+            box.include(one);
+            bounded = bounded && one != Box3{} && within_reach(one);
+        }
+    }
+    void include_triangles(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end) {
+        if (begin >= end) return;
+        TriangleBounds all;
+        bool some_empty = false;
+        for_triangles(table, begin, end,
+                      [&](std::uint32_t, const Vec3& a, const Vec3& b, const Vec3& c) {
+                          const TriangleBounds one(a, b, c);
+                          all.include(one);
+                          some_empty = some_empty || one.empty();
+                      });
+        box.include(all.box());
+        bounded = bounded && !some_empty && within_reach(all.box());
+    }
+};
+
 }  // namespace
 
 BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table) {
     // Usually all are bounded: then no list is made.
     constexpr std::size_t kGrain = 16384;
-    struct Share {
-        Box3 box;
-        bool bounded = true;
-    };
     std::vector<Share> parts((table.size() + kGrain - 1) / kGrain);
     parallel_for(table.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Share part;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Box3 box = table.box(i);
-            part.box.include(box);
-            part.bounded = part.bounded && box != Box3{} && within_reach(box);
-        }
-        parts[begin / kGrain] = part;
+        parts[begin / kGrain].include(table, static_cast<std::uint32_t>(begin),
+                                      static_cast<std::uint32_t>(end));
     });
     identity_ = true;
     for (const Share& part : parts) {

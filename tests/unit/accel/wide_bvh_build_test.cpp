@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -8,7 +10,9 @@
 #include "alhazen/accel/wide_bvh/build/build_options.h"
 #include "alhazen/accel/wide_bvh/build/clustering.h"
 #include "alhazen/accel/wide_bvh/build/collapse.h"
+#include "alhazen/accel/wide_bvh/build/morton_order.h"
 #include "alhazen/accel/wide_bvh/build/reinsertion.h"
+#include "alhazen/accel/wide_bvh/build/sah_cost.h"
 #include "alhazen/accel/wide_bvh/build/spatial_split.h"
 #include "alhazen/accel/wide_bvh/nodes/local_frame.h"
 
@@ -155,6 +159,27 @@ TEST(WideBvhBuild, HoldsEveryPrimitiveOnceWithinItsBoxes) {
     }
 }
 
+#ifndef __clang__  // computes both sides of conditions
+TEST(WideBvhBuild, MakesNoInvalidNumbers) {
+    std::mt19937_64 random(7);
+    for (const std::size_t count : {2, 3, 5, 9, 13, 40, 200}) {
+        for (const int flat : {0, 1, 2, 3}) {
+            std::vector<BuildReference> references;
+            for (std::size_t i = 0; i < count; ++i) {
+                float p[3] = {uniform(random), uniform(random), uniform(random)};
+                if (flat < 3) p[flat] = 0.25f;
+                references.push_back(reference(i, p[0], p[1], p[2], 0.01f));
+            }
+            for (const BuildQualityEntry& entry : build_quality_table()) {
+                std::feclearexcept(FE_INVALID);
+                build_and_check(entry.quality, references, "flat");
+                EXPECT_FALSE(std::fetestexcept(FE_INVALID)) << entry.name << ", " << count;
+            }
+        }
+    }
+}
+#endif
+
 TEST(WideBvhBuild, ManyIdenticalBoxesGiveAShallowTree) {
     std::vector<BuildReference> references;
     for (std::size_t i = 0; i < 300000; ++i) references.push_back(reference(i, 0, 0, 0, 0.5f));
@@ -231,6 +256,135 @@ TEST(WideBvhBuild, TheExpectedCostIsFarBelowThatOfHalving) {
     for (const BuildReference& r : references) all.include(r.box());
     // Measured: 21.
     EXPECT_LT(cost / all.weight(), 30.0f);
+}
+
+/// Boxes on a coarse lattice: many ties.
+std::vector<BuildReference> lattice_references(std::size_t count, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<BuildReference> references;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto coordinate = [&] { return static_cast<float>(random() % 7) * 0.25f - 0.75f; };
+        const float x = coordinate(), y = coordinate(), z = coordinate();
+        references.push_back(reference(i, x, y, z, 0.125f * static_cast<float>(random() % 3),
+                                       static_cast<std::uint32_t>(random() % 2)));
+    }
+    return references;
+}
+
+/// The least cost of a subtree as at most `budget` wide subtrees, by trying all.
+double least_cost(const BinaryBvh& binary, std::uint32_t index, std::uint32_t budget,
+                  std::uint32_t width) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const BinaryNode& node = binary.nodes[index];
+    const auto area = static_cast<double>(node.box.weight());
+    double as_leaf = kNever;
+    if (node.kind != kLeafKinds) {
+        const LeafKind& kind = kKinds[node.kind];
+        const std::uint32_t blocks = kind.blocks(node.size());
+        if (blocks <= NodeRef::kMaxBlocks) as_leaf = area * static_cast<double>(kind.cost) * blocks;
+    }
+    if (node.is_leaf()) return as_leaf;
+    const auto spread = [&](std::uint32_t most) {
+        double least = kNever;
+        for (std::uint32_t left = 1; left < most; ++left) {
+            least = std::min(least, least_cost(binary, index + 1, left, width) +
+                                        least_cost(binary, node.right, most - left, width));
+        }
+        return least;
+    };
+    if (budget > 1) return std::min(least_cost(binary, index, 1, width), spread(budget));
+    return std::min(as_leaf, area + spread(width));
+}
+
+TEST(WideBvhBuild, CollapseFindsTheLeastCost) {
+    for (const std::uint32_t width : {4u, 8u}) {
+        for (std::uint64_t seed = 0; seed < 20; ++seed) {
+            std::vector<BuildReference> references = lattice_references(width == 4 ? 18 : 14, seed);
+            // Leaves of one primitive: deeper trees.
+            for (BuildReference& r : references) r.kind = 2;
+            const BinaryBvh binary = build_binary(references, kKinds);
+            Leaves leaves;
+            const WideBvh tree = collapse(binary, references, kKinds, leaves, width);
+            ASSERT_FALSE(tree.root.is_leaf());
+            const double least =
+                least_cost(binary, 0, 1, width) / static_cast<double>(binary.nodes[0].box.weight());
+            EXPECT_NEAR(sah_cost(tree, kKinds), least, 1e-5 * least) << width << ", " << seed;
+        }
+    }
+}
+
+TEST(WideBvhBuild, NodesKnowTheOrderOfTheirBoxes) {
+    for (const std::uint32_t width : {4u, 8u, 16u}) {
+        std::vector<BuildReference> references = lattice_references(500, width);
+        const BinaryBvh binary = build_binary(references, kKinds);
+        Leaves leaves;
+        const WideBvh tree = collapse(binary, references, kKinds, leaves, width);
+        with_nodes(tree, [&](const auto& nodes) {
+            ASSERT_GT(nodes.size(), 1u);
+            for (const auto& node : nodes) {
+                auto same = node;
+                same.set_order();
+                EXPECT_TRUE(std::equal(node.order, node.order + 8, same.order)) << width;
+            }
+        });
+    }
+}
+
+TEST(WideBvhBuild, NodesThatAreNotInUseAreFew) {
+    std::mt19937_64 random(5);
+    std::vector<BuildReference> references;
+    for (std::size_t i = 0; i < 100000; ++i) {
+        const float x = uniform(random), y = uniform(random), z = uniform(random);
+        references.push_back(reference(i, x, y, z, 0.001f));
+    }
+    const BinaryBvh binary = build_binary(references, kKinds);
+    // Leaves have up to four.
+    EXPECT_LT(binary.index_count, references.size());
+}
+
+TEST(MortonOrder, SortsByAllBitsAndKeepsTheOrderOfEqualCodes) {
+    std::mt19937_64 random(6);
+    std::vector<BuildReference> references;
+    // Most lie in a corner so small that the first half of their codes is the same.
+    for (std::size_t i = 0; i < 150000; ++i) {
+        const float scale = i % 10 == 0 ? 1.0f : 0x1p-12f;
+        const auto coordinate = [&] { return scale * static_cast<float>(random() % 64) / 64.0f; };
+        const float x = coordinate(), y = coordinate(), z = coordinate();
+        references.push_back(reference(i, x, y, z, 0));
+    }
+    std::vector<BuildReference> sorted(references.size());
+    std::vector<std::uint64_t> codes(references.size());
+    sort_along_curve(references, sorted, codes);
+    float lo[3], hi[3];
+    for (int k = 0; k < 3; ++k) {
+        const auto [least, most] = std::minmax_element(
+            references.begin(), references.end(),
+            [k](const auto& a, const auto& b) { return a.center2(k) < b.center2(k); });
+        lo[k] = least->center2(k);
+        hi[k] = most->center2(k);
+    }
+    std::vector<bool> seen(references.size());
+    std::size_t alike = 0, same = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const BuildReference& r = sorted[i];
+        ASSERT_FALSE(seen[r.id]);
+        seen[r.id] = true;
+        std::uint64_t code = 0;
+        for (int k = 0; k < 3; ++k) {
+            const float place = (r.center2(k) - lo[k]) * (2097151.0f / (hi[k] - lo[k]));
+            const auto number = static_cast<std::uint64_t>(std::min(place, 2097151.0f));
+            for (int bit = 0; bit < 21; ++bit) code |= (number >> bit & 1) << (3 * bit + 2 - k);
+        }
+        ASSERT_EQ(codes[i], code);
+        if (i == 0) continue;
+        ASSERT_LE(codes[i - 1], codes[i]);
+        alike += codes[i - 1] != codes[i] && codes[i - 1] >> 31 == codes[i] >> 31;
+        if (codes[i - 1] != codes[i]) continue;
+        ++same;
+        ASSERT_LT(sorted[i - 1].id, r.id);
+    }
+    EXPECT_GT(alike, 1000u);
+    EXPECT_GT(same, 1000u);
 }
 
 TEST(LocalFrame, PutsAnySceneIntoTheUnitCubeAndRoundsOutward) {

@@ -8,7 +8,7 @@
 /// Complexity and threads: O(n log n), parallel; the result is the same for every number of
 /// threads.
 
-#include <vector>
+#include <span>
 
 #include "alhazen/accel/wide_bvh/build/build_types.h"
 
@@ -16,7 +16,6 @@ namespace alhazen {
 
 /// Reorders `references` so that each node has a range of them. Every leaf has one kind and fits
 /// into one block.
-[[nodiscard]] BinaryBvh build_binary(std::vector<BuildReference>& references,
-                                     const LeafKinds& kinds);
+[[nodiscard]] BinaryBvh build_binary(std::span<BuildReference> references, const LeafKinds& kinds);
 
 }  // namespace alhazen

@@ -10,14 +10,14 @@
 /// Complexity and threads: O(n) for usual inputs, parallel; the result is the same for every number
 /// of threads.
 
-#include <vector>
+#include <span>
 
 #include "alhazen/accel/wide_bvh/build/build_types.h"
 
 namespace alhazen {
 
 /// As build_binary.
-[[nodiscard]] BinaryBvh build_by_clustering(std::vector<BuildReference>& references,
+[[nodiscard]] BinaryBvh build_by_clustering(std::span<BuildReference> references,
                                             const LeafKinds& kinds);
 
 }  // namespace alhazen

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
+#include "alhazen/accel/wide_bvh/build/sah_split.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/parallel/touch_pages.h"
 
 namespace alhazen {
 namespace {
@@ -15,14 +18,90 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 /// Subtrees of at least this many references are separate tasks.
 constexpr std::uint32_t kTaskSize = 4096;
 
+/// [i - 1] The least cost of the subtree of a binary node as at most i wide subtrees.
+template <std::uint32_t kWidth>
+using CostsOf = std::array<float, kWidth>;
+
 /// The cheapest conversions of the subtree of a binary node to at most i wide subtrees.
 template <std::uint32_t kWidth>
 struct ChoiceOf {
-    std::array<float, kWidth + 1> cost;         ///< [i]; of at most i subtrees
-    std::array<std::uint8_t, kWidth + 1> left;  ///< [i] number for the left child, 0: as for i - 1
-    std::uint8_t inner_left;  ///< as left[kWidth], for a wide node made of this node
-    bool as_leaf;             ///< the single subtree is a leaf
+    std::array<std::uint8_t, kWidth> lefts;  ///< [i - 1] number for the left child, 0: as for i - 1
+    std::uint8_t inner_left;                 ///< as left(kWidth), for a wide node made of this node
+    bool as_leaf;                            ///< the single subtree is a leaf
+
+    [[nodiscard]] std::uint32_t left(std::uint32_t i) const { return lefts[i - 1]; }
 };
+
+/// [j - 1] The least cost of a node's two children as at most j subtrees in all, and how many of
+/// these are the left child's; nothing for j = 1.
+template <std::uint32_t kWidth>
+struct SpreadOf {
+    std::array<float, kWidth> cost;
+    std::array<std::uint32_t, kWidth> left;
+};
+
+/// `l`, `r`: of the children.
+template <std::uint32_t kWidth>
+SpreadOf<kWidth> spread_of(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r) {
+    SpreadOf<kWidth> spread;
+    for (std::uint32_t j = 1; j <= kWidth; ++j) {
+        float least = kNever;
+        std::uint32_t at = 1;
+        for (std::uint32_t k = 1; k < j; ++k) {
+            const float cost = l[k - 1] + r[j - k - 1];
+            at = cost < least ? k : at;
+            least = cost < least ? cost : least;
+        }
+        spread.cost[j - 1] = least;
+        spread.left[j - 1] = at;
+    }
+    return spread;
+}
+
+/// Four numbers of subtrees in lanes.
+struct SpreadLanes {
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    Float4 cost{kNever, kNever, kNever, kNever};
+    Int4 left{1, 1, 1, 1};
+
+    void offer(float left_cost, Float4 right_cost, int left_count) {
+        const Float4 sum = left_cost + right_cost;
+        const Int4 better = sum < cost;
+        left = (better & left_count) | (~better & left);
+        cost = lesser(sum, cost);
+    }
+    void store(float* costs, std::uint32_t* lefts) const {
+        std::memcpy(costs, &cost, sizeof(cost));
+        std::memcpy(lefts, &left, sizeof(left));
+    }
+};
+
+template <>
+SpreadOf<8> spread_of<8>(const CostsOf<8>& l, const CostsOf<8>& r) {
+    const Float4 none{kNever, kNever, kNever, kNever};
+    Float4 r0, r1;
+    std::memcpy(&r0, r.data(), sizeof(r0));
+    std::memcpy(&r1, r.data() + 4, sizeof(r1));
+    // The right child's costs for 1 to 3 subtrees less than lanes 0 to 3 have.
+    const Float4 less1 = __builtin_shufflevector(none, r0, 0, 4, 5, 6);
+    const Float4 less2 = __builtin_shufflevector(none, r0, 0, 1, 4, 5);
+    const Float4 less3 = __builtin_shufflevector(none, r0, 0, 1, 2, 4);
+    SpreadLanes low, high;
+    low.offer(l[0], less1, 1);
+    low.offer(l[1], less2, 2);
+    low.offer(l[2], less3, 3);
+    high.offer(l[0], __builtin_shufflevector(r0, r1, 3, 4, 5, 6), 1);
+    high.offer(l[1], __builtin_shufflevector(r0, r1, 2, 3, 4, 5), 2);
+    high.offer(l[2], __builtin_shufflevector(r0, r1, 1, 2, 3, 4), 3);
+    high.offer(l[3], r0, 4);
+    high.offer(l[4], less1, 5);
+    high.offer(l[5], less2, 6);
+    high.offer(l[6], less3, 7);
+    SpreadOf<8> spread;
+    low.store(spread.cost.data(), spread.left.data());
+    high.store(spread.cost.data() + 4, spread.left.data() + 4);
+    return spread;
+}
 
 /// Numbers of nodes and blocks of a wide subtree, or where it begins.
 struct Extent {
@@ -66,11 +145,52 @@ float promise_of(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
 }
 
+/// As WideNodeOf::set_order. Ranks the children of all octants at once, an octant a lane, without
+/// branches, as the order is unpredictable.
+template <std::size_t Width>
+void set_order(WideNodeOf<Width>& node, std::uint32_t used) {
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    Float4 along[Width];
+    Int4 rank[Width];  // from the farthest
+    for (std::uint32_t i = 0; i < used; ++i) {
+        float center2[3];
+        for (std::size_t k = 0; k < 3; ++k) center2[k] = node.planes[k][i] + node.planes[k + 3][i];
+        const Float4 here = Float4{center2[0], -center2[0], center2[0], -center2[0]} +
+                            Float4{center2[1], center2[1], -center2[1], -center2[1]} +
+                            Float4{center2[2], center2[2], center2[2], center2[2]};
+        along[i] = here;
+        Int4 sooner = Int4{} + static_cast<int>(i);
+        for (std::uint32_t k = 0; k < i; ++k) {
+            const Int4 later = along[k] < here;  // -1 where true
+            rank[k] -= later;
+            sooner += later;
+        }
+        rank[i] = sooner;
+    }
+    using Order = typename WideNodeOf<Width>::Order;
+    constexpr std::uint32_t kBits = WideNodeOf<Width>::kSlotBits;
+    std::uint64_t all[4]{}, across[4]{};  // the opposite octant has the reverse order
+    for (std::uint32_t i = 0; i < used; ++i) {
+        for (int octant = 0; octant < 4; ++octant) {
+            const auto place = static_cast<std::uint32_t>(rank[i][octant]);
+            all[octant] |= std::uint64_t{i} << kBits * place;
+            across[octant] |= std::uint64_t{i} << kBits * (used - 1 - place);
+        }
+    }
+    std::uint64_t free = 0;  // free slots stay
+    for (std::uint32_t i = used; i < Width; ++i) free |= std::uint64_t{i} << kBits * i;
+    for (std::size_t octant = 0; octant < 4; ++octant) {
+        node.order[octant] = static_cast<Order>(all[octant] | free);
+        node.order[7 - octant] = static_cast<Order>(across[octant] | free);
+    }
+}
+
 /// Three passes: choose the conversion of each binary node, bottom-up; count the nodes and blocks
 /// of each wide subtree; write all subtrees, each to its place.
 template <std::uint32_t kWidth>
 class WideCollapse {
     using Choice = ChoiceOf<kWidth>;
+    using Costs = CostsOf<kWidth>;
     using Children = ChildrenOf<kWidth>;
     using Node = WideNodeOf<kWidth>;
 
@@ -84,7 +204,8 @@ class WideCollapse {
           choices_(make_huge_array<Choice>(binary.index_count)) {}
 
     WideBvh run() {
-        choose(0);
+        Costs costs;
+        choose(0, costs);
         const Plan all = plan(0, 1);
         const auto& blocks = all.extent.blocks;
         if (all.depth > kMaxWideDepth || all.extent.nodes >= NodeRef::kMaxNodes ||
@@ -94,8 +215,11 @@ class WideCollapse {
         wide_.empty = false;
         wide_.depth = all.depth;
         wide_.width = kWidth;
-        nodes_of<kWidth>(wide_).resize(all.extent.nodes);
-        nodes_ = nodes_of<kWidth>(wide_).data();
+        auto& nodes = nodes_of<kWidth>(wide_);
+        nodes.reserve(all.extent.nodes);
+        touch_pages(nodes.data(), all.extent.nodes * sizeof(Node));
+        nodes.resize(all.extent.nodes);
+        nodes_ = nodes.data();
         sink_.resize(blocks);
         wide_.root = emit(0, all, {}).ref;
         return std::move(wide_);
@@ -104,23 +228,24 @@ class WideCollapse {
   private:
     [[nodiscard]] static bool is_task(const BinaryNode& node) { return node.size() >= kTaskSize; }
 
-    void choose(std::uint32_t index) {
+    void choose(std::uint32_t index, Costs& costs) {
         const BinaryNode& node = binary_.nodes[index];
-        Choice& choice = choices_[index];
         const float area = node.box.weight();
-        choice.cost.fill(leaf_cost(node, area));
-        choice.left.fill(0);
-        choice.as_leaf = true;
-        if (node.is_leaf()) return;
-        const auto left = [&] { choose(index + 1); };
-        const auto right = [&] { choose(node.right); };
-        if (is_task(node)) {
-            parallel_invoke(left, right);
-        } else {
-            left();
-            right();
+        const float as_leaf = leaf_cost(node, area);
+        if (node.is_leaf()) {
+            costs.fill(as_leaf);
+            choices_[index] = {{}, 0, true};
+            return;
         }
-        weigh(choice, choices_[index + 1], choices_[node.right], area);
+        Costs of_left, of_right;
+        if (is_task(node)) {
+            parallel_invoke([&] { choose(index + 1, of_left); },
+                            [&] { choose(node.right, of_right); });
+        } else {
+            choose(index + 1, of_left);
+            choose(node.right, of_right);
+        }
+        choices_[index] = weigh(of_left, of_right, area, as_leaf, costs);
     }
 
     [[nodiscard]] float leaf_cost(const BinaryNode& node, float area) const {
@@ -131,38 +256,33 @@ class WideCollapse {
         return area * kind.cost * static_cast<float>(blocks);
     }
 
-    static void weigh(Choice& choice, const Choice& l, const Choice& r, float area) {
-        std::array<float, kWidth + 1>
-            spread{};  // [j]: exactly these children, at most j subtrees in all
-        for (std::uint32_t j = 2; j <= kWidth; ++j) {
-            float least = kNever;
-            std::uint32_t at = 1;
-            for (std::uint32_t k = 1; k < j; ++k) {
-                const float cost = l.cost[k] + r.cost[j - k];
-                at = cost < least ? k : at;
-                least = cost < least ? cost : least;
-            }
-            spread[j] = least;
-            choice.left[j] = static_cast<std::uint8_t>(at);
+    /// Of an inner node of the binary tree: sets its costs.
+    static Choice weigh(const Costs& l, const Costs& r, float area, float as_leaf, Costs& costs) {
+        const SpreadOf<kWidth> spread = spread_of<kWidth>(l, r);
+        const float inner = area + spread.cost[kWidth - 1];
+        Choice choice;
+        choice.as_leaf = as_leaf <= inner && as_leaf < kNever;
+        choice.inner_left = static_cast<std::uint8_t>(spread.left[kWidth - 1]);
+        float least = std::min(as_leaf, inner);
+        costs[0] = least;
+        choice.lefts[0] = 0;
+        for (std::uint32_t i = 1; i < kWidth; ++i) {
+            const bool better = spread.cost[i] < least;
+            choice.lefts[i] = static_cast<std::uint8_t>(better ? spread.left[i] : 0);
+            least = better ? spread.cost[i] : least;
+            costs[i] = least;
         }
-        const float inner = area + spread[kWidth];
-        choice.as_leaf = choice.cost[1] <= inner && choice.cost[1] < kNever;
-        choice.cost[1] = std::min(choice.cost[1], inner);
-        choice.inner_left = choice.left[kWidth];
-        for (std::uint32_t j = 2; j <= kWidth; ++j) {
-            choice.cost[j] = std::min(spread[j], choice.cost[j - 1]);
-            if (!(spread[j] < choice.cost[j - 1])) choice.left[j] = 0;
-        }
+        return choice;
     }
 
     /// Appends the subtrees, at most `budget`, chosen for a subtree.
     void gather(std::uint32_t index, std::uint32_t budget, Children& out) const {
         const Choice& choice = choices_[index];
-        while (budget > 1 && choice.left[budget] == 0) --budget;
+        while (budget > 1 && choice.left(budget) == 0) --budget;
         if (budget == 1) {
             out.node[out.count++] = index;
         } else {
-            divide(index, choice.left[budget], budget, out);
+            divide(index, choice.left(budget), budget, out);
         }
     }
     void divide(std::uint32_t index, std::uint32_t left, std::uint32_t budget,
@@ -269,7 +389,7 @@ class WideCollapse {
             node.set_box(slot, binary_.nodes[all.node[order[slot]]].box);
             node.child[slot] = emitted[order[slot]].ref;
         }
-        node.set_order();
+        set_order(node, all.count);
         return sum;
     }
 

@@ -13,11 +13,11 @@ constexpr std::size_t kRadixChunk = 65536;
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr int kCodeBits = 63;
+/// Bits of a code that are sorted by digits: the first ones.
+constexpr int kKeyBits = 32;
 
-struct Entry {
-    std::uint64_t code;
-    std::uint32_t index;
-};
+/// The first bits of a code, and below them the number of its reference.
+using Entry = std::uint64_t;
 
 /// The lowest 21 bits with two zeros before each.
 std::uint64_t spread(std::uint64_t x) {
@@ -30,68 +30,107 @@ std::uint64_t spread(std::uint64_t x) {
 }
 
 /// One stable pass of a radix sort: chunks are counted, then written, in parallel.
-void sort_by_digit(const std::vector<Entry>& from, std::vector<Entry>& to, int shift) {
+void sort_by_digit(std::span<const Entry> from, Entry* to, int shift) {
     const std::size_t chunks = (from.size() - 1) / kRadixChunk + 1;
     std::vector<std::array<std::uint32_t, kDigits>> places(chunks);
-    const auto digit = [&](const Entry& e) { return e.code >> shift & (kDigits - 1); };
+    const auto digit = [&](Entry e) { return e >> shift & (kDigits - 1); };
     parallel_for(from.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        auto& counts = places[begin / kRadixChunk];
-        counts.fill(0);
-        for (std::size_t i = begin; i < end; ++i) ++counts[digit(from[i])];
+        std::uint32_t* const counts = places[begin / kRadixChunk].data();
+        const Entry* const entries = from.data();
+        for (std::size_t i = begin; i < end; ++i) ++counts[digit(entries[i])];
     });
     std::uint32_t next = 0;
     for (std::size_t d = 0; d < kDigits; ++d) {
         for (auto& place : places) next += std::exchange(place[d], next);
     }
     parallel_for(from.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        auto& place = places[begin / kRadixChunk];
-        for (std::size_t i = begin; i < end; ++i) to[place[digit(from[i])]++] = from[i];
+        std::uint32_t* const place = places[begin / kRadixChunk].data();
+        const Entry* const entries = from.data();
+        for (std::size_t i = begin; i < end; ++i) to[place[digit(entries[i])]++] = entries[i];
     });
 }
 
-std::vector<Entry> entries_of(const std::vector<BuildReference>& references) {
+/// Computes the codes of all references, in their order.
+void find_codes(std::span<const BuildReference> references, std::uint64_t* codes, Entry* entries) {
     const RangeSummary all = summarize(references);
-    float lo[3], scale[3];
+    Float4 lo{}, scale{};
     for (int k = 0; k < 3; ++k) {
         lo[k] = all.centers.lo[k];
         const float extent = all.centers.hi[k] - lo[k];
         const float s = 2097151.0f / extent;
         scale[k] = extent > 0.0f && s < 1e37f ? s : 0.0f;
     }
-    std::vector<Entry> entries(references.size());
+    const Float4 most{2097151.0f, 2097151.0f, 2097151.0f, 2097151.0f};
     parallel_for(references.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
+        using Int4 = std::int32_t __attribute__((vector_size(16)));
+        const BuildReference* const r = references.data();
         for (std::size_t i = begin; i < end; ++i) {
-            std::uint64_t code = 0;
-            for (int k = 0; k < 3; ++k) {
-                const float place = (references[i].center2(k) - lo[k]) * scale[k];
-                code |= spread(static_cast<std::uint64_t>(std::min(place, 2097151.0f))) << (2 - k);
-            }
-            entries[i] = {code, static_cast<std::uint32_t>(i)};
+            const Float4 place = lesser((Box4(r[i]).center2() - lo) * scale, most);
+            const Int4 cell = __builtin_convertvector(place, Int4);
+            const std::uint64_t code = spread(static_cast<std::uint32_t>(cell[0])) << 2 |
+                                       spread(static_cast<std::uint32_t>(cell[1])) << 1 |
+                                       spread(static_cast<std::uint32_t>(cell[2]));
+            codes[i] = code;
+            entries[i] = code >> (kCodeBits - kKeyBits) << kKeyBits | i;
         }
     });
-    return entries;
+}
+
+/// Where the runs of entries with the same key that begin in each chunk start, and the end of all.
+std::vector<std::size_t> starts_of_runs(const Entry* entries, std::size_t size) {
+    std::vector<std::size_t> starts;
+    for (std::size_t begin = 0; begin < size; begin += kRadixChunk) {
+        std::size_t i = std::max(begin, starts.empty() ? 0 : starts.back());
+        while (i > 0 && i < size && entries[i] >> kKeyBits == entries[i - 1] >> kKeyBits) ++i;
+        starts.push_back(i);
+    }
+    starts.push_back(size);
+    return starts;
+}
+
+/// Sorts each run of entries with the same key by the rest of their codes.
+void sort_runs(Entry* first, const Entry* end, const std::uint64_t* codes) {
+    const auto number = [](Entry e) { return static_cast<std::uint32_t>(e); };
+    while (first < end) {
+        Entry* last = first + 1;
+        while (last < end && *last >> kKeyBits == *first >> kKeyBits) ++last;
+        if (last - first > 1) {
+            std::sort(first, last, [&](Entry a, Entry b) {
+                const std::uint64_t ca = codes[number(a)], cb = codes[number(b)];
+                return ca != cb ? ca < cb : a < b;
+            });
+        }
+        first = last;
+    }
 }
 
 }  // namespace
 
-std::vector<std::uint64_t> sort_along_curve(std::vector<BuildReference>& references) {
-    if (references.empty()) return {};
-    std::vector<Entry> entries = entries_of(references);
-    std::vector<Entry> other(entries.size());
-    for (int shift = 0; shift < kCodeBits; shift += kDigitBits) {
-        sort_by_digit(entries, other, shift);
+void sort_along_curve(std::span<const BuildReference> references, std::span<BuildReference> sorted,
+                      std::span<std::uint64_t> codes) {
+    if (references.empty()) return;
+    const std::size_t size = references.size();
+    const auto unsorted_codes = make_huge_array<std::uint64_t>(size);
+    auto entries = make_huge_array<Entry>(size), other = make_huge_array<Entry>(size);
+    find_codes(references, unsorted_codes.get(), entries.get());
+    for (int shift = kKeyBits; shift < 2 * kKeyBits; shift += kDigitBits) {
+        sort_by_digit({entries.get(), size}, other.get(), shift);
         entries.swap(other);
     }
-    std::vector<std::uint64_t> codes(entries.size());
-    std::vector<BuildReference> sorted(entries.size());
-    parallel_for(entries.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
+    const std::vector<std::size_t> starts = starts_of_runs(entries.get(), size);
+    parallel_for(starts.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            codes[i] = entries[i].code;
-            sorted[i] = references[entries[i].index];
+            sort_runs(entries.get() + starts[i], entries.get() + starts[i + 1],
+                      unsorted_codes.get());
         }
     });
-    references = std::move(sorted);
-    return codes;
+    parallel_for(size, kRadixChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto number = static_cast<std::uint32_t>(entries[i]);
+            codes.data()[i] = unsorted_codes[number];
+            sorted.data()[i] = references.data()[number];
+        }
+    });
 }
 
 }  // namespace alhazen

@@ -3,15 +3,20 @@
 ///
 /// Source: Morton, "A Computer Oriented Geodetic Data Base", IBM 1966 (the curve); Lauterbach et
 /// al., "Fast BVH Construction on GPUs", CGF 28(2), 2009 (its use).
-/// Complexity and threads: O(n), parallel; the result is the same for every number of threads.
+/// Differs: the first 32 bits of the codes are sorted by digits; where they are the same, few
+/// codes are left to be compared.
+/// Complexity and threads: O(n), parallel; O(n log n) where most codes begin alike. The result is
+/// the same for every number of threads.
 
-#include <vector>
+#include <span>
 
 #include "alhazen/accel/wide_bvh/build/build_types.h"
 
 namespace alhazen {
 
-/// Sorts `references`; returns their codes on the curve, 21 bits per axis.
-[[nodiscard]] std::vector<std::uint64_t> sort_along_curve(std::vector<BuildReference>& references);
+/// Writes the references in the order of the curve, and their codes on it, 21 bits per axis; those
+/// with the same code stay in their order. All have the same size.
+void sort_along_curve(std::span<const BuildReference> references, std::span<BuildReference> sorted,
+                      std::span<std::uint64_t> codes);
 
 }  // namespace alhazen

@@ -5,7 +5,8 @@
 /// Computer 6, 1990 (the cost); Wald, "On Fast Construction of SAH-based Bounding Volume
 /// Hierarchies", RT 2007 (binning).
 /// Differs: counts primitives in blocks of the lanes that test them together, by kind; sweeps small
-/// sets exactly; keeps boxes in registers of four floats and bins all three axes in one pass.
+/// sets exactly; keeps boxes in registers of four floats, bins all three axes in one pass, and
+/// weighs them in lanes where all primitives are of one kind.
 /// Complexity and threads: O(n); large sets in parallel, with the same result for every number of
 /// threads.
 
@@ -129,12 +130,17 @@ struct RangeSummary {
 
 [[nodiscard]] RangeSummary summarize(std::span<const BuildReference> references);
 
+/// Larger sets are binned, not swept.
+inline constexpr std::uint32_t kSweepSize = 12;
+
 /// A division of a set by the centers.
 struct ObjectSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< areas times costs of blocks
     int axis = -1;                                        ///< -1: none found
     int last_left = 0;  ///< the last bin, or rank along the axis, on the left
     Box4 left, right;   ///< of the two sides
+    /// Of a set that was swept: the order of its references along the axis.
+    std::array<std::uint8_t, kSweepSize> places;
 };
 
 /// The cheapest split; none when all centers coincide.

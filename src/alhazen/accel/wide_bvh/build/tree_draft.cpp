@@ -13,17 +13,23 @@ constexpr std::uint32_t kHeightLeft = 32;
 
 class Linearizer {
   public:
-    Linearizer(const DraftBvh& draft, std::span<const BuildReference> references)
-        : draft_(draft), references_(references), sums_(draft.nodes.size()) {}
+    Linearizer(const DraftView& draft, std::span<const BuildReference> references)
+        : draft_{draft.nodes.data(), draft.nodes.size(), draft.root},
+          references_(references.data()),
+          sums_(make_huge_array<Sums>(draft.nodes.size())) {
+        if (!measure_upwards()) measure();
+    }
 
-    BinaryBvh run(std::vector<BuildReference>& ordered) {
-        measure();
-        const Sums& all = sums_[draft_.root];
-        ordered_.resize(all.references);
-        BinaryBvh tree{make_huge_array<BinaryNode>(2 * all.leaves - 1), 2 * all.leaves - 1, false};
+    /// Number of references in the leaves.
+    [[nodiscard]] std::size_t size() const { return sums_[draft_.root].references; }
+
+    /// `ordered`: room for all references.
+    BinaryBvh run(BuildReference* ordered) {
+        ordered_ = ordered;
+        const std::uint32_t count = 2 * sums_[draft_.root].leaves - 1;
+        BinaryBvh tree{make_huge_array<BinaryNode>(count), count, false};
         nodes_ = tree.nodes.get();
         write(draft_.root, 0, 0, 0);
-        ordered = std::move(ordered_);
         return tree;
     }
 
@@ -32,26 +38,42 @@ class Linearizer {
         std::uint32_t leaves, references, height;
     };
 
+    struct Draft {
+        const DraftNode* nodes;
+        std::size_t size;
+        std::uint32_t root;
+    };
+
+    void measure(std::size_t index) {
+        const DraftNode& node = draft_.nodes[index];
+        if (node.is_leaf()) {
+            sums_[index] = {1, node.end - node.begin, 0};
+            return;
+        }
+        const Sums &l = sums_[node.left], &r = sums_[node.right];
+        sums_[index] = {l.leaves + r.leaves, l.references + r.references,
+                        1 + std::max(l.height, r.height)};
+    }
+    /// For a draft made bottom-up: every node comes after its children. False where it does not.
+    bool measure_upwards() {
+        for (std::size_t i = 0; i < draft_.size; ++i) {
+            const DraftNode& node = draft_.nodes[i];
+            if (!node.is_leaf() && (node.left >= i || node.right >= i)) return false;
+            measure(i);
+        }
+        return true;
+    }
     /// Without recursion: a draft may be as deep as its number of nodes.
     void measure() {
         std::vector<std::uint32_t> order{draft_.root};
-        order.reserve(draft_.nodes.size());
+        order.reserve(draft_.size);
         for (std::size_t i = 0; i < order.size(); ++i) {
             const DraftNode& node = draft_.nodes[order[i]];
             if (node.is_leaf()) continue;
             order.push_back(node.left);
             order.push_back(node.right);
         }
-        for (auto i = order.rbegin(); i != order.rend(); ++i) {
-            const DraftNode& node = draft_.nodes[*i];
-            if (node.is_leaf()) {
-                sums_[*i] = {1, node.end - node.begin, 0};
-                continue;
-            }
-            const Sums &l = sums_[node.left], &r = sums_[node.right];
-            sums_[*i] = {l.leaves + r.leaves, l.references + r.references,
-                         1 + std::max(l.height, r.height)};
-        }
+        for (auto i = order.rbegin(); i != order.rend(); ++i) measure(*i);
     }
 
     void write(std::uint32_t index, std::uint32_t place, std::uint32_t begin, int level) {
@@ -62,6 +84,8 @@ class Linearizer {
             std::vector<std::uint32_t> leaves = leaves_of(index);
             return write_balanced(leaves, place, begin);
         }
+        __builtin_prefetch(&draft_.nodes[node.right]);
+        __builtin_prefetch(&sums_[node.right]);
         const Sums& left_sums = sums_[node.left];
         const std::uint32_t right = place + 2 * left_sums.leaves;
         const auto write_left = [&] { write(node.left, place + 1, begin, level + 1); };
@@ -78,8 +102,10 @@ class Linearizer {
     }
 
     void write_leaf(const DraftNode& node, std::uint32_t place, std::uint32_t begin) {
-        std::copy(references_.begin() + node.begin, references_.begin() + node.end,
-                  ordered_.begin() + begin);
+        // Few: not worth a call.
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+            ordered_[begin + (i - node.begin)] = references_[i];
+        }
         nodes_[place] = {node.box, begin, begin + (node.end - node.begin), 0,
                          references_[node.begin].kind};
     }
@@ -120,10 +146,10 @@ class Linearizer {
         join(place, right);
     }
 
-    const DraftBvh& draft_;
-    std::span<const BuildReference> references_;
-    std::vector<Sums> sums_;
-    std::vector<BuildReference> ordered_;
+    Draft draft_;
+    const BuildReference* references_;
+    HugeArray<Sums> sums_;
+    BuildReference* ordered_ = nullptr;
     BinaryNode* nodes_ = nullptr;
 };
 
@@ -179,10 +205,17 @@ DraftBvh draft_of(const BinaryBvh& tree, const LeafKinds& kinds) {
 
 BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references) {
     if (draft.nodes.empty()) return {};
-    std::vector<BuildReference> ordered;
-    BinaryBvh tree = Linearizer(draft, references).run(ordered);
+    Linearizer linearizer({draft.nodes, draft.root}, references);
+    std::vector<BuildReference> ordered(linearizer.size());
+    BinaryBvh tree = linearizer.run(ordered.data());
     references = std::move(ordered);
     return tree;
+}
+
+BinaryBvh linearize(const DraftView& draft, std::span<const BuildReference> references,
+                    std::span<BuildReference> ordered) {
+    if (draft.nodes.empty()) return {};
+    return Linearizer(draft, references).run(ordered.data());
 }
 
 }  // namespace alhazen

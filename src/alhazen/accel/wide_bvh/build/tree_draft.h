@@ -24,6 +24,11 @@ struct DraftBvh {
     std::vector<DraftNode> nodes;  ///< none for an empty tree
     std::uint32_t root = 0;
 };
+/// A DraftBvh whose nodes lie elsewhere.
+struct DraftView {
+    std::span<const DraftNode> nodes;
+    std::uint32_t root = 0;
+};
 
 /// The same tree; a subtree best kept in one block is a leaf. The root is node 0.
 [[nodiscard]] DraftBvh draft_of(const BinaryBvh& tree, const LeafKinds& kinds);
@@ -31,5 +36,9 @@ struct DraftBvh {
 /// Writes the tree with the references in leaf order. Subtrees that begin at level kMaxSahLevel and
 /// are too deep are rebalanced, so the depth is bounded.
 [[nodiscard]] BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references);
+/// The same, from `references` to `ordered`, as many as the leaves have.
+[[nodiscard]] BinaryBvh linearize(const DraftView& draft,
+                                  std::span<const BuildReference> references,
+                                  std::span<BuildReference> ordered);
 
 }  // namespace alhazen

@@ -7,28 +7,82 @@
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/triangle_bounds.h"
 
 namespace alhazen {
 namespace {
+
+#ifdef __SSE2__
+
+/// Writes triangles into the lanes of a block.
+class LaneWriter {
+  public:
+    explicit LaneWriter(const LocalFrame& frame)
+        : scale_{frame.scale, frame.scale},
+          inverse_{frame.inverse_scale, frame.inverse_scale},
+          across_{frame.center.x, frame.center.y},
+          deep_{frame.center.z, frame.center.z} {}
+
+    /// True when the block holds the very triangle.
+    bool operator()(TriangleBlock& block, std::size_t lane, const LeafTriangle& triangle) const {
+        __m128i same = _mm_set1_epi32(-1);
+        auto& [a, b, c] = block.vertex;
+        const auto& [pa, pb, pc] = triangle.corner;
+        set(PointLanes(*pa).xy, across_, a[0][lane], a[1][lane], same);
+        set(PointLanes(*pb).xy, across_, b[0][lane], b[1][lane], same);
+        set(PointLanes(*pc).xy, across_, c[0][lane], c[1][lane], same);
+        set(Double2{pa->z, pb->z}, deep_, a[2][lane], b[2][lane], same);
+        set(Double2{pc->z, pc->z}, deep_, c[2][lane], c[2][lane], same);
+        return _mm_movemask_epi8(same) == 0xFFFF;
+    }
+
+  private:
+    /// Rounds two coordinates; clears bits of `same` where they change.
+    void set(Double2 world, Double2 center, float& first, float& second, __m128i& same) const {
+        const Double2 local = scale_ * (world - center);
+        const __m128 rounded = _mm_cvtpd_ps(local);
+        first = rounded[0];
+        second = rounded[1];
+        const Double2 exact = _mm_cvtps_pd(rounded);
+        const Double2 back = inverse_ * exact + center;
+        same =
+            _mm_and_si128(same, _mm_cmpeq_epi32(_mm_castpd_si128(back), _mm_castpd_si128(world)));
+    }
+
+    Double2 scale_, inverse_, across_, deep_;
+};
+
+#else
 
 bool same_bits(const Vec3& a, const Vec3& b) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
 
-/// True when the block holds the very triangle.
-bool fill(TriangleBlock& block, std::size_t lane, const std::array<Vec3, 3>& corners,
-          const LocalFrame& frame) {
-    bool exact = true;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-        const Vec3 local = frame.local(corners[corner]);
-        for (int axis = 0; axis < 3; ++axis) {
-            block.vertex[corner][axis][lane] = static_cast<float>(local[axis]);
+/// Writes triangles into the lanes of a block.
+class LaneWriter {
+  public:
+    explicit LaneWriter(const LocalFrame& frame) : frame_(frame) {}
+
+    /// True when the block holds the very triangle.
+    bool operator()(TriangleBlock& block, std::size_t lane, const LeafTriangle& triangle) const {
+        bool exact = true;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Vec3& world = *triangle.corner[corner];
+            const Vec3 local = frame_.local(world);
+            for (int axis = 0; axis < 3; ++axis) {
+                block.vertex[corner][axis][lane] = static_cast<float>(local[axis]);
+            }
+            exact = exact && same_bits(frame_.world(block.corner(corner, lane)), world);
         }
-        exact = exact && same_bits(frame.world(block.corner(corner, lane)), corners[corner]);
+        return exact;
     }
-    return exact;
-}
+
+  private:
+    LocalFrame frame_;
+};
+
+#endif
 
 /// A triangle that few rays come near; those that do are told by the lane's id.
 void leave_free(TriangleBlock& block, std::size_t lane) {
@@ -68,22 +122,48 @@ void fill_lanes(Block& block, std::span<const PrimitiveId> ids, const PrimitiveT
 
 }  // namespace
 
+void fill_block(TriangleBlock& block, std::span<const LeafTriangle> triangles,
+                const LocalFrame& frame) {
+    const LaneWriter write(frame);
+    std::size_t lane = 0;
+    for (const LeafTriangle& triangle : triangles) {
+        const bool exact = write(block, lane, triangle);
+        block.ids[lane++] = {triangle.id, triangle.opaque, exact};
+    }
+    for (; lane < kBlockWidth; ++lane) leave_free(block, lane);
+}
+
+void fill_block(IndexBlock& block, std::span<const LeafTriangle> triangles, const LocalFrame&) {
+    std::size_t lane = 0;
+    for (const LeafTriangle& triangle : triangles) {
+        block.ids[lane++] = {triangle.id, triangle.opaque, false};
+    }
+    for (; lane < kBlockWidth; ++lane) block.ids[lane] = BlockId::none();
+}
+
+namespace {
+
+template <class Block>
+void fill_with_triangles(Block& block, std::span<const PrimitiveId> ids,
+                         const PrimitiveTable& table, const LocalFrame& frame) {
+    std::array<LeafTriangle, kBlockWidth> triangles;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const auto [a, b, c] = table.corner_positions(table.index(ids[i]));
+        triangles[i] = {{a, b, c}, ids[i], table.is_opaque(ids[i])};
+    }
+    fill_block(block, std::span<const LeafTriangle>(triangles).first(ids.size()), frame);
+}
+
+}  // namespace
+
 void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame) {
-    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        const PrimitiveId id = ids[lane];
-        const bool exact = fill(block, lane, table.triangle_vertices(table.index(id)), frame);
-        block.ids[lane] = {id, table.is_opaque(id), exact};
-    }
-    for (std::size_t lane = ids.size(); lane < kBlockWidth; ++lane) leave_free(block, lane);
+    fill_with_triangles(block, ids, table, frame);
 }
 
 void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
-                const LocalFrame&) {
-    for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
-        block.ids[lane] = lane < ids.size() ? BlockId{ids[lane], table.is_opaque(ids[lane]), false}
-                                            : BlockId::none();
-    }
+                const LocalFrame& frame) {
+    fill_with_triangles(block, ids, table, frame);
 }
 
 void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,

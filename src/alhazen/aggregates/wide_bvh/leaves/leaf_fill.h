@@ -7,6 +7,19 @@
 
 namespace alhazen {
 
+/// A triangle on its way into a leaf.
+struct LeafTriangle {
+    const Vec3* corner[3];
+    PrimitiveId id;
+    bool opaque;
+};
+
+/// Up to kBlockWidth triangles, in the order of their ids; the other lanes are left free.
+void fill_block(TriangleBlock& block, std::span<const LeafTriangle> triangles,
+                const LocalFrame& frame);
+void fill_block(IndexBlock& block, std::span<const LeafTriangle> triangles,
+                const LocalFrame& frame);
+
 /// Up to kBlockWidth primitives, in the order of their ids; the other lanes are left free.
 void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);

@@ -1,0 +1,108 @@
+#include "alhazen/aggregates/wide_bvh/leaves/build_references.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/base/interruption.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/primitives/triangle_bounds.h"
+
+namespace alhazen {
+namespace {
+
+constexpr std::size_t kReferencesAtOnce = 16384;
+constexpr auto kTriangles = static_cast<std::uint32_t>(LeafType::Triangles);
+
+/// Makes references to triangles.
+class TriangleReferences {
+  public:
+    explicit TriangleReferences(const LocalFrame& frame)
+        : frame_(frame),
+          scale_{frame.scale, frame.scale},
+          center_{frame.center.x, frame.center.y},
+          deep_center_{frame.center.z, -frame.center.z} {}
+
+    void operator()(const TriangleBounds& bounds, std::uint32_t id, BuildReference& to) const {
+#ifdef __SSE2__
+        const Double2 lower = scale_ * (bounds.lower - center_);
+        const Double2 deep = scale_ * (bounds.deep - deep_center_);
+        const Double2 less_upper = scale_ * (center_ - bounds.upper);
+        const __m128 low = _mm_cvtpd_ps(lower), mid = _mm_cvtpd_ps(deep),
+                     high = _mm_cvtpd_ps(less_upper);
+        const __m128 low_above = above(low, lower), mid_above = above(mid, deep),
+                     high_above = above(high, less_upper);
+        const __m128 lo =
+            rounded_down(_mm_shuffle_ps(low, mid, _MM_SHUFFLE(1, 0, 1, 0)),
+                         _mm_shuffle_ps(low_above, mid_above, _MM_SHUFFLE(2, 0, 2, 0)));
+        const __m128 hi =
+            rounded_down(_mm_shuffle_ps(high, mid, _MM_SHUFFLE(1, 1, 1, 0)),
+                         _mm_shuffle_ps(high_above, mid_above, _MM_SHUFFLE(2, 2, 2, 0)));
+        // In registers to the end: what is stored by parts is slow to read again.
+        const auto number = static_cast<std::int32_t>(id);
+        const __m128 up = _mm_xor_ps(hi, _mm_set1_ps(-0.0f));
+        const __m128i low_part = with_fourth(lo, number), high_part = with_fourth(up, kTriangles);
+        std::memcpy(to.lo, &low_part, sizeof(low_part));
+        std::memcpy(to.hi, &high_part, sizeof(high_part));
+#else
+        to = {frame_.local(bounds.box()), id, kTriangles};
+#endif
+    }
+
+  private:
+#ifdef __SSE2__
+    static __m128i with_fourth(__m128 v, std::int32_t fourth) {
+        const __m128i three = _mm_and_si128(_mm_castps_si128(v), _mm_set_epi32(0, -1, -1, -1));
+        return _mm_or_si128(three, _mm_slli_si128(_mm_cvtsi32_si128(fourth), 12));
+    }
+    /// A mask of the lanes, each twice, in which rounding to float went up.
+    static __m128 above(__m128 rounded, Double2 exact) {
+        return _mm_castpd_ps(_mm_cmpgt_pd(_mm_cvtps_pd(rounded), exact));
+    }
+    /// As round_down, where `above` says whether `v` is to be lowered by a step. That is never +0:
+    /// what is rounded up to zero has its own sign.
+    static __m128 rounded_down(__m128 v, __m128 above) {
+        const __m128i positive = _mm_castps_si128(_mm_cmpgt_ps(v, _mm_setzero_ps()));
+        const __m128i step = _mm_or_si128(positive, _mm_set1_epi32(1));
+        return _mm_castsi128_ps(
+            _mm_add_epi32(_mm_castps_si128(v), _mm_and_si128(step, _mm_castps_si128(above))));
+    }
+#endif
+
+    LocalFrame frame_;
+    Double2 scale_, center_, deep_center_;
+};
+
+BuildReference reference_to(std::uint32_t id, const Box3& box, const PrimitiveTable& table,
+                            const LocalFrame& frame) {
+    return {frame.local(box), id, static_cast<std::uint32_t>(leaf_type(table, PrimitiveId{id}))};
+}
+
+}  // namespace
+
+void make_references(const PrimitiveTable& table, const BoundedPrimitives& bounded,
+                     const LocalFrame& frame, std::span<BuildReference> references) {
+    // Where all are bounded, runs of triangles are known by their ids.
+    const bool all = bounded.size() == table.size();
+    const std::uint32_t first = all ? table.first(kTriangleKind) : 0;
+    const std::uint32_t last = all ? table.first(kInstanceKind) : 0;
+    const TriangleReferences to_triangle(frame);
+    parallel_for(bounded.size(), kReferencesAtOnce, [&](std::size_t chunk, std::size_t chunk_end) {
+        interruption_point();
+        const auto begin = static_cast<std::uint32_t>(chunk);
+        const auto end = static_cast<std::uint32_t>(chunk_end);
+        const auto others = [&](std::uint32_t from, std::uint32_t to) {
+            for (std::uint32_t i = from; i < to; ++i) {
+                references[i] = reference_to(bounded.id(i), bounded.box(i), table, frame);
+            }
+        };
+        others(begin, std::min(end, first));
+        for_triangles(table, std::max(begin, first), std::min(end, last),
+                      [&](std::uint32_t id, const Vec3& a, const Vec3& b, const Vec3& c) {
+                          to_triangle(TriangleBounds(a, b, c), id, references.data()[id]);
+                      });
+        others(std::max(begin, last), end);
+    });
+}
+
+}  // namespace alhazen

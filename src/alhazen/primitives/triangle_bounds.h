@@ -1,0 +1,138 @@
+#pragma once
+/// Boxes of the triangles of a table in registers of two doubles: those of PrimitiveTable::box,
+/// without a call for each.
+///
+/// Conventions: corners that are not numbers are passed over, as by Box3::include.
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "alhazen/primitives/primitive_table.h"
+
+namespace alhazen {
+
+using Double2 = double __attribute__((vector_size(16)));
+
+/// Lane by lane a < b ? a : b and a > b ? a : b. Compilers use one instruction only where they may
+/// ignore NaN.
+inline Double2 lesser(Double2 a, Double2 b) {
+#ifdef __SSE2__
+    return _mm_min_pd(a, b);
+#else
+    return a < b ? a : b;
+#endif
+}
+inline Double2 greater(Double2 a, Double2 b) {
+#ifdef __SSE2__
+    return _mm_max_pd(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
+
+/// Whether a <= b, or a == b, in both lanes.
+inline bool both_at_most(Double2 a, Double2 b) {
+#ifdef __SSE2__
+    return _mm_movemask_pd(_mm_cmple_pd(a, b)) == 3;
+#else
+    return a[0] <= b[0] && a[1] <= b[1];
+#endif
+}
+inline bool both_equal(Double2 a, Double2 b) {
+#ifdef __SSE2__
+    return _mm_movemask_pd(_mm_cmpeq_pd(a, b)) == 3;
+#else
+    return a[0] == b[0] && a[1] == b[1];
+#endif
+}
+
+/// A point in two registers.
+struct PointLanes {
+    Double2 xy;
+    double z;
+
+    explicit PointLanes(const Vec3& p) : z(p.z) { std::memcpy(&xy, &p.x, sizeof(xy)); }
+    [[nodiscard]] bool operator==(const PointLanes& p) const {
+        return both_equal(xy, p.xy) && z == p.z;
+    }
+};
+static_assert(offsetof(Vec3, y) == offsetof(Vec3, x) + sizeof(double));
+
+/// The box of a triangle: its lower and upper x and y; its lower z, and less its upper z.
+struct TriangleBounds {
+    Double2 lower, upper, deep;
+
+    TriangleBounds() {
+        constexpr double kInf = std::numeric_limits<double>::infinity();
+        lower = deep = Double2{kInf, kInf};
+        upper = -lower;
+    }
+    /// As PrimitiveTable::box: padded, and empty for a triangle with two equal corners.
+    TriangleBounds(const Vec3& a, const Vec3& b, const Vec3& c) : TriangleBounds() {
+        const PointLanes p(a), q(b), r(c);
+        if (p == q || q == r || r == p) return;
+        include(p);
+        include(q);
+        include(r);
+        pad();
+    }
+
+    void include(const TriangleBounds& b) {
+        lower = lesser(b.lower, lower);
+        upper = greater(b.upper, upper);
+        deep = lesser(b.deep, deep);
+    }
+    [[nodiscard]] bool empty() const {
+        return !(both_at_most(lower, upper) && deep[0] <= -deep[1]);
+    }
+    [[nodiscard]] Box3 box() const {
+        return {{lower[0], lower[1], deep[0]}, {upper[0], upper[1], -deep[1]}};
+    }
+
+  private:
+    void include(const PointLanes& p) {
+        lower = lesser(p.xy, lower);
+        upper = greater(p.xy, upper);
+        deep = lesser(Double2{p.z, -p.z}, deep);
+    }
+    static Double2 magnitude(Double2 v) { return greater(v, -v); }
+    /// As `padded`.
+    void pad() {
+        if (empty()) return;
+        constexpr double kRelative = 8e-16;
+        const Double2 across = kRelative * greater(magnitude(lower), magnitude(upper));
+        const Double2 far = magnitude(deep);
+        const double along = kRelative * (far[0] > far[1] ? far[0] : far[1]);
+        lower -= across;
+        upper += across;
+        deep -= along;
+    }
+};
+
+/// Calls f(id, a, b, c) with the corners of the triangles with ids from `begin` to `end`.
+template <class F>
+void for_triangles(const PrimitiveTable& table, std::uint32_t begin, std::uint32_t end, F&& f) {
+    const std::uint32_t first = table.first(kTriangleKind);
+    for (std::uint32_t id = begin; id < end;) {
+        const PlacedMesh& placed = table.mesh_of(id - first);
+        const TriangleMesh& mesh = *placed.mesh;
+        const std::uint32_t first_of_mesh = first + placed.first_triangle;
+        const std::uint32_t last =
+            std::min(end, first_of_mesh + static_cast<std::uint32_t>(mesh.triangles.size()));
+        const auto* const triangles = mesh.triangles.data();
+        const Vec3* const p = mesh.positions.data();
+        for (; id < last; ++id) {
+            const auto& corners = triangles[id - first_of_mesh];
+            f(id, p[corners[0]], p[corners[1]], p[corners[2]]);
+        }
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,107 @@
+// What the builders of the wide BVH are given has the boxes of the table.
+
+#include "alhazen/aggregates/wide_bvh/leaves/build_references.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "unit/aggregates/compare_aggregates.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace testing;
+
+/// Coordinates of many kinds: those that float holds, those that it does not, zeros of both signs,
+/// the least numbers.
+double odd_coordinate(RandomEngine& random, double size) {
+    switch (random() % 6) {
+        case 0:
+            return 0.0;
+        case 1:
+            return -0.0;
+        case 2:
+            return size * static_cast<double>(static_cast<float>(uniform_point(random, 1).x));
+        case 3:
+            return (random() % 2 == 0 ? 1 : -1) * 1e-310;
+        case 4:
+            return size * 1e-42 * uniform_point(random, 1).x;
+        default:
+            return size * uniform_point(random, 1).x;
+    }
+}
+
+PrimitiveTable odd_table(double size, const Vec3& shift, std::uint64_t seed) {
+    RandomEngine random(seed);
+    TableBuilder builder;
+    const auto corner = [&] {
+        const double x = odd_coordinate(random, size), y = odd_coordinate(random, size);
+        return shift + Vec3{x, y, odd_coordinate(random, size)};
+    };
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 a = corner(), b = corner(), c = corner();
+        // None with equal corners: these are not bounded.
+        if (a == b || b == c || c == a) continue;
+        builder.add_triangle(a, b, c, i % 3 != 0);
+        if (i % 100 == 0) builder.add_sphere(corner(), size * 0.01);
+    }
+    return builder.finish();
+}
+
+void expect_boxes_of_table(const PrimitiveTable& table, const std::string& name) {
+    const BoundedPrimitives bounded(table);
+    Box3 all;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const Box3 box = table.box(i);
+        all.include(box);
+        const bool is_bounded = !box.empty() && box.bounded() &&
+                                max_component(abs(box.lo)) <= BoundedPrimitives::kReach &&
+                                max_component(abs(box.hi)) <= BoundedPrimitives::kReach;
+        if (!is_bounded) continue;
+        ASSERT_LT(count, bounded.size()) << name;
+        EXPECT_EQ(bounded.id(count++), i) << name;
+    }
+    ASSERT_EQ(bounded.size(), count) << name;
+    EXPECT_EQ(bounded.all(), all) << name;
+    const LocalFrame frame(all.bounded() ? all : Box3{{-1, -1, -1}, {1, 1, 1}});
+    std::vector<BuildReference> references(count);
+    make_references(table, bounded, frame, references);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t id = bounded.id(i);
+        ASSERT_EQ(references[i].id, id) << name;
+        ASSERT_EQ(references[i].kind,
+                  static_cast<std::uint32_t>(leaf_type(table, PrimitiveId{id})));
+        ASSERT_EQ(references[i].box(), frame.local(table.box(id))) << name << ", " << id;
+    }
+}
+
+TEST(BuildReferences, HaveTheBoxesOfTheTableRoundedOutwards) {
+    for (const double size : {1e-30, 1.0, 3e7, 1e100}) {
+        for (const double shift : {0.0, -5.0, 1e5}) {
+            const std::string name = std::to_string(size) + " at " + std::to_string(shift);
+            expect_boxes_of_table(
+                odd_table(size, {shift * size, -shift * size, 2 * shift * size}, 51), name);
+        }
+    }
+}
+
+TEST(BuildReferences, AreMadeOfWhatIsBounded) {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0.5};
+    const Vec3 odd[] = {a, b, {kInf, 0, 1}, {0, -kInf, 1}, {0, 0, 1e200}, {1e150, 0, 0}};
+    for (const Vec3& corner : odd) {
+        for (const int place : {0, 1, 2}) {
+            TableBuilder builder;
+            for (int i = 0; i < 20; ++i) {
+                Vec3 corners[3] = {a, b, c};
+                if (i == 7) corners[place] = corner;
+                builder.add_triangle(corners[0], corners[1], corners[2], i % 2 == 0);
+            }
+            expect_boxes_of_table(builder.finish(), std::to_string(place));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
