@@ -63,11 +63,15 @@ void use_exact_areas(RenderOptions& options) {
     options.antialias->exact = true;
 }
 
+/// Between whose shades the mean is shown while the view moves: reflections may be blurred then.
+constexpr double kMovingThreshold = 0.15;
+
 /// Rays for some pixels only, where the renderer can and nothing else is asked of the picture.
 void select_pixels(RenderOptions& options) {
     if (options.antialias || options.samples_per_pixel != 1 || !options.aovs.empty()) return;
     if (!make_renderer(options.renderer)->answers_single_rays()) return;
     options.antialias = parse_antialias("pixel_selection");
+    options.antialias->threshold = kMovingThreshold;
 }
 
 /// Surroundings are for renderers that follow light; others go on to see those of the scene.
