@@ -108,21 +108,21 @@ endfunction()
 # Compiles the sources of a target many to a unit, for `temperature` WARM, COLD or FROZEN.
 function(alhazen_set_units target temperature)
     set(batch_WARM 40)
-    set(batch_COLD 60)
-    set(batch_FROZEN 60)
+    set(batch_COLD 80)
+    set(batch_FROZEN 80)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch_${temperature}}
                           UNITY_BUILD_UNIQUE_ID ALHAZEN_UNITY_ID)
     target_compile_options(${target} PRIVATE ${ALHAZEN_${temperature}_OPTIONS})
 endfunction()
 
-# alhazen_library(NAME [COLD|FROZEN] SOURCES file... KERNELS file... SMALL_KERNELS file...
+# alhazen_library(NAME [COLD|FROZEN] SOURCES file... FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file...
 # DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...) defines the target alhazen_NAME of one room of
 # src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build), kernels one by one,
-# small kernels as one unit. COLD, FROZEN: built for compile time. The compile
+# small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of the room. The compile
 # flags are private to this build: an installed library has only those of AlhazenInstall.cmake.
 function(alhazen_library name)
     cmake_parse_arguments(ARG "COLD;FROZEN" ""
-        "SOURCES;KERNELS;SMALL_KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+        "SOURCES;FROZEN_SOURCES;KERNELS;SMALL_KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     if(ARG_SOURCES)
         set(sources ${ARG_SOURCES})
@@ -138,7 +138,18 @@ function(alhazen_library name)
             list(APPEND kernels "${CMAKE_CURRENT_BINARY_DIR}/small_kernels.cpp")
             alhazen_write_kernel_unit("${CMAKE_CURRENT_BINARY_DIR}/small_kernels.cpp" ${ARG_SMALL_KERNELS})
         endif()
-        add_library(alhazen_${name} STATIC ${sources} ${kernels})
+        set(objects)
+        if(ARG_FROZEN_SOURCES)
+            # Objects of another target come first in an archive: of an inline function the linker keeps the first copy.
+            add_library(alhazen_${name}_first OBJECT ${sources})
+            target_link_libraries(alhazen_${name}_first PRIVATE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
+                                  ${ARG_PRIVATE_LIBRARIES})
+            alhazen_set_units(alhazen_${name}_first ${temperature})
+            set(objects $<TARGET_OBJECTS:alhazen_${name}_first>)
+            set(sources ${ARG_FROZEN_SOURCES})
+            set(temperature FROZEN)
+        endif()
+        add_library(alhazen_${name} STATIC ${sources} ${kernels} ${objects})
         target_link_libraries(alhazen_${name} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
                               PRIVATE ${ARG_PRIVATE_LIBRARIES})
         alhazen_set_units(alhazen_${name} ${temperature})
