@@ -90,31 +90,74 @@ endif()
 set(ALHAZEN_COLD_OPTIONS -O1)
 set(ALHAZEN_FROZEN_OPTIONS -Og)
 
-# alhazen_library(NAME [COLD|FROZEN] SOURCES file... KERNELS file... DEPENDS room... LIBRARIES target...
-# PRIVATE_LIBRARIES target...) defines the target alhazen_NAME of one room of src/alhazen; without sources it is
-# header-only. Sources are compiled many to a unit (unity build), kernels one by one. COLD, FROZEN: built for compile
-# time. The compile flags are private to this build: an installed library has only those of AlhazenInstall.cmake.
+# Writes the source `unit` of the build folder that includes kernels, so that the headers of lanes are read once for all.
+function(alhazen_write_kernel_unit unit)
+    # Paths below src, here and in the build folder: what the compiler cache sees depends on no folder.
+    file(RELATIVE_PATH name "${CMAKE_BINARY_DIR}/src" "${unit}")
+    set(target "#undef HWY_TARGET_INCLUDE\n#define HWY_TARGET_INCLUDE \"${name}\"\n")
+    set(text "// Generated: do not edit.\n${target}#include <hwy/foreach_target.h>\n")
+    foreach(kernel IN LISTS ARGN)
+        file(RELATIVE_PATH kernel "${CMAKE_SOURCE_DIR}/src" "${kernel}")
+        string(APPEND text "#include \"${kernel}\"\n")
+    endforeach()
+    # Each of them has named itself as what to compile for the next instruction set.
+    file(CONFIGURE OUTPUT "${unit}" CONTENT "${text}${target}" @ONLY)
+    set_source_files_properties("${unit}" PROPERTIES INCLUDE_DIRECTORIES "${CMAKE_BINARY_DIR}/src")
+endfunction()
+
+# Compiles the sources of a target many to a unit, for `temperature` WARM, COLD or FROZEN.
+function(alhazen_set_units target temperature)
+    set(batch_WARM 40)
+    set(batch_COLD 80)
+    set(batch_FROZEN 80)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch_${temperature}}
+                          UNITY_BUILD_UNIQUE_ID ALHAZEN_UNITY_ID)
+    target_compile_options(${target} PRIVATE ${ALHAZEN_${temperature}_OPTIONS})
+endfunction()
+
+# alhazen_library(NAME [COLD|FROZEN] SOURCES file... FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file...
+# DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...) defines the target alhazen_NAME of one room of
+# src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build), kernels one by one,
+# small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of the room. The compile
+# flags are private to this build: an installed library has only those of AlhazenInstall.cmake.
 function(alhazen_library name)
-    cmake_parse_arguments(ARG "COLD;FROZEN" "" "SOURCES;KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+    cmake_parse_arguments(ARG "COLD;FROZEN" ""
+        "SOURCES;FROZEN_SOURCES;KERNELS;SMALL_KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     if(ARG_SOURCES)
-        add_library(alhazen_${name} STATIC ${ARG_SOURCES} ${ARG_KERNELS})
+        set(sources ${ARG_SOURCES})
+        set(kernels ${ARG_KERNELS})
+        set(temperature WARM)
+        if(ARG_COLD)
+            set(temperature COLD)
+        elseif(ARG_FROZEN)
+            set(temperature FROZEN)
+        endif()
+        if(ARG_SMALL_KERNELS)
+            list(TRANSFORM ARG_SMALL_KERNELS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+            list(APPEND kernels "${CMAKE_CURRENT_BINARY_DIR}/small_kernels.cpp")
+            alhazen_write_kernel_unit("${CMAKE_CURRENT_BINARY_DIR}/small_kernels.cpp" ${ARG_SMALL_KERNELS})
+        endif()
+        set(objects)
+        if(ARG_FROZEN_SOURCES)
+            # Objects of another target come first in an archive: of an inline function the linker keeps the first copy.
+            add_library(alhazen_${name}_first OBJECT ${sources})
+            target_link_libraries(alhazen_${name}_first PRIVATE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
+                                  ${ARG_PRIVATE_LIBRARIES})
+            alhazen_set_units(alhazen_${name}_first ${temperature})
+            set(objects $<TARGET_OBJECTS:alhazen_${name}_first>)
+            set(sources ${ARG_FROZEN_SOURCES})
+            set(temperature FROZEN)
+        endif()
+        add_library(alhazen_${name} STATIC ${sources} ${kernels} ${objects})
         target_link_libraries(alhazen_${name} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
                               PRIVATE ${ARG_PRIVATE_LIBRARIES})
-        set_target_properties(alhazen_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 40
-                              UNITY_BUILD_UNIQUE_ID ALHAZEN_UNITY_ID)
-        if(ARG_COLD)
-            set_target_properties(alhazen_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 60)
-            target_compile_options(alhazen_${name} PRIVATE ${ALHAZEN_COLD_OPTIONS})
-        elseif(ARG_FROZEN)
-            set_target_properties(alhazen_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 60)
-            target_compile_options(alhazen_${name} PRIVATE ${ALHAZEN_FROZEN_OPTIONS})
-        endif()
-        set_source_files_properties(${ARG_KERNELS} PROPERTIES
+        alhazen_set_units(alhazen_${name} ${temperature})
+        set_source_files_properties(${kernels} PROPERTIES
             SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
             COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${ALHAZEN_KERNEL_OPTIONS}")
         list(TRANSFORM ARG_KERNELS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
-        set_property(GLOBAL APPEND PROPERTY ALHAZEN_KERNELS ${ARG_KERNELS})
+        set_property(GLOBAL APPEND PROPERTY ALHAZEN_KERNELS ${ARG_KERNELS} ${ARG_SMALL_KERNELS})
     else()
         add_library(alhazen_${name} INTERFACE)
         target_link_libraries(alhazen_${name} INTERFACE $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES})

@@ -38,7 +38,7 @@ class AggregateOf final : public Aggregate {
         Ray shrinking = ray;
         const RayShear shear(ray.direction);
         with_stats(query.stats, [&](auto policy) {
-            each<AsksFor::Closest>(shrinking, policy, [&](PrimitiveId id) {
+            each(Always<AsksFor::Closest>(), shrinking, policy, [&](PrimitiveId id) {
                 table_.closest(id, shrinking, shear, hit, policy, query.mask);
                 return false;
             });
@@ -50,44 +50,19 @@ class AggregateOf final : public Aggregate {
         if (!is_valid(ray)) return false;
         const RayShear shear(ray.direction);
         return with_stats(query.stats, [&](auto policy) {
-            return each<AsksFor::AnyHit>(ray, policy, [&](PrimitiveId id) {
+            return each(Always<AsksFor::AnyHit>(), ray, policy, [&](PrimitiveId id) {
                 return table_.occluded(id, ray, shear, policy, query.mask);
             });
         });
     }
 
     void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override {
-        if (!is_valid(ray)) return;
-        const RayShear shear(ray.direction);
-        const std::size_t before = hits.size();
-        with_stats(query.stats, [&](auto policy) {
-            OnlyOnce once(hits);
-            each<AsksFor::AllHits>(ray, policy, [&](PrimitiveId id) {
-                const std::size_t known = hits.size();
-                table_.all_hits(id, ray, shear, hits, policy, query.mask);
-                once.keep(id, known);
-                return false;
-            });
-        });
-        sort_appended(hits, before);
+        collect(AsksFor::AllHits, ray, hits, query);
     }
 
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 RayQuery query) const override {
-        if (!is_valid(ray)) return false;
-        const RayShear shear(ray.direction);
-        const std::size_t before = crossings.size();
-        const bool opaque = with_stats(query.stats, [&](auto policy) {
-            OnlyOnce once(crossings);
-            return each<AsksFor::AnyBlocker>(ray, policy, [&](PrimitiveId id) {
-                const std::size_t known = crossings.size();
-                if (table_.shadowed(id, ray, shear, crossings, policy, query.mask)) return true;
-                once.keep(id, known);
-                return false;
-            });
-        });
-        if (!opaque) sort_appended(crossings, before);
-        return opaque;
+        return collect(AsksFor::AnyBlocker, ray, crossings, query);
     }
 
   private:
@@ -112,6 +87,28 @@ class AggregateOf final : public Aggregate {
         ReentrantStack<PrimitiveId> seen_;
     };
 
+    /// AllHits or AnyBlocker: one traversal for both, which is half as much to compile.
+    bool collect(AsksFor asked, const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
+        if (!is_valid(ray)) return false;
+        const RayShear shear(ray.direction);
+        const std::size_t before = hits.size();
+        const bool opaque = with_stats(query.stats, [&](auto policy) {
+            OnlyOnce once(hits);
+            return each(asked, ray, policy, [&](PrimitiveId id) {
+                const std::size_t known = hits.size();
+                if (asked == AsksFor::AllHits) {
+                    table_.all_hits(id, ray, shear, hits, policy, query.mask);
+                } else if (table_.shadowed(id, ray, shear, hits, policy, query.mask)) {
+                    return true;
+                }
+                once.keep(id, known);
+                return false;
+            });
+        });
+        if (!opaque) sort_appended(hits, before);
+        return opaque;
+    }
+
     /// The reciprocal of a smaller component may be infinite, and so may be t of a hit: the ray is
     /// tested against every primitive.
     static constexpr double kLeastDirection = 0x1p-960;
@@ -126,13 +123,18 @@ class AggregateOf final : public Aggregate {
         return accelerator;
     }
 
-    template <AsksFor kWanted, class Test>
+    template <AsksFor kAsked>
+    using Always = std::integral_constant<AsksFor, kAsked>;
+
+    /// `Asked`: an AsksFor, or one that is known when the traversal is compiled.
+    template <class Asked, class Test>
     struct Visitor {
-        static constexpr AsksFor kAsksFor = kWanted;
+        [[no_unique_address]] Asked asked;
         const Ray& ray;
         const std::uint32_t* ids;  ///< null: the accelerator's numbers are the table's ids
         Test& test;
         bool stopped = false;
+        [[nodiscard]] AsksFor asks_for() const { return asked; }
         [[nodiscard]] double t_max() const { return ray.t_max; }
         bool visit(std::uint32_t i) {
             stopped = test(PrimitiveId{ids != nullptr ? ids[i] : i});
@@ -142,13 +144,13 @@ class AggregateOf final : public Aggregate {
 
     /// Calls `test(id)` for every primitive that the ray may intersect until it returns true;
     /// returns whether it did.
-    template <AsksFor kWanted, class Stats, class Test>
-    bool each(const Ray& ray, Stats stats, Test&& test) const {
+    template <class Asked, class Stats, class Test>
+    bool each(Asked asked, const Ray& ray, Stats stats, Test&& test) const {
         for (const PrimitiveId id : unbounded_) {
             if (test(id)) return true;
         }
-        Visitor<kWanted, std::remove_reference_t<Test>> visitor{
-            ray, bounded_.empty() ? nullptr : bounded_.data(), test};
+        Visitor<Asked, std::remove_reference_t<Test>> visitor{
+            asked, ray, bounded_.empty() ? nullptr : bounded_.data(), test};
         if (max_component(abs(ray.direction)) < kLeastDirection) {
             for (std::uint32_t i = 0; i < bounded_count_; ++i) {
                 if (visitor.visit(i)) return true;

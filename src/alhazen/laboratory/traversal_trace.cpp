@@ -44,7 +44,7 @@ class TracingVisitor {
           ray_(trace.ray),
           shear_(ray_.direction) {}
 
-    static constexpr AsksFor kAsksFor = AsksFor::Closest;
+    [[nodiscard]] static AsksFor asks_for() { return AsksFor::Closest; }
     [[nodiscard]] double t_max() const { return ray_.t_max; }
     bool visit(std::uint32_t i) {
         test(PrimitiveId{bounded_.id(i)});

@@ -33,7 +33,10 @@ Box3 placed_box(const Placement& placement, const Box3& inner) {
 
 PrimitiveTable::PrimitiveTable() = default;
 PrimitiveTable::PrimitiveTable(const PrimitiveTable&) = default;
-PrimitiveTable& PrimitiveTable::operator=(const PrimitiveTable&) = default;
+// By way of a copy: the members of all shapes are less to compile so.
+PrimitiveTable& PrimitiveTable::operator=(const PrimitiveTable& other) {
+    return *this = PrimitiveTable(other);
+}
 PrimitiveTable::PrimitiveTable(PrimitiveTable&&) noexcept = default;
 PrimitiveTable& PrimitiveTable::operator=(PrimitiveTable&&) noexcept = default;
 PrimitiveTable::~PrimitiveTable() = default;

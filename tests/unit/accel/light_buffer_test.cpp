@@ -42,7 +42,7 @@ LitTriangles scene(bool with_screen) {
 
 /// Counts visits and reports no hits, or only hits.
 struct CountingVisitor {
-    static constexpr AsksFor kAsksFor = AsksFor::AnyHit;
+    [[nodiscard]] static AsksFor asks_for() { return AsksFor::AnyHit; }
     bool blocks = false;
     int visits = 0;
     [[nodiscard]] double t_max() const { return 1; }

@@ -6,7 +6,7 @@
 /// `double t_max()` is the remaining length of the ray (it shrinks as hits are found; primitives at
 /// exactly t_max must still be visited), `bool visit(std::uint32_t primitive)` tests one primitive
 /// and returns true to stop. An accelerator that may visit a primitive more than once per ray
-/// declares `kVisitsRepeatedly = true`. A visitor may declare the kind of its query (`kAsksFor`).
+/// declares `kVisitsRepeatedly = true`. A visitor may tell the kind of its query (`asks_for()`).
 
 #include <concepts>
 #include <cstddef>
@@ -47,9 +47,9 @@ concept Accelerator = requires(const A& accelerator, const BoundsSource& source,
 };
 
 template <class Visitor>
-consteval AsksFor asks_for() {
-    if constexpr (requires { Visitor::kAsksFor; }) {
-        return Visitor::kAsksFor;
+[[nodiscard]] constexpr AsksFor asks_for(const Visitor& visitor) {
+    if constexpr (requires { visitor.asks_for(); }) {
+        return visitor.asks_for();
     } else {
         return AsksFor::AllHits;
     }

@@ -83,7 +83,7 @@ class LightBuffer {
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         if (space_.covers(ray)) {
-            if (const auto to = ends_.find_for<Visitor>(ray)) {
+            if (const auto to = ends_.find_for(ray, visitor)) {
                 return shadow(ray, *to, visitor, stats);
             }
         }

@@ -48,9 +48,9 @@ class RayClassification {
         const RaySpan span(space.box, ray, visitor.t_max());
         if (span.empty()) return;
         const ClassifiedRay classified(ray, span.begin);
-        constexpr AsksFor kAsked = asks_for<Visitor>();
+        const AsksFor asked = asks_for(visitor);
         const RayHypercubes::Found found =
-            classes_->find(classified, kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker);
+            classes_->find(classified, asked == AsksFor::AnyHit || asked == AsksFor::AnyBlocker);
         stats.cache_lookup(found.cached);
         stats.nodes(static_cast<std::uint64_t>(found.nodes));
         note_cell(stats, static_cast<std::size_t>(found.nodes));

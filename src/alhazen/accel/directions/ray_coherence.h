@@ -39,7 +39,7 @@ class RayCoherence {
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         if (lists_ != nullptr && space_.covers(ray)) {
-            if (const auto to = ends_.find_for<Visitor>(ray)) {
+            if (const auto to = ends_.find_for(ray, visitor)) {
                 const auto* list = lists_->find(lists_->origin_of_light(to->end), -ray.direction);
                 if (list != nullptr) {
                     return test(

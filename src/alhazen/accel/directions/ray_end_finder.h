@@ -51,13 +51,10 @@ class RayEndFinder {
     }
     /// The same for any-hit and any-blocker queries; nothing for other queries.
     template <class Visitor>
-    [[nodiscard]] std::optional<Found> find_for(const Ray& ray) const {
-        constexpr AsksFor kAsked = asks_for<Visitor>();
-        if constexpr (kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker) {
-            return find(ray);
-        } else {
-            return std::nullopt;
-        }
+    [[nodiscard]] std::optional<Found> find_for(const Ray& ray, const Visitor& visitor) const {
+        const AsksFor asked = asks_for(visitor);
+        if (asked != AsksFor::AnyHit && asked != AsksFor::AnyBlocker) return std::nullopt;
+        return find(ray);
     }
 
   private:

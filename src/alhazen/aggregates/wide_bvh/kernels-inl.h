@@ -36,11 +36,13 @@ struct Kernels {
         Occluded query(scene, ray, result);
         return run<W>(query, policy(stats));
     }
-    template <bool kStopAtOpaque>
-    static bool collect(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
-                        TraversalStats* stats) {
-        CollectQuery<kStopAtOpaque> query(scene, ray, hits);
-        return run<W>(query, policy(stats));
+    static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
+                         TraversalStats* stats) {
+        return collect(scene, ray, hits, false, stats);
+    }
+    static bool shadowed(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
+                         TraversalStats* stats) {
+        return collect(scene, ray, hits, true, stats);
     }
     static void closest_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                               std::span<Hit> best, TraversalStats* stats) {
@@ -84,8 +86,8 @@ struct Kernels {
         WideBvhKernels kernels{&closest,       &occluded,       nullptr, nullptr,
                                &closest_batch, &occluded_batch, nullptr, nullptr};
         if constexpr (TriangleTest::kExact) {
-            kernels.all_hits = &collect<false>;
-            kernels.shadowed = &collect<true>;
+            kernels.all_hits = &all_hits;
+            kernels.shadowed = &shadowed;
             if constexpr (W == 8) {
                 kernels.closest_coherent = &closest_coherent;
                 kernels.occluded_coherent = &occluded_coherent;
@@ -95,6 +97,13 @@ struct Kernels {
     }
 
   private:
+    /// One traversal for both, which is half as much to compile.
+    static HWY_NOINLINE bool collect(const WideBvhScene& scene, const Ray& ray,
+                                     std::vector<Hit>& hits, bool stops_at_opaque,
+                                     TraversalStats* stats) {
+        CollectQuery query(scene, ray, hits, stops_at_opaque);
+        return run<W>(query, policy(stats));
+    }
     static HWY_INLINE Stats policy([[maybe_unused]] TraversalStats* stats) {
         if constexpr (Stats::kCounts) {
             return Stats{stats};

@@ -351,17 +351,16 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     }
 };
 
-/// All hits; with `kStopAtOpaque` up to the first opaque one.
-template <bool kStopAtOpaque>
-struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTest> {
-    using Base = LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTest>;
-    using Base::ray, Base::scene;
+/// All hits; with `stops_at_opaque` up to the first opaque one.
+struct CollectQuery : LeafQuery<CollectQuery, FilteredTriangleTest> {
     static constexpr bool kOrdered = false;
     static constexpr bool kFirstOnly = false;
     std::vector<Hit>& hits;
+    bool stops_at_opaque;
 
-    HWY_INLINE CollectQuery(const WideBvhScene& s, const Ray& r, std::vector<Hit>& found)
-        : Base(s, r), hits(found) {}
+    HWY_INLINE CollectQuery(const WideBvhScene& s, const Ray& r, std::vector<Hit>& found,
+                            bool stops)
+        : LeafQuery(s, r), hits(found), stops_at_opaque(stops) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
@@ -378,7 +377,7 @@ struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTes
         return false;
     }
     HWY_INLINE bool accept(BlockId id, const ShapeHit& hit) {
-        if (kStopAtOpaque) {
+        if (stops_at_opaque) {
             if (id.opaque()) return true;
             const auto effect = scene.table->shadow_effect(id.id(), ray);
             if (effect == PrimitiveTable::ShadowEffect::Blocks) return true;
@@ -389,11 +388,12 @@ struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTes
     }
     template <class Stats>
     HWY_INLINE bool shape(BlockId id, Stats stats) {
-        if (kStopAtOpaque && id.opaque()) {
-            return scene.table->occluded(id.id(), ray, kUnusedShear, stats, scene.mask);
-        }
-        if (kStopAtOpaque)
+        if (stops_at_opaque) {
+            if (id.opaque()) {
+                return scene.table->occluded(id.id(), ray, kUnusedShear, stats, scene.mask);
+            }
             return scene.table->shadowed(id.id(), ray, kUnusedShear, hits, stats, scene.mask);
+        }
         scene.table->all_hits(id.id(), ray, kUnusedShear, hits, stats, scene.mask);
         return false;
     }

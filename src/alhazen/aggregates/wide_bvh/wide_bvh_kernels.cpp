@@ -5,8 +5,8 @@ namespace alhazen {
 WideBvhKernelPair wide_bvh_kernels(std::uint32_t width, Precision precision) {
     const WideBvhKernelPair exact{wide_bvh_kernels_8(), wide_bvh_kernels_8_counting()};
     if (precision == Precision::Robust) {
-        if (width == 4) return wide_bvh_kernels_4();
-        if (width == 16) return wide_bvh_kernels_16();
+        if (width == 4) return {wide_bvh_kernels_4(), wide_bvh_kernels_4_counting()};
+        if (width == 16) return {wide_bvh_kernels_16(), wide_bvh_kernels_16_counting()};
         return exact;
     }
     WideBvhKernelPair fast{wide_bvh_kernels_fast(), wide_bvh_kernels_fast_counting()};

@@ -74,13 +74,15 @@ void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id);
 [[nodiscard]] WideBvhKernelPair wide_bvh_kernels(std::uint32_t width,
                                                  Precision precision = Precision::Robust);
 
-/// The parts of the above. Those of nodes of 8, and of single precision, count or not; in single
-/// precision without `all_hits` and `shadowed`.
+/// The parts of the above, each with or without counting; in single precision without `all_hits`
+/// and `shadowed`.
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4();
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4_counting();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_8();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_8_counting();
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_16();
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_16_counting();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_fast();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_fast_counting();
-[[nodiscard]] const WideBvhKernelPair& wide_bvh_kernels_4();
-[[nodiscard]] const WideBvhKernelPair& wide_bvh_kernels_16();
 
 }  // namespace alhazen

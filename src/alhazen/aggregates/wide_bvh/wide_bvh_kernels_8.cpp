@@ -1,4 +1,4 @@
-// Nodes of 8 children, without counting.
+// Nodes of 8 children, with triangles in double and in single precision, without counting.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/simd/dispatch.h"
 
@@ -17,6 +17,10 @@ const WideBvhKernels& wide_bvh_kernels_8() {
     static constexpr WideBvhKernels kernels = Kernels<8, FilteredTriangleTest, NoStats>::table();
     return kernels;
 }
+const WideBvhKernels& wide_bvh_kernels_fast() {
+    static constexpr WideBvhKernels kernels = Kernels<8, FloatTriangleTest, NoStats>::table();
+    return kernels;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen
@@ -27,8 +31,14 @@ namespace alhazen {
 
 ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_8);
 
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_fast);
+
 const WideBvhKernels& wide_bvh_kernels_8() {
     return ALHAZEN_KERNEL(wide_bvh_kernels_8)();
+}
+
+const WideBvhKernels& wide_bvh_kernels_fast() {
+    return ALHAZEN_KERNEL(wide_bvh_kernels_fast)();
 }
 
 }  // namespace alhazen

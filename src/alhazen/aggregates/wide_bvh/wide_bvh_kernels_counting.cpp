@@ -1,4 +1,4 @@
-// Nodes of 8 children, counting.
+// Nodes of 4, 8 and 16 children, counting.
 #include "alhazen/aggregates/wide_bvh/comparison_targets.h"
 // After it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
@@ -15,17 +15,23 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-template <class TriangleTest>
+template <std::size_t W, class TriangleTest>
 const WideBvhKernels& counting_kernels() {
-    static constexpr WideBvhKernels kernels = Kernels<8, TriangleTest, CountingStats>::table();
+    static constexpr WideBvhKernels kernels = Kernels<W, TriangleTest, CountingStats>::table();
     return kernels;
 }
 
+const WideBvhKernels& wide_bvh_kernels_4_counting() {
+    return counting_kernels<4, FilteredTriangleTest>();
+}
 const WideBvhKernels& wide_bvh_kernels_8_counting() {
-    return counting_kernels<FilteredTriangleTest>();
+    return counting_kernels<8, FilteredTriangleTest>();
+}
+const WideBvhKernels& wide_bvh_kernels_16_counting() {
+    return counting_kernels<16, FilteredTriangleTest>();
 }
 const WideBvhKernels& wide_bvh_kernels_fast_counting() {
-    return counting_kernels<FloatTriangleTest>();
+    return counting_kernels<8, FloatTriangleTest>();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -35,12 +41,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_4_counting);
+
 ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_8_counting);
+
+ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_16_counting);
 
 ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_fast_counting);
 
+const WideBvhKernels& wide_bvh_kernels_4_counting() {
+    return ALHAZEN_KERNEL(wide_bvh_kernels_4_counting)();
+}
+
 const WideBvhKernels& wide_bvh_kernels_8_counting() {
     return ALHAZEN_KERNEL(wide_bvh_kernels_8_counting)();
+}
+
+const WideBvhKernels& wide_bvh_kernels_16_counting() {
+    return ALHAZEN_KERNEL(wide_bvh_kernels_16_counting)();
 }
 
 const WideBvhKernels& wide_bvh_kernels_fast_counting() {

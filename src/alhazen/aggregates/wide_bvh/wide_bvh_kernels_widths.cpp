@@ -1,4 +1,4 @@
-// Nodes of 4 and 16 children, which are there to be compared with nodes of 8.
+// Nodes of 4 and 16 children, which are there to be compared with nodes of 8, without counting.
 #include "alhazen/aggregates/wide_bvh/comparison_targets.h"
 // After it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
@@ -16,17 +16,15 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 template <std::size_t W>
-const WideBvhKernelPair& kernels_of_width() {
-    static constexpr WideBvhKernelPair kernels{
-        Kernels<W, FilteredTriangleTest, NoStats>::table(),
-        Kernels<W, FilteredTriangleTest, CountingStats>::table()};
+const WideBvhKernels& kernels_of_width() {
+    static constexpr WideBvhKernels kernels = Kernels<W, FilteredTriangleTest, NoStats>::table();
     return kernels;
 }
 
-const WideBvhKernelPair& wide_bvh_kernels_4() {
+const WideBvhKernels& wide_bvh_kernels_4() {
     return kernels_of_width<4>();
 }
-const WideBvhKernelPair& wide_bvh_kernels_16() {
+const WideBvhKernels& wide_bvh_kernels_16() {
     return kernels_of_width<16>();
 }
 
@@ -41,11 +39,11 @@ ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_4);
 
 ALHAZEN_KERNEL_TABLE(wide_bvh_kernels_16);
 
-const WideBvhKernelPair& wide_bvh_kernels_4() {
+const WideBvhKernels& wide_bvh_kernels_4() {
     return ALHAZEN_KERNEL(wide_bvh_kernels_4)();
 }
 
-const WideBvhKernelPair& wide_bvh_kernels_16() {
+const WideBvhKernels& wide_bvh_kernels_16() {
     return ALHAZEN_KERNEL(wide_bvh_kernels_16)();
 }
 

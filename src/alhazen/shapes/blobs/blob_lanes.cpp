@@ -29,25 +29,25 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-struct Point {
+struct PointLanes {
     Doubles x, y, z;
 };
-HWY_INLINE Point load_point(const double (&rows)[3][kRayLanes]) {
+HWY_INLINE PointLanes load_point(const double (&rows)[3][kRayLanes]) {
     return {load_lanes(rows[0]), load_lanes(rows[1]), load_lanes(rows[2])};
 }
-HWY_INLINE Point minus(const Point& p, const Vec3& v) {
+HWY_INLINE PointLanes minus(const PointLanes& p, const Vec3& v) {
     return {p.x - Doubles(v.x), p.y - Doubles(v.y), p.z - Doubles(v.z)};
 }
-HWY_INLINE Doubles dot(const Point& a, const Point& b) {
+HWY_INLINE Doubles dot(const PointLanes& a, const PointLanes& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 /// The square of the length of a x b.
-HWY_INLINE Doubles square_across(const Point& a, const Vec3& b) {
+HWY_INLINE Doubles square_across(const PointLanes& a, const Vec3& b) {
     const Doubles bx(b.x), by(b.y), bz(b.z);
     const Doubles x = a.y * bz - a.z * by, y = a.z * bx - a.x * bz, z = a.x * by - a.y * bx;
     return x * x + y * y + z * z;
 }
-HWY_INLINE Doubles reach_of(const Point& p) {
+HWY_INLINE Doubles reach_of(const PointLanes& p) {
     return max_lanes(abs(p.x), max_lanes(abs(p.y), abs(p.z)));
 }
 Vec3 lane_of(const double (&rows)[3][kRayLanes], std::size_t lane) {
@@ -58,8 +58,8 @@ Vec3 lane_of(const double (&rows)[3][kRayLanes], std::size_t lane) {
 HWY_INLINE void make_beam(const Blob& blob, const Doubles& square, BlobRayLanes& out) {
     const Vec3 o = out.axis_origin = lane_of(out.origin, kRayLanes / 2);
     const Vec3 d = out.axis_direction = lane_of(out.direction, kRayLanes / 2);
-    const Point from = load_point(out.origin), along = load_point(out.direction);
-    const Point from_center = minus(from, blob.bounds.center());
+    const PointLanes from = load_point(out.origin), along = load_point(out.direction);
+    const PointLanes from_center = minus(from, blob.bounds.center());
     // Distance from its origin within which a ray may be near the blob.
     const Doubles far = sqrt(dot(from_center, from_center)) + Doubles(length(blob.bounds.size()));
     const Doubles aside =
@@ -71,15 +71,15 @@ HWY_INLINE void make_beam(const Blob& blob, const Doubles& square, BlobRayLanes&
 }
 
 void begin(const Blob& blob, const RayLanes& rays, BlobRayLanes& out) {
-    const Point given = load_point(rays.origin), d = load_point(rays.direction);
-    const Point from_center = minus(given, blob.bounds.center());
+    const PointLanes given = load_point(rays.origin), d = load_point(rays.direction);
+    const PointLanes from_center = minus(given, blob.bounds.center());
     const Doubles square = dot(d, d);
     const Mask distant =
         dot(from_center, from_center) > Doubles(4.0 * length_squared(blob.bounds.size()));
     const Doubles shift = select_lanes(distant, -dot(from_center, d) / square, Doubles(0.0));
-    const Point o{select_lanes(distant, given.x + shift * d.x, given.x),
-                  select_lanes(distant, given.y + shift * d.y, given.y),
-                  select_lanes(distant, given.z + shift * d.z, given.z)};
+    const PointLanes o{select_lanes(distant, given.x + shift * d.x, given.x),
+                       select_lanes(distant, given.y + shift * d.y, given.y),
+                       select_lanes(distant, given.z + shift * d.z, given.z)};
     store_lanes(o.x, out.origin[0]);
     store_lanes(o.y, out.origin[1]);
     store_lanes(o.z, out.origin[2]);
@@ -98,9 +98,9 @@ std::size_t near(const Blob& blob, const BlobRayLanes& rays, std::uint32_t* numb
     std::size_t count = 0;
     std::uint32_t first = 0;
     for (const BlobSpheres& spheres : blob.tree->spheres()) {
-        const Point from{load_unaligned(spheres.x) - Doubles(o.x),
-                         load_unaligned(spheres.y) - Doubles(o.y),
-                         load_unaligned(spheres.z) - Doubles(o.z)};
+        const PointLanes from{load_unaligned(spheres.x) - Doubles(o.x),
+                              load_unaligned(spheres.y) - Doubles(o.y),
+                              load_unaligned(spheres.z) - Doubles(o.z)};
         const Doubles most = load_unaligned(spheres.radius) + width;
         std::uint32_t met = spheres.used & ~bits_of(square_across(from, d) > most * most * square);
         for (; met != 0; met &= met - 1) {
@@ -113,7 +113,7 @@ std::size_t near(const Blob& blob, const BlobRayLanes& rays, std::uint32_t* numb
 
 std::size_t balls(const Blob& blob, const BlobRayLanes& rays,
                   std::span<const std::uint32_t> numbers, BlobRow* rows) {
-    const Point o = load_point(rays.origin), d = load_point(rays.direction);
+    const PointLanes o = load_point(rays.origin), d = load_point(rays.direction);
     const Doubles square = dot(d, d), nothing(0.0);
     const BlobLine<Doubles> line{d.x, d.y, d.z, square, Doubles(1.0) / square};
     const Doubles infinite(std::numeric_limits<double>::infinity());
@@ -121,7 +121,7 @@ std::size_t balls(const Blob& blob, const BlobRayLanes& rays,
     for (const std::uint32_t number : numbers) {
         const BlobComponent& c = blob.components[number];
         const double squared = c.radius * c.radius;
-        const Point f = minus(o, c.base);
+        const PointLanes f = minus(o, c.base);
         const auto [middle, room] = nearest_place(line, f.x, f.y, f.z, Doubles(squared));
         const Mask met = room > nothing;
         if (none(met)) continue;
