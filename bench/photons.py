@@ -151,6 +151,12 @@ def main():
     parser.add_argument("--references", type=int, default=2, help="of each program, 2 or more")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
     args = parser.parse_args()
+    if args.references < 2:
+        parser.error(f"--references {args.references}, expected 2 or more: their noise is known by their differences")
+    least = {"--photons": 2, "--long": 2, "--side": 1, "--rounds": 1, "--spp": 1}
+    for name, few in least.items():
+        if getattr(args, name[2:]) < few:
+            parser.error(f"{name} {getattr(args, name[2:])}, expected {few} or more")
     if not shutil.which("povray"):
         raise SystemExit("povray is not installed: scripts/setup --peers")
     folder = args.keep or tempfile.mkdtemp()
@@ -158,7 +164,7 @@ def main():
     at = lambda name: os.path.join(folder, name)
     counts = {"povray": args.photons, "povray_other": args.photons * 199 // 200}
     for k in range(args.references):
-        counts[f"povray_long{k}"] = args.long * args.photons * (12 - 2 * k) // 12
+        counts[f"povray_long{k}"] = args.long * args.photons * (3 * args.references - k) // (3 * args.references)
     for name, count in counts.items():
         write_povray(at(name + ".pov"), count)
 
