@@ -105,7 +105,9 @@ TEST(PhotonTree, FindsTheNearestOfBruteForce) {
                     tree.nearest(p, most, squared, guess, even, found);
                     if (guess == 0.0) first = found;
                     EXPECT_EQ(found, first) << count << " " << trial << " " << guess;
-                    if (all.size() == most) EXPECT_EQ(found.front(), all.back());
+                    if (all.size() == most) {
+                        EXPECT_EQ(found.front(), all.back());
+                    }
                     std::sort(found.begin(), found.end());
                     EXPECT_EQ(found, all) << count << " " << trial << " " << guess;
                 }
