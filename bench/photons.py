@@ -142,7 +142,7 @@ def main():
     parser.add_argument("alhazen")
     parser.add_argument("--side", type=int, default=160)
     parser.add_argument("--rounds", type=int, default=2)
-    parser.add_argument("--caustics", type=int, default=600000, help="photons of the caustic map of alhazen")
+    parser.add_argument("--caustics", type=int, default=1200000, help="photons of the caustic map of alhazen")
     parser.add_argument("--noise", type=float, default=0.08, help="of alhazen, as --noise of render")
     parser.add_argument("--split", type=float, default=0.2, help="of alhazen, as split of photon_mapping")
     parser.add_argument("--spp", type=int, default=160, help="of alhazen, at most")
@@ -173,7 +173,7 @@ def main():
                 "+FN", "File_Gamma=sRGB"] + more
 
     def alhazen(out, times, noise, seed):
-        renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=170,"
+        renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=150,"
                     f"irradiance=on,every=4,clamp=1,roulette=16,split={args.split}")
         return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
                 f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", renderer, "--spp", str(args.spp),
