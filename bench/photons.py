@@ -142,7 +142,7 @@ def main():
     parser.add_argument("alhazen")
     parser.add_argument("--side", type=int, default=160)
     parser.add_argument("--rounds", type=int, default=2)
-    parser.add_argument("--caustics", type=int, default=600000, help="photons of the caustic map of alhazen")
+    parser.add_argument("--caustics", type=int, default=1200000, help="photons of the caustic map of alhazen")
     parser.add_argument("--noise", type=float, default=0.08, help="of alhazen, as --noise of render")
     parser.add_argument("--split", type=float, default=0.2, help="of alhazen, as split of photon_mapping")
     parser.add_argument("--spp", type=int, default=160, help="of alhazen, at most")
@@ -151,6 +151,12 @@ def main():
     parser.add_argument("--references", type=int, default=2, help="of each program, 2 or more")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
     args = parser.parse_args()
+    if args.references < 2:
+        parser.error(f"--references {args.references}, expected 2 or more: their noise is known by their differences")
+    least = {"--photons": 2, "--long": 2, "--side": 1, "--rounds": 1, "--spp": 1}
+    for name, few in least.items():
+        if getattr(args, name[2:]) < few:
+            parser.error(f"{name} {getattr(args, name[2:])}, expected {few} or more")
     if not shutil.which("povray"):
         raise SystemExit("povray is not installed: scripts/setup --peers")
     folder = args.keep or tempfile.mkdtemp()
@@ -158,7 +164,7 @@ def main():
     at = lambda name: os.path.join(folder, name)
     counts = {"povray": args.photons, "povray_other": args.photons * 199 // 200}
     for k in range(args.references):
-        counts[f"povray_long{k}"] = args.long * args.photons * (12 - 2 * k) // 12
+        counts[f"povray_long{k}"] = args.long * args.photons * (3 * args.references - k) // (3 * args.references)
     for name, count in counts.items():
         write_povray(at(name + ".pov"), count)
 
@@ -167,7 +173,7 @@ def main():
                 "+FN", "File_Gamma=sRGB"] + more
 
     def alhazen(out, times, noise, seed):
-        renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=170,"
+        renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=150,"
                     f"irradiance=on,every=4,clamp=1,roulette=16,split={args.split}")
         return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
                 f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", renderer, "--spp", str(args.spp),

@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/photons/photon.h"
+#include "alhazen/renderers/photons/photon_passes.h"
 #include "support/light_pictures.h"
 #include "support/random.h"
 
@@ -155,8 +157,9 @@ Scene floor_behind_cards(bool cards, bool at_once) {
 }
 
 TEST(PhotonPasses, ShowTheLightOfTheMomentThatIsSeen) {
-    for (const std::string renderer : {"sppm:photons=2000,radius=0.1,alpha=1",
-                                       "vcm:photons=2000,radius=0.1,alpha=1,pilot=off"}) {
+    for (const std::string renderer :
+         {"sppm:photons=2000,radius=0.1,alpha=1", "vcm:photons=2000,radius=0.1,alpha=1,pilot=off",
+          "photon_mapping:photons=1000,caustics=64000,nearest=320"}) {
         const auto light = [&](const Scene& scene) {
             return mean_of(picture_of(scene, renderer, 8, 64)).g;
         };
@@ -166,6 +169,41 @@ TEST(PhotonPasses, ShowTheLightOfTheMomentThatIsSeen) {
         EXPECT_NEAR(light(floor_behind_cards(true, false)), 0.0, 0.02 * still) << renderer;
         EXPECT_NEAR(light(floor_behind_cards(true, true)), 0.5 * still, 0.05 * still) << renderer;
     }
+}
+
+TEST(PhotonPasses, HaveEachPartOfTheShutterOnce) {
+    Scene scene = floor_behind_cards(false, false);
+    RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
+    constexpr std::uint32_t kPasses = 256;
+    for (std::uint32_t pass = 0; pass < kPasses; ++pass) {
+        EXPECT_EQ(shutter_of_pass(job, pass).length, 1.0) << "nothing moves";
+    }
+    scene.has_motion = true;
+    for (std::uint32_t pass = 0; pass < 2; ++pass) {
+        EXPECT_EQ(shutter_of_pass(job, pass).begin, 0.0);
+        EXPECT_EQ(shutter_of_pass(job, pass).length, 1.0);
+    }
+    std::set<double> first;
+    for (job.seed = 0; job.seed < 32; ++job.seed) {
+        first.insert(shutter_of_pass(job, kPasses / 2).begin);
+        for (std::uint32_t parts = 2; parts < kPasses; parts *= 2) {
+            // However few of them: of any first `some` each lies in another part of that many.
+            for (std::uint32_t some = 2; some <= parts; some *= 2) {
+                std::set<double> places;
+                for (std::uint32_t k = 0; k < some; ++k) {
+                    const ShutterPart part = shutter_of_pass(job, parts + k);
+                    EXPECT_EQ(part.length, 1.0 / parts) << parts + k;
+                    EXPECT_EQ(part.begin * parts, std::floor(part.begin * parts)) << parts + k;
+                    EXPECT_GE(part.begin, 0.0);
+                    EXPECT_LE(part.begin + part.length, 1.0);
+                    places.insert(std::floor(part.begin * some));
+                }
+                EXPECT_EQ(places.size(), some) << parts << ", seed " << job.seed;
+            }
+        }
+    }
+    // By chance each of the parts is the first one.
+    EXPECT_GT(first.size(), 16u);
 }
 
 TEST(PhotonWaves, ShowTheColoursOfMaterials) {

@@ -100,6 +100,17 @@ TEST(PhotonTree, FindsTheNearestOfBruteForce) {
                           all.empty() ? 0.0 : all.back().squared);
                 std::sort(found.begin(), found.end());
                 EXPECT_EQ(found, all) << count << " " << trial;
+                std::vector<PhotonTree::Near> first;
+                for (const double guess : {0.0, 1e-6, 0.1, random.uniform(0, 1), 3.0, 1e9}) {
+                    tree.nearest(p, most, squared, guess, even, found);
+                    if (guess == 0.0) first = found;
+                    EXPECT_EQ(found, first) << count << " " << trial << " " << guess;
+                    if (all.size() == most) {
+                        EXPECT_EQ(found.front(), all.back());
+                    }
+                    std::sort(found.begin(), found.end());
+                    EXPECT_EQ(found, all) << count << " " << trial << " " << guess;
+                }
             }
         }
     }

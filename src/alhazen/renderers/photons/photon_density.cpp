@@ -17,14 +17,18 @@ struct CountedPhotons {
     double squared = 0;  ///< radius of the estimate; 0: there are none
 };
 
-/// Of the nearest the farthest is the border, and does not count. `found` holds them.
+/// Of the nearest the farthest is the border, and does not count. `found` holds them. `guess`: of
+/// the squared radius, and then for a point near by; 0: none.
 template <class Accept>
 CountedPhotons counted_photons(const PhotonMap& map, const Vec3& point, const Accept& accept,
-                               std::vector<PhotonTree::Near>& found) {
+                               double& guess, std::vector<PhotonTree::Near>& found) {
     const double most = map.radius * map.radius;
-    map.tree.nearest(point, map.nearest, most, accept, found);
+    map.tree.nearest(point, map.nearest, most, guess, accept, found);
+    const bool all = found.size() < map.nearest || map.nearest == 1;
+    constexpr double kMore = 1.25;  // by which the next radius may be larger
+    guess = all ? most : kMore * found.front().squared;
     if (found.empty()) return {};
-    if (found.size() < map.nearest || map.nearest == 1) return {found, most};
+    if (all) return {found, most};
     return {std::span(found).subspan(1), found.front().squared};
 }
 
@@ -78,7 +82,9 @@ Spectrum PhotonScattering::operator()(const Photon& photon) const {
 
 double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal) {
     std::vector<PhotonTree::Near> found;
-    const auto [photons, squared] = counted_photons(map, point, PhotonFits(normal, false), found);
+    double guess = 0.0;
+    const auto [photons, squared] =
+        counted_photons(map, point, PhotonFits(normal, false), guess, found);
     return squared > 0.0 ? static_cast<double>(photons.size()) / (kPi * squared) : 0.0;
 }
 
@@ -106,9 +112,11 @@ void compute_irradiance(PhotonMap& map) {
     constexpr std::size_t kTogether = 256;
     parallel_for(photons.size(), kTogether, [&](std::size_t begin, std::size_t end) {
         std::vector<PhotonTree::Near> found;
+        double guess = 0.0;
         for (std::size_t i = begin; i < end; ++i) {
             const PhotonFits fits(photons[i].normal.vector(), false);
-            const auto [around, squared] = counted_photons(map, photons[i].point(), fits, found);
+            const auto [around, squared] =
+                counted_photons(map, photons[i].point(), fits, guess, found);
             if (!(squared > 0.0)) continue;
             Spectrum sum;
             for (const PhotonTree::Near& near : around) {
@@ -119,6 +127,14 @@ void compute_irradiance(PhotonMap& map) {
             map.irradiance[i] = (1.0 / (kPi * squared)) * sum;
         }
     });
+}
+
+double& PhotonDensity::guess_of(const PhotonMap& map) {
+    const auto is_of = [&](const Guess& guess) { return guess.map == &map; };
+    const auto found = std::find_if(guesses_.begin(), guesses_.end(), is_of);
+    if (found != guesses_.end()) return found->squared;
+    guesses_.push_back({&map, 0.0});
+    return guesses_.back().squared;
 }
 
 std::optional<Spectrum> PhotonDensity::known_irradiance(const PhotonMap& map,
@@ -149,7 +165,8 @@ Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, c
             }
         }
     }
-    const auto [photons, squared] = counted_photons(map, point, PhotonFits(at), found_);
+    const auto [photons, squared] =
+        counted_photons(map, point, PhotonFits(at), guess_of(map), found_);
     if (!(squared > 0.0)) return {};
     const PhotonScattering scattered(at, part, hero_only);
     Spectrum sum;
@@ -168,7 +185,7 @@ Spectrum scattered_light(const VolumePoint& at, const Photon& photon, bool hero_
 
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const VolumePoint& at, bool hero_only) {
     const auto every = [](const Photon&) { return true; };
-    const auto [photons, squared] = counted_photons(map, at.point, every, found_);
+    const auto [photons, squared] = counted_photons(map, at.point, every, guess_of(map), found_);
     if (!(squared > 0.0)) return {};
     Spectrum sum;
     for (const PhotonTree::Near& near : photons) {

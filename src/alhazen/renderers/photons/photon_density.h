@@ -118,7 +118,15 @@ class PhotonDensity {
                                                            const ScatterPoint& at,
                                                            const Vec3& point);
 
+    /// Of the squared radius of an estimate: that of the one before in the map.
+    struct Guess {
+        const PhotonMap* map = nullptr;
+        double squared = 0;
+    };
+    [[nodiscard]] double& guess_of(const PhotonMap& map);
+
     std::vector<PhotonTree::Near> found_;
+    std::vector<Guess> guesses_;
 };
 
 }  // namespace alhazen

@@ -15,7 +15,8 @@ namespace {
 constexpr int kMostSplits = 1000;  ///< of a sample
 
 /// Of hashes, each for one purpose.
-constexpr std::uint64_t kLooks = 0x6c6f6f6b, kWays = 0x77617973, kTurn = 0x7475726e;
+constexpr std::uint64_t kLooks = 0x6c6f6f6b, kWays = 0x77617973, kTurn = 0x7475726e,
+                        kShift = 0x73686966;
 /// Those of the ways on from smooth glass.
 constexpr std::uint64_t kDimWay = 1, kBrightWay = 2;
 
@@ -111,7 +112,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         const int here = event;
         if (scatter_.has_density()) {
             ++event;
-            add_direct_light(id, here, path, waves, direct);
+            add_direct_light(id, here, at, waves, direct);
             const double times = at.straight ? looks(id) : 1.0;
             const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(here) + 1, numbers.path,
                                   numbers.part};
@@ -227,12 +228,25 @@ Spectrum PhotonEye::emitted(const Branch& at) const {
     return power_heuristic(last.density, other) * light;
 }
 
-void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& path,
+Vec2 PhotonEye::draw_for_light(const SampleId& id, int event, const Branch& at,
+                               PathChance::BouncePair pair) const {
+    if (at.stride == 1) return chance_.draw(id, event, pair);
+    // Ways of a pixel have the same points, shifted.
+    const Vec2 u = chance_.draw({id.pixel, id.number / at.stride}, 0, pair);
+    const std::uint64_t key =
+        mix64(at.way ^ mix64(kShift + pair) ^ static_cast<std::uint64_t>(at.last.scatterings));
+    const auto shifted = [](double v) { return v < 1.0 ? v : v - 1.0; };
+    return {shifted(u.x + random_at(key, 0)), shifted(u.y + random_at(key, 1))};
+}
+
+void PhotonEye::add_direct_light(const SampleId& id, int event, const Branch& branch,
                                  const Wavelengths& waves, Spectrum& direct) {
+    const PathEnd& path = branch.path;
     const ShadingPoint& point = next_.point();
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
-    const LightDraw drawn = lights_.draw(at, chance_.draw(id, event, PathChance::kChoices).y,
-                                         chance_.draw(id, event, PathChance::kLight), *path.waves);
+    const LightDraw drawn =
+        lights_.draw(at, draw_for_light(id, event, branch, PathChance::kChoices).y,
+                     draw_for_light(id, event, branch, PathChance::kLight), *path.waves);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     const Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;

@@ -112,8 +112,12 @@ class PhotonEye {
                              Branch& at) const;
     [[nodiscard]] Spectrum escaped(const PathEnd& path, const Last& last) const;
     [[nodiscard]] Spectrum emitted(const Branch& at) const;
-    void add_direct_light(const SampleId& id, int event, const PathEnd& path,
-                          const Wavelengths& waves, Spectrum& direct);
+    void add_direct_light(const SampleId& id, int event, const Branch& at, const Wavelengths& waves,
+                          Spectrum& direct);
+    /// Random numbers for a light. Those of a way that is gone in turn are as even over its turns
+    /// as others over all samples.
+    [[nodiscard]] Vec2 draw_for_light(const SampleId& id, int event, const Branch& at,
+                                      PathChance::BouncePair pair) const;
     void look_into_volume(const SampleId& id, int event, const PathEnd& path,
                           const Wavelengths& waves, Spectrum& sum, Spectrum& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,

@@ -57,6 +57,15 @@ std::size_t left_subtree_size(std::size_t count) {
     return half - 1 + std::min(last, half);
 }
 
+void PhotonTree::keep_nearest(std::size_t count, std::vector<Near>& found) {
+    if (found.size() <= count) return;
+    thread_local std::vector<Near> sorted;
+    sorted = found;
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(count - 1);
+    std::nth_element(sorted.begin(), last, sorted.end());
+    std::erase_if(found, [farthest = *last](const Near& near) { return farthest < near; });
+}
+
 PhotonTree::PhotonTree(std::vector<Photon> photons)
     : photons_(std::move(photons)), axes_(photons_.size()) {
     std::vector<std::uint32_t> order(photons_.size()), nodes(photons_.size());

@@ -45,7 +45,64 @@ class PhotonTree {
         search(0, point, count, squared, accept, found);
     }
 
+    /// The same photons as `nearest` in the order of a walk that depends on the point alone, but
+    /// that the first is the farthest where there are `count`. Fast where `guess` is near to the
+    /// squared distance of the farthest, and for large counts; the answer does not depend on it.
+    template <class Accept>
+    void nearest(const Vec3& point, std::size_t count, double squared, double guess,
+                 const Accept& accept, std::vector<Near>& found) const {
+        constexpr double kGrowth = 3.0;
+        double within = guess > 0.0 ? std::min(guess, squared) : squared;
+        while (true) {
+            found.clear();
+            walk(point, count, within, accept, found);
+            if (found.size() >= count || !(within < squared)) break;
+            within = std::min(kGrowth * within, squared);
+        }
+        if (found.size() < count) return;
+        keep_nearest(count, found);
+        std::iter_swap(found.begin(), std::max_element(found.begin(), found.end()));
+    }
+
   private:
+    /// Keeps the `count` nearest of more, in their order.
+    static void keep_nearest(std::size_t count, std::vector<Near>& found);
+
+    /// Appends photons within the root of `squared`, among them the `count` nearest.
+    template <class Accept>
+    void walk(const Vec3& point, std::size_t count, double squared, const Accept& accept,
+              std::vector<Near>& found) const {
+        constexpr std::size_t kTimes = 4, kMostLevels = 33;
+        std::array<std::uint32_t, kMostLevels> waiting;
+        std::size_t levels = 0;
+        const std::size_t size = photons_.size();
+        if (size > 0) waiting[levels++] = 0;
+        while (levels > 0) {
+            std::size_t node = waiting[--levels];
+            while (node < size) {
+                const Photon& photon = photons_[node];
+                const Vec3 apart = photon.point() - point;
+                const Near near{length_squared(apart), static_cast<std::uint32_t>(node)};
+                if (near.squared <= squared && accept(photon)) {
+                    found.push_back(near);
+                    if (found.size() > kTimes * count) {
+                        keep_nearest(count, found);
+                        squared = std::max_element(found.begin(), found.end())->squared;
+                    }
+                }
+                const std::size_t left = 2 * node + 1;
+                if (left >= size) break;
+                const double to_plane = -apart[axes_[node]];
+                const std::size_t near_side = to_plane < 0.0 ? left : left + 1;
+                const std::size_t far_side = 2 * left + 1 - near_side;
+                if (far_side < size && to_plane * to_plane <= squared) {
+                    waiting[levels++] = static_cast<std::uint32_t>(far_side);
+                }
+                node = near_side;
+            }
+        }
+    }
+
     void build(std::span<std::uint32_t> order, std::size_t node, std::vector<std::uint32_t>& nodes);
 
     template <class Accept>
