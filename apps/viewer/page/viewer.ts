@@ -216,6 +216,7 @@ export class Viewer {
     if (this.explaining) {  // the server ends it
       this.explaining = this.held = undefined;
       this.status.textContent = this.described;
+      this.spoken.textContent = "";
     }
     this.request();
   }
@@ -259,10 +260,15 @@ export class Viewer {
     await this.draw(head, head.facts, body);
     this.describe(asked, head.facts);
     if (!newest || asked.id !== this.lastId) return;
-    // What would not be larger than what is there is left out.
-    do ++this.level; while (this.level < 3 && this.levels()[this.level][0] * this.full() <= head.facts.width);
+    // What would not be larger than what is there is left out, but for one of that size with all generations.
+    const deepest = this.controls.number("depth"), least = head.facts.width + (this.isLess(asked.wish, deepest) ? 0 : 1);
+    do ++this.level; while (this.level < 3 && Math.round(this.levels()[this.level][0] * this.full()) < least);
     if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
+  }
+  // Whether a picture has fewer generations than are chosen, or another renderer.
+  private isLess(wish: Wish, deepest: number) {
+    return (wish.depth ?? deepest) < deepest || wish.renderer !== this.controls.get("renderer");
   }
   private async draw(head: FrameHead, facts: FrameFacts, body: Uint8Array) {
     const {width, height} = facts, raw = head.type === "application/octet-stream";
@@ -360,22 +366,25 @@ export class Viewer {
     const width = this.full(), at = (w: number, n: number) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
     this.explainPixel(at(u, width), at(v, this.heightFor(width)));
   }
-  private explainPixel(x: number, y: number, sample = 0) {
-    const camera = this.camera;
-    if (!camera) return;
-    const wish = {...this.wish(camera, this.full()), samples: this.controls.number("samples")}, own = this.explaining = {};
+  private explainPixel(x: number, y: number) {
+    if (!this.camera) return;
+    this.explainSample({...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), x, y}, 0);
+  }
+  /** `picture`: where the explained picture is not the one in sight. */
+  private explainSample(wish: Wish & {samples: number; x: number; y: number}, sample: number, picture?: string) {
+    const {x, y} = wish, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
       let answer: Response | null = null;
       // A frame that was asked for before may come after it, and end it.
       for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
-        answer = await this.ask("/explain", {...wish, x, y, sample, steps: this.controls.get("steps")});
+        answer = await this.ask("/explain", {...wish, sample, steps: this.controls.get("steps")});
       }
       if (this.explaining !== own) return;
       this.explaining = undefined;
       this.status.textContent = this.described;
-      this.spoken.textContent = "";
+      this.spoken.textContent = answer?.status === 204 ? "The explanation was ended" : "";
       if (!answer || answer.status === 204) return;
       const data = await answer.json() as Explanation & {error?: string};
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");
@@ -383,7 +392,8 @@ export class Viewer {
       const root = document.getElementById("explanation")!;
       root.hidden = false;
       root.ariaLabel = `Explanation of pixel ${x},${y}`;
-      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9), i => this.explainPixel(x, y, i));
+      const shown = picture ?? this.image.toDataURL("image/jpeg", 0.9);
+      showExplanation(root, data, shown, i => this.explainSample(wish, i, shown));
       root.scrollIntoView({behavior: scrollBehavior()});
       root.focus({preventScroll: true});
     });

@@ -157,9 +157,8 @@ Scene floor_behind_cards(bool cards, bool at_once) {
 }
 
 TEST(PhotonPasses, ShowTheLightOfTheMomentThatIsSeen) {
-    for (const std::string renderer :
-         {"sppm:photons=2000,radius=0.1,alpha=1", "vcm:photons=2000,radius=0.1,alpha=1,pilot=off",
-          "photon_mapping:photons=1000,caustics=64000,nearest=320"}) {
+    for (const std::string renderer : {"sppm:photons=2000,radius=0.1,alpha=1",
+                                       "vcm:photons=2000,radius=0.1,alpha=1,pilot=off"}) {
         const auto light = [&](const Scene& scene) {
             return mean_of(picture_of(scene, renderer, 8, 64)).g;
         };

@@ -2279,6 +2279,7 @@ var Viewer = class {
     if (this.explaining) {
       this.explaining = this.held = void 0;
       this.status.textContent = this.described;
+      this.spoken.textContent = "";
     }
     this.request();
   }
@@ -2323,11 +2324,16 @@ var Viewer = class {
     await this.draw(head, head.facts, body);
     this.describe(asked, head.facts);
     if (!newest || asked.id !== this.lastId) return;
+    const deepest = this.controls.number("depth"), least = head.facts.width + (this.isLess(asked.wish, deepest) ? 0 : 1);
     do
       ++this.level;
-    while (this.level < 3 && this.levels()[this.level][0] * this.full() <= head.facts.width);
+    while (this.level < 3 && Math.round(this.levels()[this.level][0] * this.full()) < least);
     if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
+  }
+  // Whether a picture has fewer generations than are chosen, or another renderer.
+  isLess(wish, deepest) {
+    return (wish.depth ?? deepest) < deepest || wish.renderer !== this.controls.get("renderer");
   }
   async draw(head, facts, body) {
     const { width, height } = facts, raw = head.type === "application/octet-stream";
@@ -2431,21 +2437,24 @@ var Viewer = class {
     const width = this.full(), at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
     this.explainPixel(at(u, width), at(v, this.heightFor(width)));
   }
-  explainPixel(x, y, sample = 0) {
-    const camera = this.camera;
-    if (!camera) return;
-    const wish = { ...this.wish(camera, this.full()), samples: this.controls.number("samples") }, own = this.explaining = {};
+  explainPixel(x, y) {
+    if (!this.camera) return;
+    this.explainSample({ ...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), x, y }, 0);
+  }
+  /** `picture`: where the explained picture is not the one in sight. */
+  explainSample(wish, sample, picture) {
+    const { x, y } = wish, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
       let answer = null;
       for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
-        answer = await this.ask("/explain", { ...wish, x, y, sample, steps: this.controls.get("steps") });
+        answer = await this.ask("/explain", { ...wish, sample, steps: this.controls.get("steps") });
       }
       if (this.explaining !== own) return;
       this.explaining = void 0;
       this.status.textContent = this.described;
-      this.spoken.textContent = "";
+      this.spoken.textContent = answer?.status === 204 ? "The explanation was ended" : "";
       if (!answer || answer.status === 204) return;
       const data = await answer.json();
       this.messages.say("explain", answer.ok ? "" : data.error ?? "");
@@ -2453,7 +2462,8 @@ var Viewer = class {
       const root = document.getElementById("explanation");
       root.hidden = false;
       root.ariaLabel = `Explanation of pixel ${x},${y}`;
-      showExplanation(root, data, this.image.toDataURL("image/jpeg", 0.9), (i) => this.explainPixel(x, y, i));
+      const shown = picture ?? this.image.toDataURL("image/jpeg", 0.9);
+      showExplanation(root, data, shown, (i) => this.explainSample(wish, i, shown));
       root.scrollIntoView({ behavior: scrollBehavior() });
       root.focus({ preventScroll: true });
     });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "alhazen/primitives/primitive_table.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/scene/scene_sphere.h"
@@ -14,21 +13,6 @@ namespace {
 /// Along no axis and no diagonal of what people build.
 const Vec3 kFromAfar = normalize(Vec3{0.7548776662, 0.5698402910, -0.3247179572});
 
-/// Around all that light passes; none in large scenes and where something moves.
-std::optional<Box3> box_of_volumes(const Scene& scene) {
-    constexpr std::size_t kMost = 1024;
-    if (!scene.aggregate || scene.has_motion) return std::nullopt;
-    const PrimitiveTable& table = scene.aggregate->primitives();
-    if (table.size() > kMost) return std::nullopt;
-    Box3 box;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        if (table.is_opaque(PrimitiveId{static_cast<std::uint32_t>(i)})) continue;
-        const Box3 own = table.box(i);
-        if (!own.empty()) box.include(own);
-    }
-    return box;
-}
-
 }  // namespace
 
 MediaFinder::MediaFinder(const Scene& scene)
@@ -39,13 +23,11 @@ MediaFinder::MediaFinder(const Scene& scene)
     const BoundingSphere sphere = sphere_around_bounded(scene);
     center_ = sphere.center;
     radius_ = sphere.radius;
-    volumes_ = box_of_volumes(scene);
 }
 
 MediumStack MediaFinder::around(const Vec3& point, float time) const {
     MediumStack media;
     if (!has_volumes_ || !scene_.aggregate) return media;
-    if (volumes_ && !volumes_->contains(point)) return media;
     double left = length(point - center_) + 2.0 * radius_;
     Ray ray{point - left * kFromAfar, kFromAfar};
     ray.t_max = left;

@@ -4,9 +4,6 @@
 /// Conventions: found by a straight ray from afar to the point, which crosses what bounds volumes.
 /// Volumes without end that reach beyond the start of that ray are not found.
 
-#include <optional>
-
-#include "alhazen/geometry/box.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/scene/scene.h"
 
@@ -25,7 +22,6 @@ class MediaFinder {
     bool has_volumes_;
     Vec3 center_;  ///< of a sphere around what is bounded
     double radius_ = 1;
-    std::optional<Box3> volumes_;  ///< around what may bound volumes; none: not known
 };
 
 }  // namespace alhazen

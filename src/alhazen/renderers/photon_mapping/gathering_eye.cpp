@@ -25,7 +25,7 @@ double mirrored_bits(std::uint32_t n) {
 
 Spectrum GatheringEye::photon_light(const SeenPoint& at) {
     const Vec3& point = at.surface.point;
-    const PhotonMapPair& maps = maps_.pair(at.waves, at.path.time);
+    const PhotonMapPair& maps = maps_.pairs[at.waves];
     const bool hero_only = at.path.waves->hero_only();
     const Spectrum caustic =
         density_.radiance(maps.caustic, at.scatter, point, LightPart::NotGlossy, hero_only);
@@ -39,11 +39,11 @@ Spectrum GatheringEye::photon_light(const SeenPoint& at) {
 }
 
 Spectrum GatheringEye::photon_light(const SeenVolume& at) {
-    return volume_light(at.place, maps_.pair(at.waves, at.path.time), at.path.waves->hero_only());
+    return volume_light(at.place, at.waves, at.path.waves->hero_only());
 }
 
-Spectrum GatheringEye::volume_light(const VolumePoint& at, const PhotonMapPair& maps,
-                                    bool hero_only) {
+Spectrum GatheringEye::volume_light(const VolumePoint& at, std::size_t waves, bool hero_only) {
+    const PhotonMapPair& maps = maps_.pairs[waves];
     return density_.radiance(maps.caustic_in_volumes, at, hero_only) +
            density_.radiance(maps.global_in_volumes, at, hero_only);
 }
@@ -126,8 +126,7 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
         if (surface == 0) distance = path.travelled;
         if (meets == PathMeets::Volume) {
             const VolumePoint& place = next_.volume();
-            Spectrum light =
-                volume_light(place, maps_.pair(at.waves, path.time), along_.hero_only());
+            Spectrum light = volume_light(place, at.waves, along_.hero_only());
             const DirectLight straight = direct_light(
                 place, numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)}, along_);
             if (!straight.light.is_black()) {
@@ -141,7 +140,7 @@ Spectrum GatheringEye::arriving(PathEnd& path, const SeenPoint& at, const PathNu
         met_.set(scene_, point, path.media, along_);
         if (met_.needs_hero()) along_.keep_hero(path.throughput);
         if (met_.has_density()) {
-            sum += path.throughput * density_.radiance(maps_.pair(at.waves, path.time).global, met_,
+            sum += path.throughput * density_.radiance(maps_.pairs[at.waves].global, met_,
                                                        point.surface.point, LightPart::All,
                                                        along_.hero_only());
         }

@@ -31,8 +31,7 @@ class GatheringEye final : public PhotonEye {
     [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override;
     [[nodiscard]] Spectrum photon_light(const SeenVolume& at) override;
     /// Light that has been scattered before, or came by way of mirrors and glass.
-    [[nodiscard]] Spectrum volume_light(const VolumePoint& at, const PhotonMapPair& maps,
-                                        bool hero_only);
+    [[nodiscard]] Spectrum volume_light(const VolumePoint& at, std::size_t waves, bool hero_only);
     [[nodiscard]] Spectrum gathered(const SeenPoint& at);
     /// The same for a matt surface, by way of the cache.
     [[nodiscard]] Spectrum matt_light(const SeenPoint& at, const Spectrum& reflectance);

@@ -65,11 +65,10 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
     if (maps.complete) {
         for (std::size_t k = 0; k < maps.pairs.size(); ++k) {
             const PhotonMapPair& pair = maps.pairs[k];
-            const Wavelengths& waves = maps.waves[k % maps.waves.size()];
-            add_to_cloud(pair.global.tree.photons(), false, job.photons, waves);
-            add_to_cloud(pair.caustic.tree.photons(), true, job.photons, waves);
-            add_to_cloud(pair.global_in_volumes.tree.photons(), false, job.photons, waves);
-            add_to_cloud(pair.caustic_in_volumes.tree.photons(), true, job.photons, waves);
+            add_to_cloud(pair.global.tree.photons(), false, job.photons, maps.waves[k]);
+            add_to_cloud(pair.caustic.tree.photons(), true, job.photons, maps.waves[k]);
+            add_to_cloud(pair.global_in_volumes.tree.photons(), false, job.photons, maps.waves[k]);
+            add_to_cloud(pair.caustic_in_volumes.tree.photons(), true, job.photons, maps.waves[k]);
         }
         record_photon_layer(job, film, [&](const Vec3& point, const Vec3& normal) {
             double sum = 0.0;

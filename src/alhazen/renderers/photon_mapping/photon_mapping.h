@@ -7,8 +7,6 @@
 /// the light that the global map shows is only what neither shadow rays nor the caustic map find.
 /// Light by wavelengths: kWaveSets pairs of maps, each for four wavelengths, share the photons, and
 /// the samples of a pixel look at them in turn, for that share of `nearest` photons.
-/// Where something moves, 16 pairs of maps have the photons of a part of the shutter each, with as
-/// many of the photons and of `nearest`; not with wavelengths.
 /// Conventions: maps depend on the scene and the seed alone, pixels on those and their own
 /// coordinates.
 /// Errors: an irradiance cache, irradiance at photons or looks in turn with wavelengths (Usage),

@@ -16,14 +16,10 @@ namespace {
 
 /// Bytes of a photon while its map is built: itself, its place and its number.
 constexpr double kBytesOfPhoton = sizeof(Photon) + 9;
-/// Itself and the farthest do not count.
-constexpr std::size_t kLeastWithIrradiance = 4;
 /// Each of four wavelengths.
 constexpr std::uint32_t kWaveSets = 16;
-/// Parts of the shutter; with wavelengths one, for each set would have few photons.
-constexpr std::size_t kMoments = 16;
 
-/// The share of one of the pairs, rounded up.
+/// The share of one of the sets, rounded up.
 std::uint64_t share_of(std::uint64_t photons, const PhotonMaps& maps) {
     return (photons + maps.pairs.size() - 1) / maps.pairs.size();
 }
@@ -47,10 +43,9 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
     if (!shot_photons.complete) return maps.complete = false;
     ThreadLimit threads(job.control.threads);
     const std::uint64_t nearest = share_of(static_cast<std::uint64_t>(settings.nearest), maps);
-    const std::size_t least = settings.irradiance ? kLeastWithIrradiance : 2;
     const auto build = [&](std::vector<Photon> photons, PhotonMap& of) {
         threads.run([&] { of.tree = PhotonTree(std::move(photons)); });
-        of.nearest = std::max(least, nearest);
+        of.nearest = std::max<std::size_t>(2, nearest);
         of.filter = settings.filter;
         of.radius = settings.radius > 0.0 ? settings.radius : usual_radius(of.tree, of.nearest);
     };
@@ -59,12 +54,12 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
     return true;
 }
 
-/// A pair of maps. `seed`: of the photons before, and then of these; `projection`: made by the
+/// Both maps of a set. `seed`: of the photons before, and then of these; `projection`: made by the
 /// first. False after a stop.
 bool fill_pair(const RenderJob& job, const Illumination& lights,
-               const PhotonMappingSettings& settings, std::size_t number, std::uint64_t& seed,
+               const PhotonMappingSettings& settings, std::size_t set, std::uint64_t& seed,
                std::optional<ProjectionMap>& projection, PhotonMaps& maps) {
-    PhotonMapPair& pair = maps.pairs[number];
+    PhotonMapPair& pair = maps.pairs[set];
     PhotonKinds kinds{PhotonKind::Indirect};
     if (settings.gather > 0) {
         kinds = {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect};
@@ -75,10 +70,8 @@ bool fill_pair(const RenderJob& job, const Illumination& lights,
     PhotonKinds in_volumes{PhotonKind::Indirect};
     if (settings.caustics == 0) in_volumes = {PhotonKind::Caustic, PhotonKind::Indirect};
     PhotonShot shot{share_of(settings.photons, maps), kinds, settings.paths.depth, seed,
-                    &maps.waves[number % maps.waves.size()]};
+                    &maps.waves[set]};
     shot.in_volumes = in_volumes;
-    const double length = 1.0 / static_cast<double>(maps.moments);
-    shot.shutter = {static_cast<double>(number / maps.waves.size()) * length, length};
     if (!fill(job, lights, shot, settings, maps, pair.global, pair.global_in_volumes)) {
         return false;
     }
@@ -106,12 +99,11 @@ PhotonMaps make_photon_maps(const RenderJob& job, const Illumination& lights,
     PhotonMaps maps;
     const std::uint32_t sets = job.spectral ? kWaveSets : 1;
     for (std::uint32_t k = 0; k < sets; ++k) maps.waves.push_back(waves_of_pass(job, k));
-    if (job.scene.has_motion && !job.spectral) maps.moments = kMoments;
-    maps.pairs.resize(sets * maps.moments);
+    maps.pairs.resize(sets);
     if (!lights.shines()) return maps;
     std::uint64_t seed = job.seed;
     std::optional<ProjectionMap> projection;
-    for (std::size_t k = 0; k < maps.pairs.size(); ++k) {
+    for (std::size_t k = 0; k < sets; ++k) {
         if (!fill_pair(job, lights, settings, k, seed, projection, maps)) break;
     }
     return maps;

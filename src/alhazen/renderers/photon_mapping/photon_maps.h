@@ -1,8 +1,6 @@
 #pragma once
-/// The two maps of photon mapping, for each set of wavelengths, or for parts of the shutter where
-/// something moves.
+/// The two maps of photon mapping, for each set of wavelengths.
 
-#include <algorithm>
 #include <vector>
 
 #include "alhazen/illumination/illumination.h"
@@ -21,13 +19,7 @@ struct PhotonMapPair {
 
 struct PhotonMaps {
     std::vector<Wavelengths> waves;
-    std::size_t moments = 1;           ///< parts of the shutter, of equal length
-    std::vector<PhotonMapPair> pairs;  ///< [moment * waves.size() + of `waves`]
-
-    [[nodiscard]] const PhotonMapPair& pair(std::size_t of_waves, float time) const {
-        const auto moment = static_cast<std::size_t>(time * static_cast<float>(moments));
-        return pairs[std::min(moment, moments - 1) * waves.size() + of_waves];
-    }
+    std::vector<PhotonMapPair> pairs;  ///< [as `waves`]
     RayCounters counters;
     bool complete = true;  ///< false after a stop
 };
