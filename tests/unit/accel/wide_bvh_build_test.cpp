@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
 
 #include <algorithm>
 #include <cfenv>
@@ -158,6 +161,25 @@ TEST(WideBvhBuild, HoldsEveryPrimitiveOnceWithinItsBoxes) {
         build_and_check(references, std::to_string(count) + " of one kind");
     }
 }
+
+#ifdef __SSE2__
+/// As the mode is while other libraries trace rays.
+TEST(WideBvhBuild, HoldsEveryPrimitiveWhereDenormalNumbersAreZero) {
+    struct DenormalsAreZero {
+        unsigned int before = _mm_getcsr();
+        DenormalsAreZero() { _mm_setcsr(before | 0x8040); }
+        ~DenormalsAreZero() { _mm_setcsr(before); }
+    };
+    std::mt19937_64 random(8);
+    std::vector<BuildReference> references;
+    for (std::size_t i = 0; i < 3000; ++i) {
+        const float x = uniform(random), y = uniform(random), z = uniform(random);
+        references.push_back(reference(i, x, y, z, 0.01f));
+    }
+    const DenormalsAreZero mode;
+    build_and_check(references, "denormals are zero");
+}
+#endif
 
 #ifndef __clang__  // computes both sides of conditions
 TEST(WideBvhBuild, MakesNoInvalidNumbers) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "unit/aggregates/compare_aggregates.h"
 
@@ -72,7 +74,9 @@ void expect_boxes_of_table(const PrimitiveTable& table, const std::string& name)
         ASSERT_EQ(references[i].id, id) << name;
         ASSERT_EQ(references[i].kind,
                   static_cast<std::uint32_t>(leaf_type(table, PrimitiveId{id})));
-        ASSERT_EQ(references[i].box(), frame.local(table.box(id))) << name << ", " << id;
+        const FloatBox box = references[i].box(), expected = frame.local(table.box(id));
+        // With the signs of zeros.
+        ASSERT_EQ(std::memcmp(&box, &expected, sizeof(box)), 0) << name << ", " << id;
     }
 }
 

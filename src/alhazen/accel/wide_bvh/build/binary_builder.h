@@ -5,8 +5,8 @@
 /// Source: Wald, "On Fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007.
 /// Differs: sets are divided as in sah_split.h; from level 48 on they are halved, so the depth is
 /// bounded for every input.
-/// Complexity and threads: O(n log n), parallel; the result is the same for every number of
-/// threads.
+/// Complexity and threads: O(n log n), parallel; the tree and the order of the references are the
+/// same for every number of threads, the places of its nodes are not.
 
 #include <span>
 

@@ -163,18 +163,21 @@ class Partners {
             // others is larger than all.
             const Int4 self = Int4{0, 1, 2, 3} + static_cast<std::int32_t>(begin + i);
             constexpr std::int32_t kOther = 1 << 30;
-            Float4 apart = bits_as<Float4>(Int4{} + kOther);
+            // So that none is a denormal number, which some threads take for zero.
+            constexpr std::int32_t kBias = 1 << 23;
+            Float4 apart = bits_as<Float4>(Int4{} + (kOther + kBias));
             const auto offer = [&](const float* weights, Int4 other) {
                 const Int4 heavier = lanes<Float4>(weights) != least;
                 const Int4 differ = (self ^ other) & (kOther - 1);
-                apart = lesser(bits_as<Float4>((~heavier & differ) | (heavier & kOther)), apart);
+                const Int4 offered = (~heavier & differ) | (heavier & kOther);
+                apart = lesser(bits_as<Float4>(offered + kBias), apart);
             };
             for (std::size_t d = 1; d <= kRadius; ++d) {
                 const auto distance = static_cast<std::int32_t>(d);
                 offer(&weight_[d - 1][kRadius + i], self + distance);
                 offer(&weight_[d - 1][kRadius + i - d], self - distance);
             }
-            const Int4 partner = self ^ bits_as<Int4>(apart);
+            const Int4 partner = self ^ (bits_as<Int4>(apart) - kBias);
             std::memcpy(partners + begin + i, &partner,
                         std::min(kLanes, size - i) * sizeof(std::uint32_t));
         }

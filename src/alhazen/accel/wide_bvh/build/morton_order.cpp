@@ -88,13 +88,32 @@ std::vector<std::size_t> starts_of_runs(const Entry* entries, std::size_t size) 
     return starts;
 }
 
+/// Sorts a long run of entries with the same key by the rest of their codes, digit by digit.
+void sort_long_run(Entry* first, std::size_t size, const std::uint64_t* codes) {
+    constexpr std::uint64_t kRest = (std::uint64_t{1} << (kCodeBits - kKeyBits)) - 1;
+    static_assert(kCodeBits - kKeyBits <= 3 * kDigitBits);
+    const auto other = make_huge_array<Entry>(size);
+    parallel_for(size, kRadixChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto number = static_cast<std::uint32_t>(first[i]);
+            other[i] = (codes[number] & kRest) << kKeyBits | number;
+        }
+    });
+    sort_by_digit({other.get(), size}, first, kKeyBits);
+    sort_by_digit({first, size}, other.get(), kKeyBits + kDigitBits);
+    sort_by_digit({other.get(), size}, first, kKeyBits + 2 * kDigitBits);
+}
+
 /// Sorts each run of entries with the same key by the rest of their codes.
 void sort_runs(Entry* first, const Entry* end, const std::uint64_t* codes) {
     const auto number = [](Entry e) { return static_cast<std::uint32_t>(e); };
     while (first < end) {
         Entry* last = first + 1;
         while (last < end && *last >> kKeyBits == *first >> kKeyBits) ++last;
-        if (last - first > 1) {
+        const auto size = static_cast<std::size_t>(last - first);
+        if (size > kRadixChunk) {
+            sort_long_run(first, size, codes);
+        } else if (size > 1) {
             std::sort(first, last, [&](Entry a, Entry b) {
                 const std::uint64_t ca = codes[number(a)], cb = codes[number(b)];
                 return ca != cb ? ca < cb : a < b;
