@@ -158,6 +158,17 @@ TEST(LightVolumes, TheMediaAroundAPointAreFound) {
     EXPECT_TRUE(finder.around({0, 0, -3}, 0).empty());
 }
 
+/// Water that is a sheet alone reaches down without end.
+TEST(LightVolumes, AreFoundBelowAnOpenSheet) {
+    SceneMaker maker;
+    maker.add(rectangle({-9, -9, 1}, {18, 0, 0}, {0, 18, 0}), maker.material(glass({}, 1.3)));
+    const Scene scene = maker.compile();
+    const MediaFinder finder(scene);
+    ASSERT_FALSE(finder.around({0, 0, 0.5}, 0).empty());
+    EXPECT_EQ(finder.around({0, 0, 0.5}, 0).here()->index, 1.3);
+    EXPECT_TRUE(finder.around({0, 0, 1.5}, 0).empty());
+}
+
 /// Light that is focused by glass, found by paths that happen to hit the lamp and by others.
 TEST(LightVolumes, PathsAgreeOnGlassInARoom) {
     const auto room = [](const Material& of_ball) {
