@@ -89,6 +89,11 @@ endif()
 # with -O2, and a tenth to a third less than that. Readers of files take a quarter longer with -Og, so they are COLD.
 set(ALHAZEN_COLD_OPTIONS -O1)
 set(ALHAZEN_FROZEN_OPTIONS -Og)
+# Programs list these before the libraries: of an inline function the linker keeps the first copy. Those of `aggregates`
+# are last, for kernels that count are built for compile time.
+set(ALHAZEN_FAST_OBJECTS
+    $<TARGET_OBJECTS:alhazen_renderers> $<TARGET_OBJECTS:alhazen_primitives> $<TARGET_OBJECTS:alhazen_accel>
+    $<TARGET_OBJECTS:alhazen_aggregates>)
 
 # Writes the source `unit` of the build folder that includes kernels, so that the headers of lanes are read once for all.
 function(alhazen_write_kernel_unit unit)
