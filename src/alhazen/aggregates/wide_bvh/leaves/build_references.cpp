@@ -40,7 +40,7 @@ class TriangleReferences {
                          _mm_shuffle_ps(high_above, mid_above, _MM_SHUFFLE(2, 2, 2, 0)));
         // In registers to the end: what is stored by parts is slow to read again.
         const auto number = static_cast<std::int32_t>(id);
-        // Not by its sign: zero stays positive, as in LocalFrame::local.
+        // Not by its sign: zero is positive, as LocalFrame::local gives it but for corners of -0.
         const __m128 up = _mm_sub_ps(_mm_setzero_ps(), hi);
         const __m128i low_part = with_fourth(lo, number), high_part = with_fourth(up, kTriangles);
         std::memcpy(to.lo, &low_part, sizeof(low_part));
