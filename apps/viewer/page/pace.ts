@@ -3,7 +3,7 @@
 
 import type {FrameFacts} from "./state";
 
-const AIM = 46;      // milliseconds from picture to picture
+const AIM = 48;      // milliseconds from picture to picture
 const GROWTH = 1.6;  // power of the width by which the time grows, about
 const GUESS = 1.3;   // what one more generation costs, times, where it is not known
 const LATE = 0.4;    // share of the late pictures in the mean

@@ -1949,7 +1949,7 @@ function drawScale(place, layer, scales) {
 }
 
 // apps/viewer/page/pace.ts
-var AIM = 46;
+var AIM = 48;
 var GROWTH = 1.6;
 var GUESS = 1.3;
 var LATE = 0.4;
