@@ -4,7 +4,8 @@
 
 #include "alhazen/sampling/nested_scramble.h"
 
-#if defined(__x86_64__) && defined(__GNUC__)
+// Clang refuses to pass vectors of AVX to functions that are compiled without it, inlined or not.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define ALHAZEN_SOBOL_LANES 1
 #else
 #define ALHAZEN_SOBOL_LANES 0
