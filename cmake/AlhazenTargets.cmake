@@ -86,7 +86,8 @@ elseif(NOT ALHAZEN_KERNELS STREQUAL "all")
 endif()
 
 # Options of code whose own time counts little (COLD) or hardly (FROZEN), built for compile time: a fifth less of it than
-# with -O2, and a tenth to a third less than that. Readers of files take a quarter longer with -Og, so they are COLD.
+# with -O2, and a tenth to a third less than that. Readers take a quarter longer with -Og, so those of large files are
+# COLD.
 set(ALHAZEN_COLD_OPTIONS -O1)
 set(ALHAZEN_FROZEN_OPTIONS -Og)
 # Programs list these before the libraries: of an inline function the linker keeps the first copy. Those of `aggregates`
