@@ -15,27 +15,9 @@
 #include <limits>
 
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/simd/registers.h"
 
 namespace alhazen {
-
-using Double2 = double __attribute__((vector_size(16)));
-
-/// Lane by lane a < b ? a : b and a > b ? a : b. Compilers use one instruction only where they may
-/// ignore NaN.
-inline Double2 lesser(Double2 a, Double2 b) {
-#ifdef __SSE2__
-    return _mm_min_pd(a, b);
-#else
-    return a < b ? a : b;
-#endif
-}
-inline Double2 greater(Double2 a, Double2 b) {
-#ifdef __SSE2__
-    return _mm_max_pd(a, b);
-#else
-    return a > b ? a : b;
-#endif
-}
 
 /// Whether a <= b, or a == b, in both lanes.
 inline bool both_at_most(Double2 a, Double2 b) {

@@ -10,14 +10,11 @@
 /// Complexity and threads: O(n); large sets in parallel, with the same result for every number of
 /// threads.
 
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
-
 #include <cstdint>
 #include <limits>
 #include <span>
 
+#include "alhazen/accel/wide_bvh/build/box4.h"
 #include "alhazen/accel/wide_bvh/build/build_types.h"
 
 namespace alhazen {
@@ -26,59 +23,6 @@ namespace alhazen {
 inline constexpr int kMaxSahLevel = 48;
 /// Minimum size of a set for a separate task.
 inline constexpr std::uint32_t kParallelBuildSize = 4096;
-
-/// Four floats in a register; the fourth of a box is unused.
-using Float4 = float __attribute__((vector_size(16)));
-
-/// Lane by lane a < b ? a : b and a > b ? a : b. Compilers use one instruction only where they may
-/// ignore NaN.
-inline Float4 lesser(Float4 a, Float4 b) {
-#ifdef __SSE__
-    return _mm_min_ps(a, b);
-#else
-    return a < b ? a : b;
-#endif
-}
-inline Float4 greater(Float4 a, Float4 b) {
-#ifdef __SSE__
-    return _mm_max_ps(a, b);
-#else
-    return a > b ? a : b;
-#endif
-}
-
-struct Box4 {
-    Float4 lo, hi;
-
-    Box4() {
-        constexpr float kInf = std::numeric_limits<float>::infinity();
-        lo = Float4{kInf, kInf, kInf, kInf};
-        hi = -lo;
-    }
-    explicit Box4(const BuildReference& r) {
-        std::memcpy(&lo, r.lo, sizeof(lo));
-        std::memcpy(&hi, r.hi, sizeof(hi));
-    }
-    explicit Box4(const FloatBox& box)
-        : lo{box.lo[0], box.lo[1], box.lo[2], 0}, hi{box.hi[0], box.hi[1], box.hi[2], 0} {}
-    void include(const Box4& b) {
-        lo = lesser(b.lo, lo);
-        hi = greater(b.hi, hi);
-    }
-    void include_point(Float4 p) {
-        lo = lesser(p, lo);
-        hi = greater(p, hi);
-    }
-    [[nodiscard]] Float4 center2() const { return lo + hi; }
-    [[nodiscard]] FloatBox box() const {
-        return FloatBox{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
-    }
-    /// As FloatBox::weight.
-    [[nodiscard]] float weight() const {
-        const Float4 d = hi - lo;
-        return d[0] * d[1] + d[1] * d[2] + d[2] * d[0] + 1e-6f * (d[0] + d[1] + d[2]) + 1e-12f;
-    }
-};
 
 /// The number of primitives of each kind.
 using KindCounts = std::array<std::uint32_t, kLeafKinds>;
@@ -146,6 +90,16 @@ struct ObjectSplit {
 /// The cheapest split; none when all centers coincide.
 [[nodiscard]] ObjectSplit best_object_split(std::span<const BuildReference> references,
                                             const RangeSummary& all, const LeafKinds& kinds);
+
+/// Its two ways: by bins of the centers, and by sweeps along them for at most kSweepSize
+/// references.
+[[nodiscard]] ObjectSplit split_by_bins(std::span<const BuildReference> references,
+                                        const RangeSummary& all, const LeafKinds& kinds);
+[[nodiscard]] ObjectSplit split_by_sweeps(std::span<const BuildReference> references,
+                                          const RangeSummary& all, const LeafKinds& kinds);
+/// Reorders by a split of split_by_bins, its left side first; returns the size of that.
+std::uint32_t partition_by_bins(std::span<BuildReference> references, const RangeSummary& all,
+                                const ObjectSplit& split);
 
 /// Reorders so that the left side comes first; returns its size and summarizes both sides.
 std::uint32_t divide(std::span<BuildReference> references, const RangeSummary& all,

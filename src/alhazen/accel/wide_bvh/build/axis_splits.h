@@ -1,0 +1,90 @@
+#pragma once
+/// The cheapest split of each axis, the axes in lanes; what binned_split.cpp and swept_split.cpp
+/// share.
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "alhazen/accel/wide_bvh/build/sah_split.h"
+
+namespace alhazen {
+
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+/// One side of a split, or a bin: of primitives of several kinds.
+struct KindBox {
+    Box4 box;
+    KindCounts count{};
+    std::uint32_t unused = 0;
+
+    void include(const KindBox& other) {
+        box.include(other.box);
+        for (std::size_t k = 0; k < kLeafKinds; ++k) count[k] += other.count[k];
+    }
+};
+
+/// The cost of a side with these numbers of each kind.
+struct SideCost {
+    const LeafKinds& kinds;
+
+    [[nodiscard]] float operator()(const Box4& box, const KindCounts& count) const {
+        return box.weight() * blocks_cost(count, kinds);
+    }
+};
+
+/// A box for each axis. A lane stands for an axis; the fourth one repeats the third.
+struct AxisBoxes {
+    Box4 of[3];
+
+    /// As Box4::weight; of an empty box as of a point.
+    [[nodiscard]] Float4 weights() const {
+        const Float4 a = size(of[0]), b = size(of[1]), c = size(of[2]);
+        const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+        const Float4 high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+        const Float4 x = __builtin_shufflevector(low, c, 0, 1, 4, 4);
+        const Float4 y = __builtin_shufflevector(low, c, 2, 3, 5, 5);
+        const Float4 z = __builtin_shufflevector(high, c, 0, 1, 6, 6);
+        return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
+    }
+
+  private:
+    static Float4 size(const Box4& box) { return greater(box.hi - box.lo, Float4{}); }
+};
+
+/// `mask` ? a : b, lane by lane; a mask has all bits of a lane or none.
+inline Float4 chosen(Int4 mask, Float4 a, Float4 b) {
+    Int4 x, y;
+    std::memcpy(&x, &a, sizeof(x));
+    std::memcpy(&y, &b, sizeof(y));
+    const Int4 bits = (mask & x) | (~mask & y);
+    Float4 result;
+    std::memcpy(&result, &bits, sizeof(result));
+    return result;
+}
+
+/// The cheapest split of each axis.
+struct AxisSplits {
+    static constexpr float kInf = std::numeric_limits<float>::infinity();
+    Float4 cost{kInf, kInf, kInf, kInf};
+    Int4 last_left{};
+
+    void offer(Float4 sum, Int4 valid, int last) {
+        const Int4 better = valid & (sum < cost);
+        cost = chosen(better, sum, cost);
+        last_left = (better & last) | (~better & last_left);
+    }
+    /// The cheapest one of all, without boxes.
+    [[nodiscard]] ObjectSplit best() const {
+        ObjectSplit split;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(cost[axis] < split.cost)) continue;
+            split.cost = cost[axis];
+            split.axis = axis;
+            split.last_left = last_left[axis];
+        }
+        return split;
+    }
+};
+
+}  // namespace alhazen
