@@ -55,6 +55,7 @@ Illumination::Data::Data(const Scene& of, const IlluminationOptions& how)
     const BoundingSphere around = sphere_around_bounded(of);
     center = around.center;
     radius = around.radius;
+    endless = reaches_infinity(of);
     environment = of.environment;
     if (!environment && of.background.max() > 0.0 && of.background.is_finite()) {
         environment = std::make_shared<const Environment>(

@@ -36,7 +36,7 @@ Vec3 position_of(const Light& light) {
 }
 
 /// What a light of the inverse square sends: intensity. Of lights that fall otherwise that of a
-/// light with a quadratic term of 1; `set_falloff` (light_start.h) makes it their own.
+/// light with a quadratic term of 1; `set_falloff` (light_starts.h) makes it their own.
 Rgb intensity_towards(const Light& light, const Vec3& direction) {
     Light plain = light;
     const auto set = [](auto& l) {
