@@ -177,8 +177,11 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
     draw.to_light =
         at.in_volume ? environment.sample(u) : environment.sample(at.normal, at.both_sides, u);
     draw.distance = kInfinity;
-    draw.radiance = waves.emission(environment.radiance(draw.to_light));
-    draw.density = probability * density_for(environment, at, draw.to_light);
+    const Environment::Sight sight =
+        at.in_volume ? environment.sight(draw.to_light)
+                     : environment.sight(at.normal, at.both_sides, draw.to_light);
+    draw.radiance = waves.emission(sight.radiance);
+    draw.density = probability * sight.density;
     draw.passes = mask_of(RayKind::Shadow);
     return draw;
 }

@@ -144,8 +144,9 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
         if (d.is_environment(far_light)) {
             const Vec3 from = d.environment->sample(direction);
             out.ray = ray_from_afar(d.center, d.radius, -from, place);
-            out.radiance = waves.emission(d.environment->radiance(from));
-            out.direction_density = d.environment->density(from);
+            const Environment::Sight sight = d.environment->sight(from);
+            out.radiance = waves.emission(sight.radiance);
+            out.direction_density = sight.density;
         } else {
             const auto& sun = std::get<DirectionalLight>(d.scene->lights[d.parallel[far_light]]);
             out.ray = ray_from_afar(d.center, d.radius, -sun.to_light, place);
