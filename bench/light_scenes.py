@@ -97,8 +97,26 @@ def sponza(data):
     return scene
 
 
-def interior(data):
-    """A room with a metal floor and bunny, lit by a window and a lamp."""
+def split(vertices, faces):
+    """Four triangles of each; appends the midpoints of the edges, which neighbours share."""
+    known = {}
+
+    def middle(a, b):
+        key = (a, b) if a < b else (b, a)
+        if key not in known:
+            known[key] = len(vertices)
+            vertices.append(tuple((p + q) / 2 for p, q in zip(vertices[a], vertices[b])))
+        return known[key]
+
+    result = []
+    for a, b, c in faces:
+        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+        result += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return result
+
+
+def interior(data, splits=0):
+    """A room with a metal floor and bunny, lit by a window and a lamp. Each split makes four triangles of one."""
     scene = Scene(eye=(0.2, -3.6, 1.3), at=(0, 0.2, 0.75), angle=45)
     white = scene.matt("white", (0.75, 0.74, 0.7))
     blue = scene.matt("blue", (0.2, 0.3, 0.6))
@@ -119,7 +137,10 @@ def interior(data):
     vertices = [upright(v) for v in vertices]
     low = min(v[2] for v in vertices)
     grown = [(8 * v[0] + 0.2, 8 * v[1] + 0.3, 8 * (v[2] - low)) for v in vertices]
-    scene.meshes.append((gold, grown, [face for group in faces.values() for face in group]))
+    faces = [face for group in faces.values() for face in group]
+    for _ in range(splits):
+        faces = split(grown, faces)
+    scene.meshes.append((gold, grown, faces))
     return scene
 
 
@@ -154,6 +175,8 @@ def many_lights(data):
 
 
 SCENES = {"cornell": cornell, "sponza": sponza, "interior": interior, "many_lights": many_lights}
+# Not beside Cycles: with a bunny of 1.1 million triangles.
+HEAVY = {"heavy_interior": lambda data: interior(data, splits=2)}
 
 
 def tuple_text(values):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/illumination/emitters_of_shape.h"
@@ -81,6 +82,13 @@ std::uint32_t EmitterList::emitters_of(const PrimitiveTable& table, PrimitiveId 
     return shines(table, id) ? emitters_of_shape(table, id) : 0;
 }
 
+bool EmitterList::may_be_half(const PrimitiveTable& table, PrimitiveId id) const {
+    if (table.kind(id) != kTriangleKind) return false;
+    const PlacedMesh& placed = table.mesh_of(table.index(id));
+    return placed.mesh->vertex_materials.empty() &&
+           !varies(scene_.materials[static_cast<std::size_t>(placed.material)]);
+}
+
 const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
     const auto known = tables_.find(&aggregate);
     if (known != tables_.end()) return known->second;
@@ -88,14 +96,23 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
     std::uint64_t sum = 0;
     const PrimitiveTable& table = aggregate.primitives();
     const bool is_solid = dynamic_cast<const CsgAggregate*>(&aggregate) != nullptr;
+    const bool is_top = &aggregate == scene_.aggregate.get();
+    bool follows_half = false;  // the primitive before may be one, and has no other yet
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         const PrimitiveId id{i};
+        const bool follows = std::exchange(follows_half, false);
         const std::uint32_t found = is_solid ? 0 : emitters_of(table, id);
         if (found == 0) {
             leaves_some_ |= table.kind(id) != kInstanceKind && shines(table, id);
             continue;
         }
         result.primitives.push_back(i);
+        const bool is_half = is_top && sum < kMostEmitters && may_be_half(table, id);
+        if (is_half && follows && rectangle_of_halves(table, PrimitiveId{i - 1}, id)) {
+            result.before.push_back(result.before.back());
+            continue;
+        }
+        follows_half = is_half;
         result.before.push_back(static_cast<std::uint32_t>(sum));
         sum = std::min<std::uint64_t>(sum + found, kMostEmitters);
     }
@@ -105,9 +122,15 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
 
 void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_table) {
     const PrimitiveTable& table = aggregate.primitives();
-    for (const std::uint32_t i : tables_.at(&aggregate).primitives) {
+    const Table& counted = tables_.at(&aggregate);
+    for (std::size_t k = 0; k < counted.primitives.size(); ++k) {
+        const PrimitiveId id{counted.primitives[k]};
+        if (k > 0 && counted.before[k] == counted.before[k - 1] &&
+            counted.before[k] < kMostEmitters) {
+            join_half(table, PrimitiveId{counted.primitives[k - 1]}, id);
+            continue;
+        }
         if (emitters_.size() >= kMostEmitters) return;
-        const PrimitiveId id{i};
         if (table.kind(id) == kInstanceKind) {
             const Instance& instance = table.instances[table.index(id)];
             expand(*instance.aggregate, world_from_table * instance.placement.outer_from_inner);
@@ -115,6 +138,14 @@ void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_ta
             expand_primitive(table, id, world_from_table);
         }
     }
+}
+
+void EmitterList::join_half(const PrimitiveTable& table, PrimitiveId first, PrimitiveId second) {
+    Emitter& e = emitters_.back();
+    const Emitter half = std::exchange(e, *rectangle_of_halves(table, first, second));
+    e.two_sided = half.two_sided;
+    e.radiance = half.radiance;
+    e.illuminant = half.illuminant;
 }
 
 void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,

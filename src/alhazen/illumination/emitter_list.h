@@ -4,11 +4,12 @@
 ///
 /// Conventions: a number is the sum, over the levels of instances, of the emitters that the table
 /// of the level has before the primitive: no map is needed. A primitive has an emitter for each of
-/// its faces or patches. Left out, so that only rays that happen to hit them find their light: what
-/// moves, surfaces of constructive solids, what reflected rays do not see, unlit materials, forms
-/// without a case in `emitters_of_shape`, and all beyond kMostEmitters.
-/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be
-/// called from many.
+/// its faces or patches; two triangles of a mesh that follow each other and are the halves of a
+/// rectangle, of one material that shines evenly and in no instance, have one together. Left out,
+/// so that only rays that happen to hit them find their light: what moves, surfaces of constructive
+/// solids, what reflected rays do not see, unlit materials, forms without a case in
+/// `emitters_of_shape`, and all beyond kMostEmitters. Complexity: O(primitives); a lookup O(depth
+/// log emitters). Threads: const functions may be called from many.
 
 #include <cstddef>
 #include <map>
@@ -45,7 +46,8 @@ class EmitterList {
     /// The emitters in an aggregate, those of instances included.
     struct Table {
         std::vector<std::uint32_t> primitives;  ///< that have some, ascending
-        std::vector<std::uint32_t> before;      ///< [of primitives] emitters of all before; and all
+        std::vector<std::uint32_t> before;      ///< [of primitives] emitters of all before, of the
+                                                ///< second half of a rectangle but one; and all
         [[nodiscard]] std::uint32_t count() const { return before.back(); }
     };
 
@@ -53,9 +55,13 @@ class EmitterList {
     void expand(const Aggregate& aggregate, const Affine& world_from_table);
     void expand_primitive(const PrimitiveTable& table, PrimitiveId id,
                           const Affine& world_from_table);
+    /// The last emitter, the first half of a rectangle, becomes all of it.
+    void join_half(const PrimitiveTable& table, PrimitiveId first, PrimitiveId second);
     [[nodiscard]] bool emits(const Material& material) const;
     [[nodiscard]] bool varies(const Material& material) const;
     [[nodiscard]] bool shines(const PrimitiveTable& table, PrimitiveId id) const;
+    /// Whether the triangle may be half of a rectangle: it shines evenly.
+    [[nodiscard]] bool may_be_half(const PrimitiveTable& table, PrimitiveId id) const;
     [[nodiscard]] std::uint32_t emitters_of(const PrimitiveTable& table, PrimitiveId id);
     [[nodiscard]] Hit hit_of(std::size_t emitter, const Ray& ray, double distance,
                              const Vec2& parameters) const;

@@ -1,5 +1,7 @@
 #include "alhazen/illumination/emitters_of_shape.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/base/overloaded.h"
@@ -180,6 +182,37 @@ void append_emitters_of_shape(const PrimitiveTable& table, PrimitiveId id,
                                  : world_from_table * table.placements[p].outer_from_inner;
         if constexpr (requires { append(shape, world, emitters); }) append(shape, world, emitters);
     });
+}
+
+std::optional<Emitter> rectangle_of_halves(const PrimitiveTable& table, PrimitiveId first,
+                                           PrimitiveId second) {
+    // Of the largest coordinate: what rounding leaves of exact corners.
+    constexpr double kRounding = 8e-16;
+    const std::uint32_t one = table.index(first), two = table.index(second);
+    if (&table.mesh_of(one) != &table.mesh_of(two)) return std::nullopt;
+    const std::array<Vec3, 3> a = table.triangle_vertices(one), b = table.triangle_vertices(two);
+    double largest = 0.0;
+    for (const Vec3& p : a) largest = std::max(largest, max_component(abs(p)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        // The corner without the other triangle, and the side across.
+        const Vec3 &corner = a[i], &from = a[(i + 1) % 3], &to = a[(i + 2) % 3];
+        const Vec3 x = from - corner, y = to - corner;
+        const double xx = length_squared(x), yy = length_squared(y);
+        if (!(xx > 0.0 && yy > 0.0) || std::abs(dot(x, y)) > 1e-12 * std::sqrt(xx * yy)) continue;
+        for (std::size_t j = 0; j < 3; ++j) {
+            // The same winding: the other runs along that side the other way.
+            if (b[(j + 1) % 3] != to || b[(j + 2) % 3] != from) continue;
+            const Vec3 off = b[j] - (from + y);
+            if (max_component(abs(off)) > kRounding * largest) return std::nullopt;
+            Emitter e;
+            e.form = EmitterForm::Rectangle;
+            e.world_from_own = flat_frame({}, corner, x, y);
+            Vec3& normal = e.world_from_own.linear.z_axis;
+            if (table.mesh_of(one).mirrored) normal = -normal;
+            return e;
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace alhazen

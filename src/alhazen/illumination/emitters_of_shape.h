@@ -3,6 +3,7 @@
 /// without one are found by chance alone.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "alhazen/illumination/emitter.h"
@@ -17,5 +18,10 @@ namespace alhazen {
 /// Appends them, not ready (`make_ready`) and without radiance.
 void append_emitters_of_shape(const PrimitiveTable& table, PrimitiveId id,
                               const Affine& world_from_table, std::vector<Emitter>& emitters);
+
+/// The rectangle of which two triangles of one mesh are the halves, to rounding; none where they
+/// are not. Radiance and sides are not set.
+[[nodiscard]] std::optional<Emitter> rectangle_of_halves(const PrimitiveTable& table,
+                                                         PrimitiveId first, PrimitiveId second);
 
 }  // namespace alhazen

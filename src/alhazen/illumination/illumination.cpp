@@ -55,6 +55,7 @@ Illumination::Data::Data(const Scene& of, const IlluminationOptions& how)
     const BoundingSphere around = sphere_around_bounded(of);
     center = around.center;
     radius = around.radius;
+    endless = reaches_infinity(of);
     environment = of.environment;
     if (!environment && of.background.max() > 0.0 && of.background.is_finite()) {
         environment = std::make_shared<const Environment>(
@@ -176,8 +177,11 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
     draw.to_light =
         at.in_volume ? environment.sample(u) : environment.sample(at.normal, at.both_sides, u);
     draw.distance = kInfinity;
-    draw.radiance = waves.emission(environment.radiance(draw.to_light));
-    draw.density = probability * density_for(environment, at, draw.to_light);
+    const Environment::Sight sight =
+        at.in_volume ? environment.sight(draw.to_light)
+                     : environment.sight(at.normal, at.both_sides, draw.to_light);
+    draw.radiance = waves.emission(sight.radiance);
+    draw.density = probability * sight.density;
     draw.passes = mask_of(RayKind::Shadow);
     return draw;
 }

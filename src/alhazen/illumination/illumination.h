@@ -51,8 +51,9 @@ struct LightRay {
     double direction_density = 0;  ///< by solid angle; of singular directions: 1
     bool singular_place = false;   ///< a point
     bool singular_direction = false;  ///< parallel light
-    bool infinite = false;            ///< of the environment or parallel: it starts outside the
-                                      ///< scene, and its place lies on a disc across its direction
+    bool infinite = false;            ///< of the environment or parallel: it comes from infinity by
+                                      ///< way of its origin, which lies on a disc across its
+                                      ///< direction, before all that is bounded
     PlaceInLight place;
 };
 
@@ -105,7 +106,7 @@ class Illumination {
     [[nodiscard]] EmitDensity emit_density(const Hit& hit, const Surface& surface,
                                            const Vec3& direction) const;
     /// The same for light of the environment that travels along `direction` to the point `lit`; 0
-    /// where no ray of `emit` gets to, far away on unbounded surfaces.
+    /// where no ray of `emit` gets to, far beside what is bounded.
     [[nodiscard]] EmitDensity environment_emit_density(const Vec3& direction,
                                                        const Vec3& lit) const;
 

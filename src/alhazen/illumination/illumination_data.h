@@ -29,6 +29,7 @@ struct Illumination::Data {
     std::shared_ptr<const Environment> environment;  ///< null: black
     Vec3 center;                                     ///< of a sphere around the scene
     double radius = 1;
+    bool endless = false;  ///< something of the scene reaches to infinity
 
     LightChooser near;      ///< for choices Uniform and Power
     LightTree tree;         ///< for choice Tree
@@ -40,11 +41,12 @@ struct Illumination::Data {
     [[nodiscard]] std::size_t near_count() const {
         return emitters.size() + hidden.size() + points.size();
     }
-    /// Whether a ray of `emit` from afar along `direction` gets to the point.
+    /// Whether a ray of `emit` from afar along `direction` gets to the point: it begins on the disc
+    /// before the sphere, or before all that is endless.
     [[nodiscard]] bool reaches(const Vec3& direction, const Vec3& lit) const {
         const Vec3 from_center = lit - center;
         const double along = dot(from_center, direction);
-        return along >= -radius &&
+        return (endless || along >= -radius) &&
                length_squared(from_center - along * direction) <= radius * radius;
     }
     /// The light at a point of a source, near or far; null: it is none.

@@ -36,7 +36,7 @@ Vec3 position_of(const Light& light) {
 }
 
 /// What a light of the inverse square sends: intensity. Of lights that fall otherwise that of a
-/// light with a quadratic term of 1; `set_falloff` (light_start.h) makes it their own.
+/// light with a quadratic term of 1; `set_falloff` (light_starts.h) makes it their own.
 Rgb intensity_towards(const Light& light, const Vec3& direction) {
     Light plain = light;
     const auto set = [](auto& l) {
@@ -144,8 +144,9 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
         if (d.is_environment(far_light)) {
             const Vec3 from = d.environment->sample(direction);
             out.ray = ray_from_afar(d.center, d.radius, -from, place);
-            out.radiance = waves.emission(d.environment->radiance(from));
-            out.direction_density = d.environment->density(from);
+            const Environment::Sight sight = d.environment->sight(from);
+            out.radiance = waves.emission(sight.radiance);
+            out.direction_density = sight.density;
         } else {
             const auto& sun = std::get<DirectionalLight>(d.scene->lights[d.parallel[far_light]]);
             out.ray = ray_from_afar(d.center, d.radius, -sun.to_light, place);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "alhazen/illumination/light_importance.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
@@ -25,10 +26,6 @@ struct Cluster {
     bool two_sided = false;
     std::size_t count = 0;
 };
-
-double sine_of(double cosine) {
-    return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-}
 
 /// The smallest cone around two: section 4.1, algorithm 1.
 void unite_cones(Cluster& a, Cluster b) {
@@ -257,48 +254,6 @@ class TreeBuilder {
     std::vector<std::uint32_t> order_;
 };
 
-/// Cosine of the larger of 0 and the angle a - b, by their cosines and sines.
-double cosine_of_difference(double cosine_a, double sine_a, double cosine_b, double sine_b) {
-    return cosine_a > cosine_b ? 1.0 : cosine_a * cosine_b + sine_a * sine_b;
-}
-/// The sine of the same.
-double sine_of_difference(double cosine_a, double sine_a, double cosine_b, double sine_b) {
-    return cosine_a > cosine_b ? 0.0 : sine_a * cosine_b - cosine_a * sine_b;
-}
-
-/// What the lights of a node may send to a point, about.
-double importance(const LightTree::Node& n, const LitPoint& at) {
-    const Vec3 lo{n.lo[0], n.lo[1], n.lo[2]}, hi{n.hi[0], n.hi[1], n.hi[2]};
-    const Vec3 offset = 0.5 * (lo + hi) - at.point;
-    const double radius2 = 0.25 * length_squared(hi - lo), squared = length_squared(offset);
-    // Within the sphere around the node all directions are possible.
-    if (!(squared > radius2)) return n.intensity / std::max(radius2, 1e-300);
-    const double distance = std::sqrt(squared);
-    const Vec3 to_light = offset / distance;
-    const double sine_b = std::min(1.0, std::sqrt(radius2) / distance);
-    const double cosine_b = std::sqrt(1.0 - sine_b * sine_b);
-
-    double cosine_w = -(n.axis[0] * to_light.x + n.axis[1] * to_light.y + n.axis[2] * to_light.z);
-    if (n.two_sided) cosine_w = std::abs(cosine_w);
-    cosine_w = std::clamp(cosine_w, -1.0, 1.0);
-    const double sine_w = sine_of(cosine_w);
-    const double cosine_o = n.cosine_spread, sine_o = sine_of(cosine_o);
-    const double cosine_x = cosine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
-    const double sine_x = sine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
-    const double cosine_out = cosine_of_difference(cosine_x, sine_x, cosine_b, sine_b);
-    if (cosine_out <= n.cosine_reach) return 0.0;
-    // The cosine of a lamp that is no surface does not count.
-    const double sent = n.cosine_reach < 0.0 ? 1.0 : cosine_out;
-
-    if (at.in_volume) return n.intensity * sent / squared;
-    double cosine_i = dot(at.normal, to_light);
-    if (at.both_sides) cosine_i = std::abs(cosine_i);
-    cosine_i = std::clamp(cosine_i, -1.0, 1.0);
-    const double received = cosine_of_difference(cosine_i, sine_of(cosine_i), cosine_b, sine_b);
-    if (!(received > 0.0)) return 0.0;
-    return n.intensity * sent * received / squared;
-}
-
 }  // namespace
 
 LightTree::LightTree(const std::vector<TreeLight>& lights) {
@@ -315,7 +270,7 @@ ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
     const Node* node = nodes_.data();
     while (!node->leaf) {
         const Node* children = nodes_.data() + node->content;
-        const double first = importance(children[0], at), second = importance(children[1], at);
+        const auto [first, second] = importances(children, at);
         const double sum = first + second;
         if (!(sum > 0.0)) return {};
         const double share = first / sum;
@@ -338,7 +293,7 @@ double LightTree::probability(const LitPoint& at, std::size_t light) const {
     double probability = 1.0;
     while (nodes_[i].parent != kNone) {
         const std::uint32_t first = nodes_[nodes_[i].parent].content;
-        const double one = importance(nodes_[first], at), two = importance(nodes_[first + 1], at);
+        const auto [one, two] = importances(&nodes_[first], at);
         if (!(one + two > 0.0)) return 0.0;
         probability *= (i == first ? one : two) / (one + two);
         i = nodes_[i].parent;

@@ -10,12 +10,6 @@ namespace alhazen {
 
 namespace {
 
-/// The angle between the planes through the unit vector `at` and one of the other two each.
-double dihedral(const Vec3& at, const Vec3& p, const Vec3& q) {
-    const Vec3 np = cross(at, p), nq = cross(at, q);
-    return std::atan2(length(cross(np, nq)), dot(np, nq));
-}
-
 /// The unit part of `v` that is perpendicular to the unit vector `axis`.
 Vec3 beside(const Vec3& v, const Vec3& axis) {
     return unit_or(v - dot(v, axis) * axis, perpendicular(axis));
@@ -25,32 +19,41 @@ double root_of_rest(double cosine) {
     return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
 }
 
+/// Of squares, which neither over- nor underflow for lengths that scenes have.
+double root_of_sum(double a, double b) {
+    return std::sqrt(a * a + b * b);
+}
+
 }  // namespace
 
 SphericalTriangle::SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double la = length(a), lb = length(b), lc = length(c);
     if (!(la > 0.0 && lb > 0.0 && lc > 0.0)) return;
     corners_ = {a / la, b / lb, c / lc};
-    const double triple = std::abs(dot(corners_[0], cross(corners_[1], corners_[2])));
-    const double below = 1.0 + dot(corners_[0], corners_[1]) + dot(corners_[1], corners_[2]) +
-                         dot(corners_[2], corners_[0]);
-    solid_angle_ = triple > 0.0 ? 2.0 * std::atan2(triple, below) : 0.0;
+    triple_ = std::abs(dot(corners_[0], cross(corners_[1], corners_[2])));
+    ab_ = dot(corners_[0], corners_[1]);
+    bc_ = dot(corners_[1], corners_[2]);
+    ca_ = dot(corners_[2], corners_[0]);
+    solid_angle_ = triple_ > 0.0 ? 2.0 * std::atan2(triple_, 1.0 + ab_ + bc_ + ca_) : 0.0;
 }
 
 Vec3 SphericalTriangle::direction(const Vec2& u) const {
     const auto& [a, b, c] = corners_;
     // The arc from `b` divides the triangle into a share u.x of its area and the rest.
-    const double alpha = dihedral(a, b, c);
-    const double sine_alpha = std::sin(alpha), cosine_alpha = std::cos(alpha);
-    const double phi = u.x * solid_angle_ - alpha;
-    const double s = std::sin(phi), t = std::cos(phi);
-    const double p = t - cosine_alpha, q = s + sine_alpha * dot(a, b);
+    // The angle alpha at `a`: its sine and cosine times sin(ab) sin(ca).
+    const double along = bc_ - ab_ * ca_, size = std::sqrt(along * along + triple_ * triple_);
+    const double sine_alpha = triple_ / size, cosine_alpha = along / size;
+    // Of u.x times the solid angle less alpha.
+    const double share = u.x * solid_angle_, sine = std::sin(share), cosine_share = std::cos(share);
+    const double s = sine * cosine_alpha - cosine_share * sine_alpha;
+    const double t = cosine_share * cosine_alpha + sine * sine_alpha;
+    const double p = t - cosine_alpha, q = s + sine_alpha * ab_;
     const double above = (q * t - p * s) * cosine_alpha - q;
     const double below = (q * s + p * t) * sine_alpha;
     // u.x = 0: both vanish, and the arc ends in `a`.
     double cosine = below != 0.0 ? std::clamp(above / below, -1.0, 1.0) : 1.0;
     // No farther along the side from `a` than `c`.
-    cosine = std::max(cosine, std::min(1.0, dot(a, c)));
+    cosine = std::max(cosine, std::min(1.0, ca_));
     const Vec3 end = cosine * a + root_of_rest(cosine) * beside(c, a);
     const double z = 1.0 - u.y * (1.0 - dot(end, b));
     return normalize(z * b + root_of_rest(z) * beside(end, b));
@@ -72,7 +75,7 @@ SphericalRectangle::SphericalRectangle(const Vec3& corner, const Vec3& edge_u, c
     y1_ = y0_ + height;
     if (!(z0_ < 0.0)) return;
     // Normals of the planes through the sides, in the local frame; only these parts matter.
-    const auto across = [&](double a) { return 1.0 / std::hypot(a, z0_); };
+    const auto across = [&](double a) { return 1.0 / root_of_sum(a, z0_); };
     const double n0 = across(y0_), n1 = across(x1_), n2 = across(y1_), n3 = across(x0_);
     // Normals: n0 = (0, z0, -y0), n1 = (-z0, 0, x1), n2 = (0, -z0, y1), n3 = (z0, 0, -x0).
     const double z_of_0 = -y0_ * n0, z_of_1 = x1_ * n1, z_of_2 = y1_ * n2, z_of_3 = -x0_ * n3;
@@ -91,8 +94,8 @@ Vec3 SphericalRectangle::point(const Vec2& u) const {
     const double cu =
         std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + b0_ * b0_), -1.0, 1.0);
     const double x = std::clamp(-(cu * z0_) / root_of_rest(cu), x0_, x1_);
-    const double d = std::hypot(x, z0_);
-    const double h0 = y0_ / std::hypot(d, y0_), h1 = y1_ / std::hypot(d, y1_);
+    const double d = root_of_sum(x, z0_);
+    const double h0 = y0_ / root_of_sum(d, y0_), h1 = y1_ / root_of_sum(d, y1_);
     const double h = h0 + u.y * (h1 - h0);
     const double rest = 1.0 - h * h;
     const double y = rest > 1e-14 ? std::clamp(h * d / std::sqrt(rest), y0_, y1_) : y1_;

@@ -5,6 +5,7 @@
 /// Source: Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed.
 /// Eng. 30(2), 1983; Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995; Urena,
 /// Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013.
+/// Differs: the sine and cosine of the angle of a triangle come from the products of its corners.
 /// Conventions: corners are relative to the point that sees them; `solid_angle` is 0 where they are
 /// degenerate or seen edge on. Exact up to rounding where the solid angle is above about 1e-6;
 /// smaller ones are better sampled by area. Either side may face the point.
@@ -25,8 +26,9 @@ class SphericalTriangle {
     [[nodiscard]] Vec3 direction(const Vec2& u) const;
 
   private:
-    std::array<Vec3, 3> corners_;  ///< unit
-    double solid_angle_ = 0;
+    std::array<Vec3, 3> corners_;      ///< unit
+    double ab_ = 0, bc_ = 0, ca_ = 0;  ///< their products
+    double triple_ = 0, solid_angle_ = 0;
 };
 
 class SphericalRectangle {

@@ -23,4 +23,10 @@ BoundingSphere sphere_around_bounded(const Scene& scene) {
     return {box.center(), std::max(0.5 * length(box.size()) * (1.0 + 1e-9), 1e-100)};
 }
 
+bool reaches_infinity(const Scene& scene) {
+    if (!scene.aggregate) return false;
+    const Box3 box = scene.aggregate->box();
+    return !box.empty() && !box.bounded();
+}
+
 }  // namespace alhazen

@@ -10,4 +10,7 @@ namespace alhazen {
 /// none. The radius is above 0. Complexity: O(1), O(primitives) where some are unbounded.
 [[nodiscard]] BoundingSphere sphere_around_bounded(const Scene& scene);
 
+/// Whether some primitive is unbounded.
+[[nodiscard]] bool reaches_infinity(const Scene& scene);
+
 }  // namespace alhazen

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "alhazen/illumination/illumination.h"
 #include "support/light_checks.h"
@@ -209,6 +212,62 @@ TEST(Emitters, OneSidedOnesShineToTheirOuterSideAlone) {
             EXPECT_GE(lit, 1) << i;
         }
     }
+}
+
+/// How many emitters are drawn for a point.
+std::size_t emitters_drawn(const Illumination& lights, const LitPoint& at) {
+    std::set<std::size_t> sources;
+    RandomStream random(3);
+    for (int i = 0; i < 200; ++i) {
+        const Vec2 u{random.uniform(), random.uniform()};
+        const LightDraw drawn = lights.draw(at, random.uniform(), u, kColorChannels);
+        if (drawn.density > 0.0) sources.insert(drawn.place.source);
+    }
+    return sources.size();
+}
+
+TEST(Emitters, HalvesOfARectangleAreOneEmitter) {
+    const Rectangle alike = rectangle_lamp();
+    const Vec3 a = alike.corner, b = a + alike.edge_u, d = a + alike.edge_v, c = b + alike.edge_v;
+    const auto lamp = [&](const std::array<Vec3, 4>& corners,
+                          const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                          const Affine& placement) {
+        SceneMaker maker;
+        TriangleMesh mesh;
+        mesh.positions.assign(corners.begin(), corners.end());
+        mesh.triangles = triangles;
+        const MaterialId m = maker.material(shining({2, 3, 4}, false));
+        maker.add(maker.mesh(mesh), m, placement);
+        return maker.compile();
+    };
+    for (const Affine& placement : {Affine{}, kMirror, Affine::translate({0.5, 0.25, 1})}) {
+        const Scene whole = lamp_of(alike, placement, false);
+        const LightDraw by_shape = Illumination(whole).draw(kAt, 0.5, {0.25, 0.75}, kColorChannels);
+        for (const auto& triangles :
+             {std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}},
+              {{1, 2, 3}, {1, 3, 0}},
+              {{2, 0, 1}, {2, 3, 0}}}) {
+            const Scene scene = lamp({a, b, c, d}, triangles, placement);
+            const Illumination lights(scene);
+            EXPECT_EQ(emitters_drawn(lights, kAt), 1u);
+            const LightDraw drawn = lights.draw(kAt, 0.5, {0.25, 0.75}, kColorChannels);
+            EXPECT_NEAR(drawn.density, by_shape.density, 1e-12 * by_shape.density);
+            expect_equal_densities(scene, lights, kAt, 1e-5);
+            EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 20000, 5)), 4.0);
+        }
+    }
+    // What is none: slanted, folded, of two sizes, the one over the other.
+    const Vec3 aside{0.3, 0, 0}, up{0, 0, 0.1};
+    const std::vector<std::array<std::uint32_t, 3>> usual{{0, 1, 2}, {0, 2, 3}};
+    for (const Scene& scene :
+         {lamp({a, b + aside, c + aside, d}, usual, {}), lamp({a, b, c, d + up}, usual, {}),
+          lamp({a, b, c, d + 0.01 * alike.edge_u}, usual, {})}) {
+        const Illumination lights(scene);
+        EXPECT_EQ(emitters_drawn(lights, kAt), 2u);
+        expect_equal_densities(scene, lights, kAt, 1e-5);
+    }
+    const Scene doubled = lamp({a, b, c, d}, {{0, 1, 2}, {0, 1, 3}}, {});
+    EXPECT_EQ(emitters_drawn(Illumination(doubled), kAt), 2u);
 }
 
 /// A material whose emission is a picture.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "alhazen/renderers/light_transport/light_start.h"
+#include "alhazen/renderers/light_transport/lens_ray.h"
 
 namespace alhazen {
 
@@ -37,7 +37,7 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
       chance_(job),
       camera_(job),
       lens_(job),
-      media_(job.scene),
+      starts_(job.scene),
       walk_(job.scene, lights, counters, stats_),
       joins_(job.scene, counters, stats_),
       lens_light_(*lens_light) {}
@@ -73,7 +73,7 @@ Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     const LightRay light =
         lights_.emit(chance_.draw(id, kLightPairs).x, chance_.draw(id, kLightPairs + 1),
                      chance_.draw(id, kLightPairs + 2), waves_);
-    const WalkStart from_light = start_of(light, time, media_, waves_);
+    const WalkStart from_light = starts_.of(light, time, waves_);
     if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
         begin_.place = lights_.point_of_light(light.place, light.ray.origin);
         begin_.emit = {light.place_density, light.direction_density};

@@ -11,6 +11,7 @@
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/light_transport/splat_film.h"
@@ -95,7 +96,7 @@ class BidirectionalTracer {
     PathChance chance_;
     CameraRays camera_;
     CameraLens lens_;
-    MediaFinder media_;
+    LightStarts starts_;
     RandomWalk walk_;
     LightBatch joins_;
     LensLight& lens_light_;

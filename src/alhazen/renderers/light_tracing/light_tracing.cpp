@@ -12,8 +12,9 @@
 #include "alhazen/renderers/core/tiles.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/lens_ray.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
-#include "alhazen/renderers/light_transport/light_start.h"
+#include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/light_transport/splat_film.h"
 #include "alhazen/renderers/path_tracing/path_tracing.h"
@@ -36,7 +37,7 @@ class LightTiles final : public TileRenderer {
           chance_(job),
           camera_(job),
           lens_(job),
-          media_(job.scene),
+          starts_(job.scene),
           walk_(job.scene, lights, counters_, job.count_tests ? &counters_.tests : nullptr),
           joins_(job.scene, counters_, job.count_tests ? &counters_.tests : nullptr),
           splats_(splats) {}
@@ -65,7 +66,7 @@ class LightTiles final : public TileRenderer {
         const Vec2 choice = chance_.draw(id, kEmissionPairs);
         const LightRay light = lights_.emit(choice.x, chance_.draw(id, kEmissionPairs + 1),
                                             chance_.draw(id, kEmissionPairs + 2), waves);
-        const WalkStart start = start_of(light, time, media_, waves);
+        const WalkStart start = starts_.of(light, time, waves);
         if (start.throughput.is_black() || !start.throughput.is_finite()) return;
         walk_.walk(Transport::Importance, start,
                    {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
@@ -100,7 +101,7 @@ class LightTiles final : public TileRenderer {
     PathChance chance_;
     CameraRays camera_;
     CameraLens lens_;
-    MediaFinder media_;
+    LightStarts starts_;
     RandomWalk walk_;
     LightBatch joins_;
     SplatFilm& splats_;

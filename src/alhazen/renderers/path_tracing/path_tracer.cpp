@@ -295,6 +295,7 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
     Spectrum* const waiting = record_shadow(path, shadow, shown);
     Spectrum& to = waiting != nullptr ? *waiting
+                   : !joins_apart()   ? sum
                                       : place_of_joined(path, first_along(path, drawn.to_light),
                                                         &drawn.to_light, sum);
     shadows_.add(shadow, path.time, goes_behind ? behind_ : path.media, waves(path), shown, to);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/renderers/light_transport/light_start.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -29,7 +28,7 @@ PhotonWalk::PhotonWalk(const Scene& scene, const Illumination& lights, const Pho
       caustics_only_(!shot.kinds.has(PhotonKind::Direct) && !shot.kinds.has(PhotonKind::Indirect) &&
                      !shot.in_volumes.has(PhotonKind::Indirect)),
       sampler_(find_sampler("sobol")->make(shot.seed, kMaxSamples)),
-      media_(scene),
+      starts_(scene),
       next_(scene, counters, stats) {}
 
 LightRay PhotonWalk::leave_light(std::uint64_t number) const {
@@ -88,7 +87,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     const LightRay light = leave_light(number);
     float time = 0.0f;
     if (scene_.has_motion) time = shot_.shutter.at(numbers.at(kTimeOfPhoton));
-    const WalkStart start = start_of(light, time, media_, *shot_.waves);
+    const WalkStart start = starts_.of(light, time, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     PathEnd path;
     path.ray = start.ray;

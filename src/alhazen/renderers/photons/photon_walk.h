@@ -19,7 +19,7 @@
 
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/sample_loop.h"
-#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/renderers/photons/photon.h"
 #include "alhazen/renderers/photons/projection_map.h"
@@ -63,7 +63,7 @@ class PhotonWalk {
     PhotonShot shot_;
     bool caustics_only_;
     std::unique_ptr<Sampler> sampler_;  ///< of the rays that leave lights
-    MediaFinder media_;
+    LightStarts starts_;
     NextSurface next_;
     ScatterPoint scatter_;
 };

@@ -7,7 +7,7 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/renderers/light_transport/light_start.h"
+#include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/sampling/random.h"
 
@@ -29,9 +29,9 @@ float weight_of(double share) {
 }
 
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
-bool meets_mirror(const Scene& scene, const LightRay& light, const MediaFinder& media,
+bool meets_mirror(const Scene& scene, const LightRay& light, LightStarts& starts,
                   const PathNumbers& numbers, NextSurface& next, ScatterPoint& scatter) {
-    const WalkStart start = start_of(light, 0.0f, media, kColorChannels);
+    const WalkStart start = starts.of(light, 0.0f, kColorChannels);
     if (start.throughput.is_black()) return false;
     PathEnd path;
     path.ray = start.ray;
@@ -113,7 +113,7 @@ void ProjectionMap::try_cells(const RenderJob& job, const std::vector<std::size_
                               RayCounters& counters) const {
     constexpr std::size_t kTogether = 64;
     const std::size_t groups = (asked.size() + kTogether - 1) / kTogether;
-    const MediaFinder media(job.scene);
+    LightStarts starts(job.scene);
     std::vector<RayCounters> counts(groups);
     parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
         ScatterPoint scatter;
@@ -128,7 +128,7 @@ void ProjectionMap::try_cells(const RenderJob& job, const std::vector<std::size_
                                                    {n.at(3), n.at(4)}, kColorChannels);
                     // Light without a place is sent everywhere.
                     const bool hits =
-                        light.infinite || meets_mirror(job.scene, light, media, n, next, scatter);
+                        light.infinite || meets_mirror(job.scene, light, starts, n, next, scatter);
                     tally.hits += hits ? 1 : 0;
                 }
             }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "alhazen/renderers/core/sampling_plan.h"
-#include "alhazen/renderers/light_transport/light_start.h"
 
 namespace alhazen {
 
@@ -46,7 +45,7 @@ LightPathWalk::LightPathWalk(const LightPathNumbers& numbers, const Illumination
       lights_(lights),
       shot_(shot),
       chance_(job_),
-      media_(job_.scene),
+      starts_(job_.scene),
       walk_(job_.scene, lights, counters, stats) {}
 
 SideSums LightPathWalk::begin(const LightRay& light, double& facing) const {
@@ -84,7 +83,7 @@ bool LightPathWalk::shoot(std::uint64_t number, std::vector<LightVertex>& kept) 
                                         chance_.draw(id, kAlong), *shot_.waves);
     const float time =
         job_.scene.has_motion ? shot_.shutter.at(chance_.draw(id, PathChance::kTime).x) : 0.0f;
-    const WalkStart start = start_of(light, time, media_, *shot_.waves);
+    const WalkStart start = starts_.of(light, time, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     walk_.walk(
         Transport::Importance, start,

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "alhazen/renderers/core/sample_loop.h"
-#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/photons/photon.h"
@@ -79,7 +79,7 @@ class LightPathWalk {
     const Illumination& lights_;
     LightPathShot shot_;
     PathChance chance_;
-    MediaFinder media_;
+    LightStarts starts_;
     RandomWalk walk_;
     std::vector<PathVertex> path_;
 };

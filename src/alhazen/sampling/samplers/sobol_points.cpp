@@ -60,10 +60,11 @@ void scrambled_points_one_by_one(const ScrambleTrees& trees, std::span<const std
 
 namespace {
 
-constexpr std::size_t kSobolLanes = 4;
-using Words = std::uint64_t __attribute__((vector_size(8 * kSobolLanes)));
+using FourWords = std::uint64_t __attribute__((vector_size(32)));
+using EightWords = std::uint64_t __attribute__((vector_size(64)));
 
 /// `mix64` of each lane.
+template <class Words>
 ALHAZEN_SOBOL_INLINE Words mixed(Words x) {
     x += 0x9E3779B97F4A7C15u;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -72,10 +73,12 @@ ALHAZEN_SOBOL_INLINE Words mixed(Words x) {
 }
 
 /// The first 53 digits of `nested_scramble` of each lane.
+template <class Words>
 ALHAZEN_SOBOL_INLINE Words scrambled_digits(std::uint64_t tree, Words digits) {
     using namespace nested_scramble_detail;
     constexpr int kTree = kSobolScrambledDigits;
     Words scrambled = {};
+#pragma GCC unroll 5
     for (int done = 0; done < kTree; done += kLevels) {
         const Words above = done == 0 ? Words{} : digits >> (64 - done);
         const Words flips = mixed(tree ^ (above | std::uint64_t(done + 1) << 32));
@@ -83,6 +86,7 @@ ALHAZEN_SOBOL_INLINE Words scrambled_digits(std::uint64_t tree, Words digits) {
         // The node of a level is the beginning of the digits behind a one.
         const Words way = six | 64u;
         Words flipped = six;
+#pragma GCC unroll 6
         for (int level = 0; level < kLevels; ++level) {
             flipped ^= ((flips >> (way >> (level + 1))) & 1u) << level;
         }
@@ -92,10 +96,13 @@ ALHAZEN_SOBOL_INLINE Words scrambled_digits(std::uint64_t tree, Words digits) {
     return scrambled << (53 - kTree) | rest >> (64 - (53 - kTree));
 }
 
-__attribute__((target("avx2"))) void scrambled_points_in_lanes(
-    const ScrambleTrees& trees, std::span<const std::uint64_t> numbers, Vec2* out) {
-    for (std::size_t i = 0; i < numbers.size(); i += kSobolLanes) {
-        const std::size_t count = std::min(kSobolLanes, numbers.size() - i);
+template <class Words>
+ALHAZEN_SOBOL_INLINE void scrambled_points_in_lanes(const ScrambleTrees& trees,
+                                                    std::span<const std::uint64_t> numbers,
+                                                    Vec2* out) {
+    constexpr std::size_t kLanes = sizeof(Words) / sizeof(std::uint64_t);
+    for (std::size_t i = 0; i < numbers.size(); i += kLanes) {
+        const std::size_t count = std::min(kLanes, numbers.size() - i);
         Words number = {};
         for (std::size_t k = 0; k < count; ++k) number[k] = numbers[i + k];
         const Words x = scrambled_digits(trees.x, with_reversed_bits(number));
@@ -109,16 +116,33 @@ __attribute__((target("avx2"))) void scrambled_points_in_lanes(
     }
 }
 
+__attribute__((target("avx2"))) void scrambled_points_avx2(const ScrambleTrees& trees,
+                                                           std::span<const std::uint64_t> numbers,
+                                                           Vec2* out) {
+    scrambled_points_in_lanes<FourWords>(trees, numbers, out);
+}
+
+/// Has the products of words of 64 bits that AVX2 puts together of shorter ones.
+__attribute__((target("avx512f,avx512dq,prefer-vector-width=512"))) void scrambled_points_avx512(
+    const ScrambleTrees& trees, std::span<const std::uint64_t> numbers, Vec2* out) {
+    scrambled_points_in_lanes<EightWords>(trees, numbers, out);
+}
+
+using ScrambledPoints = void (*)(const ScrambleTrees&, std::span<const std::uint64_t>, Vec2*);
+
+ScrambledPoints fastest_scrambled_points() {
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
+        return scrambled_points_avx512;
+    }
+    return __builtin_cpu_supports("avx2") ? scrambled_points_avx2 : scrambled_points_one_by_one;
+}
+
 }  // namespace
 
 void scrambled_points(const ScrambleTrees& trees, std::span<const std::uint64_t> numbers,
                       Vec2* out) {
-    static const bool has_lanes = __builtin_cpu_supports("avx2") != 0;
-    if (has_lanes) {
-        scrambled_points_in_lanes(trees, numbers, out);
-    } else {
-        scrambled_points_one_by_one(trees, numbers, out);
-    }
+    static const ScrambledPoints fastest = fastest_scrambled_points();
+    fastest(trees, numbers, out);
 }
 
 #else

@@ -1,6 +1,7 @@
 #pragma once
 /// Points of the first two dimensions of Sobol's sequence, each dimension scrambled by a tree of
-/// its own (nested_scramble.h): four at a time in lanes of 64 bits where the processor has AVX2.
+/// its own (nested_scramble.h): in lanes of 64 bits where the processor has AVX-512 (eight at a
+/// time) or AVX2 (four).
 ///
 /// Conventions: the same bits with and without lanes.
 

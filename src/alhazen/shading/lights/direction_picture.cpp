@@ -1,7 +1,9 @@
 #include "alhazen/shading/lights/direction_picture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "alhazen/imaging/image/encoding.h"
@@ -24,6 +26,35 @@ double row_of(const Vec3& direction) {
     return std::atan2(std::hypot(direction.x, direction.y), direction.z) / kPi;
 }
 
+/// The number of the last entry at or before `wanted` that has a share itself, in a list that
+/// ascends. The first above `wanted` is between `least` and `most`.
+template <class Entries, class Value>
+std::size_t pick(const Entries& entries, std::size_t least, std::size_t most, Value wanted) {
+    const auto begin = entries.begin(), end = entries.end();
+    auto after =
+        std::upper_bound(begin + std::ptrdiff_t(least), begin + std::ptrdiff_t(most), wanted);
+    if (after == end) after = std::lower_bound(begin, end, entries.back());
+    return std::size_t(std::max(after - begin - 1, std::ptrdiff_t{0}));
+}
+
+/// The part of 1 that holds a share.
+std::size_t part_of(double share, std::size_t parts) {
+    return std::min(static_cast<std::size_t>(share * static_cast<double>(parts)), parts - 1);
+}
+
+/// For the beginning of each part of 1, times `scale`, how many entries are not above it; then how
+/// many there are.
+template <class Entries>
+void append_guide(const Entries& entries, std::size_t parts, double scale,
+                  std::vector<std::uint32_t>& guide) {
+    for (std::size_t i = 0; i < parts; ++i) {
+        const double begin = static_cast<double>(i) / static_cast<double>(parts) * scale;
+        const auto after = std::upper_bound(entries.begin(), entries.end(), begin);
+        guide.push_back(static_cast<std::uint32_t>(after - entries.begin()));
+    }
+    guide.push_back(static_cast<std::uint32_t>(entries.size()));
+}
+
 int index_below(double share, int count) {
     return std::clamp(static_cast<int>(share * count), 0, count - 1);
 }
@@ -41,6 +72,7 @@ DirectionPicture::DirectionPicture(Image picture) : picture_(std::move(picture))
     }
     blacken_bad_texels();
     make_distribution();
+    make_guides();
 }
 
 void DirectionPicture::blacken_bad_texels() {
@@ -91,9 +123,39 @@ void DirectionPicture::make_distribution() {
     }
 }
 
+void DirectionPicture::make_guides() {
+    // Powers of two: the beginnings of parts are exact.
+    row_parts_ = std::bit_floor(std::max(rows_.size() / 4, std::size_t{1}));
+    append_guide(rows_, row_parts_, rows_.back(), row_guide_);
+    const std::size_t w = std::size_t(picture_.width), h = std::size_t(picture_.height);
+    column_parts_ = std::bit_floor(std::max(w / 8, std::size_t{1}));
+    column_guides_.reserve(h * (column_parts_ + 1));
+    for (std::size_t y = 0; y < h; ++y) {
+        append_guide(std::span(columns_).subspan(y * (w + 1), w + 1), column_parts_, 1.0,
+                     column_guides_);
+    }
+}
+
+DirectionPicture::Place DirectionPicture::place_of(const Vec3& direction) {
+    return {column_of(direction), row_of(direction)};
+}
+
 Rgb DirectionPicture::radiance(const Vec3& direction) const {
-    const double x = column_of(direction) * picture_.width - 0.5;
-    const double y = row_of(direction) * picture_.height - 0.5;
+    return radiance_at(place_of(direction));
+}
+
+double DirectionPicture::density(const Vec3& direction) const {
+    return density_at(place_of(direction));
+}
+
+DirectionPicture::Sight DirectionPicture::sight(const Vec3& direction) const {
+    const Place place = place_of(direction);
+    return {radiance_at(place), density_at(place)};
+}
+
+Rgb DirectionPicture::radiance_at(const Place& place) const {
+    const double x = place.column * picture_.width - 0.5;
+    const double y = place.row * picture_.height - 0.5;
     const double left = std::floor(x), above = std::floor(y);
     const double fx = x - left, fy = y - above;
     const int i = static_cast<int>(left), j = static_cast<int>(above);
@@ -102,21 +164,18 @@ Rgb DirectionPicture::radiance(const Vec3& direction) const {
 }
 
 Vec3 DirectionPicture::sample(const Vec2& u) const {
-    // The last row or column that begins at or before the wanted share, and has one itself.
-    const auto pick = [](auto begin, auto end, auto wanted) {
-        auto after = std::upper_bound(begin, end, wanted);
-        if (after == end) after = std::lower_bound(begin, end, *(end - 1));
-        return std::max(after - begin - 1, std::ptrdiff_t{0});
-    };
     const double wanted_row = u.y * rows_.back();
-    const std::size_t y = std::size_t(pick(rows_.begin(), rows_.end(), wanted_row));
+    const std::size_t row_part = part_of(u.y, row_parts_);
+    const std::size_t y = pick(rows_, row_guide_[row_part], row_guide_[row_part + 1], wanted_row);
     const std::size_t w = std::size_t(picture_.width);
-    const auto first = columns_.begin() + std::ptrdiff_t(y * (w + 1));
+    const std::span<const float> row = std::span(columns_).subspan(y * (w + 1), w + 1);
     const float wanted = static_cast<float>(u.x);
-    const std::size_t x = std::size_t(pick(first, first + std::ptrdiff_t(w + 1), wanted));
+    const std::uint32_t* const guide =
+        &column_guides_[y * (column_parts_ + 1) + part_of(wanted, column_parts_)];
+    const std::size_t x = pick(row, guide[0], guide[1], wanted);
     const double share_y =
         std::clamp((wanted_row - rows_[y]) / (rows_[y + 1] - rows_[y]), 0.0, 1.0);
-    const double from = first[std::ptrdiff_t(x)], to = first[std::ptrdiff_t(x + 1)];
+    const double from = row[x], to = row[x + 1];
     const double share_x = std::clamp((u.x - from) / (to - from), 0.0, 1.0);
     const double top = height(static_cast<int>(y)), bottom = height(static_cast<int>(y) + 1);
     const double z = top + share_y * (bottom - top);
@@ -125,9 +184,9 @@ Vec3 DirectionPicture::sample(const Vec2& u) const {
     return {across * std::sin(angle), across * std::cos(angle), z};
 }
 
-double DirectionPicture::density(const Vec3& direction) const {
-    const int y = index_below(row_of(direction), picture_.height);
-    const int x = index_below(column_of(direction), picture_.width);
+double DirectionPicture::density_at(const Place& place) const {
+    const int y = index_below(place.row, picture_.height);
+    const int x = index_below(place.column, picture_.width);
     const std::size_t row = std::size_t(y);
     const double share = (rows_[row + 1] - rows_[row]) / rows_.back();
     const std::size_t first = row * std::size_t(picture_.width + 1) + std::size_t(x);

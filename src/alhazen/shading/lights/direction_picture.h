@@ -6,7 +6,8 @@
 /// 1976; Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 12.5.
 /// Differs: within a texel directions are uniform by solid angle, so that the density has no
 /// singular poles; the weight of a texel is the mean of the interpolated picture over it, so that
-/// what is not black has a density.
+/// what is not black has a density. Searches begin at guides (Chen and Asau, "On Generating Random
+/// Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974) and halve what is left.
 /// Conventions: in the frame of the picture x points to its right, y to its front, which is the
 /// centre of the picture, z up. The top row is at the zenith. Texels are interpolated in both
 /// directions, around the picture and not over its poles. Texels that are negative, infinite, no
@@ -15,6 +16,7 @@
 /// called from many.
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "alhazen/imaging/image/image.h"
@@ -34,6 +36,12 @@ class DirectionPicture {
     [[nodiscard]] Vec3 sample(const Vec2& u) const;
     /// By solid angle.
     [[nodiscard]] double density(const Vec3& direction) const;
+    /// Both.
+    struct Sight {
+        Rgb radiance;
+        double density = 0;
+    };
+    [[nodiscard]] Sight sight(const Vec3& direction) const;
 
     /// Over all directions.
     [[nodiscard]] const Rgb& mean() const { return mean_; }
@@ -41,8 +49,16 @@ class DirectionPicture {
     [[nodiscard]] std::size_t bad_texels() const { return bad_texels_; }
 
   private:
+    /// A direction as shares of the picture's width and height.
+    struct Place {
+        double column, row;
+    };
+    [[nodiscard]] static Place place_of(const Vec3& direction);
+    [[nodiscard]] Rgb radiance_at(const Place& place) const;
+    [[nodiscard]] double density_at(const Place& place) const;
     void blacken_bad_texels();
     void make_distribution();
+    void make_guides();
     /// `x`: at most a picture's width beside it.
     [[nodiscard]] Rgb texel(int x, int y) const;
     /// Between the heights (cosines to the zenith) of its borders.
@@ -52,6 +68,10 @@ class DirectionPicture {
     std::vector<double> heights_;  ///< [row + 1] of its upper border
     std::vector<double> rows_;     ///< [row + 1] weight of all rows above
     std::vector<float> columns_;   ///< [row][column + 1] share of the row's texels up to it
+    // Where the search for a share ends at the least: [part of 1].
+    std::vector<std::uint32_t> row_guide_;
+    std::vector<std::uint32_t> column_guides_;  ///< [row][part of 1]
+    std::size_t row_parts_ = 1, column_parts_ = 1;
     Rgb mean_;
     std::size_t bad_texels_ = 0;
 };

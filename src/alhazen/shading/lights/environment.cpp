@@ -84,8 +84,24 @@ double Environment::sun_solid_angle() const {
 Rgb Environment::radiance(const Vec3& direction) const {
     if (!picture_) return factor_;
     const Rgb sky = picture_->radiance(transpose_times(world_from_picture_, direction));
-    const bool in_sun = sun_ && dot(direction, sun_->direction) >= sun_->cosine;
-    return factor_ * (in_sun ? sky + sun_->radiance : sky);
+    return with_sun({sky, 0.0}, direction).radiance;
+}
+
+Environment::Sight Environment::with_sun(const Sight& sky, const Vec3& direction) const {
+    const bool in_sun = is_in_sun(direction);
+    return {factor_ * (in_sun ? sky.radiance + sun_->radiance : sky.radiance),
+            (1.0 - sun_share_) * sky.density + (in_sun ? sun_share_ / sun_solid_angle() : 0.0)};
+}
+
+Environment::Sight Environment::sight(const Vec3& direction) const {
+    if (!picture_) return {factor_, density(direction)};
+    return with_sun(picture_->sight(transpose_times(world_from_picture_, direction)), direction);
+}
+
+Environment::Sight Environment::sight(const Vec3& normal, bool both_sides,
+                                      const Vec3& direction) const {
+    if (picture_) return sight(direction);
+    return {factor_, density(normal, both_sides, direction)};
 }
 
 Rgb Environment::mean() const {
@@ -132,8 +148,7 @@ Vec3 Environment::sample(const Vec2& u) const {
 double Environment::density(const Vec3& direction) const {
     if (!picture_) return 1.0 / (4.0 * kPi);
     const double of_sky = picture_->density(transpose_times(world_from_picture_, direction));
-    const bool in_sun = sun_ && dot(direction, sun_->direction) >= sun_->cosine;
-    return (1.0 - sun_share_) * of_sky + (in_sun ? sun_share_ / sun_solid_angle() : 0.0);
+    return with_sun({{}, of_sky}, direction).density;
 }
 
 }  // namespace alhazen

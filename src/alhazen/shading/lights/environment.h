@@ -39,6 +39,11 @@ class Environment {
     [[nodiscard]] Vec3 sample(const Vec2& u) const;
     [[nodiscard]] double density(const Vec3& direction) const;
 
+    /// Radiance and density of a direction, at once.
+    using Sight = DirectionPicture::Sight;
+    [[nodiscard]] Sight sight(const Vec3& normal, bool both_sides, const Vec3& direction) const;
+    [[nodiscard]] Sight sight(const Vec3& direction) const;
+
     /// Over all directions.
     [[nodiscard]] Rgb mean() const;
     [[nodiscard]] bool shines() const { return mean().max() > 0.0; }
@@ -48,6 +53,11 @@ class Environment {
 
   private:
     [[nodiscard]] double sun_solid_angle() const;
+    [[nodiscard]] bool is_in_sun(const Vec3& direction) const {
+        return sun_ && dot(direction, sun_->direction) >= sun_->cosine;
+    }
+    /// Of the picture, with the sun before it.
+    [[nodiscard]] Sight with_sun(const Sight& sky, const Vec3& direction) const;
 
     Mat3 world_from_picture_;
     Rgb factor_;

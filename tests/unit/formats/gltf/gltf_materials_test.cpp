@@ -61,6 +61,82 @@ constexpr const char* kPng =
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAA"
     "AACklEQVR4nGP4DwABAQEAsTj2FAAAAABJRU5ErkJggg==";
 
+/// A PNG of two pixels: (255, 128, 0) with an alpha of 51, (0, 0, 255) with one of 255.
+constexpr const char* kGlossPng =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAEUlEQVR4nGP4"
+    "38BgzMDw/z8AD30Dsbg6hgUAAAAASUVORK5CYII=";
+
+TEST(GltfMaterial, SpecularGlossinessIsADielectricThatReflectsItsSpecularColour) {
+    const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", std::string(R"(,
+        "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"],
+        "extensionsRequired": ["KHR_materials_pbrSpecularGlossiness"],
+        "images": [{"uri": ")") + kGlossPng + R"("}], "textures": [{"source": 0}],
+        "materials": [
+          {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "roughnessFactor": 0.9},
+           "extensions": {"KHR_materials_pbrSpecularGlossiness": {
+             "diffuseFactor": [0.1, 0.2, 0.3, 0.4], "specularFactor": [0.5, 0.6, 0.7],
+             "glossinessFactor": 0.75}}},
+          {"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+             "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 0},
+             "glossinessFactor": 0.5}}}])"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    EXPECT_FALSE(result.says("not supported")) << result.messages();
+    const Material& plain = result.scene.materials.at(0).material;
+    ASSERT_TRUE(plain.metallic_roughness);
+    EXPECT_EQ(plain.metallic_roughness->base_color.color, (Rgb{0.1, 0.2, 0.3}));
+    EXPECT_EQ(plain.metallic_roughness->metallic.value, 0.0);
+    EXPECT_EQ(plain.metallic_roughness->roughness.value, 0.25);
+    EXPECT_EQ(plain.metallic_roughness->specular_color.color, (Rgb{0.5, 0.6, 0.7}));
+    EXPECT_EQ(plain.alpha.value, 0.4);
+    // Straight on it reflects all, times the specular colour.
+    EXPECT_EQ(plain.index.value, 0.0);
+    const MetallicRoughness& of_pictures =
+        *result.scene.materials.at(1).material.metallic_roughness;
+    const auto texture = [&](TextureId id) {
+        return testing::image_texture(result.scene.textures.at(std::size_t(id)));
+    };
+    EXPECT_TRUE(texture(of_pictures.base_color.texture).decode_srgb);
+    EXPECT_EQ(of_pictures.specular_color.texture, of_pictures.base_color.texture);
+    EXPECT_EQ(of_pictures.roughness.value, 1.0);
+    const StoredImage& roughness = *texture(of_pictures.roughness.texture).image;
+    EXPECT_NEAR(roughness.pixel(0, false).g, 1.0 - 0.5 * 51.0 / 255.0, 0.5 / 255.0);
+    EXPECT_NEAR(roughness.pixel(1, false).g, 0.5, 0.51 / 255.0);
+}
+
+TEST(GltfMaterial, AScatteringVolumeSharesItsAttenuation) {
+    const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
+        "extensionsUsed": ["KHR_materials_volume", "KHR_materials_volume_scatter",
+          "KHR_materials_diffuse_transmission"],
+        "materials": [{"extensions": {
+          "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1},
+          "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2,
+            "attenuationColor": [0.5, 0.25, 0]},
+          "KHR_materials_volume_scatter": {"multiscatterColor": [0, 0.5, 1],
+            "scatterAnisotropy": 0.3}}}])"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    const Material& m = result.scene.materials.at(0).material;
+    EXPECT_EQ(m.scattering.anisotropy, 0.3);
+    // What scatters and what absorbs attenuate together as the file says.
+    const Rgb attenuation{-std::log(0.5) / 2, -std::log(0.25) / 2, -std::log(1e-12) / 2};
+    for (int i = 0; i < 3; ++i) {
+        const double absorbed = -std::log(m.metallic_roughness->attenuation_color[i]) / 2;
+        EXPECT_NEAR(absorbed + m.scattering.coefficient[i], attenuation[i], 1e-9) << i;
+    }
+    EXPECT_NEAR(m.scattering.coefficient.r, 0.0, 1e-5);
+    // An albedo of 1/2 of a deep volume is one of about 0.91 of each scattering.
+    const double single =
+        1 - std::pow(4.09712 + 4.20863 / 2 - std::sqrt(9.59217 + 41.6808 / 2 + 17.7126 / 4), 2);
+    EXPECT_NEAR(m.scattering.coefficient.g / attenuation.g, single, 1e-12);
+    EXPECT_NEAR(m.scattering.coefficient.b / attenuation.b, 1.0, 1e-4);
+}
+
+TEST(GltfMaterial, AnisotropyOfScatteringIsBelowOne) {
+    const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
+        "extensionsUsed": ["KHR_materials_volume_scatter"],
+        "materials": [{"extensions": {"KHR_materials_volume_scatter": {"scatterAnisotropy": 1}}}])"));
+    EXPECT_TRUE(result.says("above -1 and below 1")) << result.messages();
+}
+
 std::string with_picture(const std::string& uri) {
     return with_nodes(R"({"mesh": 0})", "0",
                       R"(, "images": [{"name": "pic", "uri": ")" + uri +

@@ -156,8 +156,10 @@ class PrimitiveChecker {
               &material.diffuse_transmission_color_texture}) {
             if (*info && !has_coordinates(**info)) return;
         }
-        for (const TextureInfo& info : material.ignored_textures) {
-            if (!has_coordinates(info)) return;
+        if (const auto& old = material.specular_glossiness) {
+            for (const auto* info : {&old->diffuse_texture, &old->specular_glossiness_texture}) {
+                if (*info && !has_coordinates(**info)) return;
+            }
         }
     }
 

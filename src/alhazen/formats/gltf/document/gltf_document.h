@@ -91,6 +91,13 @@ struct TextureInfo {
     double rotation = 0;                              ///< KHR_texture_transform, radians
     double strength = 1;  ///< scale of a normal texture or strength of an occlusion texture
 };
+/// KHR_materials_pbrSpecularGlossiness: instead of metal, roughness and base colour.
+struct SpecularGlossiness {
+    std::array<double, 4> diffuse{1, 1, 1, 1};
+    std::array<double, 3> specular{1, 1, 1};
+    double glossiness = 1;
+    std::optional<TextureInfo> diffuse_texture, specular_glossiness_texture;
+};
 struct Material {
     std::string name;
     std::array<double, 4> base_color{1, 1, 1, 1};
@@ -127,8 +134,10 @@ struct Material {
     double diffuse_transmission = 0;  ///< KHR_materials_diffuse_transmission
     std::array<double, 3> diffuse_transmission_color{1, 1, 1};
     std::optional<TextureInfo> diffuse_transmission_texture, diffuse_transmission_color_texture;
-    double dispersion = 0;                      ///< KHR_materials_dispersion
-    std::vector<TextureInfo> ignored_textures;  ///< of extensions that are left out of the look
+    double dispersion = 0;                        ///< KHR_materials_dispersion
+    std::array<double, 3> multiscatter{0, 0, 0};  ///< KHR_materials_volume_scatter
+    double scatter_anisotropy = 0;
+    std::optional<SpecularGlossiness> specular_glossiness;
 };
 
 using Attributes = std::map<std::string, Index>;  ///< semantic -> accessor

@@ -1,4 +1,6 @@
 // Readers of materials and their extensions.
+#include <cmath>
+
 #include "alhazen/formats/gltf/document/gltf_texture_info.h"
 
 namespace alhazen::gltf {
@@ -47,6 +49,13 @@ void read_dielectric_extensions(const JsonObject& object, Material& material) {
         material.thickness_texture = read_texture_info(extension, "thicknessTexture");
         material.attenuation_distance = extension.number("attenuationDistance", kPositive);
         extension.numbers_into("attenuationColor", material.attenuation_color, kUnitRange);
+    });
+    object.with_extension("KHR_materials_volume_scatter", [&](const JsonObject& extension) {
+        extension.numbers_into("multiscatterColor", material.multiscatter, kUnitRange);
+        extension.number_into("scatterAnisotropy", material.scatter_anisotropy, {});
+        if (!(std::abs(material.scatter_anisotropy) < 1)) {
+            extension.error("scatterAnisotropy", "expected a number above -1 and below 1");
+        }
     });
     object.with_extension("KHR_materials_specular", [&](const JsonObject& extension) {
         extension.number_into("specularFactor", material.specular, kUnitRange);
@@ -100,43 +109,15 @@ void read_layers(const JsonObject& object, Material& material) {
     });
 }
 
-/// Checks the members of ignored extensions; the file is invalid outside their ranges.
-void check_ignored_extensions(const JsonObject& object, Material& material) {
-    struct Numbers {
-        const char* extension;
-        const char* member;
-        std::size_t size;  ///< 0: a number, not a list
-        Range range;
-    };
-    constexpr Numbers kNumbers[] = {
-        {"KHR_materials_pbrSpecularGlossiness", "diffuseFactor", 4, kUnitRange},
-        {"KHR_materials_pbrSpecularGlossiness", "specularFactor", 3, kUnitRange},
-        {"KHR_materials_pbrSpecularGlossiness", "glossinessFactor", 0, kUnitRange},
-    };
-    struct Picture {
-        const char* extension;
-        const char* member;
-        const char* strength;
-    };
-    constexpr Picture kPictures[] = {
-        {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", ""},
-        {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture", ""},
-    };
-    for (const Numbers& numbers : kNumbers) {
-        object.with_extension(numbers.extension, [&](const JsonObject& extension) {
-            if (numbers.size == 0) {
-                (void)extension.number(numbers.member, numbers.range);
-            } else {
-                (void)extension.numbers(numbers.member, numbers.size, numbers.range);
-            }
-        });
-    }
-    for (const Picture& picture : kPictures) {
-        object.with_extension(picture.extension, [&](const JsonObject& extension) {
-            const auto info = read_texture_info(extension, picture.member, picture.strength);
-            if (info) material.ignored_textures.push_back(*info);
-        });
-    }
+void read_specular_glossiness(const JsonObject& object, Material& material) {
+    object.with_extension("KHR_materials_pbrSpecularGlossiness", [&](const JsonObject& extension) {
+        SpecularGlossiness& own = material.specular_glossiness.emplace();
+        extension.numbers_into("diffuseFactor", own.diffuse, kUnitRange);
+        extension.numbers_into("specularFactor", own.specular, kUnitRange);
+        extension.number_into("glossinessFactor", own.glossiness, kUnitRange);
+        own.diffuse_texture = read_texture_info(extension, "diffuseTexture");
+        own.specular_glossiness_texture = read_texture_info(extension, "specularGlossinessTexture");
+    });
 }
 
 Material read_material(const JsonObject& object) {
@@ -155,7 +136,7 @@ Material read_material(const JsonObject& object) {
     });
     read_dielectric_extensions(object, material);
     read_layers(object, material);
-    check_ignored_extensions(object, material);
+    read_specular_glossiness(object, material);
     return material;
 }
 

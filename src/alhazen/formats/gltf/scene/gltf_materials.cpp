@@ -2,12 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace alhazen::gltf {
 
 namespace {
 
 Rgb rgb(const std::array<double, 3>& c) {
     return {c[0], c[1], c[2]};
+}
+
+/// Of light that is scattered again and again in a deep volume: what a single scattering leaves.
+///
+/// Source: KHR_materials_volume_scatter (draft), by Kulla and Conty, "Revisiting Physically Based
+/// Shading at Imageworks", SIGGRAPH 2017 course.
+Rgb single_scatter_albedo(const Rgb& multiple) {
+    Rgb single;
+    for (int i = 0; i < 3; ++i) {
+        const double m = multiple[i];
+        const double s = 4.09712 + 4.20863 * m - std::sqrt(9.59217 + 41.6808 * m + 17.7126 * m * m);
+        single[i] = std::clamp(1.0 - s * s, 0.0, 1.0);
+    }
+    return single;
 }
 
 class MaterialMaker {
@@ -27,7 +44,14 @@ class MaterialMaker {
                               m.normal_texture->strength};
         }
         MetallicRoughness parameters = metallic_roughness(m);
-        out.alpha = {m.base_color[3], parameters.base_color.texture, Channel::Alpha};
+        double alpha = m.base_color[3];
+        if (const auto& old = m.specular_glossiness) {
+            set_specular_glossiness(*old, parameters);
+            alpha = old->diffuse[3];
+            out.index.value = 0.0;
+        }
+        set_scattering(m, parameters, out.scattering);
+        out.alpha = {alpha, parameters.base_color.texture, Channel::Alpha};
         out.metallic_roughness = parameters;
         return out;
     }
@@ -68,6 +92,33 @@ class MaterialMaker {
         p.dispersion = m.dispersion;
         p.unlit = m.unlit;
         return p;
+    }
+
+    /// As the extensions of the specular colour and of the index say: an index of 0 reflects all,
+    /// times the specular colour, and the rest is left to the diffuse one.
+    void set_specular_glossiness(const SpecularGlossiness& old, MetallicRoughness& p) {
+        p.base_color = color({old.diffuse[0], old.diffuse[1], old.diffuse[2]}, old.diffuse_texture);
+        p.metallic = {0.0, kNoTexture, Channel::Blue};
+        p.specular = {1.0, kNoTexture, Channel::Alpha};
+        p.specular_color = color(rgb(old.specular), old.specular_glossiness_texture);
+        p.roughness = {1.0 - old.glossiness, kNoTexture, Channel::Green};
+        const TextureId of_gloss =
+            textures_.use_as_roughness(old.specular_glossiness_texture, old.glossiness);
+        if (of_gloss != kNoTexture) p.roughness = {1.0, of_gloss, Channel::Green};
+    }
+
+    /// What attenuates light scatters a share of it; the rest is absorbed.
+    static void set_scattering(const Material& m, MetallicRoughness& p, VolumeScattering& out) {
+        if (!m.attenuation_distance || m.multiscatter == std::array<double, 3>{}) return;
+        const Rgb single = single_scatter_albedo(rgb(m.multiscatter));
+        out.anisotropy = m.scatter_anisotropy;
+        for (int i = 0; i < 3; ++i) {
+            // A black channel would attenuate infinitely.
+            double& color = p.attenuation_color[i];
+            const double left = std::max(color, 1e-12);
+            out.coefficient[i] = -single[i] * std::log(left) / *m.attenuation_distance;
+            color = std::pow(left, 1.0 - single[i]);
+        }
     }
 
     ColorInput color(const Rgb& factor, const std::optional<TextureInfo>& info) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace alhazen::gltf {
 
@@ -12,6 +14,23 @@ std::string name_of(const Image& image, Index index) {
     if (!image.name.empty()) return image.name;
     if (!image.uri.empty()) return image.uri;
     return fmt::format("image {}", index);
+}
+
+/// Three times 1 - `glossiness` times the alpha, in codes of 8 bits.
+StoredImage roughness_of_gloss(const StoredImage& picture, double glossiness) {
+    StoredImage result;
+    result.width = picture.width;
+    result.height = picture.height;
+    result.linear = false;
+    std::vector<std::uint8_t> codes;
+    const std::size_t pixels = std::size_t(picture.width) * std::size_t(picture.height);
+    codes.reserve(3 * pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const double roughness = 1.0 - glossiness * picture.pixel(i, false).a;
+        codes.insert(codes.end(), 3, static_cast<std::uint8_t>(std::lround(255.0 * roughness)));
+    }
+    result.samples = std::move(codes);
+    return result;
 }
 
 }  // namespace
@@ -50,6 +69,23 @@ TextureId Textures::use(const std::optional<TextureInfo>& info, ColorSpace space
     const Key key{info->texture, info->tex_coord, info->offset, info->scale, info->rotation, space};
     const auto [entry, fresh] = made_.try_emplace(key, kNoTexture);
     if (fresh) entry->second = make(*info, space);
+    return entry->second;
+}
+
+TextureId Textures::use_as_roughness(const std::optional<TextureInfo>& info, double glossiness) {
+    if (!info) return kNoTexture;
+    const Key key{info->texture, info->tex_coord, info->offset,
+                  info->scale,   info->rotation,  ColorSpace::Linear};
+    const auto [entry, fresh] = made_of_gloss_.try_emplace({key, glossiness}, kNoTexture);
+    if (fresh) {
+        entry->second = make(*info, ColorSpace::Linear);
+        if (entry->second != kNoTexture) {
+            table_.derive(entry->second, fmt::format("roughness {}", glossiness),
+                          [&](const StoredImage& picture) {
+                              return roughness_of_gloss(picture, glossiness);
+                          });
+        }
+    }
     return entry->second;
 }
 

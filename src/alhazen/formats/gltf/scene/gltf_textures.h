@@ -7,6 +7,7 @@
 
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "alhazen/formats/gltf/document/gltf_document.h"
 #include "alhazen/formats/pictures/texture_table.h"
@@ -28,6 +29,10 @@ class Textures {
     /// kNoTexture if there is no texture, or if it cannot be read (reported).
     [[nodiscard]] TextureId use(const std::optional<TextureInfo>& info, ColorSpace space);
 
+    /// 1 - `glossiness` times its alpha, in all channels.
+    [[nodiscard]] TextureId use_as_roughness(const std::optional<TextureInfo>& info,
+                                             double glossiness);
+
   private:
     using Key =
         std::tuple<Index, Index, std::array<double, 2>, std::array<double, 2>, double, ColorSpace>;
@@ -39,6 +44,7 @@ class Textures {
     Diagnostics& diagnostics_;
     TextureTable table_;
     std::map<Key, TextureId> made_;
+    std::map<std::pair<Key, double>, TextureId> made_of_gloss_;
 };
 
 }  // namespace alhazen::gltf

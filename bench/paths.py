@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""How much of path tracing is tracing rays: the rays of a picture by the kernels alone beside the whole renderer.
+
+Usage: bench/paths.py ALHAZEN PATH_BENCH DATA [--scenes NAME,...] [--keep DIR] [options of alhazen_path_bench]
+Writes the scenes of light_scenes.py and gives them to alhazen_path_bench (path_bench.cpp says what is measured).
+"""
+
+import argparse
+import os
+import subprocess
+import tempfile
+
+from light import write_sky
+from light_scenes import HEAVY, SCENES, write_alhazen
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("alhazen")
+    parser.add_argument("path_bench")
+    parser.add_argument("data")
+    parser.add_argument("--scenes", default="cornell,sponza,interior,heavy_interior,many_lights")
+    parser.add_argument("--keep", help="folder for the scenes (default: a temporary one)")
+    args, options = parser.parse_known_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = args.keep or temporary
+        os.makedirs(folder, exist_ok=True)
+        files = []
+        for name in args.scenes.split(","):
+            scene = (SCENES | HEAVY)[name](args.data)
+            files.append(os.path.join(folder, name + ".alhazen"))
+            if scene.sky:
+                write_sky(args.alhazen, os.path.join(folder, scene.sky))
+            write_alhazen(scene, files[-1])
+        subprocess.run([args.path_bench, *files, *options], check=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,31 @@
+#pragma once
+/// The rays that join light paths to the lens.
+
+#include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/random_walk.h"
+
+namespace alhazen {
+
+/// The ray from the lens to a vertex, which ends before it.
+[[nodiscard]] inline Ray from_lens(const PathVertex& v, const LensConnection& joined) {
+    const Ray back = v.leaving(joined.to_lens, joined.distance);
+    const Vec3 lens = back.at(joined.distance);
+    Ray ray{lens, -joined.to_lens};
+    ray.t_max = kBeforeEnd * length(lens - back.origin);
+    return ray;
+}
+
+/// The volumes around the start of that ray. Where none scatters, those at the vertex: one is all
+/// along it. `behind`: as of PathVertex::media_along; the result may be in it.
+[[nodiscard]] inline const MediumStack& media_from_lens(const Scene& scene,
+                                                        const CameraRays& camera, const Ray& ray,
+                                                        float time, const PathVertex& v,
+                                                        MediumStack& behind) {
+    if (!scene.has_scattering) return v.media_along(-ray.direction, behind);
+    behind = camera.media(ray, time);
+    return behind;
+}
+
+}  // namespace alhazen

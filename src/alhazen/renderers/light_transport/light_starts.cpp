@@ -1,0 +1,61 @@
+#include "alhazen/renderers/light_transport/light_starts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/scene/scene_sphere.h"
+
+namespace alhazen {
+
+LightStarts::LightStarts(const Scene& scene)
+    : scene_(scene),
+      media_(scene),
+      is_endless_(reaches_infinity(scene)),
+      radius_(is_endless_ ? sphere_around_bounded(scene).radius : 0.0) {}
+
+WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& waves) {
+    WalkStart start;
+    start.waves = &waves;
+    start.ray = light.ray;
+    start.time = time;
+    const double densities = light.place_density * light.direction_density;
+    if (!(densities > 0.0)) {
+        start.throughput = {};
+        return start;
+    }
+    const bool across = light.singular_place || light.infinite;
+    const double cosine = across ? 1.0 : std::abs(dot(light.ray.direction, light.normal));
+    start.throughput = (cosine / densities) * light.radiance;
+    start.parallel = light.infinite;
+    if (light.infinite) {
+        if (is_endless_) begin_before_all(start.ray, time);
+    } else {
+        start.media = media_.around(light.ray.origin, time);
+    }
+    start.density = light.infinite ? light.place_density : light.direction_density;
+    return start;
+}
+
+void LightStarts::begin_before_all(Ray& ray, float time) {
+    // Further away numbers do not tell where what is bounded lies.
+    constexpr double kMostRadii = 1e8;
+    const Ray back{ray.origin, -ray.direction, 0.0, kMostRadii * radius_};
+    crossings_.clear();
+    scene_.aggregate->all_hits(back, crossings_, {nullptr, kAllRays, time});
+    if (crossings_.empty()) return;
+    ray.origin = back.at(crossings_.back().t + radius_);
+}
+
+void set_falloff(const Illumination& lights, const LightRay& light, const Wavelengths& waves,
+                 std::vector<PathVertex>& vertices) {
+    if (!light.singular_place || vertices.empty()) return;
+    const double squared = vertices[0].distance * vertices[0].distance;
+    const Spectrum arrives = lights.irradiance(light.place, vertices[0].point(), waves);
+    Spectrum factor;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        if (light.radiance[i] > 0.0) factor[i] = squared * arrives[i] / light.radiance[i];
+    }
+    for (PathVertex& v : vertices) v.throughput = v.throughput * factor;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,39 @@
+#pragma once
+/// Where light paths begin: at what shines, or before all that lies in the way of light from afar.
+///
+/// Conventions: rays of the environment and of parallel light come from a disc before all that is
+/// bounded (Illumination::emit). Where something is endless they begin before its last crossing, so
+/// that it reflects, bends or blocks them as it does any light.
+/// Threads: one thread at a time.
+
+#include <vector>
+
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/light_transport/media_finder.h"
+#include "alhazen/renderers/light_transport/random_walk.h"
+
+namespace alhazen {
+
+class LightStarts {
+  public:
+    explicit LightStarts(const Scene& scene);
+
+    /// The walk of a ray of light. Its throughput is black where it carries nothing.
+    [[nodiscard]] WalkStart of(const LightRay& light, float time, const Wavelengths& waves);
+
+  private:
+    /// Moves the origin back.
+    void begin_before_all(Ray& ray, float time);
+
+    const Scene& scene_;
+    MediaFinder media_;
+    bool is_endless_;
+    double radius_;  ///< of a sphere around what is bounded
+    std::vector<Hit> crossings_;
+};
+
+/// Gives the vertices of a path from a point the light's own falloff over its first distance.
+void set_falloff(const Illumination& lights, const LightRay& light, const Wavelengths& waves,
+                 std::vector<PathVertex>& vertices);
+
+}  // namespace alhazen

@@ -1,0 +1,93 @@
+// Light from the sky and the sun where something reaches to infinity.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+/// As in TheThreeStrategiesAgreeOnThirteenScenes.
+constexpr double kMost = 5.7;
+
+/// A matt table with a ball, seen from above, under an even sky.
+SceneMaker table_under_the_sky() {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 1.2}, {0, 0, -1}, {0.9, 0, 0}, {0, 0.9, 0}};
+    maker.description().picture.background = Rgb{0.5, 0.8, 1.2};
+    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), maker.material(matt({0.6, 0.5, 0.4})));
+    maker.add(ball({0.3, 0.2, 0.3}, 0.3), maker.material(matt({0.7, 0.7, 0.2})));
+    return maker;
+}
+
+TEST(EndlessPlanes, NoLightGetsBetweenTwo) {
+    for (const double roof : {1.6, 20.0}) {
+        SceneMaker maker = table_under_the_sky();
+        const MaterialId white = maker.material(matt({0.8, 0.8, 0.8}));
+        maker.add(Plane{{0, 0, roof}, {0, 0, 1}}, white);
+        maker.add(Plane{{0, 0, -0.1}, {0, 0, 1}}, white);
+        maker.light(DirectionalLight{.to_light = {0.6, 0, 0.8}, .color = {1, 1, 1}});
+        const Scene scene = maker.compile();
+        for (const char* renderer :
+             {"path_tracing", "light_tracing", "bidirectional", "vcm:photons=400,radius=0.05",
+              "sppm:photons=2000,radius=0.1", "photon_mapping:photons=2000,nearest=20"}) {
+            EXPECT_EQ(mean_of(picture_of(scene, renderer, 8, 16)), Rgb{}) << renderer << roof;
+        }
+    }
+}
+
+TEST(EndlessPlanes, StrategiesAgreeBesideAndBelowThem) {
+    Material black = matt({});
+    Material mirror = matt({});
+    mirror.reflective.color = {0.8, 0.7, 0.6};
+    Material sheet;
+    sheet.metallic_roughness.emplace();
+    sheet.metallic_roughness->base_color.color = {0.9, 0.5, 0.3};
+    sheet.metallic_roughness->metallic.value = 0;
+    sheet.metallic_roughness->roughness.value = 0;
+    sheet.metallic_roughness->transmission.value = 1;
+    const Plane wall{{3, 0, 0}, {1, 0, 0}}, roof{{0, 0, 4}, normalize(Vec3{0.2, 0.1, 1})};
+    struct Case {
+        std::string name;
+        Plane plane;
+        Material material;
+        bool all;  ///< light paths find what arrives
+    };
+    const std::vector<Case> cases{{"black wall", wall, black, true},
+                                  {"matt wall", wall, matt({0.8, 0.4, 0.4}), false},
+                                  {"mirror", wall, mirror, false},
+                                  {"tinted sheet", roof, sheet, true},
+                                  {"water above", roof, smooth_glass(1.3), false}};
+    for (const Case& c : cases) {
+        SceneMaker maker = table_under_the_sky();
+        maker.add(c.plane, maker.material(c.material));
+        const Scene scene = maker.compile();
+        std::vector<std::string> renderers{"path_tracing:depth=5", "bidirectional:depth=5",
+                                           "vcm:photons=400,radius=0.02,pilot=off,depth=5"};
+        if (c.all) renderers.push_back("light_tracing:depth=5");
+        expect_same_light(scene, c.name, renderers, 24, kMost);
+    }
+}
+
+/// Before, light paths began below it.
+TEST(EndlessPlanes, TheSunLightsOneAboveAllThatIsBounded) {
+    SceneMaker maker = table_under_the_sky();
+    maker.description().picture.background.reset();
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 9}, {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}};
+    maker.add(Plane{{0, 0, 7}, {0, 0, 1}}, maker.material(matt({0.5, 0.5, 0.5})));
+    maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
+    const Scene scene = maker.compile();
+    for (const char* renderer : {"path_tracing", "light_tracing", "bidirectional"}) {
+        EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, 4096)).g, 0.5, 0.02) << renderer;
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
