@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """CSG solids and curved surfaces compared with POV-Ray: same scene, same eye rays, flat colours, one thread, in turn, medians.
 
-Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--json FILE] [--markdown FILE] [--keep FOLDER]
+Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--patch-type N] [--flatness X] [--json FILE] [--markdown FILE] [--keep FOLDER]
 A scene is KIND[=SIZE][@SIDE], of plate, menger, spheres (so many leaves) and torus, quartic, sextic, blob (one surface).
-teapot=N: the patches of ALHAZEN_TEST_DATA (default ../shared/data) patches/teapot.bpt, which POV-Ray divides 2^N times each way.
+teapot=N: the patches of ALHAZEN_TEST_DATA (default ../shared/data) patches/teapot.bpt, which POV-Ray divides up to 2^N times each way:
+with --patch-type 1 (the default) when it reads them, with 0 for every ray; until they are flat to --flatness X (default 0: always 2^N times).
 --lit shades the colours by a point light without shadows in both programs, so that normals are computed too.
 Seconds are the processor time of tracing that each program reports (without reading the scene); pixels are compared by colour.
+"Whole" is the processor time of the program from start to end, with its most memory.
 """
 
 import argparse
 import array
+import concurrent.futures
 import json
 import os
 import re
@@ -91,12 +94,12 @@ def teapot_patches():
     return [[place(numbers[first + 3 * k:first + 3 * k + 3]) for k in range(16)] for first in range(3, len(numbers), 50)]
 
 
-def teapot(steps):
+def teapot(steps, patch_type, flatness):
     patches = teapot_patches()
     points = ", ".join(vector(p) for patch in patches for p in patch)
     ours = (f'patch_mesh {{ points = [{points}]; patches = [{", ".join(map(str, range(16 * len(patches))))}]; '
             'material = "skin" }')
-    theirs = "\n".join(f"bicubic_patch {{ type 1 flatness 0 u_steps {steps} v_steps {steps} {', '.join(map(angle, patch))} "
+    theirs = "\n".join(f"bicubic_patch {{ type {patch_type} flatness {flatness:g} u_steps {steps} v_steps {steps} {', '.join(map(angle, patch))} "
                        "texture { skin } }" for patch in patches)
     return ours, theirs
 
@@ -144,10 +147,10 @@ def pov_polynomial(expression, side):
             "texture { skin } }")
 
 
-def one_surface(kind, size):
+def one_surface(kind, size, args):
     """The surface in the native format and for POV-Ray."""
     if kind == "teapot":
-        return teapot(size or 4)
+        return teapot(size or 4, args.patch_type, args.flatness)
     if kind == "torus":
         return ('torus { axis = (0, 1, 0); major_radius = 1.2; minor_radius = 0.45; material = "skin" }',
                 "torus { 1.2, 0.45 sturm texture { skin } }")
@@ -162,8 +165,9 @@ def one_surface(kind, size):
             f"clip_box = ((-{side}, -{side}, -{side}), ({side}, {side}, {side})) }}", pov_polynomial(expression, side))
 
 
-def write_one_surface(kind, size, path, pov_path, lit):
-    ours, theirs = one_surface(kind, size)
+def write_one_surface(kind, size, path, pov_path, args):
+    ours, theirs = one_surface(kind, size, args)
+    lit = args.lit
     camera = "; ".join(f"{key} = ({value[0]}, {value[1]}, {value[2]})" for key, value in CAMERA.items())
     with open(path, "w", encoding="ascii") as out:
         out.write("alhazen 1\n" + native_head(CAMERA["eye"], lit, ["skin"]))
@@ -221,17 +225,30 @@ def write_povray(text, path, lit):
             out.write("difference {\n" + "\n".join(shapes) + "\n}\n")
 
 
+def measured(command):
+    """What the program writes to stderr; its processor seconds and its most memory in MB."""
+    with tempfile.TemporaryFile() as err:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=err)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        err.seek(0)
+        text = err.read().decode(errors="replace")
+    if process.returncode != 0:
+        raise RuntimeError(f"{command[0]} failed: {text}")
+    return text, {"whole": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss / 1024}
+
+
 def alhazen_seconds(command, stats):
-    subprocess.run(command + ["--stats", stats, "--no-counts"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, whole = measured(command + ["--stats", stats, "--no-counts"])
     with open(stats, encoding="utf-8") as file:
         seconds = json.load(file)["seconds"]
-    return {"trace": seconds["render_processor"], "begin": seconds["load"] + seconds["build"]}
+    return {"trace": seconds["render_processor"], "begin": seconds["load"] + seconds["build"]} | whole
 
 
 def povray_seconds(command):
-    run = subprocess.run(command, check=True, capture_output=True, text=True, errors="replace")
-    said = lambda what: float((re.search(rf"{what} Time:.*?with ([0-9.]+) CPU-seconds", run.stderr, re.S) or [0, "nan"])[1])
-    return {"trace": said("Trace"), "begin": said("Parse")}
+    text, whole = measured(command)
+    said = lambda what: float((re.search(rf"{what} Time:.*?with ([0-9.]+) CPU-seconds", text, re.S) or [0, "nan"])[1])
+    return {"trace": said("Trace"), "begin": said("Parse")} | whole
 
 
 def pixels(path):
@@ -251,6 +268,12 @@ def pixels(path):
 
 
 def differences(a, b):
+    """In another process: a program's memory is at least what this one has when it starts it."""
+    with concurrent.futures.ProcessPoolExecutor(1) as pool:
+        return pool.submit(count_differences, a, b).result()
+
+
+def count_differences(a, b):
     name = lambda p: max(range(3), key=lambda k: p[k])
     pairs = {}
     for p, q in zip(pixels(a), pixels(b)):
@@ -274,6 +297,8 @@ def main():
     parser.add_argument("--sizes", default=ALL)
     parser.add_argument("--side", type=int, default=256)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--patch-type", type=int, choices=(0, 1), default=1, help="of POV-Ray's bicubic_patch")
+    parser.add_argument("--flatness", type=float, default=0.0, help="of POV-Ray's bicubic_patch")
     parser.add_argument("--lit", action="store_true", help="surfaces shaded by a light, not flat")
     parser.add_argument("--json")
     parser.add_argument("--markdown", help="writes the rows of the table of docs/benchmarks.md")
@@ -289,7 +314,7 @@ def main():
         if kind in GENERATORS:
             write_povray(generate(args.alhazen, kind, size or "1000", at(".alhazen"), args.lit), at(".pov"), args.lit)
         else:
-            write_one_surface(kind, size, at(".alhazen"), at(".pov"), args.lit)
+            write_one_surface(kind, size, at(".alhazen"), at(".pov"), args)
         ours = [args.alhazen, "render", at(".alhazen"), "-o", at("_alhazen.pfm"), "--size", f"{side}x{side}",
                 "--renderer", "ray_casting", "-t", "1", "-q"]
         theirs = ["povray", f"+I{at('.pov')}", f"+O{at('_povray.ppm')}", f"+W{side}", f"+H{side}", "+WT1",
@@ -300,14 +325,17 @@ def main():
             if shutil.which("povray"):
                 seconds["povray"].append(povray_seconds(theirs))
         median = lambda program, what: statistics.median(s[what] for s in seconds[program])
-        row = {"alhazen": {w: median("alhazen", w) for w in ("trace", "begin")}}
+        all_of = lambda program: {w: median(program, w) for w in ("trace", "begin", "whole", "memory")}
+        row = {"alhazen": all_of("alhazen")}
         line = f"{kind} {size}: alhazen {row['alhazen']['trace']:.3f} s"
         if seconds["povray"]:
-            row["povray"] = {w: median("povray", w) for w in ("trace", "begin")}
+            row["povray"] = all_of("povray")
             row["ratio"] = row["povray"]["trace"] / row["alhazen"]["trace"]
             row["different_pixels"] = differences(at("_alhazen.pfm"), at("_povray.ppm"))
             line += (f", povray {row['povray']['trace']:.3f} s, ratio {row['ratio']:.1f}, pixels that differ "
-                     f"{row['different_pixels'] or 'none'} of {side ** 2}")
+                     f"{row['different_pixels'] or 'none'} of {side ** 2}; reading {row['alhazen']['begin']:.3f} and {row['povray']['begin']:.3f} s, "
+                     f"whole {row['alhazen']['whole']:.3f} and {row['povray']['whole']:.3f} s, "
+                     f"{row['alhazen']['memory']:.0f} and {row['povray']['memory']:.0f} MB")
         row["rays_per_second"] = side ** 2 / row["alhazen"]["trace"]
         row["pixels"] = side ** 2
         results[scene] = row

@@ -23,14 +23,14 @@ using testing::same_bits;
 using testing::surface_in_cube;
 using testing::to_text;
 
-/// Checks eight rays, the first `count` of them in lanes; returns how many of these hit.
-template <class S>
-int check_block(const S& shape, const std::array<Ray, 8>& rays, std::size_t count) {
-    std::array<const Ray*, 8> pointers;
-    for (std::size_t i = 0; i < 8; ++i) pointers[i] = &rays[i];
-    std::array<ShapeHit, 8> hits;
+/// Checks the first `count` rays in lanes; returns how many of these hit.
+template <class S, std::size_t N>
+int check_block(const S& shape, const std::array<Ray, N>& rays, std::size_t count) {
+    std::array<const Ray*, N> pointers;
+    for (std::size_t i = 0; i < N; ++i) pointers[i] = &rays[i];
+    std::array<ShapeHit, N> hits;
     const std::uint32_t found = first_hits(shape, std::span(pointers).first(count), hits.data());
-    EXPECT_EQ(found >> count, 0u);
+    EXPECT_EQ(std::uint64_t{found} >> count, 0u);
     for (std::size_t i = 0; i < count; ++i) {
         ShapeHit alone;
         const bool hit = find_first_hit(shape, rays[i], alone);
@@ -198,6 +198,47 @@ TEST(FirstHits, OfSurfacesOfEveryDegreeAreThoseOfEachRayAlone) {
 TEST(FirstHits, OfPatchesAreThoseOfEachRayAlone) {
     check_random_blocks<BezierPatch>(7, 1000);
     check_random_blocks<PatchMesh>(8, 1000);
+}
+
+/// Rays apart, some side by side, some with directions whose squares overflow or vanish.
+template <class S>
+void check_many_rays(std::uint64_t seed, int least_hits) {
+    constexpr std::size_t kMost = kMostRaysAtOnce<S>;
+    static_assert(kMost > kMaxPacketRays);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        Random random(seed);
+        int hit_count = 0;
+        for (int i = 0; i < 100 && !::testing::Test::HasFailure(); ++i) {
+            SCOPED_TRACE(target + ", seed " + std::to_string(seed) + ", shape " +
+                         std::to_string(i));
+            const S shape = testing::random_shape<S>({random, i % 2 == 1});
+            for (int block = 0; block < 10; ++block) {
+                std::array<Ray, kMost> rays;
+                for (std::size_t k = 0; k < kMost; ++k) {
+                    rays[k] = any_ray(shape.box(), random);
+                    if (block % 2 == 1 && k >= 8 && k < 16) {
+                        rays[k] = rays[8];
+                        rays[k].direction +=
+                            (0.01 * length(rays[k].direction)) * random.unit_vector();
+                    }
+                    if (random.below(20) == 0) {
+                        rays[k].direction =
+                            random.log_uniform(1e-300, 1e300) * random.unit_vector();
+                    }
+                }
+                const bool all = block < 5;
+                hit_count += check_block(
+                    shape, rays, all ? kMost : 1 + static_cast<std::size_t>(random.below(kMost)));
+            }
+        }
+        EXPECT_GT(hit_count, least_hits) << S::kName;
+    }
+}
+
+TEST(FirstHits, OfManyRaysApartAtPatchesAreThoseOfEachRayAlone) {
+    check_many_rays<BezierPatch>(12, 1000);
+    check_many_rays<PatchMesh>(13, 1000);
 }
 
 TEST(FirstHits, OfRaysOfExtremeLengthsAreThoseOfEachRayAlone) {

@@ -13,7 +13,8 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kBlock = kMaxPacketRays;
+constexpr std::size_t kBlock = 32;  ///< a set of rays has a bit for each
+static_assert(kMostPatchRays <= kBlock && kMaxPacketRays <= kBlock);
 
 /// Some rays of a batch, where they are or, as far as they differ from that, as copies.
 class RayBlock {
@@ -61,7 +62,13 @@ std::uint32_t test_block(const PrimitiveTable& table, PrimitiveId id, RayBlock& 
             if (placement != kNoPlacement) {
                 inner_from_outer = &table.placements[placement].inner_from_outer;
             }
-            return first_hits(c.shapes[i], block.in_frame(inner_from_outer, best), hits);
+            const auto rays = block.in_frame(inner_from_outer, best);
+            std::uint32_t set = 0;
+            for (std::size_t k = 0; k < rays.size(); k += kMostRaysAtOnce<S>) {
+                const auto some = rays.subspan(k, std::min(kMostRaysAtOnce<S>, rays.size() - k));
+                set |= first_hits(c.shapes[i], some, hits + k) << k;
+            }
+            return set;
         } else {
             return std::uint32_t{0};  // never listed
         }

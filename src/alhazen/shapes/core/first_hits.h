@@ -3,8 +3,8 @@
 ///
 /// Conventions: each ray has the bits of `find_first_hit`. A shape with a packet test declares
 /// `std::uint32_t first_hits(const S&, std::span<const Ray* const>, ShapeHit*)` in its own header:
-/// takes one to `kMaxPacketRays` valid rays, returns the set of rays that hit (bit i for ray i) and
-/// writes their first crossings to [ray]. first_hits_test.cpp compares the two.
+/// takes one to `kMostRaysAtOnce<S>` valid rays, returns the set of rays that hit (bit i for ray i)
+/// and writes their first crossings to [ray]. first_hits_test.cpp compares the two.
 
 #include <cstdint>
 #include <span>
@@ -15,6 +15,20 @@
 namespace alhazen {
 
 inline constexpr std::size_t kMaxPacketRays = kRayLanes;
+
+/// Patches gain from more rays at once, in any directions (patch_apart.h).
+inline constexpr std::size_t kMostPatchRays = 32;
+
+struct BezierPatch;
+struct PatchMesh;
+
+/// How many rays the packet test of a shape takes.
+template <class S>
+inline constexpr std::size_t kMostRaysAtOnce = kMaxPacketRays;
+template <>
+inline constexpr std::size_t kMostRaysAtOnce<BezierPatch> = kMostPatchRays;
+template <>
+inline constexpr std::size_t kMostRaysAtOnce<PatchMesh> = kMostPatchRays;
 
 /// Shapes with a packet test.
 template <class S>

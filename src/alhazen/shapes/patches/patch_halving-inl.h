@@ -22,10 +22,14 @@ HWY_INLINE void transpose_lanes(const Lanes<double, 4> (&rows)[4], Lanes<double,
     }
 #endif
     HWY_ALIGN double from[4][4], to[4][4];
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) store_lanes(rows[i], from[i]);
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
+        ALHAZEN_UNROLL
         for (std::size_t k = 0; k < 4; ++k) to[k][i] = from[i][k];
     }
+    ALHAZEN_UNROLL
     for (std::size_t k = 0; k < 4; ++k) columns[k] = load_lanes<4>(to[k]);
 }
 
@@ -34,6 +38,7 @@ struct CubicRows {
     Point row[4], by_one[4], by_two[4];
 
     HWY_INLINE explicit CubicRows(const double* at) {
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) {
             row[i] = load_lanes<4>(at + 4 * i);
             by_one[i] = load_unaligned<4>(at + 4 * i + 1);
@@ -104,10 +109,12 @@ void cubic_bounds(const CubicCell& net, double margin, CellBounds& out) {
     const double scale = size_of(along);
     const Point ax(scale > 0.0 ? -along.y / scale : 0.5), ay(scale > 0.0 ? along.x / scale : 0.5);
     Point aside[4];
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) aside[i] = x.row[i] * ax + y.row[i] * ay;
     HWY_ALIGN static constexpr double kKeep[3][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}, {1, 1, 0, 0}};
     const Point keep_1 = load_lanes<4>(kKeep[1]);
     Point u_x[3], u_y[3], v_x[4], v_y[4], extent_u(0.0), extent_v(0.0);  // first differences
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
         v_x[i] = x.by_one[i] - x.row[i];
         v_y[i] = y.by_one[i] - y.row[i];
@@ -134,6 +141,7 @@ void cubic_bounds(const CubicCell& net, double margin, CellBounds& out) {
     uv.keep = keep_1;
     vv.keep = load_lanes<4>(kKeep[2]);
     const Point two(2.0);
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
         vv.include(x.by_two[i] - two * x.by_one[i] + x.row[i],
                    y.by_two[i] - two * y.by_one[i] + y.row[i]);
@@ -142,6 +150,7 @@ void cubic_bounds(const CubicCell& net, double margin, CellBounds& out) {
     }
     const Largest* all[3] = {&uu, &uv, &vv};
     double* sizes[3] = {&out.size_uu, &out.size_uv, &out.size_vv};
+    ALHAZEN_UNROLL
     for (int k = 0; k < 3; ++k) {
         store_lanes(largest_of_each(all[k]->size, all[k]->u, all[k]->v, all[k]->v), most);
         *sizes[k] = most[0];
@@ -167,16 +176,19 @@ template <bool kAlongU>
 HWY_INLINE void halve_coordinate(const double* from, double* to_low, double* to_high) {
     Point p[4], low[4], high[4];
     if constexpr (kAlongU) {
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) p[i] = load_lanes<4>(from + 4 * i);
         halve_rows(p, low, high);
     } else {
         Point columns[4], others[4];
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) columns[i] = load_lanes<4>(from + 4 * i);
         transpose_lanes(columns, p);
         halve_rows(p, columns, others);
         transpose_lanes(columns, low);
         transpose_lanes(others, high);
     }
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
         store_lanes(low[i], to_low + 4 * i);
         store_lanes(high[i], to_high + 4 * i);
@@ -197,6 +209,7 @@ struct CubicPart {
     double weights[4][4];  ///< [of the part][of the whole]
 
     HWY_INLINE CubicPart(double from, double to) {
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) {
             const double a = i > 2 ? to : from, b = i > 1 ? to : from, c = i > 0 ? to : from;
             const double p = 1.0 - a, q = 1.0 - b, r = 1.0 - c;
@@ -209,6 +222,7 @@ struct CubicPart {
 };
 
 HWY_INLINE void part_of_rows(const CubicPart& part, const Point (&p)[4], Point (&out)[4]) {
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
         const double(&w)[4] = part.weights[i];
         out[i] =
@@ -220,11 +234,13 @@ void cubic_part(const CubicLine& whole, const PatchCell& cell, CubicCell& part) 
     const CubicPart along_u(cell.u0, cell.u1), along_v(cell.v0, cell.v1);
     const auto take = [&](const double* from, double* to) {
         Point p[4], rows[4], columns[4];
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) p[i] = load_lanes<4>(from + 4 * i);
         part_of_rows(along_u, p, rows);
         transpose_lanes(rows, columns);
         part_of_rows(along_v, columns, p);
         transpose_lanes(p, rows);
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) store_lanes(rows[i], to + 4 * i);
     };
     take(whole.x, part.x);

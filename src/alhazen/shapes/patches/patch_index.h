@@ -43,6 +43,9 @@ class PatchIndex {
                                        F&& found) const;
 
   private:
+    template <class F>
+    friend class PatchLinesApart;
+
     /// t in the frame of `line`, with a margin to the side.
     [[nodiscard]] float place(const PatchLine& line, double t, double side) const;
     [[nodiscard]] static bool side_by_side(std::span<const Ray* const> rays);
@@ -53,6 +56,11 @@ class PatchIndex {
     template <class F>
     void visit_leaf(const PatchPieces& pieces, PatchLine& line, const LeafLine& seen_by,
                     double least, double most, const PatchLeaf& leaf, F& found) const;
+    /// The rest, where the leaf test had another answer than None.
+    template <class F>
+    void visit_leaf(const PatchPieces& pieces, const PatchLine& line, LeafAnswer answer,
+                    const LeafStart& start, double least, double most, const PatchLeaf& leaf,
+                    F& found) const;
     /// The line for `test_leaf`.
     [[nodiscard]] LeafLine leaf_line(const PatchLine& line) const {
         const Vec3 o = in_frame(line.origin);
@@ -73,6 +81,14 @@ void PatchIndex::visit_leaf(const PatchPieces& pieces, PatchLine& line, const Le
     const LeafAnswer answer = kernels.test_leaf(leaf, seen_by, least, most, start);
     if (answer == LeafAnswer::None) return;
     if (line.axis_x == Vec3{}) add_axes(line);
+    visit_leaf(pieces, line, answer, start, least, most, leaf, found);
+}
+
+template <class F>
+void PatchIndex::visit_leaf(const PatchPieces& pieces, const PatchLine& line, LeafAnswer answer,
+                            const LeafStart& start, double least, double most,
+                            const PatchLeaf& leaf, F& found) const {
+    const PatchKernels& kernels = patch_kernels();
     const PatchCell cell = leaf.cell();
     const BezierView net = pieces.net(leaf.piece);
     PatchRoot root;

@@ -19,15 +19,20 @@ static_assert(kBoxChildren == 2 * kLaneCount);
 /// Puts children on the stack, the nearest on top.
 HWY_INLINE void push_children(const PatchBoxes& node, const float* nears, std::uint32_t met,
                               PatchWalk& walk) {
-    const int begin = walk.size;
-    for (; met != 0; met &= met - 1) {
-        const int k = __builtin_ctz(met);
-        int place = walk.size++;
-        for (; place > begin && walk.stack[place - 1].near() < nears[k]; --place) {
-            walk.stack[place] = walk.stack[place - 1];
-        }
-        walk.stack[place] = PatchWalk::Waiting::of(nears[k], node.child[k]);
+    PatchWalk::Waiting* const begin = walk.stack + walk.size;
+    const auto child = [&](std::uint32_t k) {
+        return PatchWalk::Waiting::of(nears[k], node.child[k]);
+    };
+    // Mostly none or one, which a branch would not foresee.
+    *begin = child(met != 0 ? static_cast<std::uint32_t>(__builtin_ctz(met)) : 0);
+    PatchWalk::Waiting* end = begin + (met != 0 ? 1 : 0);
+    for (met &= met - 1; met != 0; met &= met - 1) {
+        const auto k = static_cast<std::uint32_t>(__builtin_ctz(met));
+        PatchWalk::Waiting* place = end++;
+        for (; place > begin && place[-1].near() < nears[k]; --place) place[0] = place[-1];
+        *place = child(k);
     }
+    walk.size += static_cast<int>(end - begin);
 }
 
 /// Eight bytes.
@@ -43,30 +48,40 @@ HWY_INLINE Floats floats_of(const std::uint8_t* bytes) {
     return r;
 }
 
-/// Puts the children that the line meets on the stack.
-HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
+/// The children that the line meets, and where: in [child].
+HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk, float* nears) {
     Floats begin[3], step[3];
-    std::size_t down[3];
+    const std::uint8_t *first[3], *second[3];
+    ALHAZEN_UNROLL
     for (int axis = 0; axis < 3; ++axis) {
         const float inverse = walk.inverse[axis];
-        down[axis] = inverse < 0.0f ? 1 : 0;
+        const std::size_t down = inverse < 0.0f ? 1 : 0;
+        first[axis] = node.planes[down][axis];
+        second[axis] = node.planes[1 - down][axis];
         begin[axis] = Floats((node.from[axis] - walk.from[axis]) * inverse);
         step[axis] = Floats(node.step[axis] * inverse);
     }
-    HWY_ALIGN float nears[kBoxChildren];
     std::uint32_t met = 0;
+    ALHAZEN_UNROLL
     for (std::size_t half = 0; half < kBoxChildren; half += kLaneCount) {
         Floats near(walk.least), far(walk.most);
+        ALHAZEN_UNROLL
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats first = floats_of(node.planes[down[axis]][axis] + half);
-            const Floats second = floats_of(node.planes[1 - down[axis]][axis] + half);
-            near = max_lanes(near, first * step[axis] + begin[axis]);
-            far = min_lanes(far, second * step[axis] + begin[axis]);
+            const Floats in = floats_of(first[axis] + half) * step[axis] + begin[axis];
+            const Floats out = floats_of(second[axis] + half) * step[axis] + begin[axis];
+            near = max_lanes(near, in);
+            far = min_lanes(far, out);
         }
         met |= bits_of(near <= far) << half;
         store_lanes(near, nears + half);
     }
-    push_children(node, nears, met & node.used, walk);
+    return met & node.used;
+}
+
+/// Puts the children that the line meets on the stack.
+HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
+    HWY_ALIGN float nears[kBoxChildren];
+    push_children(node, nears, test_node(node, walk, nears), walk);
 }
 
 /// The same for the boxes that a line of a packet may meet.
@@ -74,8 +89,10 @@ HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
     PatchWalk& walk = packet.walk;
     HWY_ALIGN float nears[kBoxChildren];
     std::uint32_t met = 0;
+    ALHAZEN_UNROLL
     for (std::size_t half = 0; half < kBoxChildren; half += kLaneCount) {
         Floats near(walk.least), far(walk.most);
+        ALHAZEN_UNROLL
         for (int axis = 0; axis < 3; ++axis) {
             const Floats slow(packet.inverse[0][axis]), fast(packet.inverse[1][axis]);
             const std::size_t down = packet.inverse[1][axis] < 0.0f ? 1 : 0;
@@ -121,6 +138,39 @@ bool next_leaf(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf) {
         open_node(nodes[next.child()], walk);
     }
     return false;
+}
+
+/// Takes the walks a node further in turn, so that the latency of one is spent on the others.
+void next_leaves(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t count,
+                 std::uint32_t* leaves) {
+    constexpr std::size_t kTogether = 16;
+    for (; count > kTogether; count -= kTogether, ways += kTogether, leaves += kTogether) {
+        next_leaves(nodes, ways, kTogether, leaves);
+    }
+    std::uint32_t walking[kTogether], node[kTogether], met[kTogether];
+    HWY_ALIGN float nears[kTogether][kBoxChildren];
+    for (std::size_t k = 0; k < count; ++k) walking[k] = static_cast<std::uint32_t>(k);
+    for (std::size_t left = count; left > 0;) {
+        std::size_t opened = 0;
+        for (std::size_t k = 0; k < left; ++k) {
+            const std::uint32_t i = walking[k];
+            PatchWalk& walk = ways[i]->walk;
+            PatchWalk::Waiting next = walk.stack[--walk.size];
+            while (next.near() > walk.most) next = walk.stack[--walk.size];
+            // A leaf, or the next to be opened.
+            leaves[i] = next.child() & ~kLeafChild;
+            node[opened] = next.child();
+            walking[opened] = i;
+            opened += (next.child() & kLeafChild) == 0;
+        }
+        for (std::size_t k = 0; k < opened; ++k) {
+            met[k] = test_node(nodes[node[k]], ways[walking[k]]->walk, nears[k]);
+        }
+        for (std::size_t k = 0; k < opened; ++k) {
+            push_children(nodes[node[k]], nears[k], met[k], ways[walking[k]]->walk);
+        }
+        left = opened;
+    }
 }
 
 using Point = Lanes<double, 4>;
@@ -255,13 +305,17 @@ std::uint32_t lines_near(const PatchLeaf& leaf, const PatchPacket& packet) {
 #include "alhazen/shapes/patches/patch_halving-inl.h"
 #include "alhazen/shapes/patches/patch_leaf_test-inl.h"
 #include "alhazen/shapes/patches/patch_newton-inl.h"
+// After `transpose_lanes`.
+#include "alhazen/shapes/patches/patch_pairs-inl.h"
 
 }  // namespace
 
 const PatchKernels& patch_kernels_of_target() {
-    static constexpr PatchKernels kernels{
-        &next_leaf,  &begin_packet, &next_leaf_of_packet, &test_leaf,   &lines_near, &bicubic,
-        &cubic_line, &cubic_newton, &cubic_bounds,        &halve_cubic, &cubic_part};
+    static constexpr PatchKernels kernels{&next_leaf,           &next_leaves,  &begin_packet,
+                                          &next_leaf_of_packet, &test_leaf,    &set_out_lines,
+                                          &test_leaves,         &lines_near,   &bicubic,
+                                          &cubic_line,          &cubic_newton, &cubic_newtons,
+                                          &cubic_bounds,        &halve_cubic,  &cubic_part};
     return kernels;
 }
 

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/shapes/patches/certified_cells.h"
@@ -15,6 +16,8 @@
 #include "alhazen/shapes/patches/patch_value.h"
 
 namespace alhazen {
+
+inline constexpr std::uint32_t kNoLeaf = ~0u;  ///< a leaf child that there is not
 
 /// A line on its way through a tree of boxes, nearest boxes first.
 struct PatchWalk {
@@ -33,13 +36,20 @@ struct PatchWalk {
         }
     };
     // The tree has up to 17 levels (nine, and eight that divide 2^31 leaves evenly), each of which
-    // leaves fifteen children.
-    static constexpr int kMostWaiting = 272;
+    // leaves fifteen children. One more for `begin`.
+    static constexpr int kMostWaiting = 273;
 
     float from[3], inverse[3];  ///< in the frame; 1 / direction
     float least, most;          ///< the range along the line
     int size;
     Waiting stack[kMostWaiting];
+
+    /// At the root. Below it waits kNoLeaf, so that a walk without a leaf needs no test.
+    void begin_above_end() {
+        size = 2;
+        stack[0] = Waiting::of(-std::numeric_limits<float>::infinity(), kNoLeaf);
+        stack[1] = Waiting::of(least, 0);
+    }
 };
 
 /// Lines side by side on their way through a tree of boxes together. The directions have the same
@@ -89,9 +99,65 @@ struct LeafStart {
     double a = 0, b = 0, bend = 0;
 };
 
+/// Pairs that are tested side by side.
+inline constexpr std::size_t kPatchPairs = 4;
+
+/// What lines are set out in.
+struct LineFrame {
+    PatchFrame frame;
+    double far, reach, most_weight;  ///< see PatchIndex
+};
+/// A line on its way by itself.
+struct PatchWay {
+    PatchLine line;
+    LeafLine seen_by;
+    PatchWalk walk;
+};
+/// Bit i for line i: whether its direction's square is a usual number, without which nothing is
+/// set; whether it is near (PatchIndex::is_near).
+struct LinesSetOut {
+    std::uint32_t usual, near;
+};
+
+/// Leaves with lines, all set, and the ranges along these.
+struct alignas(32) LeafPairs {
+    double least[kPatchPairs], most[kPatchPairs];
+    const PatchLeaf* leaf[kPatchPairs];
+    const LeafLine* line[kPatchPairs];
+};
+/// The answers of `test_leaf`, bit i for pair i, and its starts.
+struct alignas(32) LeafAnswers {
+    double a[kPatchPairs], b[kPatchPairs], bend[kPatchPairs];
+    std::uint32_t met, unique, certified;
+};
+
+/// Bicubic patches without weights with lines, all set, and the numbers of CubicNewton; bit i for
+/// pair i.
+struct alignas(32) CubicPairs {
+    double u0[kPatchPairs], u1[kPatchPairs], v0[kPatchPairs], v1[kPatchPairs];
+    double u[kPatchPairs], v[kPatchPairs];
+    double least[kPatchPairs], most[kPatchPairs], bend[kPatchPairs];
+    const HomogeneousPoint* points[kPatchPairs];
+    const PatchLine* line[kPatchPairs];
+    std::uint32_t used, converges, ranged;
+};
+struct alignas(32) CubicRoots {
+    double u[kPatchPairs], v[kPatchPairs], z[kPatchPairs];
+    double x_u[kPatchPairs], y_u[kPatchPairs], x_v[kPatchPairs], y_v[kPatchPairs];
+    std::uint32_t met;
+
+    [[nodiscard]] CubicRoot root(std::size_t i) const {
+        return {u[i], v[i], z[i], x_u[i], y_u[i], x_v[i], y_v[i]};
+    }
+};
+
 struct PatchKernels {
     /// The next leaf whose box the line passes through; false at the end.
     bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
+    /// The same for some lines that `begin_above_end` has set out: kNoLeaf without kLeafChild at
+    /// the end of one, after which it is done.
+    void (*next_leaves)(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t count,
+                        std::uint32_t* leaves);
     /// Sets out eight rays; false where the signs of their directions differ. Farther than `far`
     /// from the middle a line begins at the point nearest to it.
     bool (*begin_packet)(const RayLanes& rays, const PatchFrame& frame, double far,
@@ -101,12 +167,17 @@ struct PatchKernels {
                                 float& near);
     LeafAnswer (*test_leaf)(const PatchLeaf& leaf, const LeafLine& line, double least, double most,
                             LeafStart& start);
+    /// Sets out four lines, with the axes of their planes.
+    LinesSetOut (*set_out_lines)(const Ray* const* rays, const LineFrame& frame, PatchWay* ways);
+    void (*test_leaves)(const LeafPairs& pairs, LeafAnswers& answers);
     /// The lines for which `test_leaf` has another answer than None, and hardly any others.
     std::uint32_t (*lines_near)(const PatchLeaf& leaf, const PatchPacket& packet);
     /// For bicubic patches, also the rest.
     HomogeneousValue (*bicubic)(BezierView net, double u, double v);
     void (*cubic_line)(const HomogeneousPoint* points, const PatchLine& line, CubicLine& out);
     NewtonEnd (*cubic_newton)(const CubicLine& net, const CubicNewton& task, CubicRoot& out);
+    /// The roots that `cubic_newton` finds.
+    void (*cubic_newtons)(const CubicPairs& pairs, CubicRoots& out);
     /// Only `least` and `most` where these leave out the origin by more than `margin`.
     void (*cubic_bounds)(const CubicCell& net, double margin, CellBounds& out);
     /// To some roundings; `low` may be `net`.

@@ -51,10 +51,9 @@ struct PatchLeaf {
     }
 
     static constexpr int kMost = 1 << 14;  ///< of the numbers in du and dv
-
-  private:
     static constexpr double kMostLength = 1.7321 * kMost;
 
+  private:
     static double power_of_two(int exponent) {
         return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
     }

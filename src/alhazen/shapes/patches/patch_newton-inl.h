@@ -7,8 +7,10 @@
 void cubic_line(const HomogeneousPoint* points, const PatchLine& line, CubicLine& out) {
     const Vec3 &o = line.origin, &ax = line.axis_x, &ay = line.axis_y, &d = line.direction;
     const Point ox(o.x), oy(o.y), oz(o.z);
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
         Point row[4], by_axis[4];
+        ALHAZEN_UNROLL
         for (std::size_t j = 0; j < 4; ++j) row[j] = load_unaligned<4>(&points[4 * i + j].x);
         transpose_lanes(row, by_axis);
         const Point x = by_axis[0] - by_axis[3] * ox, y = by_axis[1] - by_axis[3] * oy;
@@ -57,6 +59,7 @@ struct RowWeights {
         : w{Point(0.0), Point(0.0), Point(0.0), Point(0.0)} {
         HWY_ALIGN double each[4];
         store_lanes(weights, each);
+        ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) w[i] = Point(each[i]);
     }
     HWY_INLINE Point sum(const double* rows) const {

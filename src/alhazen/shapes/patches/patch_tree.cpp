@@ -1,9 +1,12 @@
 #include "alhazen/shapes/patches/patch_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "alhazen/shapes/core/first_hits.h"
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/patches/patch_apart.h"
 #include "alhazen/shapes/patches/patch_index.h"
 
 namespace alhazen {
@@ -112,9 +115,29 @@ std::uint32_t PatchTree::first_hits(std::span<const Ray* const> rays, ShapeHit* 
         if (keep_first(*rays[i], next, (met & bit) != 0, hits[i])) met |= bit;
         return (met & bit) != 0 ? hits[i].t : rays[i]->t_max;
     };
-    if (index_->search_together(pieces_, rays, offer)) return met;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (first_hit(*rays[i], hits[i])) met |= 1u << i;
+    std::array<const Ray*, kMostPatchRays> apart;
+    std::array<std::size_t, kMostPatchRays> numbers;
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < rays.size(); first += kRayLanes) {
+        const auto group = rays.subspan(first, std::min(kRayLanes, rays.size() - first));
+        const auto offer_of_group = [&](std::size_t i, std::uint32_t piece, const PatchRoot& root) {
+            return offer(first + i, piece, root);
+        };
+        if (index_->search_together(pieces_, group, offer_of_group)) continue;
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            apart[count] = group[i];
+            numbers[count++] = first + i;
+        }
+    }
+    if (count >= kPatchPairs) {
+        const auto offer_apart = [&](std::size_t i, std::uint32_t piece, const PatchRoot& root) {
+            return offer(numbers[i], piece, root);
+        };
+        PatchLinesApart(*index_, pieces_, std::span(apart).first(count), offer_apart).search();
+        return met;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (first_hit(*apart[i], hits[numbers[i]])) met |= 1u << numbers[i];
     }
     return met;
 }

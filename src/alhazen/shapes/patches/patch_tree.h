@@ -33,7 +33,7 @@ class PatchTree {
     void intersect(const Ray& ray, ShapeHits& hits) const;
     /// The first crossing, as `intersect` finds it.
     [[nodiscard]] bool first_hit(const Ray& ray, ShapeHit& hit) const;
-    /// The same for one to eight rays: the set of those that hit.
+    /// The same for one to kMostPatchRays rays: the set of those that hit.
     [[nodiscard]] std::uint32_t first_hits(std::span<const Ray* const> rays, ShapeHit* hits) const;
     /// The surface at a crossing, with its parameters as texture coordinates.
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;

@@ -1,11 +1,12 @@
 // A ray's first crossing is the first of its whole line's that is in the ray's range, bit for bit:
-// rays that begin or end close to a crossing, one by one and side by side.
+// rays that begin or end close to a crossing, one by one, side by side, and many apart.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
+#include "alhazen/shapes/core/first_hits.h"
 #include "alhazen/simd/targets.h"
 #include "closed_patches.h"
 #include "patch_models.h"
@@ -79,6 +80,22 @@ std::vector<Ray> bundle_at(std::span<const BezierNet> nets, double size, Random&
     return rays;
 }
 
+/// Many rays, of any of the lines.
+void expect_first_of_many(const PatchTree& tree, std::span<const Line> lines, Random& random) {
+    std::array<const Line*, kMostPatchRays> of;
+    std::array<const Ray*, kMostPatchRays> rays;
+    for (std::size_t i = 0; i < kMostPatchRays; ++i) {
+        of[i] = &lines[static_cast<std::size_t>(random.below(static_cast<int>(lines.size())))];
+        rays[i] = &of[i]->rays[static_cast<std::size_t>(
+            random.below(static_cast<int>(of[i]->rays.size())))];
+    }
+    std::array<ShapeHit, kMostPatchRays> hits;
+    const std::uint32_t met = tree.first_hits(rays, hits.data());
+    for (std::size_t i = 0; i < kMostPatchRays; ++i) {
+        of[i]->expect_first(*rays[i], (met >> i & 1) != 0, hits[i]);
+    }
+}
+
 /// Returns how many crossings there were.
 std::size_t expect_crossings_in_ranges(std::span<const BezierNet> nets, int bundles,
                                        std::uint64_t seed) {
@@ -86,6 +103,7 @@ std::size_t expect_crossings_in_ranges(std::span<const BezierNet> nets, int bund
     const double size = length(tree.box().size());
     Random random(seed);
     std::size_t crossings = 0;
+    std::vector<Line> all;
     for (int k = 0; k < bundles && !::testing::Test::HasFailure(); ++k) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", bundle " + std::to_string(k));
         std::vector<Line> lines;
@@ -110,6 +128,11 @@ std::size_t expect_crossings_in_ranges(std::span<const BezierNet> nets, int bund
                 lines[i].expect_first(*rays[i], alone, hit);
             }
         }
+        all.insert(all.end(), lines.begin(), lines.end());
+    }
+    for (int k = 0; k < 20 * bundles && !::testing::Test::HasFailure(); ++k) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", many " + std::to_string(k));
+        expect_first_of_many(tree, all, random);
     }
     return crossings;
 }
