@@ -17,7 +17,11 @@ namespace alhazen {
 /// Makes a crossing the nearest hit where it wins. Then the ray ends there.
 inline void offer_hit(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
     if (wins(crossing.t, id, best)) {
-        static_cast<ShapeHit&>(best) = crossing;
+        // One by one: a crossing that was just put together would be waited for as a whole.
+        best.t = crossing.t;
+        best.u = crossing.u;
+        best.v = crossing.v;
+        best.part = crossing.part;
         best.primitive = id;
         best.path.clear();
         ray.t_max = crossing.t;

@@ -16,8 +16,10 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 // Unrolls loops over parts, except in plain C++, where eight copies of everything only slow down
 // compilation.
@@ -358,7 +360,15 @@ HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
         std::uint8_t byte[8] = {};  // Highway may write a whole word
         hn::StoreMaskBits(d, a.part[i], byte);
         std::uint32_t part = byte[0];
-        if constexpr (hn::MaxLanes(LaneTag<T, N>()) > 8) part |= std::uint32_t{byte[1]} << 8;
+        if constexpr (hn::MaxLanes(LaneTag<T, N>()) > 8) {
+            if constexpr (std::endian::native == std::endian::little) {
+                std::uint16_t both;  // as one word: compilers put bytes together one by one
+                std::memcpy(&both, byte, sizeof(both));
+                part = both;
+            } else {
+                part |= std::uint32_t{byte[1]} << 8;
+            }
+        }
         bits |= part << (i * hn::Lanes(d));
     }
     return bits;
@@ -373,8 +383,12 @@ HWY_INLINE LaneMask<T, N> lanes_of_bits(std::uint32_t bits) {
     for (std::size_t i = 0; i < kParts<T, N>; ++i) {
         const std::uint32_t part = bits >> (i * hn::Lanes(d));
         std::uint8_t bytes[8] = {};  // Highway may read a whole word
-        bytes[0] = static_cast<std::uint8_t>(part);
-        bytes[1] = static_cast<std::uint8_t>(part >> 8);
+        if constexpr (std::endian::native == std::endian::little) {
+            std::memcpy(bytes, &part, sizeof(part));
+        } else {
+            bytes[0] = static_cast<std::uint8_t>(part);
+            bytes[1] = static_cast<std::uint8_t>(part >> 8);
+        }
         r.part[i] = hn::LoadMaskBits(d, bytes);
     }
     return r;

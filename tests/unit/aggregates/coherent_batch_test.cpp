@@ -279,17 +279,21 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRays) {
 }
 
 TEST(CoherentBatch, PacketsThatFailAreNotTriedAgainAtOnceAndHitTheSame) {
-    // Triangles much finer than the distance of the rays.
-    const auto tree = make_aggregate("wide_bvh", random_triangles(20000, 1, 0.01, 19));
-    const Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.5, 40);
-    std::vector<Hit> first(rays.size()), later(rays.size());
-    tree->closest_batch(rays, first, nullptr, Coherence::Coherent);
-    tree->closest_batch(rays, later, nullptr, Coherence::Coherent);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        Hit single;
-        (void)tree->closest(rays[i], single, nullptr);
-        ASSERT_TRUE(same(first[i], single)) << i;
-        ASSERT_TRUE(same(later[i], single)) << i;
+    // Much finer than the distance of the rays: for packets in lanes, whose rays part, and
+    // pyramids.
+    for (const PrimitiveTable& table :
+         {random_triangles(20000, 1, 0.01, 19), random_spheres(20000, 1, 0.003, 19)}) {
+        const auto tree = make_aggregate("wide_bvh", table);
+        const Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.5, 40);
+        std::vector<Hit> first(rays.size()), later(rays.size());
+        tree->closest_batch(rays, first, nullptr, Coherence::Coherent);
+        tree->closest_batch(rays, later, nullptr, Coherence::Coherent);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            Hit single;
+            (void)tree->closest(rays[i], single, nullptr);
+            ASSERT_TRUE(same(first[i], single)) << i;
+            ASSERT_TRUE(same(later[i], single)) << i;
+        }
     }
 }
 

@@ -18,6 +18,7 @@
 
 #include "alhazen/accel/wide_bvh/trace/make_packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 
@@ -113,9 +114,30 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
+/// Traces packets in lanes, and calls `otherwise(i, 1)` for rays that do not fit in.
+template <class Leaves, class Result, class Stats, class Otherwise>
+HWY_INLINE void run_lanes(const WideBvhScene& scene, const PrefetchTable& prefetch_table,
+                          std::span<const Ray> rays, std::span<Result> results, Stats stats,
+                          Otherwise&& otherwise) {
+    for (std::size_t i = 0; i < rays.size(); i += kPacketLanes) {
+        const std::size_t count = std::min(kPacketLanes, rays.size() - i);
+        for (const Ray& next :
+             rays.subspan(i + count).first(std::min(kPacketLanes, rays.size() - i - count))) {
+            hwy::Prefetch(&next);
+        }
+        const std::span<Result> here = results.subspan(i, count);
+        std::uint32_t alone =
+            trace_lanes<Leaves>(scene, prefetch_table, rays.subspan(i, count), here,
+                                static_cast<std::uint32_t>(wanted_rays(here)), stats);
+        for (; alone != 0; alone &= alone - 1) {
+            otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
+        }
+    }
+}
+
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
 /// in WideBvhKernels::closest_batch and occluded_batch.
-template <class Leaves, class Result, class Stats, class Otherwise>
+template <class Leaves, class InLanes, class Result, class Stats, class Otherwise>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                              std::span<Result> results, Stats stats, Otherwise&& otherwise) {
     const WideBvhLayout& layout = *scene.layout;
@@ -126,6 +148,12 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
          layout.others.data()},
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
+    constexpr bool kAnyHit = !InLanes::kOrdered;
+    if constexpr (kAnyHit || kParts<float, kPacketLanes> <= kMostLaneRegisters) {
+        if (in_lanes(layout, kAnyHit)) {
+            return run_lanes<InLanes>(scene, prefetch_table, rays, results, stats, otherwise);
+        }
+    }
     PacketTrials trials(scene.failures);
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);
@@ -139,9 +167,8 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         }
         const std::span<Result> here = results.subspan(i, count);
         const std::uint64_t wanted = wanted_rays(here);
-        const PacketOutcome outcome =
-            trace_packets<Leaves>(scene, prefetch_table, rays.subspan(i, count), here, wanted,
-                                  stats);
+        const PacketOutcome outcome = trace_packets<Leaves>(
+            scene, prefetch_table, rays.subspan(i, count), here, wanted, stats);
         trials.tried(outcome.slow);
         if (outcome.alone == ~std::uint64_t{0} >> (kPacketRays - count)) {
             otherwise(i, count);

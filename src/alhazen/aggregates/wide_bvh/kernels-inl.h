@@ -64,7 +64,7 @@ struct Kernels {
                 closest(scene, rays[i], best[i], stats);
             }
         };
-        run_coherent<ClosestPacket>(scene, rays, best, policy(stats), otherwise);
+        run_coherent<ClosestPacket, ClosestLanes>(scene, rays, best, policy(stats), otherwise);
     }
     static void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                                   std::span<bool> result, TraversalStats* stats) {
@@ -77,7 +77,7 @@ struct Kernels {
                 if (!result[i]) result[i] = occluded(scene, rays[i], stats);
             }
         };
-        run_coherent<OccludedPacket>(scene, rays, result, policy(stats), otherwise);
+        run_coherent<OccludedPacket, OccludedLanes>(scene, rays, result, policy(stats), otherwise);
     }
 
     /// Packets are for nodes of 8, and exact. The collecting queries are exact in both precisions:

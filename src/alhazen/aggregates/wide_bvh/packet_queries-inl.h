@@ -133,7 +133,7 @@ class PacketLeaves {
 
     const WideBvhScene& scene_;
     RayPacket& packet_;
-    PacketResolution resolution_;
+    PacketResolution<RayPacket> resolution_;
     std::uint32_t changed_ = 0;  ///< groups that the leaf in hand has changed
 
   private:

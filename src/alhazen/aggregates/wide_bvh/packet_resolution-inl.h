@@ -24,14 +24,16 @@ namespace HWY_NAMESPACE {
 /// Position of a triangle in the leaves: 8 times the number of its block, plus the lane.
 using TrianglePlace = std::uint32_t;
 
+/// `Packet` has the rays in groups of eight, and the axes of its rays as in RayShear.
+template <class Packet>
 class PacketResolution {
   public:
-    HWY_INLINE PacketResolution(const WideBvhScene& scene, const RayPacket& packet,
+    HWY_INLINE PacketResolution(const WideBvhScene& scene, const Packet& packet,
                                 std::span<const Ray> rays)
         : scene_(scene), packet_(packet), rays_(rays) {}
 
     /// Tests rays of group `g`, each with the triangle at `places[lane]`; calls `hits(ray, id,
-    /// shape_hit)` for those that hit. `places` is aligned.
+    /// shape_hit)` for those that hit.
     template <class Hits, class Stats>
     HWY_NOINLINE void resolve(std::size_t g, std::uint32_t lanes, const TrianglePlace* places,
                               Hits&& hits, Stats stats) {
@@ -58,15 +60,15 @@ class PacketResolution {
                                              (z > abs(load_lanes(rows.direction[1]))));
         PairVerdicts verdicts;
         verdicts.test(rows);
-        verdicts.take(lanes, set_up,
-                      [&](std::size_t lane, ShapeHit& hit) HWY_ATTR {
-                          return resolve_scalar(g * kGroupRays + lane, places[lane], hit);
-                      },
-                      [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
-                          stats.primitive_hits(1);
-                          hits(g * kGroupRays + lane, id(places[lane]).id(), hit);
-                          return false;
-                      });
+        verdicts.take(
+            lanes, set_up,
+            [&](std::size_t lane, ShapeHit& hit)
+                HWY_ATTR { return resolve_scalar(g * kGroupRays + lane, places[lane], hit); },
+            [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
+                stats.primitive_hits(1);
+                hits(g * kGroupRays + lane, id(places[lane]).id(), hit);
+                return false;
+            });
     }
 
   private:
@@ -78,11 +80,12 @@ class PacketResolution {
     }
 
     static HWY_INLINE std::uint32_t lanes_with(const TrianglePlace* places, TrianglePlace place) {
-        std::uint32_t lanes = 0;
-        for (std::size_t i = 0; i < kGroupRays; ++i) {
-            lanes |= static_cast<std::uint32_t>(places[i] == place) << i;
+        const LaneTag<TrianglePlace> d;
+        LaneMask<TrianglePlace> same;
+        for (std::size_t i = 0; i < kParts<TrianglePlace>; ++i) {
+            same.part[i] = hn::Eq(hn::LoadU(d, places + i * hn::Lanes(d)), hn::Set(d, place));
         }
-        return lanes;
+        return bits_of(same);
     }
 
     /// In all lanes or in some.
@@ -123,7 +126,7 @@ class PacketResolution {
     }
 
     const WideBvhScene& scene_;
-    const RayPacket& packet_;
+    const Packet& packet_;
     std::span<const Ray> rays_;
     alignas(64) double vertex_[3][3][kLaneCount];  ///< [corner][axis][lane], axes of the scene
 };

@@ -28,6 +28,17 @@ enum class Schedule {
 /// than one ray takes through the tree: torus 2.4, Barth's sextic 2.3, quartic 2.4 times faster.
 inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 
+/// Fewest rays of a packet in lanes (lane_queries-inl.h) in a subtree: fewer go on one by one.
+inline constexpr int kMinPacketLanes = 3;
+/// Most registers that sixteen numbers may take where packets in lanes look for closest hits: with
+/// four, eye rays by pyramids are a third faster, while any hit gains by lanes with four as well.
+inline constexpr std::size_t kMostLaneRegisters = 2;
+/// Whether the coherent rays of a tree go in packets in lanes, and not by pyramids: those test
+/// shapes eight rays at a time, where packets in lanes test them ray by ray.
+[[nodiscard]] inline bool in_lanes(const WideBvhLayout& layout, bool any_hit) {
+    const bool few_kinds = layout.frustums.empty() && layout.others.empty();
+    return few_kinds && (any_hit || layout.spheres.empty());
+}
 /// Fewest rays of a packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;
 /// Work of a packet: 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the

@@ -1,0 +1,273 @@
+/// A packet of sixteen coherent rays in lanes, and the frustum around those that go one way: what
+/// traverse_lanes-inl.h takes through the tree.
+///
+/// Source: Wald, Slusallek, Benthin and Wagner, "Interactive Rendering with Coherent Ray Tracing",
+/// Computer Graphics Forum 20(3), 2001 (rays in lanes); Boulos, Wald and Shirley, "Geometric and
+/// Arithmetic Culling Methods for Entire Ray Packets", University of Utah, UUCS-06-010, 2006 (the
+/// interval of all rays before the rays).
+/// Differs: both tests have the slack of `SlabRay`, so that no box is lost in which the test in
+/// double of a ray finds a hit.
+/// The rays of a set go the same way along every axis and fastest along one. Along an axis that
+/// they go up let o be an origin, r a reciprocal of a direction and b the slack of SlabRay in
+/// space, 6.5 e R + delta. No ray enters before (p - b - o) r at the least r and the largest o,
+/// unless that is negative, nor leaves after (p + b - o) r at the largest r and the least o, unless
+/// that is negative, and then it leaves before it begins. Both are products and sums of SlabRay's
+/// form: its 6.01 e R hold for a box whose planes are rounded as well, as those of a block's
+/// triangles are. Conventions: included once per target (see simd/lanes-inl.h). Sets of rays are
+/// bits.
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_LANE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_LANE_PACKET_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_LANE_PACKET_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_LANE_PACKET_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+#include "alhazen/accel/wide_bvh/trace/ray_group-inl.h"
+#include "alhazen/accel/wide_bvh/trace/slab_ray.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+inline constexpr std::size_t kPacketLanes = 16;
+inline constexpr std::size_t kPacketHalves = kPacketLanes / kRayLanes;
+using PacketFloats = Lanes<float, kPacketLanes>;
+using PacketMask = LaneMask<float, kPacketLanes>;
+using PacketRow = float[kPacketLanes];
+
+HWY_INLINE PacketFloats load_row(const PacketRow& row) {
+    return load_lanes<kPacketLanes>(row);
+}
+HWY_INLINE float least_of(const PacketFloats& a) {
+    const LaneTag<float, kPacketLanes> d;
+    auto least = a.part[0];
+    for (std::size_t i = 1; i < kParts<float, kPacketLanes>; ++i) least = hn::Min(least, a.part[i]);
+    return hn::GetLane(hn::MinOfLanes(d, least));
+}
+HWY_INLINE float most_of(const PacketFloats& a) {
+    return -least_of(-a);
+}
+
+struct alignas(64) LanePacket {
+    PacketRow origin[3], direction[3];                                     ///< in the local frame
+    PacketRow reciprocal[3], near_offset[3], far_offset[3], s_min, s_max;  ///< as in SlabRay
+    PacketRow sure_min, sure_max;                  ///< as in TriangleFilterRay
+    PacketRow slope[2];                            ///< TriangleFilterRay::sx, sy of the set
+    RayLanes rays[kPacketHalves];                  ///< as given
+    std::uint32_t kx, ky, kz;                      ///< of the set, as in RayShear
+    std::size_t near_row[3];                       ///< of the set: of WideNodeOf::planes
+    float near_error, edge_slack, edge_slack_min;  ///< as in TriangleFilterRay, of any ray
+
+    /// Takes up to sixteen rays; those of `wanted` that can be traced in lanes.
+    [[nodiscard]] std::uint32_t load(const LocalFrame& frame, std::span<const Ray> given,
+                                     std::uint32_t wanted);
+    /// Chooses those of the rays that go the way of the first, and makes their frustum.
+    [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
+
+    /// After rays have been limited.
+    HWY_INLINE void shrink() {
+        set_s_max_ = most_of(select_lanes(lanes_of_bits<float, kPacketLanes>(set_), load_row(s_max),
+                                          PacketFloats(-std::numeric_limits<float>::infinity())));
+    }
+    /// Bits of eight boxes [lower x, y, z, upper x, y, z][box] that the frustum meets, and where.
+    HWY_INLINE std::uint32_t meet_boxes(const float (&planes)[6][kLaneCount], Floats& entry) const {
+        Floats near[3], far[3];
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            near[k] = load_lanes(planes[near_row[k]]);
+            far[k] = load_lanes(planes[far_row(k)]);
+        }
+        return meet_planes(near, far, entry);
+    }
+    HWY_INLINE std::uint32_t meet_planes(const Floats (&near)[3], const Floats (&far)[3],
+                                         Floats& entry) const {
+        Floats in[3], out[3];
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            in[k] = mul_add(near[k], Floats(set_near_[k]), Floats(set_near_offset_[k]));
+            out[k] = mul_add(far[k], Floats(set_far_[k]), Floats(set_far_offset_[k]));
+        }
+        entry =
+            larger_by_bits(larger_by_bits(in[0], in[1]), larger_by_bits(in[2], Floats(set_s_min_)));
+        const Floats exit = smaller_by_bits(smaller_by_bits(out[0], out[1]),
+                                            smaller_by_bits(out[2], Floats(set_s_max_)));
+        return bits_of(entry <= exit);
+    }
+    [[nodiscard]] HWY_INLINE std::size_t far_row(std::size_t k) const {
+        return 2 * k + 3 - near_row[k];
+    }
+
+  private:
+    HWY_INLINE std::uint32_t load_half(const LocalFrame& frame, std::size_t half);
+    void make_frustum(std::uint32_t set);
+
+    std::uint32_t set_ = 0;
+    float slack_ = 0;  ///< of a box, in space
+    float set_near_[3], set_near_offset_[3], set_far_[3], set_far_offset_[3];
+    float set_s_min_ = 0, set_s_max_ = 0;
+};
+
+/// The slab tests of the rays of a packet, in registers.
+struct LaneSlabs {
+    PacketFloats reciprocal[3], near_offset[3], far_offset[3], s_min, s_max;
+
+    HWY_INLINE explicit LaneSlabs(const LanePacket& packet)
+        : s_min(load_row(packet.s_min)), s_max(load_row(packet.s_max)) {
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            reciprocal[k] = load_row(packet.reciprocal[k]);
+            near_offset[k] = load_row(packet.near_offset[k]);
+            far_offset[k] = load_row(packet.far_offset[k]);
+        }
+    }
+    /// Bits of the rays of the packet's set that meet the box of a child.
+    HWY_INLINE std::uint32_t meet(const WideNode& node, std::size_t slot,
+                                  const LanePacket& packet) const {
+        PacketFloats in[3], out[3];
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            in[k] = mul_add(PacketFloats(node.planes[packet.near_row[k]][slot]), reciprocal[k],
+                            near_offset[k]);
+            out[k] = mul_add(PacketFloats(node.planes[packet.far_row(k)][slot]), reciprocal[k],
+                             far_offset[k]);
+        }
+        const PacketFloats entry =
+            larger_by_bits(larger_by_bits(in[0], in[1]), larger_by_bits(in[2], s_min));
+        const PacketFloats exit =
+            smaller_by_bits(smaller_by_bits(out[0], out[1]), smaller_by_bits(out[2], s_max));
+        return bits_of(entry <= exit);
+    }
+};
+
+HWY_INLINE std::uint32_t LanePacket::load_half(const LocalFrame& frame, std::size_t half) {
+    using D = Doubles;
+    using F = Floats;
+    const RayLanes& given = rays[half];
+    const std::size_t at = half * kRayLanes;
+    const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
+    F away[3], across[3];
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        const F o = as_floats((load_lanes(given.origin[k]) - D(center[k])) * D(frame.scale));
+        const F d = as_floats(load_lanes(given.direction[k]));
+        away[k] = abs(o);
+        across[k] = abs(d);
+        store_lanes(o, origin[k] + at);
+        store_lanes(d, direction[k] + at);
+    }
+    const D t_min = load_lanes(given.t_min), t_max = load_lanes(given.t_max);
+    // As local_ray_nearby.
+    const F begin = min_lanes(as_floats(t_min * D(frame.scale)), F(1e37f));
+    const F end = min_lanes(as_floats(t_max * D(frame.scale)), F(1e37f));
+    const F less(1.0f - 0x1p-22f), more(1.0f + 0x1p-22f), tiny(0x1p-100f);
+    store_lanes(max_lanes(mul_sub(begin, less, tiny), F(0.0f)), s_min + at);
+    store_lanes(mul_add(begin, more, tiny), sure_min + at);
+    store_lanes(mul_sub(end, less, tiny), sure_max + at);
+    store_lanes(mul_add(end, more, tiny), s_max + at);
+    // A NaN is near nothing.
+    LaneMask<float> usable = (away[0] <= F(8.0f)) & (away[1] <= F(8.0f)) & (away[2] <= F(8.0f));
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) usable = usable & (across[k] <= F(0x1p40f));
+    const F least(frame.slack.least_length);
+    usable = usable & ((across[0] >= least) | (across[1] >= least) | (across[2] >= least));
+    return bits_of(usable) & bits_of((t_min <= t_max) & (t_min >= D(0.0)));
+}
+
+inline std::uint32_t LanePacket::load(const LocalFrame& frame, std::span<const Ray> given,
+                                      std::uint32_t wanted) {
+    std::uint32_t usable = 0;
+    for (std::size_t half = 0; half < kPacketHalves; ++half) {
+        const std::size_t first = half * kRayLanes;
+        if (given.size() >= first + kRayLanes) {
+            take_lanes(given.subspan(first).first<kRayLanes>(), rays[half]);
+        } else {
+            for (std::size_t i = 0; i < kRayLanes; ++i) {
+                rays[half].set(i, given[std::min(first + i, given.size() - 1)]);
+            }
+        }
+        usable |= load_half(frame, half) << first;
+    }
+    usable &= wanted;
+    if (usable == 0) return 0;
+    PacketFloats most(0.0f);
+    for (const PacketRow& row : origin) most = max_lanes(most, abs(load_row(row)));
+    const float distance =
+        most_of(select_lanes(lanes_of_bits<float, kPacketLanes>(usable), most, PacketFloats(0.0f)));
+    slack_ = frame.slack.slab.at(distance);
+    const float reach = frame.slack.reach.at(distance), delta = frame.slack.delta.at(distance);
+    const float unit = 0x1p-24f, error = 13.2f * unit * reach + 4.0f * delta;
+    near_error = 2.2f * unit * reach + 4.0f * delta;
+    edge_slack = 5.12f * error;
+    edge_slack_min = 2.12f * error * error;
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        // As make_slab_ray.
+        const PacketFloats d = load_row(direction[k]);
+        const PacketFloats r =
+            PacketFloats(1.0f) / copysign(larger_by_bits(abs(d), PacketFloats(0x1p-100f)), d);
+        const PacketFloats c = -(load_row(origin[k]) * r), aside = PacketFloats(slack_) * abs(r);
+        store_lanes(r, reciprocal[k]);
+        store_lanes(c - aside, near_offset[k]);
+        store_lanes(c + aside, far_offset[k]);
+    }
+    return usable;
+}
+
+inline std::uint32_t LanePacket::choose_set(std::uint32_t among) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(among));
+    const auto along = [&](std::size_t k) { return std::abs(direction[k][first]); };
+    kz = along(1) > along(0) ? 1 : 0;
+    if (along(2) > along(kz)) kz = 2;
+    kx = (kz + 1) % 3;
+    ky = (kz + 2) % 3;
+    const PacketFloats zero(0.0f);
+    const PacketFloats z = abs(load_row(direction[kz]));
+    PacketMask same = (z >= abs(load_row(direction[kx]))) & (z >= abs(load_row(direction[ky])));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const PacketFloats r = load_row(reciprocal[k]);
+        const bool up = reciprocal[k][first] > 0.0f;
+        near_row[k] = up ? k : k + 3;
+        same = same & (up ? r > zero : r < zero);
+    }
+    const std::uint32_t set = bits_of(same) & among;
+    make_frustum(set);
+    return set;
+}
+
+inline void LanePacket::make_frustum(std::uint32_t set) {
+    set_ = set;
+    const PacketMask in_set = lanes_of_bits<float, kPacketLanes>(set);
+    const PacketFloats infinite(std::numeric_limits<float>::infinity());
+    for (std::size_t k = 0; k < 3; ++k) {
+        const PacketFloats o = load_row(origin[k]), a = abs(load_row(reciprocal[k]));
+        const float o_least = least_of(select_lanes(in_set, o, infinite)) - slack_;
+        const float o_most = most_of(select_lanes(in_set, o, -infinite)) + slack_;
+        const float a_least = least_of(select_lanes(in_set, a, infinite));
+        const float a_most = most_of(select_lanes(in_set, a, -infinite));
+        const bool up = near_row[k] == k;
+        set_near_[k] = up ? a_least : -a_least;
+        set_far_[k] = up ? a_most : -a_most;
+        set_near_offset_[k] = -(up ? o_most : o_least) * set_near_[k];
+        set_far_offset_[k] = -(up ? o_least : o_most) * set_far_[k];
+    }
+    set_s_min_ = least_of(select_lanes(in_set, load_row(s_min), infinite));
+    shrink();
+    const PacketFloats sz = load_row(reciprocal[kz]);
+    store_lanes(load_row(direction[kx]) * sz, slope[0]);
+    store_lanes(load_row(direction[ky]) * sz, slope[1]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

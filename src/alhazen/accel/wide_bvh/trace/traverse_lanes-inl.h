@@ -1,0 +1,108 @@
+/// Traversal of the wide BVH by a packet of rays in lanes (lane_packet-inl.h): each child's box
+/// against the frustum first, then against all rays at once. Where few rays are left in a subtree,
+/// each goes on alone.
+///
+/// Source: Benthin, Wald, Woop, Ernst and Mark, "Combining Single and Packet-Ray Tracing for
+/// Arbitrary Ray Distributions on the Intel MIC Architecture", TVCG 18(9), 2012.
+/// Differs: a subtree on the stack knows its rays.
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_LANES_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_LANES_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_LANES_INL_H_
+#endif
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/accel/wide_bvh/trace/stream-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Subtrees yet to visit, and the rays that meet them: apart, for an entry that was just stored by
+/// parts would be waited for as a whole.
+struct LaneStack {
+    static constexpr std::size_t kSize = kTraversalStackSize<8>;
+    float entry[kSize];
+    NodeRef ref[kSize];
+    std::uint32_t lanes[kSize];
+};
+
+/// Puts the children that rays meet on the stack; returns the new height. The nearest is on top, or
+/// slot 0.
+template <bool kOrdered>
+HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, std::uint32_t lanes,
+                                LaneStack& stack, std::size_t height) {
+    Floats entries;
+    std::uint32_t hit = packet.meet_boxes(node.planes, entries);
+    if (hit == 0) return height;
+    HWY_ALIGN float entry[WideNode::kWidth];
+    store_lanes(entries, entry);
+    const LaneSlabs slabs(packet);
+    const std::size_t base = height;
+    while (hit != 0) {
+        const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
+        hit &= ~(1u << slot);
+        const std::uint32_t met = lanes & slabs.meet(node, slot, packet);
+        if (met == 0) continue;
+        std::size_t place = height++;
+        if constexpr (kOrdered) {
+            for (; place > base && stack.entry[place - 1] < entry[slot]; --place) {
+                stack.entry[place] = stack.entry[place - 1];
+                stack.ref[place] = stack.ref[place - 1];
+                stack.lanes[place] = stack.lanes[place - 1];
+            }
+        }
+        stack.entry[place] = entry[slot];
+        stack.ref[place] = node.child[slot];
+        stack.lanes[place] = met;
+    }
+    return height;
+}
+
+/// Visits the leaves that rays of `lanes` meet, nearest first if `Leaf::kOrdered`, else from slot 0
+/// on. `leaf.visit(ref, lanes, stats)` may limit rays, `leaf.go_alone(ref, lanes, stats)` takes
+/// fewer than `least_lanes` of them through a subtree one by one, and `leaf.wanting(entry)` says
+/// which go as far as that.
+template <class Leaf, class Stats>
+HWY_INLINE void traverse_lanes(const WideNode* nodes, NodeRef root,
+                               const PrefetchTable& prefetch_table, const LanePacket& packet,
+                               std::uint32_t lanes, int least_lanes, Leaf& leaf, Stats stats) {
+    LaneStack stack;
+    std::size_t height = 0;
+    NodeRef ref = root;
+    while (true) {
+        if (std::popcount(lanes) < least_lanes) {
+            leaf.go_alone(ref, lanes, stats);
+        } else if (ref.is_leaf()) {
+            leaf.visit(ref, lanes, stats);
+        } else {
+            const WideNode& node = nodes[ref.index()];
+            stats.nodes(1);
+            stats.boxes(node.child_count());
+            const std::size_t before = height;
+            height = push_met<Leaf::kOrdered>(node, packet, lanes, stack, height);
+            // The next two.
+            if (height > before) prefetch_table.prefetch(stack.ref[height - 1].bits());
+            if (height > before + 1) prefetch_table.prefetch(stack.ref[height - 2].bits());
+        }
+        do {
+            if (height == 0) return;
+            --height;
+            lanes = stack.lanes[height] & leaf.wanting(stack.entry[height]);
+        } while (lanes == 0);
+        ref = stack.ref[height];
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

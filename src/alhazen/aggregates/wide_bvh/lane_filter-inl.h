@@ -1,0 +1,101 @@
+/// The triangle filter with sixteen rays in the lanes (lane_packet-inl.h): one triangle against all
+/// rays of a set.
+///
+/// Source: triangle_filter.h, whose bounds it has; errors that depend on the ray are those of the
+/// farthest ray of the packet.
+/// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
+/// never sure.
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_FILTER_INL_H_
+#endif
+
+#include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Which rays a triangle is hit by, and where.
+struct FilteredLanes {
+    std::uint32_t candidates, sure;
+    PacketFloats lo, hi;
+
+    // As that of LaneMask: not defaulted, for the sake of the target.
+    HWY_INLINE FilteredLanes() {}
+};
+
+/// Bits of the triangles of a block whose boxes the frustum of a packet meets.
+HWY_INLINE std::uint32_t meet_triangles(const TriangleBlock& block, const LanePacket& packet) {
+    Floats near[3], far[3], entry;
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Floats a = load_lanes(block.vertex[0][k]), b = load_lanes(block.vertex[1][k]);
+        const Floats c = load_lanes(block.vertex[2][k]);
+        const Floats least = min_lanes(min_lanes(a, b), c), most = max_lanes(max_lanes(a, b), c);
+        const bool up = packet.near_row[k] == k;
+        near[k] = up ? least : most;
+        far[k] = up ? most : least;
+    }
+    return packet.meet_planes(near, far, entry);
+}
+
+/// False when no ray of `lanes` hits the triangle for all one knows; then `out` is not set.
+HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const LanePacket& packet,
+                             std::uint32_t lanes, FilteredLanes& out) {
+    using F = PacketFloats;
+    const std::size_t kx = packet.kx, ky = packet.ky, kz = packet.kz;
+    const F ox = load_row(packet.origin[kx]), oy = load_row(packet.origin[ky]);
+    const F oz = load_row(packet.origin[kz]);
+    const F sx = load_row(packet.slope[0]), sy = load_row(packet.slope[1]);
+    struct {
+        F x, y, z;
+    } v[3];
+    F far(0.0f);
+    HWY_UNROLL(3)
+    for (std::size_t i = 0; i < 3; ++i) {
+        v[i].z = F(block.vertex[i][kz][lane]) - oz;
+        v[i].x = neg_mul_add(sx, v[i].z, F(block.vertex[i][kx][lane]) - ox);
+        v[i].y = neg_mul_add(sy, v[i].z, F(block.vertex[i][ky][lane]) - oy);
+        far = max_lanes(far, max_lanes(abs(v[i].x), abs(v[i].y)));
+    }
+    const auto edge = [](const auto& a, const auto& b)
+                          HWY_ATTR { return mul_sub(a.x, b.y, a.y * b.x); };
+    const F eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
+    const F error = mul_add(far, F(packet.edge_slack), F(packet.edge_slack_min));
+    const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
+    if ((lanes & ~bits_of((least < -error) & (most > error))) == 0) return false;
+
+    const F sz = load_row(packet.reciprocal[kz]);
+    const F depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
+    const F off = mul_add(far + depth, F(7.3f * 0x1p-24f), F(packet.near_error));
+    const F fine = off * mul_add(far, F(5.12f), off * F(2.12f));
+    const F sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
+    const F first = min_lanes(min_lanes(sa, sb), sc), last = max_lanes(max_lanes(sa, sb), sc);
+    const F inverse = F(1.0f) / (eu + ev + ew);
+    const F place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
+    const F s = min_lanes(max_lanes(place, first), last);
+    const F slack =
+        mul_add(F(25.0f) * fine * (last - first), abs(inverse), off * F(1.6f) * abs(sz));
+    out.lo = s - slack;
+    out.hi = s + slack;
+    // Written so that a NaN is a candidate and not sure.
+    out.candidates =
+        lanes & ~bits_of(((least < -fine) & (most > fine)) | (out.lo > load_row(packet.s_max)) |
+                         (out.hi < load_row(packet.s_min)));
+    if (out.candidates == 0) return false;
+    out.sure = out.candidates &
+               bits_of(((least > fine) | (most < -fine)) & (out.lo >= load_row(packet.sure_min)) &
+                       (out.hi <= load_row(packet.sure_max)));
+    return true;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
