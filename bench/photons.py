@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The cognac glass of scenes/light beside POV-Ray and its photons: time and noise, one thread, in turn.
 
-Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--spp N] [--photons N] [--keep DIR]
+Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--shadows N] [--spp N]
+                        [--photons N] [--keep DIR]
 Each program is measured against its own references, for the light of both differs: POV-Ray does not bounce light from
 wall to table here. A reference is the mean of pictures with more photons and samples, whose photons are others than
 those of the picture that is measured: of alhazen by the seed, of POV-Ray, which has none, by their number. Noise is the
@@ -145,6 +146,7 @@ def main():
     parser.add_argument("--caustics", type=int, default=1200000, help="photons of the caustic map of alhazen")
     parser.add_argument("--noise", type=float, default=0.08, help="of alhazen, as --noise of render")
     parser.add_argument("--split", type=float, default=0.2, help="of alhazen, as split of photon_mapping")
+    parser.add_argument("--shadows", type=int, default=1, help="of alhazen, as shadows of photon_mapping")
     parser.add_argument("--spp", type=int, default=160, help="of alhazen, at most")
     parser.add_argument("--photons", type=int, default=200000, help="of POV-Ray")
     parser.add_argument("--long", type=int, default=6, help="times the photons of references, ours at half of --noise")
@@ -174,7 +176,7 @@ def main():
 
     def alhazen(out, times, noise, seed):
         renderer = (f"photon_mapping:caustics={times * args.caustics},photons={times * 150000},nearest=150,"
-                    f"irradiance=on,every=4,clamp=1,roulette=16,split={args.split}")
+                    f"irradiance=on,every=4,clamp=1,roulette=16,split={args.split},shadows={args.shadows}")
         return [args.alhazen, "render", os.path.join(ROOT, "scenes/light/cognac.alhazen"), "-o", at(out), "--size",
                 f"{args.side}x{args.side}", "-t", "1", "-q", "--renderer", renderer, "--spp", str(args.spp),
                 "--noise", str(noise), "--seed", str(seed)]

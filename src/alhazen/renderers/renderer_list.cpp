@@ -106,6 +106,8 @@ PathSettings photon_paths(RendererSettings& settings) {
     static constexpr const char* kTurns[] = {"1", "2", "4", "8", "16"};
     paths.turns = 1u << settings.choice("turns", 4, kTurns);
     paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
+    constexpr int kMostShadows = 64;
+    paths.shadows = static_cast<std::uint32_t>(settings.whole("shadows", 1, 1, kMostShadows));
     return paths;
 }
 

@@ -20,6 +20,8 @@ struct PathSettings {
     /// up to so many successive samples of a pixel, and counts as often. 1, 2, 4, 8 or 16. Not
     /// with wavelengths, which samples have in turn, too.
     std::uint32_t turns = 16;
+    /// Of the same: shadow rays from each surface that is seen.
+    std::uint32_t shadows = 1;
     /// Of photon_mapping: of 1, 2, 4 or 8 successive samples one looks at the photons of the
     /// surface that it sees straight, and counts for all. Not with wavelengths, of which each set
     /// needs its looks.

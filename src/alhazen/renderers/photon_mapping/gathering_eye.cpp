@@ -4,24 +4,10 @@
 #include <cmath>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/sampling/even_numbers.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
-
-namespace {
-
-double fraction(double v) {
-    return std::min(v - std::floor(v), 0x1.fffffffffffffp-1);
-}
-
-/// The bits of a number behind the point (van der Corput).
-double mirrored_bits(std::uint32_t n) {
-    double value = 0.0;
-    for (double bit = 0.5; n != 0; n >>= 1, bit *= 0.5) value += (n & 1) != 0 ? bit : 0.0;
-    return value;
-}
-
-}  // namespace
 
 Spectrum GatheringEye::photon_light(const SeenPoint& at) {
     const Vec3& point = at.surface.point;

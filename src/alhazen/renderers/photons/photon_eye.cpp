@@ -6,6 +6,7 @@
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 #include "alhazen/renderers/photons/photon_density.h"
+#include "alhazen/sampling/even_numbers.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -30,6 +31,11 @@ bool is_certain(double probability) {
 /// shutter, for ever: samplers go through both in the order of the numbers' bits.
 bool is_turn(std::uint64_t key, std::uint64_t number, std::uint64_t samples) {
     return number % samples == mix64(key ^ mix64(number / samples)) % samples;
+}
+
+/// Of a sum of two numbers below 1.
+double shifted(double sum) {
+    return sum < 1.0 ? sum : sum - 1.0;
 }
 
 }  // namespace
@@ -235,22 +241,34 @@ Vec2 PhotonEye::draw_for_light(const SampleId& id, int event, const Branch& at,
     const Vec2 u = chance_.draw({id.pixel, id.number / at.stride}, 0, pair);
     const std::uint64_t key =
         mix64(at.way ^ mix64(kShift + pair) ^ static_cast<std::uint64_t>(at.last.scatterings));
-    const auto shifted = [](double v) { return v < 1.0 ? v : v - 1.0; };
     return {shifted(u.x + random_at(key, 0)), shifted(u.y + random_at(key, 1))};
 }
 
 void PhotonEye::add_direct_light(const SampleId& id, int event, const Branch& branch,
                                  const Wavelengths& waves, Spectrum& direct) {
+    const double choice = draw_for_light(id, event, branch, PathChance::kChoices).y;
+    const Vec2 place = draw_for_light(id, event, branch, PathChance::kLight);
+    constexpr double kGolden = 0.6180339887498949;
+    // Even over the choice, and over the places of each light that is chosen.
+    const double share = 1.0 / settings_.shadows;
+    for (std::uint32_t k = 0; k < settings_.shadows; ++k) {
+        const Vec2 shift{mirrored_bits(k), fraction(k * kGolden)};
+        add_shadow_ray(branch, shifted(choice + share * k),
+                       {shifted(place.x + shift.x), shifted(place.y + shift.y)}, share, waves,
+                       direct);
+    }
+}
+
+void PhotonEye::add_shadow_ray(const Branch& branch, double choice, const Vec2& place, double share,
+                               const Wavelengths& waves, Spectrum& direct) {
     const PathEnd& path = branch.path;
     const ShadingPoint& point = next_.point();
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
-    const LightDraw drawn =
-        lights_.draw(at, draw_for_light(id, event, branch, PathChance::kChoices).y,
-                     draw_for_light(id, event, branch, PathChance::kLight), *path.waves);
+    const LightDraw drawn = lights_.draw(at, choice, place, *path.waves);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     const Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
-    double weight = 1.0 / drawn.density;
+    double weight = share / drawn.density;
     const double other = drawn.singular ? 0.0 : scatter_.density(drawn.to_light);
     if (other > kGlossyDensity) weight *= power_heuristic(drawn.density, other);
     MediumStack media = path.media;
@@ -283,10 +301,11 @@ void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& p
 bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int& event) const {
     if (!path.throughput.is_finite()) return false;
     if (last.scatterings <= settings_.roulette) return true;
-    constexpr double kMost = 0.95;
-    // Ways that are followed for certain are dim already.
+    // Ways that are followed for certain are dim already. What is bright goes on: few of many
+    // reflections in glass that survived a chance at each would be white dots.
     const double light = last.eta_scale * path.throughput.max();
-    const double share = light < kMost * settings_.split ? light / settings_.split : kMost;
+    if (!(light < settings_.split)) return true;
+    const double share = light / settings_.split;
     if (!(chance_.draw(id, event++, PathChance::kLuck).x < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;

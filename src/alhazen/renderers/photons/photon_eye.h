@@ -118,6 +118,9 @@ class PhotonEye {
     /// as others over all samples.
     [[nodiscard]] Vec2 draw_for_light(const SampleId& id, int event, const Branch& at,
                                       PathChance::BouncePair pair) const;
+    /// To a light that the numbers choose, for `share` of the direct light.
+    void add_shadow_ray(const Branch& branch, double choice, const Vec2& place, double share,
+                        const Wavelengths& waves, Spectrum& direct);
     void look_into_volume(const SampleId& id, int event, const PathEnd& path,
                           const Wavelengths& waves, Spectrum& sum, Spectrum& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,

@@ -7,8 +7,10 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/photons/next_surface.h"
+#include "alhazen/sampling/even_numbers.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -20,6 +22,8 @@ constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 constexpr double kAnywhere = 0.2;
 /// Parts of the choice among few lights, and among many.
 constexpr std::size_t kFewLights = 4, kFewStrata = 16, kMostStrata = 64;
+/// A number for all trials of a cell, of none of them.
+constexpr std::uint64_t kAllTrials = std::uint64_t{1} << 32;
 
 /// Density of a cell by the share of its photons that hit: what leaves least variance for the time
 /// where one that misses costs a twentieth of one that hits.
@@ -28,13 +32,19 @@ float weight_of(double share) {
     return static_cast<float>(std::sqrt(share / (share + kMissing)));
 }
 
+/// When the trial of that number is: as even over the shutter as few trials can be.
+float moment_of(const PathNumbers& numbers, std::uint32_t trial) {
+    return ShutterPart{}.at(fraction(numbers.at(0) + mirrored_bits(trial)));
+}
+
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
-bool meets_mirror(const Scene& scene, const LightRay& light, LightStarts& starts,
+bool meets_mirror(const Scene& scene, const LightRay& light, float time, LightStarts& starts,
                   const PathNumbers& numbers, NextSurface& next, ScatterPoint& scatter) {
-    const WalkStart start = starts.of(light, 0.0f, kColorChannels);
+    const WalkStart start = starts.of(light, time, kColorChannels);
     if (start.throughput.is_black()) return false;
     PathEnd path;
     path.ray = start.ray;
+    path.time = time;
     path.kind = RayKind::Reflection;
     // Without media: one that scatters would hide what lies beyond.
     if (next.find(path, numbers) != PathMeets::Surface || next.point().material->unlit) {
@@ -123,12 +133,15 @@ void ProjectionMap::try_cells(const RenderJob& job, const std::vector<std::size_
             for (std::size_t i = g * kTogether; i < last; ++i) {
                 Tally& tally = tallies[asked[i]];
                 for (std::uint32_t k = 0; k < trials; ++k) {
+                    const float time = job.scene.has_motion
+                                           ? moment_of({seed, asked[i], kAllTrials}, tally.trials)
+                                           : 0.0f;
                     const PathNumbers n{seed, asked[i], tally.trials++};
                     const LightRay light = emit_in(asked[i], 1.0, n.at(0), {n.at(1), n.at(2)},
                                                    {n.at(3), n.at(4)}, kColorChannels);
                     // Light without a place is sent everywhere.
-                    const bool hits =
-                        light.infinite || meets_mirror(job.scene, light, starts, n, next, scatter);
+                    const bool hits = light.infinite || meets_mirror(job.scene, light, time, starts,
+                                                                     n, next, scatter);
                     tally.hits += hits ? 1 : 0;
                 }
             }

@@ -197,6 +197,59 @@ TEST(DimWaysAtGlass, AreHeldByClampAsOften) {
     EXPECT_LT(always, 0.2);
 }
 
+/// A ceiling that two lamps light, seen straight or in a mirror.
+Scene ceiling_with_lamps(bool in_mirror) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 0.5}, {0, 0, in_mirror ? -1.0 : 1.0}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+    Material mirror;
+    mirror.reflective.color = {0.8, 0.8, 0.8};
+    maker.add(rectangle({-0.1, -0.1, 0}, {0.2, 0, 0}, {0, 0.2, 0}), maker.material(mirror));
+    maker.add(rectangle({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}), maker.material(matt({0.5, 0.5, 0.5})));
+    const MaterialId lamp = maker.material(testing::shining({1, 1, 1}));
+    maker.add(rectangle({0.2, -1, 0.3}, {1, 0, 0}, {0, 2, 0}), lamp);
+    maker.add(rectangle({-1, -0.5, 0.6}, {0.5, 0, 0}, {0, 1, 0}), lamp);
+    // In the way of half of the second.
+    maker.add(rectangle({-1, -0.5, 0.7}, {0.9, 0, 0}, {0, 0.5, 0}),
+              maker.material(matt({0, 0, 0})));
+    return maker.compile();
+}
+
+TEST(ShadowRays, AreAsManyAsAsked) {
+    for (const bool in_mirror : {false, true}) {
+        const Scene scene = ceiling_with_lamps(in_mirror);
+        for (const std::string renderer : {"photon_mapping:photons=10,caustics=0,depth=2",
+                                           "sppm:photons=10,radius=0.01,depth=2"}) {
+            const PixelValues one = pixels_of(scene, renderer + ",shadows=1", 1);
+            const PixelValues eight = pixels_of(scene, renderer + ",shadows=8", 1);
+            EXPECT_GT(one.mean, 0.02) << renderer;
+            EXPECT_NEAR(eight.mean, one.mean, 4.0 * one.deviation / 32) << renderer;
+            // More even than by chance.
+            EXPECT_LT(eight.deviation, 0.3 * one.deviation) << renderer;
+        }
+    }
+}
+
+/// What is bright is not left to chance after `roulette` scatterings.
+TEST(BrightWays, DoNotEndByChance) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
+    Material mirror;
+    mirror.reflective.color = {0.8, 0.8, 0.8};
+    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), maker.material(mirror));
+    maker.add(rectangle({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}),
+              maker.material(testing::shining({1, 1, 1})));
+    const Scene scene = maker.compile();
+    const std::string renderer = "photon_mapping:photons=10,caustics=0,roulette=0,split=";
+    const PixelValues bright = pixels_of(scene, renderer + "0.7", 1);
+    EXPECT_NEAR(bright.mean, 0.8, 1e-6);
+    EXPECT_NEAR(bright.deviation, 0.0, 1e-6);
+    const PixelValues dim = pixels_of(scene, renderer + "0.9", 1);
+    EXPECT_NEAR(dim.mean, 0.8, 4.0 * dim.deviation / 32);
+    EXPECT_GT(dim.deviation, 0.1);
+}
+
 double largest_difference(const Film& a, const Film& b) {
     double most = 0.0;
     for (int i = 0; i < 64; ++i) {

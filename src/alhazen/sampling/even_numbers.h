@@ -1,0 +1,25 @@
+#pragma once
+/// Numbers in [0, 1) that fill it evenly one after another, for few draws without a sampler.
+///
+/// Source: van der Corput, "Verteilungsfunktionen", Proceedings of the Royal Academy of Amsterdam
+/// 38, 1935.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace alhazen {
+
+/// Of a number that is not negative: what is behind the point, below 1.
+[[nodiscard]] inline double fraction(double v) {
+    return std::min(v - std::floor(v), 0x1.fffffffffffffp-1);
+}
+
+/// The bits of a number behind the point.
+[[nodiscard]] inline double mirrored_bits(std::uint32_t n) {
+    double value = 0.0;
+    for (double bit = 0.5; n != 0; n >>= 1, bit *= 0.5) value += (n & 1) != 0 ? bit : 0.0;
+    return value;
+}
+
+}  // namespace alhazen
