@@ -90,11 +90,10 @@ endif()
 # COLD.
 set(ALHAZEN_COLD_OPTIONS -O1)
 set(ALHAZEN_FROZEN_OPTIONS -Og)
-# Programs list these before the libraries: of an inline function the linker keeps the first copy. Those of `aggregates`
-# are last, for kernels that count are built for compile time.
+# Programs list these before the libraries: of an inline function the linker keeps the first copy. Those of `aggregates`,
+# in the target of `primitives`, are last, for kernels that count are built for compile time.
 set(ALHAZEN_FAST_OBJECTS
-    $<TARGET_OBJECTS:alhazen_renderers> $<TARGET_OBJECTS:alhazen_primitives> $<TARGET_OBJECTS:alhazen_accel>
-    $<TARGET_OBJECTS:alhazen_aggregates>)
+    $<TARGET_OBJECTS:alhazen_renderers> $<TARGET_OBJECTS:alhazen_accel> $<TARGET_OBJECTS:alhazen_primitives>)
 
 # Writes the source `unit` of the build folder that includes kernels, so that the headers of lanes are read once for all.
 function(alhazen_write_kernel_unit unit)
@@ -108,31 +107,36 @@ function(alhazen_write_kernel_unit unit)
     endforeach()
     # Each of them has named itself as what to compile for the next instruction set.
     file(CONFIGURE OUTPUT "${unit}" CONTENT "${text}${target}" @ONLY)
-    set_source_files_properties("${unit}" PROPERTIES INCLUDE_DIRECTORIES "${CMAKE_BINARY_DIR}/src")
 endfunction()
 
-# Compiles the sources of a target many to a unit, for `temperature` WARM, COLD or FROZEN.
-function(alhazen_set_units target temperature)
-    set(batch_WARM 40)
-    set(batch_COLD 80)
-    set(batch_FROZEN 80)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch_${temperature}}
+# Compiles the sources of a target `batch` to a unit (empty: as usual), for `temperature` WARM, COLD or FROZEN.
+function(alhazen_set_units target temperature batch)
+    if(NOT batch)
+        set(batch 100)
+        if(temperature STREQUAL "WARM")
+            set(batch 60)
+        endif()
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch}
                           UNITY_BUILD_UNIQUE_ID ALHAZEN_UNITY_ID)
     target_compile_options(${target} PRIVATE ${ALHAZEN_${temperature}_OPTIONS})
 endfunction()
 
-# alhazen_library(NAME [COLD|FROZEN] SOURCES file... FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file...
-# DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...) defines the target alhazen_NAME of one room of
-# src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build), kernels one by one,
-# small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of the room. The compile
-# flags are private to this build: an installed library has only those of AlhazenInstall.cmake.
+# alhazen_library(NAME [COLD|FROZEN] [BATCH number] [UNITS_OF room] SOURCES file... FROZEN_SOURCES file... KERNELS file...
+# SMALL_KERNELS file... DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...) defines the target alhazen_NAME
+# of one room of src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build),
+# kernels one by one, small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of
+# the room. UNITS_OF: the sources are compiled with those of another room, in its library and with its options; the
+# target stands for it. The compile flags are private to this build: an installed library has only those of
+# AlhazenInstall.cmake.
 function(alhazen_library name)
-    cmake_parse_arguments(ARG "COLD;FROZEN" ""
+    cmake_parse_arguments(ARG "COLD;FROZEN" "UNITS_OF;BATCH"
         "SOURCES;FROZEN_SOURCES;KERNELS;SMALL_KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
+    set(library alhazen_${name})
+    set(kernels ${ARG_KERNELS})
     if(ARG_SOURCES)
         set(sources ${ARG_SOURCES})
-        set(kernels ${ARG_KERNELS})
         set(temperature WARM)
         if(ARG_COLD)
             set(temperature COLD)
@@ -150,18 +154,32 @@ function(alhazen_library name)
             add_library(alhazen_${name}_first OBJECT ${sources})
             target_link_libraries(alhazen_${name}_first PRIVATE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
                                   ${ARG_PRIVATE_LIBRARIES})
-            alhazen_set_units(alhazen_${name}_first ${temperature})
+            alhazen_set_units(alhazen_${name}_first ${temperature} "${ARG_BATCH}")
             set(objects $<TARGET_OBJECTS:alhazen_${name}_first>)
             set(sources ${ARG_FROZEN_SOURCES})
             set(temperature FROZEN)
         endif()
-        add_library(alhazen_${name} STATIC ${sources} ${kernels} ${objects})
-        target_link_libraries(alhazen_${name} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
+        if(ARG_UNITS_OF)
+            set(library alhazen_${ARG_UNITS_OF})
+            list(REMOVE_ITEM ARG_DEPENDS ${library})
+            add_library(alhazen_${name} INTERFACE)
+            target_link_libraries(alhazen_${name} INTERFACE ${library})
+            target_sources(${library} PRIVATE ${sources} ${kernels})
+        else()
+            add_library(${library} STATIC ${sources} ${kernels} ${objects})
+            alhazen_set_units(${library} ${temperature} "${ARG_BATCH}")
+        endif()
+        target_link_libraries(${library} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
                               PRIVATE ${ARG_PRIVATE_LIBRARIES})
-        alhazen_set_units(alhazen_${name} ${temperature})
-        set_source_files_properties(${kernels} PROPERTIES
-            SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
-            COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${ALHAZEN_KERNEL_OPTIONS}")
+        if(kernels)
+            set_source_files_properties(${kernels} TARGET_DIRECTORY ${library} PROPERTIES
+                SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
+                COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${ALHAZEN_KERNEL_OPTIONS}")
+        endif()
+        if(ARG_SMALL_KERNELS)
+            set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/small_kernels.cpp" TARGET_DIRECTORY ${library}
+                PROPERTIES INCLUDE_DIRECTORIES "${CMAKE_BINARY_DIR}/src")
+        endif()
         list(TRANSFORM ARG_KERNELS PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
         set_property(GLOBAL APPEND PROPERTY ALHAZEN_KERNELS ${ARG_KERNELS} ${ARG_SMALL_KERNELS})
     else()

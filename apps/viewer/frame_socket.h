@@ -13,9 +13,16 @@
 /// Included by http_server.cpp alone.
 
 #include <array>
-#include <boost/asio.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <optional>
@@ -46,7 +53,9 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         socket_.set_option(patience);
         socket_.read_message_max(kMostFirst);
         socket_.auto_fragment(false);
-        co_await socket_.async_accept(request, boost::asio::use_awaitable);
+        // At once, which takes less to compile: an answer that the system has no room for ends it.
+        boost::beast::get_lowest_layer(socket_).socket().non_blocking(true);
+        socket_.accept(request);
         if (!co_await knows(token)) co_return;
         patience.keep_alive_pings = true;  // a quiet page stays
         socket_.set_option(patience);

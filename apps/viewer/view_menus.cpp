@@ -89,7 +89,7 @@ json menu_of(const Table& table) {
 
 json view_menus(const LoadedScene& loaded) {
     json lights = json::array();
-    for (const LightChoice& light : light_choices(loaded.description)) {
+    for (const NamedLight& light : light_choices(loaded.description)) {
         json entry{{"name", light.name},
                    {"what", light.kind},
                    {"color", {light.color.r, light.color.g, light.color.b}}};

@@ -131,17 +131,6 @@ class ViewServer(ServerTest):
             self.assertTrue(json.loads(answer)["error"])
         self.assertEqual(self.server.ask("/frame", WISH)[0], 200)
 
-    def test_slow_clients_are_let_go_and_others_answered(self):
-        memory = self.server.state()["memory"]
-        sockets = self.server.connect_slowly(200)
-        begin = time.monotonic()
-        while self.status() != 200:
-            self.assertLess(time.monotonic() - begin, 9, "slow clients keep their places")
-            time.sleep(0.2)
-        for s in sockets:
-            s.close()
-        self.assertLess(self.server.state()["memory"] - memory, 32 << 20)
-
     # ---- what the answers are
     def test_frames_are_the_pictures_of_render(self):
         status, headers, body = self.server.ask("/frame", {**WISH, "png": True})

@@ -35,24 +35,28 @@ class AggregateOf final : public Aggregate {
     [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override {
         hit = Hit{};
         if (!is_valid(ray)) return false;
+        if (query.stats != nullptr) {
+            any_query(AsksFor::Closest, ray, &hit, nullptr, query.mask, CountingStats{query.stats});
+            return hit.found();
+        }
         Ray shrinking = ray;
         const RayShear shear(ray.direction);
-        with_stats(query.stats, [&](auto policy) {
-            each(Always<AsksFor::Closest>(), shrinking, policy, [&](PrimitiveId id) {
-                table_.closest(id, shrinking, shear, hit, policy, query.mask);
-                return false;
-            });
+        each(Always<AsksFor::Closest>(), shrinking, NoStats{}, [&](PrimitiveId id) {
+            table_.closest(id, shrinking, shear, hit, NoStats{}, query.mask);
+            return false;
         });
         return hit.found();
     }
 
     [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override {
         if (!is_valid(ray)) return false;
+        if (query.stats != nullptr) {
+            return any_query(AsksFor::AnyHit, ray, nullptr, nullptr, query.mask,
+                             CountingStats{query.stats});
+        }
         const RayShear shear(ray.direction);
-        return with_stats(query.stats, [&](auto policy) {
-            return each(Always<AsksFor::AnyHit>(), ray, policy, [&](PrimitiveId id) {
-                return table_.occluded(id, ray, shear, policy, query.mask);
-            });
+        return each(Always<AsksFor::AnyHit>(), ray, NoStats{}, [&](PrimitiveId id) {
+            return table_.occluded(id, ray, shear, NoStats{}, query.mask);
         });
     }
 
@@ -69,41 +73,55 @@ class AggregateOf final : public Aggregate {
     /// For accelerators with primitives in several cells: drops the crossings of repeated visits.
     class OnlyOnce {
       public:
-        explicit OnlyOnce(std::vector<Hit>& hits) : hits_(hits) {}
+        explicit OnlyOnce(std::vector<Hit>* hits) : hits_(hits) {}
         /// The crossings beyond `known` belong to `id`.
         void keep(PrimitiveId id, std::size_t known) {
             if constexpr (visits_repeatedly<A>()) {
-                if (hits_.size() == known) return;
+                if (hits_->size() == known) return;
                 if (std::find(seen_.begin(), seen_.end(), id) == seen_.end()) {
                     seen_.push(id);
                 } else {
-                    hits_.resize(known);
+                    hits_->resize(known);
                 }
             }
         }
 
       private:
-        std::vector<Hit>& hits_;
+        std::vector<Hit>* hits_;
         ReentrantStack<PrimitiveId> seen_;
     };
 
-    /// AllHits or AnyBlocker: one traversal for both, which is half as much to compile.
+    /// All queries that count, or those that collect crossings and do not: one traversal for each
+    /// of the two, as each takes its part of the time to compile. `nearest` or `hits`: for the
+    /// result.
+    template <class Stats>
+    bool any_query(AsksFor asked, Ray ray, [[maybe_unused]] Hit* nearest, std::vector<Hit>* hits,
+                   RayMask mask, Stats stats) const {
+        const RayShear shear(ray.direction);
+        OnlyOnce once(hits);
+        return each(asked, ray, stats, [&](PrimitiveId id) {
+            if constexpr (Stats::kCounts) {
+                if (asked == AsksFor::Closest) {
+                    table_.closest(id, ray, shear, *nearest, stats, mask);
+                    return false;
+                }
+                if (asked == AsksFor::AnyHit) return table_.occluded(id, ray, shear, stats, mask);
+            }
+            const std::size_t known = hits->size();
+            if (asked == AsksFor::AllHits) {
+                table_.all_hits(id, ray, shear, *hits, stats, mask);
+            } else if (table_.shadowed(id, ray, shear, *hits, stats, mask)) {
+                return true;
+            }
+            once.keep(id, known);
+            return false;
+        });
+    }
     bool collect(AsksFor asked, const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
         if (!is_valid(ray)) return false;
-        const RayShear shear(ray.direction);
         const std::size_t before = hits.size();
-        const bool opaque = with_stats(query.stats, [&](auto policy) {
-            OnlyOnce once(hits);
-            return each(asked, ray, policy, [&](PrimitiveId id) {
-                const std::size_t known = hits.size();
-                if (asked == AsksFor::AllHits) {
-                    table_.all_hits(id, ray, shear, hits, policy, query.mask);
-                } else if (table_.shadowed(id, ray, shear, hits, policy, query.mask)) {
-                    return true;
-                }
-                once.keep(id, known);
-                return false;
-            });
+        const bool opaque = with_stats(query.stats, [&](auto stats) {
+            return any_query(asked, ray, nullptr, &hits, query.mask, stats);
         });
         if (!opaque) sort_appended(hits, before);
         return opaque;

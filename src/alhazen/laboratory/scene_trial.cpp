@@ -17,7 +17,7 @@ namespace alhazen {
 namespace {
 
 /// As Protocol::Spd, written into the scene.
-constexpr int kSpdRays = 513;
+constexpr int kStandardRays = 513;
 
 RenderOptions render_options_of(const SceneDescription& description, const TrialOptions& options) {
     RenderOptions render;
@@ -27,7 +27,7 @@ RenderOptions render_options_of(const SceneDescription& description, const Trial
     render.width = options.width;
     render.height = options.height;
     if (options.spd) {
-        render.width = render.height = kSpdRays;
+        render.width = render.height = kStandardRays;
     } else if (!options.width && !options.height) {
         const PictureSettings& picture = description.picture;
         const bool has_size = picture.width || picture.height || description.cameras.empty();

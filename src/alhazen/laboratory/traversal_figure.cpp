@@ -14,9 +14,9 @@
 namespace alhazen {
 namespace {
 
-using Kind = TraversalStep::Kind;
+using StepKind = TraversalStep::Kind;
 
-constexpr double kWidth = 900, kMargin = 24, kLegend = 64;
+constexpr double kWidth = 900, kEdge = 24, kLegend = 64;
 /// In larger scenes only the tested primitives are drawn.
 constexpr std::size_t kMostDrawn = 5000;
 
@@ -49,10 +49,10 @@ class Projection {
             hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
         }
         const double wide = std::max(hi.x - lo.x, 1e-300), high = std::max(hi.y - lo.y, 0.0);
-        scale_ = (kWidth - 2 * kMargin) / std::max(wide, high);
+        scale_ = (kWidth - 2 * kEdge) / std::max(wide, high);
         left_ = 0.5 * (kWidth - scale_ * wide) - scale_ * lo.x;
-        top_ = kMargin + kLegend + scale_ * hi.y;
-        height_ = 2 * kMargin + kLegend + scale_ * high;
+        top_ = kEdge + kLegend + scale_ * hi.y;
+        height_ = 2 * kEdge + kLegend + scale_ * high;
     }
 
     [[nodiscard]] Vec2 operator()(const Vec3& p) const {
@@ -167,28 +167,29 @@ class Figure {
         return box;
     }
 
-    [[nodiscard]] std::size_t count(Kind kind) const {
+    [[nodiscard]] std::size_t count(StepKind kind) const {
         return static_cast<std::size_t>(
             std::count_if(trace_.steps.begin(), trace_.steps.end(),
                           [&](const TraversalStep& step) { return step.kind == kind; }));
     }
     [[nodiscard]] std::string summary() const {
         std::string text = trace_.accelerator + ":";
-        const std::size_t cells = count(Kind::Cell);
-        if (count(Kind::Beam) > 0) {
+        const std::size_t cells = count(StepKind::Cell);
+        if (count(StepKind::Beam) > 0) {
             text += " one class of rays,";
         } else if (cells > 0) {
             text += fmt::format(" {} cells visited,", cells);
         }
-        if (count(Kind::Bound) > 0) text += fmt::format(" {} bounds tested,", count(Kind::Bound));
-        return text +
-               fmt::format(" {} of {} primitives tested", count(Kind::Primitive), table_.size());
+        if (count(StepKind::Bound) > 0)
+            text += fmt::format(" {} bounds tested,", count(StepKind::Bound));
+        return text + fmt::format(" {} of {} primitives tested", count(StepKind::Primitive),
+                                  table_.size());
     }
 
     void draw_legend() {
-        out_.text("text", {{"x", svg::decimals(kMargin, 0)}, {"y", "30"}, {"font-size", "19"}},
+        out_.text("text", {{"x", svg::decimals(kEdge, 0)}, {"y", "30"}, {"font-size", "19"}},
                   summary());
-        double x = kMargin;
+        double x = kEdge;
         const auto key = [&](const char* style, const char* what) {
             out_.leaf("rect", {{"class", style},
                                {"x", svg::decimals(x, 0)},
@@ -199,13 +200,13 @@ class Figure {
                       what);
             x += 55 + 7.4 * static_cast<double>(std::string_view(what).size());
         };
-        if (count(Kind::Beam) > 0) {
+        if (count(StepKind::Beam) > 0) {
             key("cell", "where the rays of the class come from");
             key("beam", "their beam");
-        } else if (count(Kind::Cell) > 0) {
+        } else if (count(StepKind::Cell) > 0) {
             key("cell", "cell visited, by number");
         }
-        if (count(Kind::Bound) > 0) {
+        if (count(StepKind::Bound) > 0) {
             key("bound", "bound that the ray meets");
             key("missed", "bound that it misses");
         }
@@ -216,7 +217,7 @@ class Figure {
     void draw_primitives() {
         std::set<std::uint32_t> tested;
         for (const TraversalStep& step : trace_.steps) {
-            if (step.kind == Kind::Primitive) tested.insert(step.number);
+            if (step.kind == StepKind::Primitive) tested.insert(step.number);
         }
         const bool all = table_.size() <= kMostDrawn;
         for (std::uint32_t i = 0; i < table_.size(); ++i) {
@@ -237,10 +238,10 @@ class Figure {
         for (const TraversalStep& step : trace_.steps) {
             if (step.corners.empty()) continue;
             draw_polygon(out_, project_, step.corners,
-                         step.kind == Kind::Cell   ? "cell"
-                         : step.kind == Kind::Beam ? "beam"
-                         : step.met                ? "bound"
-                                                   : "missed");
+                         step.kind == StepKind::Cell   ? "cell"
+                         : step.kind == StepKind::Beam ? "beam"
+                         : step.met                    ? "bound"
+                                                       : "missed");
         }
     }
 
@@ -278,10 +279,10 @@ class Figure {
 
     /// Numbers in the lower left of cells with space for them; of several in one place the first.
     void draw_numbers() {
-        if (count(Kind::Beam) > 0) return;
+        if (count(StepKind::Beam) > 0) return;
         int number = 0;
         for (const TraversalStep& step : trace_.steps) {
-            if (step.kind != Kind::Cell) continue;
+            if (step.kind != StepKind::Cell) continue;
             ++number;
             Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
             for (const Vec3& corner : step.corners) {

@@ -20,16 +20,16 @@
 namespace alhazen {
 namespace {
 
-using Kind = TraversalStep::Kind;
+using StepKind = TraversalStep::Kind;
 
 /// Records the steps of a traversal.
 struct TracingStats : NoStats {
     std::vector<TraversalStep>* steps = nullptr;
     void cell(std::size_t number) const {
-        steps->push_back({Kind::Cell, true, static_cast<std::uint32_t>(number), {}});
+        steps->push_back({StepKind::Cell, true, static_cast<std::uint32_t>(number), {}});
     }
     void bound(std::size_t node, bool met) const {
-        steps->push_back({Kind::Bound, met, static_cast<std::uint32_t>(node), {}});
+        steps->push_back({StepKind::Bound, met, static_cast<std::uint32_t>(node), {}});
     }
 };
 
@@ -55,7 +55,7 @@ class TracingVisitor {
         Ray whole = trace_.ray;
         table_.closest(id, whole, shear_, alone, NoStats{}, kAllRays);
         trace_.steps.push_back(
-            {Kind::Primitive, alone.found(), static_cast<std::uint32_t>(id), {}});
+            {StepKind::Primitive, alone.found(), static_cast<std::uint32_t>(id), {}});
         table_.closest(id, ray_, shear_, trace_.hit, NoStats{}, kAllRays);
     }
 
@@ -142,7 +142,7 @@ std::vector<Vec3> shape_of(const List&, const TraversalStep&) {
 template <class A>
 void add_shapes(const A& accelerator, TraversalTrace& result) {
     for (TraversalStep& step : result.steps) {
-        if (step.kind != Kind::Primitive) step.corners = shape_of(accelerator, step);
+        if (step.kind != StepKind::Primitive) step.corners = shape_of(accelerator, step);
     }
 }
 
@@ -150,7 +150,7 @@ void add_shapes(const A& accelerator, TraversalTrace& result) {
 /// primitives.
 void add_shapes(const RayClassification& made, TraversalTrace& result) {
     for (std::size_t i = 0; i < result.steps.size(); ++i) {
-        if (result.steps[i].kind != Kind::Cell) continue;
+        if (result.steps[i].kind != StepKind::Cell) continue;
         const Box3& box = made.classes()->space().box;
         const RaySpan span(box, result.ray, result.ray.t_max);
         const ClassifiedRay ray(result.ray, span.begin);
@@ -182,7 +182,7 @@ void add_shapes(const RayClassification& made, TraversalTrace& result) {
             keep(across - cube.hi[slope] * forward, from);
             keep(cube.lo[slope] * forward - across, from);
         }
-        TraversalStep beam{Kind::Beam, true, 0, plane_corners(sides)};
+        TraversalStep beam{StepKind::Beam, true, 0, plane_corners(sides)};
         result.steps.insert(result.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                             std::move(beam));
         return;

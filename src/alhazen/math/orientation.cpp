@@ -3,28 +3,14 @@
 #include <array>
 #include <cstddef>
 
+#include "alhazen/math/double_double.h"
+
 namespace alhazen {
 
 namespace {
 
-/// The exact result high + low of an operation; high is its rounded value.
-struct Pair {
-    double high = 0, low = 0;
-};
-
-Pair two_sum(double a, double b) {
-    const double sum = a + b;
-    const double b_virtual = sum - a;
-    return {sum, (a - (sum - b_virtual)) + (b - b_virtual)};
-}
-
-Pair two_difference(double a, double b) {
+DoubleDouble two_difference(double a, double b) {
     return two_sum(a, -b);
-}
-
-Pair two_product(double a, double b) {
-    const double product = a * b;
-    return {product, std::fma(a, b, -product)};
 }
 
 /// An exact sum of doubles: non-overlapping terms in ascending order of magnitude.
@@ -34,7 +20,7 @@ class ExactSum {
         if (term == 0.0) return;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < size_; ++i) {
-            const Pair next = two_sum(term, terms_[i]);
+            const DoubleDouble next = two_sum(term, terms_[i]);
             if (next.low != 0.0) terms_[kept++] = next.low;
             term = next.high;
         }
@@ -42,12 +28,12 @@ class ExactSum {
         size_ = kept;
     }
     void add_product(double a, double b) {
-        const Pair product = two_product(a, b);
+        const DoubleDouble product = two_product(a, b);
         add(product.low);
         add(product.high);
     }
     /// Adds the product of two pairs, or subtracts it.
-    void add_product(const Pair& a, const Pair& b, double sign) {
+    void add_product(const DoubleDouble& a, const DoubleDouble& b, double sign) {
         add_product(sign * a.low, b.low);
         add_product(sign * a.low, b.high);
         add_product(sign * a.high, b.low);

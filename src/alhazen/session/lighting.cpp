@@ -34,7 +34,7 @@ void turn_off(Material& material) {
 }
 
 /// Where the light is, where it shines, and its colour.
-void describe(const Light& light, LightChoice& choice) {
+void describe(const Light& light, NamedLight& choice) {
     std::visit(Overloaded{[&](const AmbientLight& l) { choice.color = l.ambient; },
                           [&](const DirectionalLight& l) {
                               choice.direction = Vec3{} - l.to_light;
@@ -69,7 +69,7 @@ void check_names(const std::vector<LightChange>& changes) {
     }
 }
 
-void check(const LightChange& change, const LightChoice& choice) {
+void check(const LightChange& change, const NamedLight& choice) {
     const auto refuse = [&](const std::string& what) {
         throw Error(ErrorKind::Usage, fmt::format("the light '{}' {}", change.name, what));
     };
@@ -142,7 +142,7 @@ void apply(const LightChange& change, Material& material) {
 
 /// What a choice stands for.
 struct Switch {
-    LightChoice choice;
+    NamedLight choice;
     std::optional<std::size_t> light;
     std::optional<MaterialId> material;
 };
@@ -154,7 +154,7 @@ std::vector<Switch> switches(const SceneDescription& description) {
         const char* const kind = kLightKinds[description.lights[i].light.index()];
         const std::optional<MaterialId> material = material_of_light(description, i);
         if (material) of_lights.insert(*material);
-        LightChoice choice{.name = light_name(description, i), .kind = kind};
+        NamedLight choice{.name = light_name(description, i), .kind = kind};
         describe(description.lights[i].light, choice);
         list.push_back({std::move(choice), i, material});
     }
@@ -162,7 +162,7 @@ std::vector<Switch> switches(const SceneDescription& description) {
         const Material& material = description.materials[i].material;
         const auto id = static_cast<MaterialId>(i);
         if (!emits(material) || of_lights.contains(id)) continue;
-        LightChoice choice{
+        NamedLight choice{
             .name = material.name.empty() ? fmt::format("material {}", i + 1) : material.name,
             .kind = "material that emits",
             .color = material.emission.color};
@@ -199,8 +199,8 @@ std::string light_name(const SceneDescription& description, std::size_t light) {
     return fmt::format("{} {}", kLightKinds[described.light.index()], light + 1);
 }
 
-std::vector<LightChoice> light_choices(const SceneDescription& description) {
-    std::vector<LightChoice> list;
+std::vector<NamedLight> light_choices(const SceneDescription& description) {
+    std::vector<NamedLight> list;
     for (Switch& s : switches(description)) list.push_back(std::move(s.choice));
     return list;
 }

@@ -19,7 +19,7 @@ namespace alhazen {
 /// The light's name, or its kind and its number from 1 on: "spot light 2".
 [[nodiscard]] std::string light_name(const SceneDescription& description, std::size_t light);
 
-struct LightChoice {
+struct NamedLight {
     std::string name;
     std::string kind;  ///< "point light", "material that emits"
     std::optional<Vec3> position;
@@ -27,7 +27,7 @@ struct LightChoice {
     Rgb color;                      ///< or radiance, ambient term, emission; what it has
     std::vector<ExtentSize> sizes;  ///< of a light with extent
 };
-[[nodiscard]] std::vector<LightChoice> light_choices(const SceneDescription& description);
+[[nodiscard]] std::vector<NamedLight> light_choices(const SceneDescription& description);
 
 /// What is other than in the file: fields that the choice has. Of a light there is one change.
 struct LightChange {

@@ -25,7 +25,7 @@ void for_each_shape(const PrimitiveTable& table, F&& f) {
 
 /// Calls f(column, position) for one shape.
 template <class F>
-void with_shape(const PrimitiveTable& table, PrimitiveId id, F&& f) {
+void with_column(const PrimitiveTable& table, PrimitiveId id, F&& f) {
     const std::uint32_t kind = table.kind(id);
     const std::uint32_t index = table.index(id);
     std::uint32_t k = 0;
@@ -191,7 +191,7 @@ SolidPlace SolidList::place(SolidId id) const {
     } else if (number < node->solid_shapes.size()) {
         place.kind = SolidPlace::Kind::Shape;
         place.shape = node->solid_shapes[number];
-        with_shape(table, place.shape, [&](const auto& column, std::uint32_t i) {
+        with_column(table, place.shape, [&](const auto& column, std::uint32_t i) {
             place.material = column.materials[i];
             place.parts.push_back(column.parts.empty() ? 0 : column.parts[i]);
         });
@@ -217,7 +217,7 @@ void SolidList::collect_unbounded(const Node& node, const Ray& ray, std::uint64_
     }
     const PrimitiveTable& table = node.aggregate->primitives();
     for (const PrimitiveId id : node.unbounded) {
-        with_shape(table, id, [&](const auto& column, std::uint32_t i) {
+        with_column(table, id, [&](const auto& column, std::uint32_t i) {
             if (begins_inside(column.shapes[i], inner_ray(table, column, i, ray))) {
                 const std::uint32_t own = node.shape_number[static_cast<std::uint32_t>(id)];
                 solids.push_back(SolidId{first + own});

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kMostLeaves = 4096;
 /// Number of unchecked solids that are named, and of solids of the scene that are searched for
 /// them.
-constexpr std::size_t kMostNamed = 20;
+constexpr std::size_t kMostNamedSolids = 20;
 constexpr std::uint64_t kMostLookedThrough = 1'000'000;
 
 /// Why crossings of a primitive have no formula; empty where they have one.
@@ -150,7 +150,7 @@ std::vector<UncheckedSolid> unchecked_solids(const std::vector<ExactSolid>& all,
     std::map<std::pair<const Aggregate*, PrimitiveId>, std::size_t> wanted;
     std::vector<UncheckedSolid> named;
     for (const ExactSolid& solid : all) {
-        if (solid.reason.empty() || named.size() == kMostNamed) continue;
+        if (solid.reason.empty() || named.size() == kMostNamedSolids) continue;
         wanted.emplace(std::pair{solid.stored_in, solid.shape}, named.size());
         named.push_back({"a solid", solid.reason});
     }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-53;
 /// Stored solids that are checked; of more, as many spread over all.
-constexpr std::size_t kMostSolids = 256;
+constexpr std::size_t kMostExactSolids = 256;
 /// Roundings of a ray's own numbers on the way to a crossing.
 constexpr double kRayRoundings = 16;
 
@@ -275,7 +275,7 @@ ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& o
     for (const ExactSolid& solid : all) {
         if (solid.reason.empty()) checked.push_back(&solid);
     }
-    const std::size_t count = std::min(checked.size(), kMostSolids);
+    const std::size_t count = std::min(checked.size(), kMostExactSolids);
     report.unchecked = all.size() - count;
     report.left_out = checked.size() - count;
     report.solids = count;

@@ -64,7 +64,7 @@ struct Lit {
 
 TEST(Lighting, LightsHaveNamesOfTheirOwn) {
     std::vector<std::string> names, kinds;
-    for (const LightChoice& choice : light_choices(Lit().description)) {
+    for (const NamedLight& choice : light_choices(Lit().description)) {
         names.push_back(choice.name);
         kinds.push_back(choice.kind);
     }
@@ -84,7 +84,7 @@ TEST(Lighting, LightsOfOneNameAreNumberedAtOnce) {
     // Numbers that are names already are left out.
     maker.description().lights[0].name = "lamp (3)";
     maker.description().lights[3].name = "lamp (2)";
-    const std::vector<LightChoice> choices = light_choices(maker.description());
+    const std::vector<NamedLight> choices = light_choices(maker.description());
     std::vector<std::string> first;
     for (std::size_t i = 0; i < 6; ++i) first.push_back(choices[i].name);
     EXPECT_EQ(first, (std::vector<std::string>{"lamp (3)", "lamp", "lamp (2)", "lamp (2) (2)",
@@ -101,7 +101,7 @@ TEST(Lighting, LightsAreMovedTurnedAndColoured) {
     maker.add(Sphere{});
     const Scene scene = maker.compile();
     const SceneDescription& description = maker.description();
-    const std::vector<LightChoice> choices = light_choices(description);
+    const std::vector<NamedLight> choices = light_choices(description);
     EXPECT_EQ(*choices[0].position, (Vec3{1, 2, 3}));
     EXPECT_FALSE(choices[0].direction);
     EXPECT_EQ(*choices[1].direction, (Vec3{0, 0, -1}));
@@ -235,9 +235,9 @@ TEST(Lighting, ALampIsHitWhereItIsDrawnAndNoLongerWhereItWas) {
 
 TEST(Lighting, OnlySurfacesThatMoveAreBuiltAnew) {
     const LoadedScene file = loaded(kLamps);
-    const std::vector<LightChoice> choices = light_choices(file.description);
+    const std::vector<NamedLight> choices = light_choices(file.description);
     // A colour, and what the file says, leave the geometry as it is.
-    for (const LightChoice& choice : choices) {
+    for (const NamedLight& choice : choices) {
         LightChange same{choice.name, choice.position, choice.direction, Rgb{5, 5, 5}};
         for (const ExtentSize& size : choice.sizes) same.sizes.push_back(size.value);
         EXPECT_TRUE(surface_changes(file.description, {same}).empty()) << choice.name;

@@ -60,6 +60,16 @@ bool to_codes(const std::vector<float>& samples, std::vector<Code>& codes) {
     return true;
 }
 
+template <class Sample>
+Rgba pixel_of(const Sample* p, int channels, bool decode_srgb) {
+    const auto color = [&](int i) { return decode_srgb ? decoded(p[i]) : double(value_of(p[i])); };
+    if (channels < 3) {
+        const double grey = color(0);
+        return {grey, grey, grey, channels == 2 ? double(value_of(p[1])) : 1.0};
+    }
+    return {color(0), color(1), color(2), channels == 4 ? double(value_of(p[3])) : 1.0};
+}
+
 }  // namespace
 
 std::size_t StoredImage::memory_bytes() const {
@@ -67,19 +77,15 @@ std::size_t StoredImage::memory_bytes() const {
 }
 
 Rgba StoredImage::pixel(std::size_t index, bool decode_srgb) const {
-    return std::visit(
-        [&](const auto& all) -> Rgba {
-            const auto* p = all.data() + index * std::size_t(channels);
-            const auto color = [&](int i) {
-                return decode_srgb ? decoded(p[i]) : double(value_of(p[i]));
-            };
-            if (channels < 3) {
-                const double grey = color(0);
-                return {grey, grey, grey, channels == 2 ? double(value_of(p[1])) : 1.0};
-            }
-            return {color(0), color(1), color(2), channels == 4 ? double(value_of(p[3])) : 1.0};
-        },
-        samples);
+    const std::size_t first = index * std::size_t(channels);
+    // No std::visit: GCC does not always inline its table of functions.
+    if (const auto* bytes = std::get_if<0>(&samples)) {
+        return pixel_of(bytes->data() + first, channels, decode_srgb);
+    }
+    if (const auto* words = std::get_if<1>(&samples)) {
+        return pixel_of(words->data() + first, channels, decode_srgb);
+    }
+    return pixel_of(std::get<2>(samples).data() + first, channels, decode_srgb);
 }
 
 void StoredImage::read_pixels(std::size_t first, std::size_t count, bool decode_srgb,

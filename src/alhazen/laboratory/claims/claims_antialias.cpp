@@ -65,7 +65,7 @@ void compare_with_uniform(ClaimRun& run, const SpdScene& named) {
 
 // ---- F2
 
-constexpr int kFilmSide = 96, kFrames = 64, kRows = 11;
+constexpr int kFilmSide = 96, kFrames = 64, kSphereRows = 11;
 constexpr double kSpacing = 7.31, kSphereDiameter = 0.05;  ///< pixels
 constexpr double kEyeDistance = 10.0;
 constexpr double kFilmPixel = 2.0 * 2.5 / kFilmSide;  ///< in the plane of the first layer
@@ -91,9 +91,9 @@ LatticeFrame lattice_frame(int frame) {
     const double dx = 0.0571 * frame, dy = 0.0237 * frame;
     for (int layer = 0; layer < 2; ++layer) {
         const double scale = kFilmPixel * (1.0 + 0.02 * layer);  // of a pixel in this layer
-        for (int k = 0; k < kRows * kRows; ++k) {
-            const Vec2 p{8.0 + kSpacing * (k % kRows + 0.5 * layer) + dx,
-                         8.0 + kSpacing * (k / kRows + 0.5 * layer) + dy};
+        for (int k = 0; k < kSphereRows * kSphereRows; ++k) {
+            const Vec2 p{8.0 + kSpacing * (k % kSphereRows + 0.5 * layer) + dx,
+                         8.0 + kSpacing * (k / kSphereRows + 0.5 * layer) + dy};
             const Vec3 center{scale * (p.x - 0.5 * kFilmSide), scale * (0.5 * kFilmSide - p.y),
                               -0.02 * kEyeDistance * layer};
             Part part;
@@ -208,7 +208,7 @@ void claim_f2(ClaimRun& run) {
     run.note(
         fmt::format("{} frames of {} x {} pixels; {} spheres of {} pixels in two layers, "
                     "threshold 0.05, depth 5. The light of a sphere is that of nine pixels.",
-                    kFrames, kFilmSide, kFilmSide, 2 * kRows * kRows, kSphereDiameter));
+                    kFrames, kFilmSide, kFilmSide, 2 * kSphereRows * kSphereRows, kSphereDiameter));
 }
 
 }  // namespace alhazen

@@ -65,7 +65,11 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
                                            std::span<const Texture> textures,
                                            const SurfaceLookup& lookup) {
     MaterialSample s;
-    const Rgb base = lookup.color.rgb() * color_at(p.base_color, textures, lookup);
+    // Most inputs have no texture: tested here, as larger units are inlined less.
+    const auto color = [&](const ColorInput& input) {
+        return input.texture == kNoTexture ? input.color : color_at(input, textures, lookup);
+    };
+    const Rgb base = lookup.color.rgb() * color(p.base_color);
     s.albedo = base;
     if (p.unlit) {
         s.unlit = true;
@@ -83,10 +87,10 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     }
     s.physical = true;
     s.index = material.index.value;
-    s.emission = color_at(material.emission, textures, lookup);
+    s.emission = color(material.emission);
 
-    const Rgb dielectric = strength * min_of_one(normal_reflectance(s.index) *
-                                                 color_at(p.specular_color, textures, lookup));
+    const Rgb dielectric =
+        strength * min_of_one(normal_reflectance(s.index) * color(p.specular_color));
     const Rgb at_normal = (1.0 - metallic) * dielectric + metallic * base;
     const double grazing = (1.0 - metallic) * strength + metallic;
     const double mirror = std::pow(1.0 - roughness, 4.0);
@@ -103,8 +107,7 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     const double through = clamped(value_at(p.diffuse_transmission.share, textures, lookup));
     Rgb matt = base;
     if (through > 0.0) {
-        matt = (1.0 - through) * base +
-               through * color_at(p.diffuse_transmission.color, textures, lookup);
+        matt = (1.0 - through) * base + through * color(p.diffuse_transmission.color);
     }
     const Rgb body = (1.0 - metallic) * (1.0 - transmission) * matt;
     // Whitted's equation has no blurred reflection: what the mirror part leaves of a metal's is

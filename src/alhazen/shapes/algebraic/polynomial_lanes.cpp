@@ -23,51 +23,51 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-struct Point {
+struct LinePoint {
     Doubles x, y, z;
 };
-HWY_INLINE Point load_point(const double (&rows)[3][kRayLanes]) {
+HWY_INLINE LinePoint load_line_point(const double (&rows)[3][kRayLanes]) {
     return {load_lanes(rows[0]), load_lanes(rows[1]), load_lanes(rows[2])};
 }
-HWY_INLINE void store_point(const Point& p, double (&rows)[3][kRayLanes]) {
+HWY_INLINE void store_line_point(const LinePoint& p, double (&rows)[3][kRayLanes]) {
     store_lanes(p.x, rows[0]);
     store_lanes(p.y, rows[1]);
     store_lanes(p.z, rows[2]);
 }
-HWY_INLINE Point minus(const Point& p, const Vec3& v) {
+HWY_INLINE LinePoint minus(const LinePoint& p, const Vec3& v) {
     return {p.x - Doubles(v.x), p.y - Doubles(v.y), p.z - Doubles(v.z)};
 }
-HWY_INLINE Point times(const Mat3& m, const Point& v) {
+HWY_INLINE LinePoint times(const Mat3& m, const LinePoint& v) {
     const auto row = [&](double a, double b, double c) HWY_ATTR {
         return v.x * Doubles(a) + v.y * Doubles(b) + v.z * Doubles(c);
     };
     return {row(m.x_axis.x, m.y_axis.x, m.z_axis.x), row(m.x_axis.y, m.y_axis.y, m.z_axis.y),
             row(m.x_axis.z, m.y_axis.z, m.z_axis.z)};
 }
-HWY_INLINE Doubles dot(const Point& a, const Point& b) {
+HWY_INLINE Doubles dot(const LinePoint& a, const LinePoint& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-HWY_INLINE Point cross(const Point& a, const Point& b) {
+HWY_INLINE LinePoint cross(const LinePoint& a, const LinePoint& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 /// The largest finite magnitude of a coordinate.
-HWY_INLINE Doubles reach_of(const Point& p) {
+HWY_INLINE Doubles reach_of(const LinePoint& p) {
     return max_lanes(abs(p.x), max_lanes(abs(p.y), abs(p.z)));
 }
 
 /// Eight lines in the frame of a shape, and the part of each within its clip.
 struct Lines {
-    Point from;  ///< as in `clip_segment_by`
-    Point o, d;
+    LinePoint from;  ///< as in `clip_segment_by`
+    LinePoint o, d;
     Doubles entry, exit;
     Doubles entry_part, exit_part;
 };
 
 HWY_INLINE Lines to_frame(const SolidFrame& frame, const RayLanes& rays) {
     Lines l;
-    l.from = minus(load_point(rays.origin), frame.origin);
+    l.from = minus(load_line_point(rays.origin), frame.origin);
     l.o = times(frame.local_from_object, l.from);
-    l.d = times(frame.local_from_object, load_point(rays.direction));
+    l.d = times(frame.local_from_object, load_line_point(rays.direction));
     l.entry = Doubles(-std::numeric_limits<double>::infinity());
     l.exit = Doubles(std::numeric_limits<double>::infinity());
     l.entry_part = l.exit_part = Doubles(0.0);
@@ -86,7 +86,7 @@ HWY_INLINE std::uint32_t cut_around(double reach, double height, Lines& l) {
     cut(l.o.x, l.d.x, reach);
     cut(l.o.y, l.d.y, reach);
     cut(l.o.z, l.d.z, height);
-    const Point c = cross(l.o, l.d);
+    const LinePoint c = cross(l.o, l.d);
     return bits_of((l.entry < l.exit) & is_finite(l.exit - l.entry) &
                    (dot(c, c) <= Doubles(reach * reach) * dot(l.d, l.d)));
 }
@@ -120,11 +120,12 @@ HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& un
 /// The rest of `clip_segment_by` for the lanes in `left`: the ends of the segments. Returns false
 /// when all lanes miss.
 HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double size,
-                           std::uint32_t left, Lines& l, PolynomialLanes& out, Point& p, Point& q) {
+                           std::uint32_t left, Lines& l, PolynomialLanes& out, LinePoint& p,
+                           LinePoint& q) {
     left &= bits_of((l.exit >= load_lanes(rays.t_min)) & (l.entry <= load_lanes(rays.t_max)));
     out.missed = kAllLanes & ~left;
     if (left == 0) return false;
-    const Point direction = load_point(rays.direction);
+    const LinePoint direction = load_line_point(rays.direction);
     const Doubles step = reach_of(direction);
     store_lanes(l.entry, out.entry);
     store_lanes(l.exit, out.exit);
@@ -133,7 +134,7 @@ HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double
         left & bits_of(abs(l.entry) * step * Doubles(frame.stretch) > Doubles(16.0 * size));
     if (far_off != 0) {
         alignas(64) double origin[3][kRayLanes];
-        store_point(l.from, origin);
+        store_line_point(l.from, origin);
         for (; far_off != 0; far_off &= far_off - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(far_off));
             Ray ray;
@@ -145,7 +146,7 @@ HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double
             const Vec3 from = advanced(ray, out.shift[i]).origin - frame.origin;
             for (int k = 0; k < 3; ++k) origin[k][i] = from[k];
         }
-        l.from = load_point(origin);
+        l.from = load_line_point(origin);
         l.o = times(frame.local_from_object, l.from);
     }
     const Doubles shift = load_lanes(out.shift);
@@ -155,8 +156,8 @@ HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double
         (reach_of(l.from) + Doubles(max_component(alhazen::abs(frame.origin))) +
          max_lanes(abs(begin), abs(end)) * step);
     store_lanes(relative, out.relative_error);
-    store_point(l.o, out.o);
-    store_point(l.d, out.d);
+    store_line_point(l.o, out.o);
+    store_line_point(l.d, out.d);
     store_lanes(l.entry_part, out.entry_part);
     store_lanes(l.exit_part, out.exit_part);
     p = {l.o.x + begin * l.d.x, l.o.y + begin * l.d.y, l.o.z + begin * l.d.z};
@@ -192,7 +193,7 @@ void torus(const Torus& shape, const RayLanes& rays, PolynomialLanes& lanes) {
     const double reach = kTorusRoom * (1.0 + shape.tube), height = kTorusRoom * shape.tube;
     lanes.unsure = lanes.at_entry = lanes.bracketed = lanes.last = 0;
     Lines lines = to_frame(shape.frame, rays);
-    Point p, q;
+    LinePoint p, q;
     const std::uint32_t left = cut_around(reach, height, lines);
     if (!end_points(shape.frame, rays, reach, left, lines, lanes, p, q)) return;
     const TorusPolynomial f{shape.tube};
@@ -208,7 +209,7 @@ void algebraic(const Algebraic& shape, const RayLanes& rays, PolynomialLanes& la
     lanes.at_entry = lanes.bracketed = lanes.last = 0;
     const SolidFrame frame;
     Lines lines = to_frame(frame, rays);
-    Point p, q;
+    LinePoint p, q;
     const std::uint32_t left = cut_by_box(shape.clip_box, lines, lanes.unsure);
     const bool any = end_points(frame, rays, shape.size, left, lines, lanes, p, q);
     // Unsure lanes are in no other set.
