@@ -16,8 +16,8 @@
 #include "measure.h"
 #include "peer_version.h"
 #ifdef ALHAZEN_HAVE_EMBREE
-#include "embree_scene.h"
-#include "embree_tree_cost.h"
+#include "embree/embree_scene.h"
+#include "embree/embree_tree_cost.h"
 #endif
 
 namespace {

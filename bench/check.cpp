@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "alhazen/parallel/parallel.h"
-#include "embree_packets.h"
+#include "embree/embree_packets.h"
 
 namespace alhazen::bench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "disagreements.h"
-#include "embree_scene.h"
+#include "embree/embree_scene.h"
 
 namespace alhazen::bench {
 

@@ -14,7 +14,7 @@
 #include "report.h"
 #ifdef ALHAZEN_HAVE_EMBREE
 #include "check.h"
-#include "embree_packets.h"
+#include "embree/embree_packets.h"
 #endif
 
 namespace {

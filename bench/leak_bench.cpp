@@ -21,8 +21,8 @@
 #include "our_tracer.h"
 #include "peer_version.h"
 #ifdef ALHAZEN_HAVE_EMBREE
-#include "embree_packets.h"
-#include "embree_scene.h"
+#include "embree/embree_packets.h"
+#include "embree/embree_scene.h"
 #endif
 
 namespace {

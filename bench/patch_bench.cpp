@@ -16,8 +16,8 @@
 #include "measure.h"
 #include "our_tracer.h"
 #ifdef ALHAZEN_HAVE_EMBREE
-#include "embree_packets.h"
-#include "embree_scene.h"
+#include "embree/embree_packets.h"
+#include "embree/embree_scene.h"
 #endif
 
 namespace {

@@ -17,9 +17,28 @@ using namespace testing;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+/// Triangles, among them spheres: of a tree with placed ones packets are pyramids, of one with
+/// others any hit goes in lanes.
+PrimitiveTable triangles_and_spheres(int count, double size, std::uint64_t seed, bool placed) {
+    RandomEngine random(seed);
+    TableBuilder builder;
+    if (placed) builder.table.placements.emplace_back();
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = uniform_point(random, size);
+        builder.add_triangle(a, a + uniform_point(random, 0.2 * size),
+                             a + uniform_point(random, 0.2 * size), random() % 3 != 0);
+        if (placed && i > 0) continue;
+        builder.add_sphere(uniform_point(random, size), uniform(random, 0.01, 0.1) * size,
+                           random() % 3 != 0, placed ? 0 : kNoPlacement);
+    }
+    return builder.finish();
+}
+
 std::vector<std::pair<std::string, PrimitiveTable>> tables(double size, std::uint64_t seed) {
     return {{"many triangles", random_triangles(800, size, 0.1 * size, seed)},
             {"large triangles", random_triangles(60, size, size, seed)},
+            {"triangles and a placed sphere", triangles_and_spheres(400, size, seed, true)},
+            {"triangles and spheres", triangles_and_spheres(200, size, seed, false)},
             {"spheres", random_spheres(300, size, 0.1 * size, seed)},
             {"mixture", random_mixture(300, size, 0.2 * size, seed)}};
 }
@@ -52,12 +71,16 @@ TEST(CoherentBatch, ShadowRaysAreBlockedAsTheListSays) {
 }
 
 TEST(CoherentBatch, PacketsOfAnySizeAreTracedInFull) {
-    const PrimitiveTable table = random_mixture(200, 1, 0.3, 5);
     const Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 14);
-    for (const std::size_t size : {1, 2, 15, 16, 17, 31, 48, 63, 64, 65, 79, 80, 127, 129}) {
-        compare(std::to_string(size) + " rays", table, {rays.begin(), rays.begin() + size}, false);
+    std::vector<std::size_t> sizes = {48, 63, 64, 65, 79, 80, 127, 129};
+    for (std::size_t size = 1; size <= 33; ++size) sizes.push_back(size);
+    for (const auto& [name, table] : tables(1, 5)) {
+        for (const std::size_t size : sizes) {
+            compare(std::to_string(size) + " rays at " + name, table,
+                    {rays.begin(), rays.begin() + size}, false);
+        }
+        compare("no rays at " + name, table, {}, false);
     }
-    compare("no rays", table, {}, false);
 }
 
 TEST(CoherentBatch, InvalidRaysAmongOthersHitNothingAndChangeNothing) {
@@ -153,24 +176,29 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
         builder.add_triangle(a, b, c, random() % 2 == 0);
         targets.insert(targets.end(), {a, b, 0.5 * (a + b), 0.5 * (b + c)});
     }
-    const PrimitiveTable table = builder.finish();
-    for (const Vec3& eye : {Vec3{0.25, 0.5, 3}, Vec3{0.3, 0.2, 2.9}, Vec3{-3, 0.25, 0.25}}) {
+    builder.table.placements.emplace_back();
+    TableBuilder others = builder;
+    others.add_sphere({50, 50, 50}, 1, true, 0);  // packets are pyramids
+    for (const PrimitiveTable& table : {builder.finish(), others.finish()}) {
+        for (const Vec3& eye : {Vec3{0.25, 0.5, 3}, Vec3{0.3, 0.2, 2.9}, Vec3{-3, 0.25, 0.25}}) {
+            Rays rays;
+            for (const Vec3& target : targets) rays.push_back({eye, target - eye, 0, kInf});
+            std::sort(rays.begin(), rays.end(),
+                      [](const Ray& a, const Ray& b) { return a.direction.y < b.direction.y; });
+            compare("rays at vertices and edges", table, rays);
+            for (Ray& ray : rays) ray.t_max = 1;
+            compare("rays to vertices and edges", table, rays);
+        }
+        // Parallel along an axis: a common direction instead of a common point, zeros of both
+        // signs.
         Rays rays;
-        for (const Vec3& target : targets) rays.push_back({eye, target - eye, 0, kInf});
-        std::sort(rays.begin(), rays.end(),
-                  [](const Ray& a, const Ray& b) { return a.direction.y < b.direction.y; });
-        compare("rays at vertices and edges", table, rays);
-        for (Ray& ray : rays) ray.t_max = 1;
-        compare("rays to vertices and edges", table, rays);
+        for (int i = 0; i < 400; ++i) {
+            rays.push_back({{0.125 * (i % 20 - 10), 0.125 * (i / 20 - 10), 2}, {0.0, -0.0, -1}});
+        }
+        compare("parallel rays", table, rays);
+        for (Ray& ray : rays) ray.origin = {0.001 * ray.origin.x, 0.25 + 0.001 * ray.origin.y, 2};
+        compare("parallel rays in a beam", table, rays);
     }
-    // Parallel along an axis: a common direction instead of a common point, zeros of both signs.
-    Rays rays;
-    for (int i = 0; i < 400; ++i) {
-        rays.push_back({{0.125 * (i % 20 - 10), 0.125 * (i / 20 - 10), 2}, {0.0, -0.0, -1}});
-    }
-    compare("parallel rays", table, rays);
-    for (Ray& ray : rays) ray.origin = {0.001 * ray.origin.x, 0.25 + 0.001 * ray.origin.y, 2};
-    compare("parallel rays in a beam", table, rays);
 }
 
 TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
@@ -182,13 +210,17 @@ TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
         builder.add_triangle(a, a + 0.5 * lattice_point(random, 3),
                              a + 0.5 * lattice_point(random, 3), random() % 2 == 0);
     }
-    const PrimitiveTable table = builder.finish();
-    for (const Vec3& eye : {Vec3{0, 0, 0}, Vec3{0.5, -0.5, 1}, Vec3{0.51, 0.24, 0.5}}) {
-        for (const Vec3& look : {Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0.5, 0.25}}) {
-            compare("triangles around the eye", table, eye_rays(eye, look, 0.4, 24), false);
-            Rays rays = eye_rays(eye, look, 0.1, 16);
-            for (Ray& ray : rays) ray.t_min = -1;
-            compare("and from behind it", table, rays, false);
+    builder.table.placements.emplace_back();
+    TableBuilder others = builder;
+    others.add_sphere({50, 50, 50}, 1, true, 0);  // packets are pyramids
+    for (const PrimitiveTable& table : {builder.finish(), others.finish()}) {
+        for (const Vec3& eye : {Vec3{0, 0, 0}, Vec3{0.5, -0.5, 1}, Vec3{0.51, 0.24, 0.5}}) {
+            for (const Vec3& look : {Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0.5, 0.25}}) {
+                compare("triangles around the eye", table, eye_rays(eye, look, 0.4, 24), false);
+                Rays rays = eye_rays(eye, look, 0.1, 16);
+                for (Ray& ray : rays) ray.t_min = -1;
+                compare("and from behind it", table, rays, false);
+            }
         }
     }
 }

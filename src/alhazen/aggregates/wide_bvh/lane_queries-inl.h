@@ -121,7 +121,7 @@ class LaneLeaves {
             return go_alone(ref, lanes, stats);
         }
         bool changed = false;
-        for (std::uint32_t i = 0; i < ref.count(); ++i) {
+        for (std::uint32_t i = 0; i < ref.count() && lanes != 0; ++i) {
             changed |= visit_triangles(ref.offset() + i, lanes, stats);
         }
         if (changed) derived().left();
@@ -146,8 +146,9 @@ class LaneLeaves {
   protected:
     HWY_INLINE Derived& derived() { return static_cast<Derived&>(*this); }
 
+    /// Rays that need no more leave `lanes`.
     template <class Stats>
-    HWY_INLINE bool visit_triangles(std::uint32_t number, std::uint32_t lanes, Stats stats) {
+    HWY_INLINE bool visit_triangles(std::uint32_t number, std::uint32_t& lanes, Stats stats) {
         const TriangleBlock& block = scene_.layout->triangles[number];
         bool changed = false;
         for (std::uint32_t met = meet_triangles(block, packet_); met != 0; met &= met - 1) {
@@ -321,8 +322,8 @@ HWY_NOINLINE std::uint32_t trace_lanes(const WideBvhScene& scene,
         rest &= ~set;
         traverse_lanes(layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet, set,
                        kMinPacketLanes, leaves, stats);
+        leaves.finish(stats);  // while the main axis is that of the set
     }
-    leaves.finish(stats);
     return alone;
 }
 

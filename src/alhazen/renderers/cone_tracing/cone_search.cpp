@@ -11,7 +11,7 @@ namespace alhazen {
 namespace {
 
 /// Less of a cone than this is nothing.
-constexpr double kLeastShare = 1e-9;
+constexpr double kLeastCover = 1e-9;
 
 constexpr auto kFartherNode = [](const auto& a, const auto& b) { return a.z > b.z; };
 constexpr auto kFartherPiece = [](const ConePiece& a, const ConePiece& b) {
@@ -97,7 +97,7 @@ void ConeSearch::add_plane(std::uint32_t number) {
     const bool front = dot(source.normal, cone_->origin - source.point) > 0.0;
     if (source.closed && front == start_->is_inside(number)) return;
     const ConeCover cover = plane_cover(*cone_, source.point, source.normal, start_->range);
-    if (!(cover.share > kLeastShare)) return;
+    if (!(cover.share > kLeastCover)) return;
     add_flat(number, 0, source.point, source.normal, cover, front);
 }
 
@@ -113,7 +113,7 @@ void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
         if (tables_ && disc.kind == SphereDisc::Kind::Disc) {
             cover.share = CoverageTables::shared().sphere(disc.distance, disc.radius);
         }
-        if (!(cover.share > kLeastShare)) return;
+        if (!(cover.share > kLeastCover)) return;
         piece.share = cover.share;
         piece.at = cover.at;
     }
@@ -141,7 +141,7 @@ void ConeSearch::add_face(const ConeFace& face) {
     bool front = false;
     const ConeCover cover = polygon_cover(levels_[0].map, face.vertices, face.loop_ends,
                                           start_->range, scratch_, &front);
-    if (!(cover.share > kLeastShare)) return;
+    if (!(cover.share > kLeastCover)) return;
     front = front != source.inward;
     if (source.closed && front == start_->is_inside(face.source)) return;
     add_flat(face.source, face.part, face.point, face.normal, cover, front);
@@ -161,7 +161,7 @@ void ConeSearch::add_triangle(const Level& level, std::uint32_t triangle) {
     }
     bool front = false;
     const ConeCover cover = triangle_cover(corners, range, level.map.converges, front);
-    if (!(cover.share > kLeastShare)) return;
+    if (!(cover.share > kLeastCover)) return;
     front = front != source.inward;
     if (source.closed && front == start_->is_inside(level.source)) return;
     const TrianglePlace place = place_in_triangle(corners, cover.at);

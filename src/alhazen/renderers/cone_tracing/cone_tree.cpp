@@ -8,10 +8,10 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kConeBins = 16;
 
 int bin_of(double at, double lo, double scale) {
-    return std::clamp(static_cast<int>((at - lo) * scale), 0, kBins - 1);
+    return std::clamp(static_cast<int>((at - lo) * scale), 0, kConeBins - 1);
 }
 
 }  // namespace
@@ -57,18 +57,18 @@ std::uint32_t ConeTree::divide(std::span<const Box3> boxes, std::uint32_t first,
     const auto begin = order_.begin() + first, last = order_.begin() + end;
     const std::uint32_t half = first + (end - first) / 2;
     if (size > 0.0) {
-        const double scale = kBins / size;
-        std::array<Box3, kBins> box;
-        std::array<std::uint32_t, kBins> count{};
+        const double scale = kConeBins / size;
+        std::array<Box3, kConeBins> box;
+        std::array<std::uint32_t, kConeBins> count{};
         for (auto k = begin; k != last; ++k) {
             const int bin = bin_of(boxes[*k].center()[axis], lo, scale);
             box[static_cast<std::size_t>(bin)].include(boxes[*k]);
             ++count[static_cast<std::size_t>(bin)];
         }
-        std::array<double, kBins> right{};
+        std::array<double, kConeBins> right{};
         Box3 sum;
         std::uint32_t n = 0;
-        for (std::size_t b = kBins - 1; b > 0; --b) {
+        for (std::size_t b = kConeBins - 1; b > 0; --b) {
             sum.include(box[b]);
             n += count[b];
             right[b] = n * sum.half_area();
@@ -77,7 +77,7 @@ std::uint32_t ConeTree::divide(std::span<const Box3> boxes, std::uint32_t first,
         n = 0;
         double best = std::numeric_limits<double>::infinity();
         int split = -1;
-        for (std::size_t b = 0; b + 1 < kBins; ++b) {
+        for (std::size_t b = 0; b + 1 < kConeBins; ++b) {
             sum.include(box[b]);
             n += count[b];
             const double cost = n * sum.half_area() + right[b + 1];

@@ -13,7 +13,7 @@ LightStarts::LightStarts(const Scene& scene)
       is_endless_(reaches_infinity(scene)),
       radius_(is_endless_ ? sphere_around_bounded(scene).radius : 0.0) {}
 
-WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& waves) {
+WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& waves) const {
     WalkStart start;
     start.waves = &waves;
     start.ray = light.ray;
@@ -36,14 +36,14 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     return start;
 }
 
-void LightStarts::begin_before_all(Ray& ray, float time) {
+void LightStarts::begin_before_all(Ray& ray, float time) const {
     // Further away numbers do not tell where what is bounded lies.
     constexpr double kMostRadii = 1e8;
     const Ray back{ray.origin, -ray.direction, 0.0, kMostRadii * radius_};
-    crossings_.clear();
-    scene_.aggregate->all_hits(back, crossings_, {nullptr, kAllRays, time});
-    if (crossings_.empty()) return;
-    ray.origin = back.at(crossings_.back().t + radius_);
+    std::vector<Hit> crossings;
+    scene_.aggregate->all_hits(back, crossings, {nullptr, kAllRays, time});
+    if (crossings.empty()) return;
+    ray.origin = back.at(crossings.back().t + radius_);
 }
 
 void set_falloff(const Illumination& lights, const LightRay& light, const Wavelengths& waves,

@@ -4,7 +4,7 @@
 /// Conventions: rays of the environment and of parallel light come from a disc before all that is
 /// bounded (Illumination::emit). Where something is endless they begin before its last crossing, so
 /// that it reflects, bends or blocks them as it does any light.
-/// Threads: one thread at a time.
+/// Threads: const functions may be called from many.
 
 #include <vector>
 
@@ -19,17 +19,16 @@ class LightStarts {
     explicit LightStarts(const Scene& scene);
 
     /// The walk of a ray of light. Its throughput is black where it carries nothing.
-    [[nodiscard]] WalkStart of(const LightRay& light, float time, const Wavelengths& waves);
+    [[nodiscard]] WalkStart of(const LightRay& light, float time, const Wavelengths& waves) const;
 
   private:
     /// Moves the origin back.
-    void begin_before_all(Ray& ray, float time);
+    void begin_before_all(Ray& ray, float time) const;
 
     const Scene& scene_;
     MediaFinder media_;
     bool is_endless_;
     double radius_;  ///< of a sphere around what is bounded
-    std::vector<Hit> crossings_;
 };
 
 /// Gives the vertices of a path from a point the light's own falloff over its first distance.

@@ -38,7 +38,7 @@ float moment_of(const PathNumbers& numbers, std::uint32_t trial) {
 }
 
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
-bool meets_mirror(const Scene& scene, const LightRay& light, float time, LightStarts& starts,
+bool meets_mirror(const Scene& scene, const LightRay& light, float time, const LightStarts& starts,
                   const PathNumbers& numbers, NextSurface& next, ScatterPoint& scatter) {
     const WalkStart start = starts.of(light, time, kColorChannels);
     if (start.throughput.is_black()) return false;
@@ -123,7 +123,7 @@ void ProjectionMap::try_cells(const RenderJob& job, const std::vector<std::size_
                               RayCounters& counters) const {
     constexpr std::size_t kTogether = 64;
     const std::size_t groups = (asked.size() + kTogether - 1) / kTogether;
-    LightStarts starts(job.scene);
+    const LightStarts starts(job.scene);
     std::vector<RayCounters> counts(groups);
     parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
         ScatterPoint scatter;

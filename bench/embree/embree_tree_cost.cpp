@@ -1,4 +1,4 @@
-#include "embree_tree_cost.h"
+#include "embree/embree_tree_cost.h"
 
 #include <algorithm>
 #include <limits>

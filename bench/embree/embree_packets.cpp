@@ -1,4 +1,4 @@
-#include "embree_packets.h"
+#include "embree/embree_packets.h"
 
 #if defined(__SSE__)
 #include <pmmintrin.h>

@@ -1,4 +1,4 @@
-#include "embree_cylinders.h"
+#include "embree/embree_cylinders.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "embree_scene.h"
+#include "embree/embree_scene.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/session/stopwatch.h"
-#include "embree_cylinders.h"
+#include "embree/embree_cylinders.h"
 
 namespace alhazen::bench {
 
