@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/illumination/light_importance.h"
 #include "support/light_checks.h"
 #include "support/scene_maker.h"
 
@@ -36,6 +37,47 @@ LitPoint random_point(RandomStream& random) {
     return {{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-2, 2)},
             random_unit(random),
             random.below(2) == 0};
+}
+
+LightTree::Node random_node(RandomStream& random) {
+    LightTree::Node node{};
+    for (int k = 0; k < 3; ++k) {
+        node.lo[k] = static_cast<float>(random.uniform(-3, 3));
+        node.hi[k] = node.lo[k] + (random.below(4) == 0 ? 0.0f : 0.5f * random.uniform(0, 1));
+    }
+    const Vec3 axis = random_unit(random);
+    for (int k = 0; k < 3; ++k) node.axis[k] = static_cast<float>(axis[k]);
+    const double spreads[] = {-1.0, 1.0, random.uniform(-1, 1)};
+    const double reaches[] = {-1.0, 0.0, random.uniform(-1, 1)};
+    node.cosine_spread = static_cast<float>(spreads[random.below(3)]);
+    node.cosine_reach = static_cast<float>(reaches[random.below(3)]);
+    node.intensity = static_cast<float>(std::exp(random.uniform(-9, 9)));
+    node.two_sided = random.below(2) == 0;
+    return node;
+}
+
+TEST(LightTree, TwoNodesInLanesAreAsOneByOne) {
+    RandomStream random(7);
+    int reached = 0, dark = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const LightTree::Node two[2] = {random_node(random), random_node(random)};
+        LitPoint at = random_point(random);
+        if (i % 5 == 0) at = LitPoint::inside_volume(at.point);
+        if (i % 7 == 0) at.both_sides = true;
+        const LightTree::Node& near = two[i % 2];
+        // In the box, at a corner of it, on the axis.
+        if (i % 11 == 0) at.point = {near.lo[0], near.hi[1], near.lo[2]};
+        if (i % 11 == 1) at.point = {near.lo[0], near.lo[1], 0.5 * (near.lo[2] + near.hi[2])};
+        if (i % 11 == 2) at.point = at.point + 1e9 * at.normal;
+        const std::array<double, 2> lanes = importances(two, at);
+        for (const std::size_t k : {0, 1}) {
+            const double alone = importance(two[k], at);
+            ASSERT_EQ(lanes[k], alone) << i;
+            ++(alone > 0.0 ? reached : dark);
+        }
+    }
+    EXPECT_GT(reached, 50000);
+    EXPECT_GT(dark, 50000);
 }
 
 TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {

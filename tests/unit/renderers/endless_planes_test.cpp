@@ -27,7 +27,7 @@ SceneMaker table_under_the_sky() {
 }
 
 TEST(EndlessPlanes, NoLightGetsBetweenTwo) {
-    for (const double roof : {1.6, 20.0}) {
+    for (const double roof : {1.6, 20.0, 1e9, 1e15}) {
         SceneMaker maker = table_under_the_sky();
         const MaterialId white = maker.material(matt({0.8, 0.8, 0.8}));
         maker.add(Plane{{0, 0, roof}, {0, 0, 1}}, white);

@@ -98,11 +98,15 @@ TEST(Samplers, PointsInLanesAreThoseOneByOne) {
     for (std::uint64_t tree = 0; tree < 20; ++tree) {
         const ScrambleTrees trees{mix64(tree), mix64(tree + 100)};
         for (const std::size_t count :
-             {std::size_t{0}, std::size_t{1}, std::size_t{6}, numbers.size()}) {
-            std::vector<Vec2> lanes(count), alone(count);
-            scrambled_points(trees, std::span(numbers).first(count), lanes.data());
+             {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{4}, std::size_t{5},
+              std::size_t{7}, std::size_t{8}, std::size_t{9}, numbers.size()}) {
+            std::vector<Vec2> alone(count);
             scrambled_points_one_by_one(trees, std::span(numbers).first(count), alone.data());
-            EXPECT_EQ(lanes, alone);
+            for (const ScrambledPoints variant : variants_of_scrambled_points()) {
+                std::vector<Vec2> lanes(count);
+                variant(trees, std::span(numbers).first(count), lanes.data());
+                EXPECT_EQ(lanes, alone);
+            }
         }
     }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "alhazen/scene/scene_sphere.h"
 
@@ -28,7 +30,7 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     start.throughput = (cosine / densities) * light.radiance;
     start.parallel = light.infinite;
     if (light.infinite) {
-        if (is_endless_) begin_before_all(start.ray, time);
+        if (is_endless_ && !begin_before_all(start.ray, time)) start.throughput = {};
     } else {
         start.media = media_.around(light.ray.origin, time);
     }
@@ -36,14 +38,19 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     return start;
 }
 
-void LightStarts::begin_before_all(Ray& ray, float time) const {
+bool LightStarts::begin_before_all(Ray& ray, float time) const {
     // Further away numbers do not tell where what is bounded lies.
     constexpr double kMostRadii = 1e8;
-    const Ray back{ray.origin, -ray.direction, 0.0, kMostRadii * radius_};
+    const double far = kMostRadii * radius_;
+    const RayQuery query{nullptr, kAllRays, time};
     std::vector<Hit> crossings;
-    scene_.aggregate->all_hits(back, crossings, {nullptr, kAllRays, time});
-    if (crossings.empty()) return;
-    ray.origin = back.at(crossings.back().t + radius_);
+    const Ray beyond{ray.origin, -ray.direction, far, std::numeric_limits<double>::infinity()};
+    if (scene_.aggregate->shadowed(beyond, crossings, query)) return false;
+    crossings.clear();
+    const Ray back{ray.origin, -ray.direction, 0.0, far};
+    scene_.aggregate->all_hits(back, crossings, query);
+    if (!crossings.empty()) ray.origin = back.at(crossings.back().t + radius_);
+    return true;
 }
 
 void set_falloff(const Illumination& lights, const LightRay& light, const Wavelengths& waves,

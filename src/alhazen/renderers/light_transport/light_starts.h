@@ -22,8 +22,9 @@ class LightStarts {
     [[nodiscard]] WalkStart of(const LightRay& light, float time, const Wavelengths& waves) const;
 
   private:
-    /// Moves the origin back.
-    void begin_before_all(Ray& ray, float time) const;
+    /// Moves the origin back. False where something opaque lies too far away to begin before it:
+    /// no light comes through.
+    [[nodiscard]] bool begin_before_all(Ray& ray, float time) const;
 
     const Scene& scene_;
     MediaFinder media_;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "alhazen/math/vec.h"
 
@@ -27,5 +28,10 @@ void scrambled_points(const ScrambleTrees& trees, std::span<const std::uint64_t>
 /// The same without lanes.
 void scrambled_points_one_by_one(const ScrambleTrees& trees, std::span<const std::uint64_t> numbers,
                                  Vec2* out);
+
+using ScrambledPoints = void (*)(const ScrambleTrees&, std::span<const std::uint64_t>, Vec2*);
+
+/// All that run on this processor, the fastest last.
+[[nodiscard]] std::vector<ScrambledPoints> variants_of_scrambled_points();
 
 }  // namespace alhazen

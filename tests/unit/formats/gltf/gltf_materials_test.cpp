@@ -130,6 +130,22 @@ TEST(GltfMaterial, AScatteringVolumeSharesItsAttenuation) {
     EXPECT_NEAR(m.scattering.coefficient.b / attenuation.b, 1.0, 1e-4);
 }
 
+TEST(GltfMaterial, VolumesWithoutEffectAreNamed) {
+    const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
+        "extensionsUsed": ["KHR_materials_volume", "KHR_materials_volume_scatter",
+          "KHR_materials_pbrSpecularGlossiness"],
+        "materials": [
+          {"extensions": {
+            "KHR_materials_volume": {"thicknessFactor": 1},
+            "KHR_materials_volume_scatter": {"multiscatterColor": [0, 0.5, 1]}}},
+          {"extensions": {
+            "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 1},
+            "KHR_materials_pbrSpecularGlossiness": {}}}])"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    EXPECT_TRUE(result.says("has no effect without an attenuationDistance")) << result.messages();
+    EXPECT_TRUE(result.says("has no effect beside it")) << result.messages();
+}
+
 TEST(GltfMaterial, AnisotropyOfScatteringIsBelowOne) {
     const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
         "extensionsUsed": ["KHR_materials_volume_scatter"],

@@ -56,6 +56,11 @@ void read_dielectric_extensions(const JsonObject& object, Material& material) {
         if (!(std::abs(material.scatter_anisotropy) < 1)) {
             extension.error("scatterAnisotropy", "expected a number above -1 and below 1");
         }
+        if (!material.attenuation_distance) {
+            extension.warning(
+                "multiscatterColor",
+                "has no effect without an attenuationDistance of KHR_materials_volume");
+        }
     });
     object.with_extension("KHR_materials_specular", [&](const JsonObject& extension) {
         extension.number_into("specularFactor", material.specular, kUnitRange);
@@ -117,6 +122,9 @@ void read_specular_glossiness(const JsonObject& object, Material& material) {
         extension.number_into("glossinessFactor", own.glossiness, kUnitRange);
         own.diffuse_texture = read_texture_info(extension, "diffuseTexture");
         own.specular_glossiness_texture = read_texture_info(extension, "specularGlossinessTexture");
+        if (material.thickness > 0) {
+            extension.warning("", "the volume of KHR_materials_volume has no effect beside it");
+        }
     });
 }
 

@@ -15,8 +15,9 @@ Rgb rgb(const std::array<double, 3>& c) {
 
 /// Of light that is scattered again and again in a deep volume: what a single scattering leaves.
 ///
-/// Source: KHR_materials_volume_scatter (draft), by Kulla and Conty, "Revisiting Physically Based
+/// Source: KHR_materials_volume_scatter (draft), after Kulla and Conty, "Revisiting Physically Based
 /// Shading at Imageworks", SIGGRAPH 2017 course.
+/// Differs: from theirs, as the draft does: the anisotropy is left out.
 Rgb single_scatter_albedo(const Rgb& multiple) {
     Rgb single;
     for (int i = 0; i < 3; ++i) {
