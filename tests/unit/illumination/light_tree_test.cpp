@@ -43,7 +43,8 @@ LightTree::Node random_node(RandomStream& random) {
     LightTree::Node node{};
     for (int k = 0; k < 3; ++k) {
         node.lo[k] = static_cast<float>(random.uniform(-3, 3));
-        node.hi[k] = node.lo[k] + (random.below(4) == 0 ? 0.0f : 0.5f * random.uniform(0, 1));
+        const double size = random.below(4) == 0 ? 0.0 : random.uniform(0, 0.5);
+        node.hi[k] = node.lo[k] + static_cast<float>(size);
     }
     const Vec3 axis = random_unit(random);
     for (int k = 0; k < 3; ++k) node.axis[k] = static_cast<float>(axis[k]);
