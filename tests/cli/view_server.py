@@ -252,3 +252,13 @@ class ServerTest(unittest.TestCase):
     def tearDownClass(cls):
         cls.server.close()
         cls.temporary.cleanup()
+
+    def socket_of(self, **change):
+        frames = self.server.frames(**change)
+        self.addCleanup(frames.close)
+        return frames
+
+    def open(self):
+        frames = self.server.open_frames()
+        self.addCleanup(frames.close)
+        return frames

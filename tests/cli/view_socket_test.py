@@ -43,16 +43,6 @@ def spoiled(data, chance):
 
 
 class ViewSocket(ServerTest):
-    def socket_of(self, **change):
-        frames = self.server.frames(**change)
-        self.addCleanup(frames.close)
-        return frames
-
-    def open(self):
-        frames = self.server.open_frames()
-        self.addCleanup(frames.close)
-        return frames
-
     # ---- who may open it, and what it refuses
     def test_a_socket_is_for_the_page_of_this_server(self):
         for origin in (None, "null", "http://evil.com", f"https://{self.server.host}"):

@@ -13,16 +13,6 @@ from view_server import SLOWDOWN, ServerTest
 
 
 class ViewWaits(ServerTest):
-    def socket_of(self):
-        frames = self.server.frames()
-        self.addCleanup(frames.close)
-        return frames
-
-    def open(self):
-        frames = self.server.open_frames()
-        self.addCleanup(frames.close)
-        return frames
-
     def test_a_socket_without_a_token_is_let_go(self):
         frames = self.socket_of()
         begin = time.monotonic()

@@ -14,6 +14,7 @@
 #endif
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -71,18 +72,7 @@ HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const
     if ((lanes & ~bits_of((least < -error) & (most > error))) == 0) return false;
 
     const F sz = load_row(packet.reciprocal[kz]);
-    const F depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
-    const F off = mul_add(far + depth, F(7.3f * 0x1p-24f), F(packet.near_error));
-    const F fine = off * mul_add(far, F(5.12f), off * F(2.12f));
-    const F sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
-    const F first = min_lanes(min_lanes(sa, sb), sc), last = max_lanes(max_lanes(sa, sb), sc);
-    const F inverse = F(1.0f) / (eu + ev + ew);
-    const F place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
-    const F s = min_lanes(max_lanes(place, first), last);
-    const F slack =
-        mul_add(F(25.0f) * fine * (last - first), abs(inverse), off * F(1.6f) * abs(sz));
-    out.lo = s - slack;
-    out.hi = s + slack;
+    const F fine = bound_crossing(v, far, eu, ev, ew, sz, packet.near_error, out.lo, out.hi);
     // Written so that a NaN is a candidate and not sure.
     out.candidates =
         lanes & ~bits_of(((least < -fine) & (most > fine)) | (out.lo > load_row(packet.s_max)) |

@@ -242,17 +242,9 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, ClosestQuery<FilteredTriang
     }
 
   private:
-    /// Offers the hits of PacketResolution.
-    struct Offered {
-        std::span<Hit> best;
-        void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
-            Ray ray;
-            offer_hit(hit, id, ray, best[i]);
-        }
-    };
     template <class Stats>
     HWY_INLINE void decide(std::uint32_t lanes, const TrianglePlace* places, Stats stats) {
-        resolve(lanes, places, Offered{results_}, stats);
+        resolve(lanes, places, OfferedHits{results_}, stats);
     }
 
     LaneCandidates candidates_;

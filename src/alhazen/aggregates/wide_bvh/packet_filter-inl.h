@@ -32,6 +32,7 @@
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
 
@@ -206,28 +207,17 @@ HWY_NOINLINE inline bool refine_group(const TriangleBlock& block, std::size_t la
     struct {
         F x, y, z;
     } v[3];
-    F far(0.0f), depth(0.0f);
+    F far(0.0f);
     HWY_UNROLL(3)
     for (std::size_t i = 0; i < 3; ++i) {
         v[i].z = F(block.vertex[i][kz][lane]) - oz;
         v[i].x = neg_mul_add(sx, v[i].z, F(block.vertex[i][kx][lane]) - ox);
         v[i].y = neg_mul_add(sy, v[i].z, F(block.vertex[i][ky][lane]) - oy);
         far = max_lanes(far, max_lanes(abs(v[i].x), abs(v[i].y)));
-        depth = max_lanes(depth, abs(v[i].z));
     }
     const F eu = edge_of(v[1], v[2]), ev = edge_of(v[2], v[0]), ew = edge_of(v[0], v[1]);
     const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
-    const F off = mul_add(far + depth, F(7.3f * 0x1p-24f), F(packet.near_error));
-    const F fine = off * mul_add(far, F(5.12f), off * F(2.12f));
-    const F sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
-    const F first = min_lanes(min_lanes(sa, sb), sc), last = max_lanes(max_lanes(sa, sb), sc);
-    const F inverse = F(1.0f) / (eu + ev + ew);
-    const F place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
-    const F s = min_lanes(max_lanes(place, first), last);
-    const F slack =
-        mul_add(F(25.0f) * fine * (last - first), abs(inverse), off * F(1.6f) * abs(sz));
-    out.lo = s - slack;
-    out.hi = s + slack;
+    const F fine = bound_crossing(v, far, eu, ev, ew, sz, packet.near_error, out.lo, out.hi);
     const auto outside = ((least < -fine) & (most > fine)) | (out.lo > row(group.s_max)) |
                          (out.hi < row(group.s_min));
     const auto inside = ((least > fine) | (most < -fine)) & (out.lo >= row(group.sure_min)) &

@@ -28,10 +28,10 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The leaves of a packet. `Derived` offers `found(group number, block, lane, place, result, stats)`
-/// for triangles and `meet(id, group number, stats)` for shapes, and `left(groups, stats)`, called
-/// with the groups that changed when a leaf has been visited: true to stop. Shapes are tested eight
-/// rays at a time too, by the groups that intersect their box.
+/// The leaves of a packet. `Derived` offers `found(group number, block, lane, place, result,
+/// stats)` for triangles and `meet(id, group number, stats)` for shapes, and `left(groups, stats)`,
+/// called with the groups that changed when a leaf has been visited: true to stop. Shapes are
+/// tested eight rays at a time too, by the groups that intersect their box.
 template <class Derived>
 class PacketLeaves {
   public:
@@ -85,8 +85,8 @@ class PacketLeaves {
             const auto lane = static_cast<std::size_t>(std::countr_zero(any));
             if (!block.ids[lane].used()) return;
             if (!scene_.sees(block.ids[lane].id())) continue;
-            const SeenTriangle triangle(
-                seen, packet_, lane, static_cast<TrianglePlace>(number * kBlockWidth + lane));
+            const SeenTriangle triangle(seen, packet_, lane,
+                                        static_cast<TrianglePlace>(number * kBlockWidth + lane));
             std::uint64_t rest = pairs >> lane & 0x0101010101010101u;
             work += static_cast<std::uint32_t>(std::popcount(rest));
             for (; rest != 0; rest &= rest - 1) {
@@ -211,18 +211,10 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
     }
 
   private:
-    /// Offers the hits of PacketResolution.
-    struct Offered {
-        std::span<Hit> best;
-        void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
-            Ray ray;
-            offer_hit(hit, id, ray, best[i]);
-        }
-    };
     template <class Stats>
     HWY_INLINE void resolve(std::size_t g, std::uint32_t lanes, const TrianglePlace* places,
                             Stats stats) {
-        resolution_.resolve(g, lanes, places, Offered{results_}, stats);
+        resolution_.resolve(g, lanes, places, OfferedHits{results_}, stats);
     }
 
     std::span<Hit> results_;

@@ -131,6 +131,15 @@ class PacketResolution {
     alignas(64) double vertex_[3][3][kLaneCount];  ///< [corner][axis][lane], axes of the scene
 };
 
+/// Offers the hits of PacketResolution to the closest ones.
+struct OfferedHits {
+    std::span<Hit> best;
+    void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
+        Ray ray;
+        offer_hit(hit, id, ray, best[i]);
+    }
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen
 HWY_AFTER_NAMESPACE();

@@ -13,8 +13,8 @@
 /// unless that is negative, nor leaves after (p + b - o) r at the largest r and the least o, unless
 /// that is negative, and then it leaves before it begins. Both are products and sums of SlabRay's
 /// form: its 6.01 e R hold for a box whose planes are rounded as well, as those of a block's
-/// triangles are. Conventions: included once per target (see simd/lanes-inl.h). Sets of rays are
-/// bits.
+/// triangles are.
+/// Conventions: included once per target (see simd/lanes-inl.h). Sets of rays are bits.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_LANE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_LANE_PACKET_INL_H_
