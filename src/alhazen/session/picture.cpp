@@ -1,5 +1,9 @@
 #include "alhazen/session/picture.h"
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "alhazen/base/lower_case.h"
 #include "alhazen/imaging/codecs/exr_layers.h"
 
@@ -11,28 +15,51 @@ bool holds_layers(const std::filesystem::path& path) {
 
 namespace {
 
-/// The pixels of the crop as a display shall show them.
-Film tone_mapped(const Film& film, const ToneMapping& tone) {
-    Film shown = film;
-    const ToneMapper map(tone);
-    const PixelBox& crop = film.crop();
-    for (int y = crop.y0; y < crop.y1; ++y) {
-        for (int x = crop.x0; x < crop.x1; ++x) shown.set(x, y, map(film.at(x, y)));
+Encoding encoding_of(const FilmConventions& conventions, const PictureOptions& options) {
+    const bool mapped = !options.tone.changes_nothing();
+    return options.encoding.value_or(mapped ? Encoding::Srgb : conventions.encoding());
+}
+
+/// The codes of the crop as a display shall show them. Refers to `film`.
+CodeRows picture_rows(const Film& film, const FilmConventions& conventions,
+                      const PictureOptions& options) {
+    const int width = film.crop().width();
+    CodeRows rows{.width = width, .height = film.crop().height(), .bits = options.bits};
+    const Encoding encoding = encoding_of(conventions, options);
+    const auto row = [&film, width](int y) {
+        return film.data() + std::size_t{3} * std::size_t(y) * std::size_t(width);
+    };
+    if (options.tone.changes_nothing()) {
+        rows.fill = [=, bits = options.bits](int y, std::span<std::uint16_t> codes) {
+            encode(row(y), encoding, bits, codes);
+        };
+        return rows;
     }
-    return shown;
+    rows.fill = [=, map = ToneMapper(options.tone), bits = options.bits,
+                 mapped = std::vector<double>(3 * std::size_t(width))](
+                    int y, std::span<std::uint16_t> codes) mutable {
+        const double* from = row(y);
+        for (std::size_t i = 0; i < mapped.size(); i += 3) {
+            const Rgb shown = map({from[i], from[i + 1], from[i + 2]});
+            mapped[i] = shown.r, mapped[i + 1] = shown.g, mapped[i + 2] = shown.b;
+        }
+        encode(mapped.data(), encoding, bits, codes);
+    };
+    return rows;
 }
 
 }  // namespace
 
 EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
                              const PictureOptions& options) {
-    const int width = film.crop().width(), height = film.crop().height();
-    if (options.tone.changes_nothing()) {
-        const Encoding encoding = options.encoding.value_or(conventions.encoding());
-        return encode(film.data(), width, height, encoding, options.bits);
+    const CodeRows rows = picture_rows(film, conventions, options);
+    const std::size_t row_codes = std::size_t{3} * std::size_t(rows.width);
+    EncodedImage codes{.width = rows.width, .height = rows.height, .bits = rows.bits};
+    codes.samples.resize(row_codes * std::size_t(rows.height));
+    for (int y = 0; y < rows.height; ++y) {
+        rows.fill(y, {codes.samples.data() + std::size_t(y) * row_codes, row_codes});
     }
-    return encode(tone_mapped(film, options.tone).data(), width, height,
-                  options.encoding.value_or(Encoding::Srgb), options.bits);
+    return codes;
 }
 
 void write_picture(const std::filesystem::path& path, const Film& film,
@@ -41,7 +68,7 @@ void write_picture(const std::filesystem::path& path, const Film& film,
     const std::string suffix = lower_suffix(path);
     const PixelBox& crop = film.crop();
     if (suffix == ".png") {
-        write_png(path, encoded_picture(film, conventions, options), options.metadata);
+        write_png(path, picture_rows(film, conventions, options), options.metadata);
     } else if (suffix == ".jpg" || suffix == ".jpeg") {
         PictureOptions eight = options;
         eight.bits = 8;

@@ -180,6 +180,11 @@ void write_png(const std::filesystem::path& path, const EncodedImage& image,
     write_file_atomically(path, encode_png(image, metadata));
 }
 
+void write_png(const std::filesystem::path& path, const CodeRows& rows,
+               const ImageMetadata& metadata) {
+    write_file_atomically(path, encode_png(rows, metadata));
+}
+
 void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality) {
     write_file_atomically(path, encode_jpeg(image, quality));
 }

@@ -27,7 +27,7 @@ struct PngState {
     std::vector<std::byte>* output = nullptr;
 
     png_bytep row = nullptr;
-    const EncodedImage* image = nullptr;
+    const CodeRows* rows = nullptr;
     png_textp texts = nullptr;
     int text_count = 0;
     int passes = 1;
@@ -195,13 +195,13 @@ void open_writer(PngState& state) {
 void write_header(PngState& state) {
     static constexpr int kColourType[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                           PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
-    const EncodedImage& image = *state.image;
+    const CodeRows& rows = *state.rows;
     png_set_write_fn(state.png, &state, write_bytes, flush_nothing);
     png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     // Level 6 takes twice the time of level 3 for files a few percent smaller.
     png_set_compression_level(state.png, 3);
-    png_set_IHDR(state.png, state.info, png_uint_32(image.width), png_uint_32(image.height),
-                 image.bits, kColourType[image.channels], PNG_INTERLACE_NONE,
+    png_set_IHDR(state.png, state.info, png_uint_32(rows.width), png_uint_32(rows.height),
+                 rows.bits, kColourType[rows.channels], PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (state.text_count > 0) {
         png_set_text(state.png, state.info, state.texts, state.text_count);
@@ -239,21 +239,31 @@ class PngWriter {
     PngState state_;
 };
 
-void check_codes(const EncodedImage& image) {
-    const auto fail = [](const std::string& why) {
-        throw Error(ErrorKind::Usage, "cannot write a PNG: " + why);
-    };
-    if (image.width <= 0 || image.height <= 0) fail("the picture is empty");
-    if (image.channels < 1 || image.channels > 4) fail("expected 1 to 4 channels");
-    if (image.bits != 8 && image.bits != 16) fail("expected 8 or 16 bits");
-    if (image.samples.size() !=
-        std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels)) {
-        fail("the samples do not fit the sizes");
+[[noreturn]] void cannot_write(const std::string& why) {
+    throw Error(ErrorKind::Usage, "cannot write a PNG: " + why);
+}
+
+void check_format(const CodeRows& rows) {
+    if (rows.width <= 0 || rows.height <= 0) cannot_write("the picture is empty");
+    if (rows.channels < 1 || rows.channels > 4) cannot_write("expected 1 to 4 channels");
+    if (rows.bits != 8 && rows.bits != 16) cannot_write("expected 8 or 16 bits");
+}
+
+/// Sets the bytes of a row, `bits` each, from its codes.
+void set_bytes(std::span<const std::uint16_t> codes, int bits, png_byte* bytes) {
+    if (bits == 16) {
+        for (const std::uint16_t code : codes) {
+            *bytes++ = png_byte(code >> 8);
+            *bytes++ = png_byte(code & 255);
+        }
+        return;
     }
-    const auto too_large = [](std::uint16_t code) { return code > 255; };
-    if (image.bits == 8 && std::any_of(image.samples.begin(), image.samples.end(), too_large)) {
-        fail("a code does not fit 8 bits");
+    std::uint16_t all = 0;
+    for (const std::uint16_t code : codes) {
+        all |= code;
+        *bytes++ = png_byte(code);
     }
+    if (all > 255) cannot_write("a code does not fit 8 bits");
 }
 
 bool is_ascii(const std::string& text) {
@@ -304,34 +314,40 @@ StoredImage decode_png(std::string_view bytes, const std::string& name, const Im
     return image;
 }
 
-std::vector<std::byte> encode_png(const EncodedImage& image, const ImageMetadata& metadata) {
-    check_codes(image);
+std::vector<std::byte> encode_png(const CodeRows& rows, const ImageMetadata& metadata) {
+    check_format(rows);
     std::vector<png_text> texts = text_chunks(metadata);
     std::vector<std::byte> bytes;
     PngWriter writer(bytes);
     PngState& state = writer.state();
-    state.image = &image;
+    state.rows = &rows;
     state.texts = texts.data();
     state.text_count = int(texts.size());
     writer.check(write_header);
 
-    const std::size_t row_samples = std::size_t(image.width) * std::size_t(image.channels);
-    std::vector<png_byte> row(row_samples * std::size_t(image.bits / 8));
+    std::vector<std::uint16_t> codes(std::size_t(rows.width) * std::size_t(rows.channels));
+    std::vector<png_byte> row(codes.size() * std::size_t(rows.bits / 8));
     state.row = row.data();
-    for (std::size_t y = 0; y < std::size_t(image.height); ++y) {
-        const std::uint16_t* codes = image.samples.data() + y * row_samples;
-        for (std::size_t i = 0; i < row_samples; ++i) {
-            if (image.bits == 8) {
-                row[i] = png_byte(codes[i]);
-            } else {
-                row[2 * i] = png_byte(codes[i] >> 8);
-                row[2 * i + 1] = png_byte(codes[i] & 255);
-            }
-        }
+    for (int y = 0; y < rows.height; ++y) {
+        rows.fill(y, codes);
+        set_bytes(codes, rows.bits, row.data());
         writer.check(write_row);
     }
     writer.check(write_end);
     return bytes;
+}
+
+std::vector<std::byte> encode_png(const EncodedImage& image, const ImageMetadata& metadata) {
+    CodeRows rows{image.width, image.height, image.channels, image.bits};
+    check_format(rows);
+    const std::size_t row_codes = std::size_t(image.width) * std::size_t(image.channels);
+    if (image.samples.size() != std::size_t(image.height) * row_codes) {
+        cannot_write("the samples do not fit the sizes");
+    }
+    rows.fill = [&](int y, std::span<std::uint16_t> codes) {
+        std::copy_n(image.samples.data() + std::size_t(y) * row_codes, row_codes, codes.data());
+    };
+    return encode_png(rows, metadata);
 }
 
 }  // namespace alhazen

@@ -24,5 +24,7 @@ namespace alhazen {
 /// codes are invalid or a key of `metadata` is not 1 to 79 printable ASCII characters.
 [[nodiscard]] std::vector<std::byte> encode_png(const EncodedImage& image,
                                                 const ImageMetadata& metadata);
+[[nodiscard]] std::vector<std::byte> encode_png(const CodeRows& rows,
+                                                const ImageMetadata& metadata);
 
 }  // namespace alhazen

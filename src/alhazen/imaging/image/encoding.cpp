@@ -101,24 +101,28 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
     return rounded(encoding == Encoding::LinearRounded ? c : srgb_from_linear(c), bits);
 }
 
-EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {
-    EncodedImage encoded = empty_encoded(width, height, 3, bits);
+void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint16_t> codes) {
     if (encoding == Encoding::Srgb && bits == 8) {
         static const SrgbCodes kCodes;
-        for (std::uint16_t& sample : encoded.samples) sample = kCodes.code(*rgb++);
-        return encoded;
+        for (std::uint16_t& code : codes) code = kCodes.code(*rgb++);
+        return;
     }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.
     double last[3] = {0.0, 0.0, 0.0};
     std::uint16_t code[3] = {0, 0, 0};
-    for (std::size_t i = 0; i < encoded.samples.size(); ++i) {
+    for (std::size_t i = 0; i < codes.size(); ++i) {
         const std::size_t channel = i % 3;
         if (rgb[i] != last[channel]) {
             last[channel] = rgb[i];
             code[channel] = std::uint16_t(encode_channel(rgb[i], encoding, bits));
         }
-        encoded.samples[i] = code[channel];
+        codes[i] = code[channel];
     }
+}
+
+EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {
+    EncodedImage encoded = empty_encoded(width, height, 3, bits);
+    encode(rgb, encoding, bits, encoded.samples);
     return encoded;
 }
 

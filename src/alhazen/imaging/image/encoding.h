@@ -7,6 +7,8 @@
 /// to float.
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace alhazen {
@@ -28,6 +30,15 @@ struct EncodedImage {
     std::vector<std::uint16_t> samples = {};  ///< [height][width][channels]
 };
 
+/// The same, made row by row: the codes of a picture that is written are never in memory at once.
+struct CodeRows {
+    int width = 0, height = 0;
+    int channels = 3;
+    int bits = 8;
+    /// Sets the codes of row `y`, all of [width][channels].
+    std::function<void(int y, std::span<std::uint16_t> codes)> fill = {};
+};
+
 /// The sRGB curve and its inverse for c in [0, 1]; values above 1 follow the same curve, those
 /// below 0 its line.
 [[nodiscard]] double srgb_from_linear(double c);
@@ -35,6 +46,9 @@ struct EncodedImage {
 
 /// The code of `c`; `bits` in 1..16.
 [[nodiscard]] std::uint32_t encode_channel(double c, Encoding encoding, int bits);
+
+/// Sets `codes` to those of as many channels at `rgb`, whole pixels of three; `bits` is 8 or 16.
+void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint16_t> codes);
 
 /// Codes of `rgb` [height][width][3]. Throws Error (Usage) when a side is not positive or `bits` is
 /// neither 8 nor 16.
