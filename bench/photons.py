@@ -63,6 +63,7 @@ def write_povray(path, photons):
     lamp = [radiance * 0.25 ** 2 / (2 * fall ** 2) for radiance in (330, 310, 280)]
     room = [radiance * 36 / 3.14159265 / (2 * fall ** 2) for radiance in (0.6, 0.65, 0.75)]
     rgb = lambda c: "rgb <" + ", ".join(f"{x:.6g}" for x in c) + ">"
+    glows = lambda *c: f"pigment {{ {rgb((1, 1, 1))} }} finish {{ ambient 0 diffuse 0 emission {rgb(c)} }}"
     table = "pigment { rgb <0.55, 0.47, 0.4> } finish { ambient 0 diffuse 1 }"
     with open(path, "w", encoding="ascii") as out:
         out.write(f"""#version 3.7;
@@ -71,9 +72,11 @@ global_settings {{ assumed_gamma 1.0 max_trace_level 24 ambient_light 0
 camera {{ location <0.9, -8.4, 5.2> sky z right -x up z angle 30 look_at <0.35, 0.1, 0.95> }}
 light_source {{ <-5, 2.5, 6.5> {rgb(lamp)} fade_distance {fall} fade_power 2
                area_light 0.5*x, 0.5*y, 4, 4 circular orient adaptive 1 jitter
+               looks_like {{ sphere {{ 0, 0.25 {glows(330, 310, 280)} }} }}
                photons {{ reflection on refraction on }} }}
 light_source {{ <0, -6, 9> {rgb(room)} fade_distance {fall} fade_power 2
-               area_light 6*x, 6*y, 4, 4 adaptive 1 jitter photons {{ reflection off refraction off }} }}
+               area_light 6*x, 6*y, 4, 4 adaptive 1 jitter photons {{ reflection off refraction off }}
+               looks_like {{ polygon {{ 5, <-3, -3>, <3, -3>, <3, 3>, <-3, 3>, <-3, -3> {glows(0.6, 0.65, 0.75)} }} }} }}
 polygon {{ 5, <-9, -9>, <9, -9>, <9, 9>, <-9, 9>, <-9, -9> {table} }}
 polygon {{ 5, <-9, 0>, <9, 0>, <9, 9>, <-9, 9>, <-9, 0> rotate 90*x translate 7*y {table} }}
 #declare Glass = object {{ {lathe(GLASS)} {body(1.5, (0.9, 0.96, 0.94), 6)} }}
