@@ -195,10 +195,57 @@ endfunction()
 # precompiled header.
 set(ALHAZEN_TEST_OPTIONS -Og $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-shadow>)
 
-# alhazen_test(NAME [LABEL label] SOURCES file... DEPENDS folder...) defines the GoogleTest program alhazen_NAME_test.
-# Tests labelled "heavy" are not part of the everyday run.
-function(alhazen_test name)
-    cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+# alhazen_test_entry(NAME PROGRAM [LABEL label] [TIMEOUT seconds] [COST seconds] [PARTS number] [FILTER pattern...]
+# [ENVIRONMENT variable...]) adds the CTest entry NAME: tests of a GoogleTest program, all or those of FILTER, as PARTS
+# entries that run side by side, NAME_1 and so on (GoogleTest's shards: each test is in one of them). COST: about how
+# long it takes; what takes long begins first, so that no core is idle in the end. They yield to the tests of servers and
+# pages, which wait much and measure how soon they are answered.
+find_program(ALHAZEN_NICE nice)
+function(alhazen_test_entry name program)
+    cmake_parse_arguments(ARG "" "LABEL;TIMEOUT;COST;PARTS" "FILTER;ENVIRONMENT" ${ARGN})
+    if(NOT ARG_LABEL)
+        set(ARG_LABEL fast)
+    endif()
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 600)
+    endif()
+    if(ALHAZEN_SANITIZE)
+        math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
+    endif()
+    if(NOT ARG_COST)
+        set(ARG_COST 1)
+    endif()
+    set(command $<TARGET_FILE:${program}>)
+    if(ALHAZEN_NICE)
+        set(command "${ALHAZEN_NICE}" -n 5 $<TARGET_FILE:${program}>)
+    endif()
+    if(ARG_FILTER)
+        list(JOIN ARG_FILTER ":" filter)
+        list(APPEND command "--gtest_filter=${filter}")
+    endif()
+    if(NOT ARG_PARTS)
+        set(ARG_PARTS 1)
+    endif()
+    math(EXPR cost "${ARG_COST} / ${ARG_PARTS}")
+    math(EXPR last "${ARG_PARTS} - 1")
+    foreach(part RANGE ${last})
+        set(entry ${name})
+        set(environment ${ARG_ENVIRONMENT})
+        if(ARG_PARTS GREATER 1)
+            math(EXPR number "${part} + 1")
+            string(APPEND entry "_${number}")
+            list(APPEND environment "GTEST_TOTAL_SHARDS=${ARG_PARTS}" "GTEST_SHARD_INDEX=${part}")
+        endif()
+        add_test(NAME ${entry} COMMAND ${command})
+        set_tests_properties(${entry} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} COST ${cost}
+                             ENVIRONMENT "${environment}")
+    endforeach()
+endfunction()
+
+# alhazen_test_program(NAME SOURCES file... DEPENDS folder... LIBRARIES target...) defines the GoogleTest program
+# alhazen_NAME_test.
+function(alhazen_test_program name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     set(target alhazen_${name}_test)
     add_executable(${target} ${ARG_SOURCES})
@@ -209,15 +256,31 @@ function(alhazen_test name)
     # What the files of a unit instantiate alike is compiled once. Each has a namespace of its own: alhazen::ALHAZEN_TEST_FILE.
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32
                           UNITY_BUILD_UNIQUE_ID ALHAZEN_TEST_FILE)
-    if(NOT ARG_LABEL)
-        set(ARG_LABEL fast)
+endfunction()
+
+# alhazen_test(NAME [LABEL label] [TIMEOUT seconds] [COST seconds] [PARTS number] SOURCES file... DEPENDS folder...
+# LIBRARIES target... UNTRAPPED pattern...) defines a program and the CTest entry NAME of all of its tests. Those
+# labelled "heavy" are not part of the everyday run.
+# UNTRAPPED divides the tests between two entries. NAME_nan_traps has a trap at invalid floating-point operations
+# (tests/support/nan_traps.cpp); NAME has the tests named here: those that feed NaN, those of arithmetic in lanes, where
+# lanes that are not used may hold one, and those that trace by lanes. One entry of all with clang, which computes both
+# sides of a condition.
+function(alhazen_test name)
+    cmake_parse_arguments(ARG "" "LABEL;TIMEOUT;COST;PARTS" "SOURCES;DEPENDS;LIBRARIES;UNTRAPPED" ${ARGN})
+    alhazen_test_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} LIBRARIES ${ARG_LIBRARIES})
+    set(program alhazen_${name}_test)
+    set(options)
+    foreach(option LABEL TIMEOUT COST PARTS)
+        if(ARG_${option})
+            list(APPEND options ${option} ${ARG_${option}})
+        endif()
+    endforeach()
+    if(ARG_UNTRAPPED AND NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        alhazen_test_entry(${name} ${program} FILTER ${ARG_UNTRAPPED})
+        list(JOIN ARG_UNTRAPPED ":" untrapped)
+        alhazen_test_entry(${name}_nan_traps ${program} ${options} FILTER "-${untrapped}"
+                           ENVIRONMENT ALHAZEN_TRAP_NAN=1)
+    else()
+        alhazen_test_entry(${name} ${program} ${options})
     endif()
-    if(NOT ARG_TIMEOUT)
-        set(ARG_TIMEOUT 600)
-    endif()
-    if(ALHAZEN_SANITIZE)
-        math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
-    endif()
-    add_test(NAME ${name} COMMAND ${target})
-    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -23,6 +23,29 @@ void halve_row(const Row& row, int degree, Row& left, Row& right) {
     }
 }
 
+/// The two halves of a net in u, or in v.
+std::pair<BezierNet, BezierNet> halved(const BezierNet& net, bool in_u) {
+    std::pair<BezierNet, BezierNet> halves;
+    auto& [low, high] = halves;
+    low.degree_u = high.degree_u = net.degree_u;
+    low.degree_v = high.degree_v = net.degree_v;
+    const int degree = in_u ? net.degree_u : net.degree_v;
+    const int rows = in_u ? net.degree_v : net.degree_u;
+    Row row, left, right;
+    for (int j = 0; j <= rows; ++j) {
+        const auto at = [&](auto& of, int i) -> auto& {
+            return in_u ? of.at(i, j) : of.at(j, i);
+        };
+        for (int i = 0; i <= degree; ++i) row[static_cast<std::size_t>(i)] = at(net, i);
+        halve_row(row, degree, left, right);
+        for (int i = 0; i <= degree; ++i) {
+            at(low, i) = left[static_cast<std::size_t>(i)];
+            at(high, i) = right[static_cast<std::size_t>(i)];
+        }
+    }
+    return halves;
+}
+
 /// The part of a curve over [t0, t1]: blossoms of the ends.
 void restrict_row(Row& row, int degree, double t0, double t1) {
     const auto blend = [](const HomogeneousPoint& a, const HomogeneousPoint& b, double t) {
@@ -200,26 +223,11 @@ Vec3 patch_normal(BezierView net, double u, double v) {
 }
 
 std::pair<BezierNet, BezierNet> halved_u(const BezierNet& net) {
-    std::pair<BezierNet, BezierNet> halves;
-    for (BezierNet* half : {&halves.first, &halves.second}) {
-        half->degree_u = net.degree_u;
-        half->degree_v = net.degree_v;
-    }
-    for (int j = 0; j <= net.degree_v; ++j) {
-        Row row, left, right;
-        for (int i = 0; i <= net.degree_u; ++i) row[static_cast<std::size_t>(i)] = net.at(i, j);
-        halve_row(row, net.degree_u, left, right);
-        for (int i = 0; i <= net.degree_u; ++i) {
-            halves.first.at(i, j) = left[static_cast<std::size_t>(i)];
-            halves.second.at(i, j) = right[static_cast<std::size_t>(i)];
-        }
-    }
-    return halves;
+    return halved(net, true);
 }
 
 std::pair<BezierNet, BezierNet> halved_v(const BezierNet& net) {
-    const auto [low, high] = halved_u(transposed(net));
-    return {transposed(low), transposed(high)};
+    return halved(net, false);
 }
 
 BezierNet transposed(const BezierNet& net) {

@@ -29,24 +29,13 @@ struct Part {
 /// numerator from the middle, N = w (S - middle), and the quotient rule.
 class PartBends {
   public:
-    PartBends(const BezierNet& net, const Vec3& middle) {
-        double least = kInfinity;
-        for (int k = 0; k < net.count(); ++k) {
-            const HomogeneousPoint& p = net.points[static_cast<std::size_t>(k)];
-            least = std::min(least, p.w);
-            value_.add({Vec3{p.x, p.y, p.z} - p.w * middle, p.w});
-        }
-        // For the margin of the cell (kCellMargin).
-        const double growth = 1.0 + 2.5 * kCellMargin * (net.degree_u + net.degree_v);
-        value_.factor = growth / least;
-        value_.order_u = net.degree_u + 1;
-        value_.order_v = net.degree_v + 1;
-        by_u_ = value_.by_u();
-        by_v_ = value_.by_v();
-        by_uu_ = by_u_.by_u();
-        by_uv_ = by_u_.by_v();
-        by_vv_ = by_v_.by_v();
-    }
+    PartBends(const BezierNet& net, const Vec3& middle)
+        : value_(Coefficients::of(net, middle)),
+          by_u_(value_.by_u()),
+          by_v_(value_.by_v()),
+          by_uu_(by_u_.by_u()),
+          by_uv_(by_u_.by_v()),
+          by_vv_(by_v_.by_v()) {}
 
     /// Bounds of the second derivatives along an axis.
     struct Bends {
@@ -67,9 +56,11 @@ class PartBends {
     }
 
   private:
+    /// Nothing is written to those that a part has not: most patches have 16 of the 64.
     struct Coefficient {
-        Vec3 point;
-        double weight;
+        double x, y, z, weight;
+
+        [[nodiscard]] Vec3 point() const { return {x, y, z}; }
     };
     /// Bernstein coefficients of a derivative of N and of the weight, but for a factor.
     struct Coefficients {
@@ -77,14 +68,30 @@ class PartBends {
         double factor = 1, largest_weight = 0;
         Coefficient at[kMaxPatchOrder * kMaxPatchOrder];
 
-        void add(const Coefficient& c) {
-            at[count++] = c;
-            largest_weight = std::max(largest_weight, std::abs(c.weight));
+        /// Those of N itself.
+        static Coefficients of(const BezierNet& net, const Vec3& middle) {
+            Coefficients value;
+            double least = kInfinity;
+            for (int k = 0; k < net.count(); ++k) {
+                const HomogeneousPoint& p = net.points[static_cast<std::size_t>(k)];
+                least = std::min(least, p.w);
+                value.add(Vec3{p.x, p.y, p.z} - p.w * middle, p.w);
+            }
+            // For the margin of the cell (kCellMargin).
+            const double growth = 1.0 + 2.5 * kCellMargin * (net.degree_u + net.degree_v);
+            value.factor = growth / least;
+            value.order_u = net.degree_u + 1;
+            value.order_v = net.degree_v + 1;
+            return value;
+        }
+        void add(const Vec3& point, double weight) {
+            at[count++] = {point.x, point.y, point.z, weight};
+            largest_weight = std::max(largest_weight, std::abs(weight));
         }
         [[nodiscard]] double most(const Vec3& axis) const {
             double most = 0.0;
             for (int k = 0; k < count; ++k) {
-                most = std::max(most, std::abs(dot(axis, at[k].point)));
+                most = std::max(most, std::abs(dot(axis, at[k].point())));
             }
             return factor * most;
         }
@@ -103,7 +110,7 @@ class PartBends {
                 for (int j = 0; j < out.order_v; ++j) {
                     const Coefficient& a = at[i * order_v + j];
                     const Coefficient& b = at[(i + in_u) * order_v + j + in_v];
-                    out.add({b.point - a.point, b.weight - a.weight});
+                    out.add(b.point() - a.point(), b.weight - a.weight);
                 }
             }
             return out;

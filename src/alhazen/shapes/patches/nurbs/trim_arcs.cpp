@@ -90,15 +90,15 @@ std::vector<HomogeneousRow> bezier_rows(const TrimCurve& curve) {
 
 template <class Points>
 std::pair<TrimPiece, TrimPiece> halved(const TrimArcOf<Points>& arc) {
-    TrimPiece row, first, second;
-    for (const HomogeneousPoint& point : arc.points) row.points.push_back(point);
+    std::pair<TrimPiece, TrimPiece> halves;
+    auto& [first, second] = halves;
     first.loop = second.loop = arc.loop;
-    second.points = row.points;
-    for (std::size_t last = row.points.size(); last-- > 0;) {
-        first.points.push_back(row.points[0]);
-        second.points[last] = row.points[last];
+    for (const HomogeneousPoint& point : arc.points) second.points.push_back(point);
+    // The last of each row stays: it is a point of the second half.
+    for (std::size_t last = second.points.size(); last-- > 0;) {
+        first.points.push_back(second.points[0]);
         for (std::size_t k = 0; k < last; ++k) {
-            row.points[k] = 0.5 * (row.points[k] + row.points[k + 1]);
+            second.points[k] = 0.5 * (second.points[k] + second.points[k + 1]);
         }
     }
     first.begin = arc.begin;
@@ -106,7 +106,7 @@ std::pair<TrimPiece, TrimPiece> halved(const TrimArcOf<Points>& arc) {
     second.end = arc.end;
     fit_box(first);
     fit_box(second);
-    return {first, second};
+    return halves;
 }
 template std::pair<TrimPiece, TrimPiece> halved(const TrimArc& arc);
 template std::pair<TrimPiece, TrimPiece> halved(const TrimPiece& piece);
