@@ -106,8 +106,8 @@ bool certified_root(NewtonProof proof, BezierView net, const CubicLine& seen, co
            is_root(net, line, cell, at, root);
 }
 
-bool is_root(BezierView net, const PatchLine& line, const PatchCell& cell, const CubicRoot& at,
-             PatchRoot& root) {
+bool is_root(const BezierView& net, const PatchLine& line, const PatchCell& cell,
+             const CubicRoot& at, PatchRoot& root) {
     const Place place =
         place_of({at.x_u, at.y_u}, {at.x_v, at.y_v}, 1.0, line.tiny, cell, at.u, at.v);
     if (place == Place::Outside) return false;

@@ -72,7 +72,7 @@ struct LineRange {
 struct CubicRoot;  // what Newton's method converges to: patch_lanes.h
 
 /// Whether what Newton's method converges to is in its cell, of a bicubic patch.
-[[nodiscard]] bool is_root(BezierView net, const PatchLine& line, const PatchCell& cell,
+[[nodiscard]] bool is_root(const BezierView& net, const PatchLine& line, const PatchCell& cell,
                            const CubicRoot& at, PatchRoot& root);
 
 /// The parts of CellSearch that do not depend on how cells are stored.

@@ -74,6 +74,12 @@ class PatchLinesApart {
         return (answers.certified >> i & 1) != 0 ? LeafAnswer::Certified : LeafAnswer::Unique;
     }
 
+    [[nodiscard]] bool is_plain_bicubic(std::uint32_t piece) const {
+        const BezierView net = pieces_.net(piece);
+        // Not by && or `is_bicubic`, for which both degrees are stored and loaded as one number.
+        return (((net.degree_u ^ 3) | (net.degree_v ^ 3)) == 0) & net.plain;
+    }
+
     /// Tests the leaves that the lines are at; those that may have a root become tasks.
     void test() {
         PatchWay* at[kMostPatchRays];
@@ -104,8 +110,7 @@ class PatchLinesApart {
                 }
                 const Task task{&way,         pairs.leaf[i], answer_of(answers, i),
                                 answers.a[i], answers.b[i],  answers.bend[i]};
-                const BezierView net = pieces_.net(task.leaf->piece);
-                if (task.answer == LeafAnswer::Divide || !net.is_bicubic() || !net.plain) {
+                if (task.answer == LeafAnswer::Divide || !is_plain_bicubic(task.leaf->piece)) {
                     visit(task);
                 } else {
                     tasks_[task_count_++] = task;

@@ -78,6 +78,7 @@ PatchWalk PatchIndex::walk_of(const PatchLine& line, double t_min, double limit)
     }
     walk.least = place(line, t_min, -1.0);
     walk.most = place(line, limit, 1.0);
+    walk.set_planes();
     walk.size = 1;
     walk.stack[0] = PatchWalk::Waiting::of(walk.least, 0);
     return walk;

@@ -1,5 +1,7 @@
 #include "alhazen/shapes/patches/patch_lanes.h"
 
+#include <limits>
+
 #include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
@@ -16,23 +18,77 @@ namespace {
 
 static_assert(kBoxChildren == 2 * kLaneCount);
 
+/// Children in the order in which they are put on the stack.
+class SortedChildren {
+  public:
+    SortedChildren(const PatchBoxes& node, const float* nears) : node_(node), nears_(nears) {}
+
+    /// Two to four, by a network without branches, which would not be foreseen.
+    HWY_INLINE void put_few(std::uint32_t met, PatchWalk::Waiting* to) const {
+        std::int64_t keys[4];
+        ALHAZEN_UNROLL
+        for (std::size_t i = 0; i < 4; ++i, met &= met - 1) {
+            const std::int64_t key = key_of(static_cast<std::uint32_t>(
+                __builtin_ctz(met | std::uint32_t{1} << (kBoxChildren - 1))));
+            // Where there is none, nearer than all.
+            keys[i] = met != 0 ? key : std::numeric_limits<std::int64_t>::min();
+        }
+        order(keys[0], keys[1]);
+        order(keys[2], keys[3]);
+        order(keys[0], keys[2]);
+        order(keys[1], keys[3]);
+        order(keys[1], keys[2]);
+        ALHAZEN_UNROLL
+        for (std::size_t i = 0; i < 4; ++i) to[i] = waiting_of(keys[i]);
+    }
+    HWY_INLINE PatchWalk::Waiting one(std::uint32_t k) const {
+        return PatchWalk::Waiting::of(nears_[k], node_.child[k]);
+    }
+    /// Any number.
+    HWY_INLINE void put(std::uint32_t met, PatchWalk::Waiting* const begin) const {
+        for (PatchWalk::Waiting* end = begin; met != 0; met &= met - 1) {
+            const auto k = static_cast<std::uint32_t>(__builtin_ctz(met));
+            PatchWalk::Waiting* place = end++;
+            for (; place > begin && place[-1].near() < nears_[k]; --place) place[0] = place[-1];
+            *place = one(k);
+        }
+    }
+
+  private:
+    /// Numbers in the order of floats, bits as integers.
+    static HWY_INLINE std::int32_t ordered(std::int32_t bits) {
+        return bits ^ ((bits >> 31) & 0x7fffffff);
+    }
+    HWY_INLINE std::int64_t key_of(std::uint32_t k) const {
+        const std::int64_t near = ordered(std::bit_cast<std::int32_t>(nears_[k]));
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(near) << 32 | node_.child[k]);
+    }
+    static HWY_INLINE PatchWalk::Waiting waiting_of(std::int64_t key) {
+        const auto near = static_cast<std::uint32_t>(ordered(static_cast<std::int32_t>(key >> 32)));
+        return {std::uint64_t{near} << 32 | static_cast<std::uint32_t>(key)};
+    }
+    static HWY_INLINE void order(std::int64_t& first, std::int64_t& second) {
+        const std::int64_t a = first, b = second;
+        first = a > b ? a : b;
+        second = a > b ? b : a;
+    }
+
+    const PatchBoxes& node_;
+    const float* nears_;
+};
+
 /// Puts children on the stack, the nearest on top.
 HWY_INLINE void push_children(const PatchBoxes& node, const float* nears, std::uint32_t met,
                               PatchWalk& walk) {
-    PatchWalk::Waiting* const begin = walk.stack + walk.size;
-    const auto child = [&](std::uint32_t k) {
-        return PatchWalk::Waiting::of(nears[k], node.child[k]);
-    };
+    PatchWalk::Waiting* const top = walk.stack + walk.size;
+    const SortedChildren children(node, nears);
+    const int count = std::popcount(met);
+    walk.size += count;
     // Mostly none or one, which a branch would not foresee.
-    *begin = child(met != 0 ? static_cast<std::uint32_t>(__builtin_ctz(met)) : 0);
-    PatchWalk::Waiting* end = begin + (met != 0 ? 1 : 0);
-    for (met &= met - 1; met != 0; met &= met - 1) {
-        const auto k = static_cast<std::uint32_t>(__builtin_ctz(met));
-        PatchWalk::Waiting* place = end++;
-        for (; place > begin && place[-1].near() < nears[k]; --place) place[0] = place[-1];
-        *place = child(k);
-    }
-    walk.size += static_cast<int>(end - begin);
+    *top = children.one(met != 0 ? static_cast<std::uint32_t>(__builtin_ctz(met)) : 0);
+    if (count < 2) return;
+    if (count <= 4) return children.put_few(met, top);
+    children.put(met, top);
 }
 
 /// Eight bytes.
@@ -50,27 +106,28 @@ HWY_INLINE Floats floats_of(const std::uint8_t* bytes) {
 
 /// The children that the line meets, and where: in [child].
 HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk, float* nears) {
-    Floats begin[3], step[3];
-    const std::uint8_t *first[3], *second[3];
-    ALHAZEN_UNROLL
-    for (int axis = 0; axis < 3; ++axis) {
-        const float inverse = walk.inverse[axis];
-        const std::size_t down = inverse < 0.0f ? 1 : 0;
-        first[axis] = node.planes[down][axis];
-        second[axis] = node.planes[1 - down][axis];
-        begin[axis] = Floats((node.from[axis] - walk.from[axis]) * inverse);
-        step[axis] = Floats(node.step[axis] * inverse);
-    }
+    static_assert(offsetof(PatchBoxes, step) == offsetof(PatchBoxes, from) + 12 &&
+                  offsetof(PatchWalk, inverse) == offsetof(PatchWalk, from) + 12 &&
+                  offsetof(PatchWalk, least) == offsetof(PatchWalk, inverse) + 12);
+    // Of three axes at once; a fourth number is left out, the last of `begins`, the first of
+    // `steps`.
+    HWY_ALIGN float begins[4], steps[4];
+    const Lanes<float, 4> inverse = load_unaligned<4>(walk.inverse);
+    store_lanes((load_unaligned<4>(node.from) - load_unaligned<4>(walk.from)) * inverse, begins);
+    store_lanes(load_unaligned<4>(node.from + 2) * load_unaligned<4>(walk.from + 2), steps);
+    const std::uint8_t* const planes = &node.planes[0][0][0];
     std::uint32_t met = 0;
     ALHAZEN_UNROLL
     for (std::size_t half = 0; half < kBoxChildren; half += kLaneCount) {
         Floats near(walk.least), far(walk.most);
         ALHAZEN_UNROLL
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats in = floats_of(first[axis] + half) * step[axis] + begin[axis];
-            const Floats out = floats_of(second[axis] + half) * step[axis] + begin[axis];
-            near = max_lanes(near, in);
-            far = min_lanes(far, out);
+            const Floats begin(begins[axis]), step(steps[1 + axis]);
+            const Floats first = floats_of(planes + walk.enters[axis] + half);
+            const Floats second = floats_of(planes + walk.leaves[axis] + half);
+            // Fused or not: kBoxMargin is for either rounding.
+            near = max_lanes(near, mul_add(first, step, begin));
+            far = min_lanes(far, mul_add(second, step, begin));
         }
         met |= bits_of(near <= far) << half;
         store_lanes(near, nears + half);

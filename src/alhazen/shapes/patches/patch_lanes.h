@@ -37,14 +37,26 @@ struct PatchWalk {
     };
     // The tree has up to 17 levels (nine, and eight that divide 2^31 leaves evenly), each of which
     // leaves fifteen children. One more for
-    // `begin_above_end`.
-    static constexpr int kMostWaiting = 273;
+    // `begin_above_end`, and three that `push_children` writes beyond.
+    static constexpr int kMostWaiting = 276;
 
     float from[3], inverse[3];  ///< in the frame; 1 / direction
     float least, most;          ///< the range along the line
+    /// Where in PatchBoxes::planes the planes are through which the line enters boxes, and leaves
+    /// them: [axis].
+    std::uint32_t enters[3], leaves[3];
     int size;
     Waiting stack[kMostWaiting];
 
+    /// By the signs of its direction.
+    void set_planes() {
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t low = kBoxChildren * axis, high = kBoxChildren * (3 + axis);
+            const bool down = inverse[axis] < 0.0f;
+            enters[axis] = down ? high : low;
+            leaves[axis] = down ? low : high;
+        }
+    }
     /// At the root. Below it waits kNoLeaf, so that a walk without a leaf needs no test.
     void begin_above_end() {
         size = 2;

@@ -261,6 +261,7 @@ LinesSetOut set_out_lines(const Ray* const* rays, const LineFrame& in, PatchWay*
         }
         walk.least = numbers[6][i];
         walk.most = numbers[7][i];
+        walk.set_planes();
         walk.begin_above_end();
     }
     const auto usual = (square > Point(1e-200)) & (square < Point(1e200));

@@ -56,9 +56,13 @@ bool is_before(const ShapeHit& a, const ShapeHit& b) {
 
 /// Keeps a crossing in the ray's range if it is the first so far; false for one out of range.
 bool keep_first(const Ray& ray, const ShapeHit& crossing, bool found, ShapeHit& hit) {
-    ShapeHit next;
-    if (report_crossing(ray, crossing, &next) == 0) return false;
-    if (!found || is_before(next, hit)) hit = next;
+    if (!ray.covers(crossing.t) || !std::isfinite(crossing.t)) return false;
+    if (found && !is_before(crossing, hit)) return true;
+    // One by one: a crossing that was just put together would be waited for as a whole.
+    hit.t = crossing.t;
+    hit.u = crossing.u;
+    hit.v = crossing.v;
+    hit.part = crossing.part;
     return true;
 }
 
