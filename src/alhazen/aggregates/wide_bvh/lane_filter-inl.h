@@ -1,8 +1,8 @@
-/// The triangle filter with sixteen rays in the lanes (lane_packet-inl.h): one triangle against all
-/// rays of a set.
+/// The filters of triangles and spheres with sixteen rays in the lanes (lane_packet-inl.h): one of
+/// them against all rays of a set.
 ///
-/// Source: triangle_filter.h, whose bounds it has; errors that depend on the ray are those of the
-/// farthest ray of the packet.
+/// Source: triangle_filter.h and shape_filters.h, whose bounds they have; errors that depend on the
+/// ray are those of the farthest ray of the packet.
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
 /// never sure.
 
