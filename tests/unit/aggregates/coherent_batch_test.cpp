@@ -18,7 +18,7 @@ using namespace testing;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// Triangles, among them spheres: of a tree with placed ones packets are pyramids, of one with
-/// others any hit goes in lanes.
+/// others they go in lanes.
 PrimitiveTable triangles_and_spheres(int count, double size, std::uint64_t seed, bool placed) {
     RandomEngine random(seed);
     TableBuilder builder;
@@ -34,11 +34,32 @@ PrimitiveTable triangles_and_spheres(int count, double size, std::uint64_t seed,
     return builder.finish();
 }
 
+/// Triangles, spheres and cylinders, as many of each: a tree of packets in lanes.
+PrimitiveTable triangles_and_round_bodies(int count, double size, double part, std::uint64_t seed) {
+    RandomEngine random(seed);
+    TableBuilder builder;
+    auto& cylinders = std::get<ShapeColumn<Cylinder>>(builder.table.columns);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = uniform_point(random, size);
+        builder.add_triangle(a, a + uniform_point(random, part), a + uniform_point(random, part));
+        builder.add_sphere(uniform_point(random, size), uniform(random, 0.1, 0.5) * part);
+        const Vec3 base = uniform_point(random, size);
+        cylinders.shapes.push_back({.base = base,
+                                    .top = base + uniform_point(random, part),
+                                    .radius = uniform(random, 0.1, 0.3) * part});
+        cylinders.shapes.back().prepare();
+        cylinders.placements.push_back(kNoPlacement);
+        cylinders.materials.push_back(MaterialId{0});
+    }
+    return builder.finish();
+}
+
 std::vector<std::pair<std::string, PrimitiveTable>> tables(double size, std::uint64_t seed) {
     return {{"many triangles", random_triangles(800, size, 0.1 * size, seed)},
             {"large triangles", random_triangles(60, size, size, seed)},
             {"triangles and a placed sphere", triangles_and_spheres(400, size, seed, true)},
             {"triangles and spheres", triangles_and_spheres(200, size, seed, false)},
+            {"triangles and round bodies", triangles_and_round_bodies(150, size, 0.2 * size, seed)},
             {"spheres", random_spheres(300, size, 0.1 * size, seed)},
             {"mixture", random_mixture(300, size, 0.2 * size, seed)}};
 }
@@ -308,6 +329,17 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRays) {
                          Coherence::Coherent);
     EXPECT_GT(coherent_any_hit.node_visits, 0u);
     EXPECT_LT(3 * coherent_any_hit.node_visits, any_hit.node_visits);
+}
+
+TEST(CoherentBatch, PacketsShareTheWorkOfTheirRaysAtManyShapesWithoutATestInLanes) {
+    const auto tree = make_aggregate("wide_bvh", triangles_and_round_bodies(1000, 1, 0.1, 18));
+    const Rays shadows = shadow_rays({-1.2, -1.1, -1.3}, 0.2, {1.5, 1.3, 1.4}, 32);
+    const auto occluded = std::make_unique<bool[]>(shadows.size());
+    TraversalStats any, coherent;
+    tree->occluded_batch(shadows, {occluded.get(), shadows.size()}, &any);
+    tree->occluded_batch(shadows, {occluded.get(), shadows.size()}, &coherent, Coherence::Coherent);
+    EXPECT_GT(coherent.node_visits, 0u);
+    EXPECT_LT(2 * coherent.node_visits, any.node_visits);
 }
 
 TEST(CoherentBatch, PacketsThatFailAreNotTriedAgainAtOnceAndHitTheSame) {

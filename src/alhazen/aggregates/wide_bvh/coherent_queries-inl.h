@@ -150,7 +150,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
     constexpr bool kAnyHit = !InLanes::kOrdered;
     if constexpr (kAnyHit || kParts<float, kPacketLanes> <= kMostLaneRegisters) {
-        if (in_lanes(layout, kAnyHit)) {
+        if (in_lanes(layout)) {
             return run_lanes<InLanes>(scene, prefetch_table, rays, results, stats, otherwise);
         }
     }

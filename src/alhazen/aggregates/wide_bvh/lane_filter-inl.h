@@ -1,8 +1,8 @@
-/// The triangle filter with sixteen rays in the lanes (lane_packet-inl.h): one triangle against all
-/// rays of a set.
+/// The filters of triangles and spheres with sixteen rays in the lanes (lane_packet-inl.h): one of
+/// them against all rays of a set.
 ///
-/// Source: triangle_filter.h, whose bounds it has; errors that depend on the ray are those of the
-/// farthest ray of the packet.
+/// Source: triangle_filter.h and shape_filters.h, whose bounds they have; errors that depend on the
+/// ray are those of the farthest ray of the packet.
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
 /// never sure.
 
@@ -16,6 +16,7 @@
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -82,6 +83,32 @@ HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const
                bits_of(((least > fine) | (most < -fine)) & (out.lo >= load_row(packet.sure_min)) &
                        (out.hi <= load_row(packet.sure_max)));
     return true;
+}
+
+/// Bits of the rays of `lanes` that may hit a sphere: shape_candidates of a SphereBlock, with rays
+/// in the lanes.
+HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
+                                      const LanePacket& packet, std::uint32_t lanes) {
+    using F = PacketFloats;
+    const std::size_t kx = packet.kx, ky = packet.ky, kz = packet.kz;
+    const F sx = load_row(packet.slope[0]), sy = load_row(packet.slope[1]);
+    const F x = load_row(packet.origin[kx]) - F(block.center[kx][i]);
+    const F y = load_row(packet.origin[ky]) - F(block.center[ky][i]);
+    const F z = load_row(packet.origin[kz]) - F(block.center[kz][i]);
+    const F inverse = F(1.0f) / mul_add(sx, sx, mul_add(sy, sy, F(1.0f)));
+    const F middle = -(mul_add(x, sx, mul_add(y, sy, z)) * inverse);
+    // Where it passes the center.
+    const F nx = mul_add(middle, sx, x), ny = mul_add(middle, sy, y), nz = z + middle;
+    const F radius(block.radius[i] + kRoundSlack * packet.edge_slack);
+    const F room = radius * radius - mul_add(nx, nx, mul_add(ny, ny, nz * nz));
+    lanes &= ~bits_of(room < F(0.0f));
+    if (lanes == 0) return 0;
+    const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
+    const F sz = load_row(packet.reciprocal[kz]);
+    const F a = (middle - half) * sz, b = (middle + half) * sz;
+    const F slack = F(packet.place_error) * abs(sz);
+    return lanes & ~bits_of((min_lanes(a, b) - slack > load_row(packet.s_max)) |
+                            (max_lanes(a, b) + slack < load_row(packet.s_min)));
 }
 
 }  // namespace HWY_NAMESPACE

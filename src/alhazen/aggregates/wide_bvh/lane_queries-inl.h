@@ -1,5 +1,5 @@
-/// The queries of the wide BVH aggregate by packets of rays in lanes: triangles against all rays of
-/// a set, all else ray by ray.
+/// The queries of the wide BVH aggregate by packets of rays in lanes: triangles and spheres against
+/// all rays of a set, all else ray by ray.
 ///
 /// Source: traverse_lanes-inl.h, lane_filter-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
@@ -15,15 +15,18 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <span>
-#include <type_traits>
+#include <tuple>
 
+#include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
+#include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
+#include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
+#include "alhazen/primitives/unused_shear.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -99,14 +102,12 @@ class LaneCandidates {
     Beside beside_[kMaxBeside];
 };
 
-/// The leaves of a packet in lanes. `Derived` offers `found(block, lane, place, result, stats)` for
-/// triangles and `take(lane, query)` for a ray that has been alone; `Query` is the query of one
-/// ray.
-template <class Derived, class Query, class Result>
+/// The leaves of a packet in lanes. `Derived` offers `found(place, result, stats)` for a triangle
+/// and the rays that it may be hit by, returning those that need no more; `triangles`, `sphere` and
+/// `shape` for one ray (lone_ray-inl.h); and `left()` when a leaf has limited rays.
+template <class Derived, class Result>
 class LaneLeaves {
   public:
-    static constexpr bool kOrdered = Query::kOrdered;
-
     HWY_INLINE LaneLeaves(const WideBvhScene& scene, std::span<const Ray> rays,
                           std::span<Result> results, LanePacket& packet)
         : scene_(scene),
@@ -117,9 +118,9 @@ class LaneLeaves {
 
     template <class Stats>
     HWY_INLINE void visit(NodeRef ref, std::uint32_t lanes, Stats stats) {
-        if (static_cast<LeafType>(ref.kind()) != LeafType::Triangles) {
-            return go_alone(ref, lanes, stats);
-        }
+        const auto type = static_cast<LeafType>(ref.kind());
+        if (type == LeafType::Spheres) return visit_spheres(ref, lanes, stats);
+        if (type != LeafType::Triangles) return go_alone(ref, lanes, stats);
         bool changed = false;
         for (std::uint32_t i = 0; i < ref.count() && lanes != 0; ++i) {
             changed |= visit_triangles(ref.offset() + i, lanes, stats);
@@ -130,15 +131,9 @@ class LaneLeaves {
     HWY_NOINLINE void go_alone(NodeRef ref, std::uint32_t lanes, Stats stats) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
-            if ((been_alone_ >> i & 1) == 0) {
-                new (&places_[i]) Query(scene_, rays_[i], results_[i]);
-                been_alone_ |= 1u << i;
-            }
-            Query& query = query_of(i);
-            derived().limit(i, query);
-            const bool stopped = traverse<kOrdered>(scene_.layout->tree.nodes.data(), ref,
-                                                    query.slabs, query, stats);
-            derived().take(i, query, stopped);
+            LoneRay<Derived> ray(scene_, packet_, i, derived());
+            (void)traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs, ray,
+                                              stats);
         }
         derived().left();
     }
@@ -151,7 +146,19 @@ class LaneLeaves {
     HWY_INLINE bool visit_triangles(std::uint32_t number, std::uint32_t& lanes, Stats stats) {
         const TriangleBlock& block = scene_.layout->triangles[number];
         bool changed = false;
-        for (std::uint32_t met = meet_triangles(block, packet_); met != 0; met &= met - 1) {
+        std::uint32_t met = meet_triangles(block, packet_);
+        if constexpr (Derived::kOrdered) {
+            // Each against eight triangles takes less than each triangle against sixteen rays.
+            if (std::popcount(lanes) < std::popcount(met)) {
+                for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+                    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                    (void)LoneRay<Derived>(scene_, packet_, i, derived())
+                        .visit_block(number, stats);
+                }
+                return true;
+            }
+        }
+        for (; met != 0; met &= met - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(met));
             if (!block.ids[lane].used()) break;
             if (!scene_.sees(block.ids[lane].id())) continue;
@@ -164,6 +171,43 @@ class LaneLeaves {
             if (lanes == 0) break;
         }
         return changed;
+    }
+    /// Each sphere against all rays, the nearest first where that matters.
+    template <class Stats>
+    HWY_NOINLINE void visit_spheres(NodeRef ref, std::uint32_t lanes, Stats stats) {
+        for (std::uint32_t n = 0; n < ref.count() && lanes != 0; ++n) {
+            const SphereBlock& block = scene_.layout->spheres[ref.offset() + n];
+            const BlockBoxes boxes(block);
+            Floats entries;
+            std::uint32_t met = block.lanes & packet_.meet_boxes(boxes.rows(), entries);
+            HWY_ALIGN float entry[kBlockWidth];
+            store_lanes(entries, entry);
+            while (met != 0 && lanes != 0) {
+                auto lane = static_cast<std::size_t>(std::countr_zero(met));
+                if constexpr (Derived::kOrdered) {
+                    for (std::uint32_t others = met & (met - 1); others != 0;
+                         others &= others - 1) {
+                        const auto other = static_cast<std::size_t>(std::countr_zero(others));
+                        if (entry[other] < entry[lane]) lane = other;
+                    }
+                }
+                met &= ~(1u << lane);
+                const PrimitiveId id = block.ids[lane].id();
+                if (!scene_.sees(id)) continue;
+                std::uint32_t rest = filter_lanes(block, lane, packet_, lanes);
+                stats.primitives(static_cast<std::uint64_t>(std::popcount(lanes & ~rest)));
+                for (; rest != 0; rest &= rest - 1) {
+                    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                    float s_max = packet_.s_max[i];
+                    if (derived().sphere(i, id, s_max, stats)) lanes &= ~(1u << i);
+                }
+            }
+        }
+        derived().left();
+    }
+    [[nodiscard]] HWY_INLINE const Sphere& sphere_of(PrimitiveId id) const {
+        return std::get<ShapeColumn<Sphere>>(scene_.table->columns)
+            .shapes[static_cast<std::uint32_t>(id) - scene_.table->first(column_of<Sphere>())];
     }
     /// Exact resolution: see PacketResolution.
     template <class Hits, class Stats>
@@ -179,32 +223,22 @@ class LaneLeaves {
     std::span<const Ray> rays_;
     std::span<Result> results_;
     LanePacket& packet_;
-    std::uint32_t been_alone_ = 0;  ///< rays that have a query
-    HWY_INLINE Query& query_of(std::size_t i) {
-        return *std::launder(reinterpret_cast<Query*>(&places_[i]));
-    }
 
   private:
-    static_assert(std::is_trivially_destructible_v<Query>);
-    struct alignas(Query) Place {
-        std::byte bytes[sizeof(Query)];
-    };
-    Place places_[kPacketLanes];
     PacketResolution<LanePacket> resolution_;
 };
 
 /// The closest hits.
-class ClosestLanes : public LaneLeaves<ClosestLanes, ClosestQuery<FilteredTriangleTest>, Hit> {
+class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
   public:
-    using Query = ClosestQuery<FilteredTriangleTest>;
+    static constexpr bool kOrdered = true;
 
     HWY_INLINE ClosestLanes(const WideBvhScene& scene, std::span<const Ray> rays,
                             std::span<Hit> best, LanePacket& packet)
         : LaneLeaves(scene, rays, best, packet) {
-        const LocalParameter parameter{scene.layout->frame.scale, 0.0};
         for (std::size_t i = 0; i < best.size(); ++i) {
             if (HWY_LIKELY(!best[i].found())) continue;
-            packet.s_max[i] = std::min(packet.s_max[i], parameter.above(best[i].t));
+            packet.s_max[i] = std::min(packet.s_max[i], parameter().above(best[i].t));
             packet.rays[i / kRayLanes].t_max[i % kRayLanes] = best[i].t;
         }
     }
@@ -217,31 +251,81 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, ClosestQuery<FilteredTriang
         const PacketMask sure = lanes_of_bits<float, kPacketLanes>(found.sure);
         const PacketFloats s_max = load_row(packet_.s_max);
         store_lanes(select_lanes(sure, min_lanes(found.hi, s_max), s_max), packet_.s_max);
-        while (HWY_UNLIKELY(!candidates_.add(place, found.candidates, found.lo, packet_.s_max))) {
-            candidates_.take_beside(packet_.s_max,
-                                    [&](std::uint32_t lanes, const TrianglePlace* places)
-                                        HWY_ATTR { decide(lanes, places, stats); });
-        }
+        add(place, found.candidates, found.lo, stats);
         return 0;
     }
+    template <class Stats>
+    HWY_INLINE bool triangles(std::size_t i, std::uint32_t number, const FilteredTriangles& found,
+                              float& s_max, Stats stats) {
+        const TriangleBlock& block = scene_.layout->triangles[number];
+        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            // Written so that a NaN is not passed over.
+            if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
+            if (!scene_.sees(block.ids[lane].id())) continue;
+            if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) {
+                limit(i, s_max = found.hi[lane]);
+            }
+            add(static_cast<TrianglePlace>(number * kBlockWidth + lane), 1u << i,
+                PacketFloats(found.lo[lane]), stats);
+        }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
+        Hit& best = results_[i];
+        SphereCrossings met;
+        const Verdict verdict = resolve_sphere(rays_[i], sphere_of(id), met);
+        if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
+        stats.primitives(1);
+        if (verdict == Verdict::Missed) return false;
+        stats.primitive_hits(1);
+        if (!wins(met.t[0], id, best)) return false;
+        Ray ray;
+        offer_hit({met.t[0], 0, 0, 0}, id, ray, best);
+        s_max = std::min(s_max, parameter().above(met.t[0]));
+        limit(i, s_max);
+        return false;
+    }
+    template <class Stats>
+    HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
+        Hit& best = results_[i];
+        Ray ray = rays_[i];
+        if (best.found()) ray.t_max = best.t;
+        const double last = ray.t_max;
+        scene_.table->closest(id, ray, kUnusedShear, best, stats, scene_.mask);
+        if (ray.t_max == last) return false;
+        s_max = std::min(s_max, parameter().above(ray.t_max));
+        limit(i, s_max);
+        return false;
+    }
     HWY_INLINE void left() { packet_.shrink(); }
-    HWY_INLINE void limit(std::size_t i, Query& query) const {
-        query.s_max = std::min(query.s_max, packet_.s_max[i]);
-    }
-    HWY_INLINE void take(std::size_t i, const Query& query, bool) {
-        packet_.s_max[i] = std::min(packet_.s_max[i], query.s_max);
-    }
     /// Resolves all candidates.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
         candidates_.take_all(packet_.s_max, [&](std::uint32_t lanes, const TrianglePlace* places)
                                                 HWY_ATTR { decide(lanes, places, stats); });
-        for (; been_alone_ != 0; been_alone_ &= been_alone_ - 1) {
-            query_of(static_cast<std::size_t>(std::countr_zero(been_alone_))).finish(stats);
-        }
     }
 
   private:
+    [[nodiscard]] HWY_INLINE LocalParameter parameter() const {
+        return {scene_.layout->frame.scale, 0.0};
+    }
+    /// As a whole: parts of a row that was stored as a whole, and then read so, are waited for.
+    HWY_INLINE void limit(std::size_t i, float s_max) {
+        store_lanes(select_lanes(lanes_of_bits<float, kPacketLanes>(1u << i), PacketFloats(s_max),
+                                 load_row(packet_.s_max)),
+                    packet_.s_max);
+    }
+    template <class Stats>
+    HWY_INLINE void add(TrianglePlace place, std::uint32_t candidates, const PacketFloats& begin,
+                        Stats stats) {
+        while (HWY_UNLIKELY(!candidates_.add(place, candidates, begin, packet_.s_max))) {
+            candidates_.take_beside(packet_.s_max,
+                                    [&](std::uint32_t lanes, const TrianglePlace* places)
+                                        HWY_ATTR { decide(lanes, places, stats); });
+        }
+    }
     template <class Stats>
     HWY_INLINE void decide(std::uint32_t lanes, const TrianglePlace* places, Stats stats) {
         resolve(lanes, places, OfferedHits{results_}, stats);
@@ -251,9 +335,9 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, ClosestQuery<FilteredTriang
 };
 
 /// Which rays hit anything. A ray that does leaves the packet.
-class OccludedLanes : public LaneLeaves<OccludedLanes, OccludedQuery<FilteredTriangleTest>, bool> {
+class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
   public:
-    using Query = OccludedQuery<FilteredTriangleTest>;
+    static constexpr bool kOrdered = false;
 
     HWY_INLINE OccludedLanes(const WideBvhScene& scene, std::span<const Ray> rays,
                              std::span<bool> occluded, LanePacket& packet)
@@ -276,11 +360,45 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, OccludedQuery<FilteredTri
         wanting_ &= ~hit;
         return hit;
     }
-    HWY_INLINE void left() {}
-    HWY_INLINE void limit(std::size_t, Query&) const {}
-    HWY_INLINE void take(std::size_t i, const Query&, bool stopped) {
-        if (stopped) wanting_ &= ~(1u << i);
+    template <class Stats>
+    HWY_INLINE bool triangles(std::size_t i, std::uint32_t number, const FilteredTriangles& found,
+                              float&, Stats stats) {
+        const TriangleBlock& block = scene_.layout->triangles[number];
+        for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
+            const BlockId id = block.ids[static_cast<std::size_t>(std::countr_zero(rest))];
+            if (!id.used() || !scene_.sees(id.id())) continue;
+            stats.primitive_hits(1);
+            return drop(i);
+        }
+        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            if (!block.ids[lane].used() || !scene_.sees(block.ids[lane].id())) continue;
+            alignas(64) TrianglePlace places[kPacketLanes];
+            for (TrianglePlace& p : places) {
+                p = static_cast<TrianglePlace>(number * kBlockWidth + lane);
+            }
+            std::uint32_t hit = 0;
+            resolve(1u << i, places, Dropped{results_, hit}, stats);
+            if (hit != 0) return drop(i);
+        }
+        return false;
     }
+    template <class Stats>
+    HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
+        SphereCrossings met;
+        const Verdict verdict = resolve_sphere(rays_[i], sphere_of(id), met);
+        if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
+        stats.primitives(1);
+        if (verdict == Verdict::Missed) return false;
+        stats.primitive_hits(1);
+        return drop(i);
+    }
+    template <class Stats>
+    HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float&, Stats stats) {
+        const bool hit = scene_.table->occluded(id, rays_[i], kUnusedShear, stats, scene_.mask);
+        return hit && drop(i);
+    }
+    HWY_INLINE void left() {}
     template <class Stats>
     HWY_INLINE void finish(Stats) {}
 
@@ -293,6 +411,11 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, OccludedQuery<FilteredTri
             hit |= 1u << i;
         }
     };
+
+    HWY_INLINE bool drop(std::size_t i) {
+        wanting_ &= ~(1u << i);
+        return results_[i] = true;
+    }
 
     std::uint32_t wanting_ = ~0u;
 };

@@ -60,8 +60,8 @@ StreamOverride::~StreamOverride() {
 
 Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {
-    const ScheduledTree tree{layout.memory_bytes(), treeless, suits_packets(table, unbounded),
-                             has_packets};
+    const ScheduledTree tree{layout.memory_bytes(), treeless,
+                             in_lanes(layout) || suits_packets(table, unbounded), has_packets};
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
         batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);
     }

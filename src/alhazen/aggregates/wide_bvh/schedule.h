@@ -34,10 +34,9 @@ inline constexpr int kMinPacketLanes = 3;
 /// four, eye rays by pyramids are a third faster, while any hit gains by lanes with four as well.
 inline constexpr std::size_t kMostLaneRegisters = 2;
 /// Whether the coherent rays of a tree go in packets in lanes, and not by pyramids: those test
-/// shapes eight rays at a time, where packets in lanes test them ray by ray.
-[[nodiscard]] inline bool in_lanes(const WideBvhLayout& layout, bool any_hit) {
-    const bool few_kinds = layout.frustums.empty() && layout.others.empty();
-    return few_kinds && (any_hit || layout.spheres.empty());
+/// solids and algebraic surfaces eight rays at a time, where packets in lanes test them ray by ray.
+[[nodiscard]] inline bool in_lanes(const WideBvhLayout& layout) {
+    return layout.others.empty();
 }
 /// Fewest rays of a packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;

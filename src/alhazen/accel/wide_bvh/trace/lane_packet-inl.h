@@ -66,6 +66,7 @@ struct alignas(64) LanePacket {
     std::uint32_t kx, ky, kz;                      ///< of the set, as in RayShear
     std::size_t near_row[3];                       ///< of the set: of WideNodeOf::planes
     float near_error, edge_slack, edge_slack_min;  ///< as in TriangleFilterRay, of any ray
+    float place_error;  ///< TriangleFilterRay::s_slack of a reciprocal of 1
 
     /// Takes up to sixteen rays; those of `wanted` that can be traced in lanes.
     [[nodiscard]] std::uint32_t load(const LocalFrame& frame, std::span<const Ray> given,
@@ -206,6 +207,7 @@ inline std::uint32_t LanePacket::load(const LocalFrame& frame, std::span<const R
     const float reach = frame.slack.reach.at(distance), delta = frame.slack.delta.at(distance);
     const float unit = 0x1p-24f, error = 13.2f * unit * reach + 4.0f * delta;
     near_error = 2.2f * unit * reach + 4.0f * delta;
+    place_error = 14.2f * unit * reach + 4.0f * delta;
     edge_slack = 5.12f * error;
     edge_slack_min = 2.12f * error * error;
     HWY_UNROLL(3)

@@ -1,0 +1,135 @@
+/// A ray of a packet in lanes on its own: made ready for nodes and leaves from the packet's rows,
+/// which takes a fraction of the time that a query of the caller's ray does.
+///
+/// Source: slab_ray.h, triangle_filter.h, shape_filters.h, whose bounds it has; errors that depend
+/// on the ray are those of the farthest ray of the packet.
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LONE_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LONE_RAY_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LONE_RAY_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LONE_RAY_INL_H_
+#endif
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// What `traverse` takes. `Leaves` offers `triangles(lane, number of the block, found, s_max,
+/// stats)`, `sphere(lane, id, s_max, stats)` and `shape` likewise for all else, which may lower
+/// `s_max`: true to stop.
+template <class Leaves>
+struct LoneRay {
+    SlabRay slabs;
+    TriangleFilterRay filter;
+    const WideBvhScene& scene;
+    Leaves& leaves;
+    std::size_t lane;
+    float s_max;
+
+    /// The packet's set is that of the ray.
+    HWY_INLINE LoneRay(const WideBvhScene& s, const LanePacket& packet, std::size_t i, Leaves& l)
+        : scene(s), leaves(l), lane(i), s_max(packet.s_max[i]) {
+        std::size_t octant = 0;
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            slabs.reciprocal[k] = packet.reciprocal[k][i];
+            slabs.near_offset[k] = packet.near_offset[k][i];
+            slabs.far_offset[k] = packet.far_offset[k][i];
+            octant |= std::size_t{packet.near_row[k] != k} << k;
+        }
+        slabs.s_min = packet.s_min[i];
+        slabs.s_max = s_max;
+        slabs.near = kNearRows[octant];
+        filter.kx = packet.kx;
+        filter.ky = packet.ky;
+        filter.kz = packet.kz;
+        filter.origin[0] = packet.origin[packet.kx][i];
+        filter.origin[1] = packet.origin[packet.ky][i];
+        filter.origin[2] = packet.origin[packet.kz][i];
+        filter.sx = packet.slope[0][i];
+        filter.sy = packet.slope[1][i];
+        filter.sz = packet.reciprocal[packet.kz][i];
+        filter.edge_slack = packet.edge_slack;
+        filter.edge_slack_min = packet.edge_slack_min;
+        filter.near_error = packet.near_error;
+        filter.s_slack = packet.place_error * std::abs(filter.sz);
+        filter.sure_min = packet.sure_min[i];
+        filter.sure_max = packet.sure_max[i];
+    }
+
+    template <class Stats>
+    HWY_INLINE bool visit(NodeRef ref, Stats stats) {
+        const std::uint32_t count = ref.count();
+        const WideBvhLayout& layout = *scene.layout;
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles:
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    if (visit_block(ref.offset() + i, stats)) return true;
+                }
+                return false;
+            case LeafType::Spheres:
+                return visit_shapes(&layout.spheres[ref.offset()], count, stats);
+            case LeafType::Frustums:
+                return visit_shapes(&layout.frustums[ref.offset()], count, stats);
+            case LeafType::Others:
+                return visit_shapes(&layout.others[ref.offset()], count, stats);
+        }
+        return true;
+    }
+
+    /// Of triangles.
+    template <class Stats>
+    HWY_INLINE bool visit_block(std::uint32_t number, Stats stats) {
+        const TriangleBlock& block = scene.layout->triangles[number];
+        stats.primitives(used_lanes(block));
+        FilteredTriangles found;
+        return filter_triangles(block, filter, slabs.s_min, s_max, found) &&
+               leaves.triangles(lane, number, found, s_max, stats);
+    }
+
+  private:
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
+        for (const Block* end = blocks + count; blocks < end; ++blocks) {
+            FilteredShapes found;
+            std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
+            // Those that are tested count themselves.
+            stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
+            for (; rest != 0; rest &= rest - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                const BlockId id = blocks->ids[i];
+                if (found.lo[i] > s_max || !id.used()) {
+                    stats.primitives(1);
+                    continue;
+                }
+                if constexpr (std::is_same_v<Block, SphereBlock>) {
+                    if (scene.sees(id.id()) && leaves.sphere(lane, id.id(), s_max, stats))
+                        return true;
+                } else {
+                    if (leaves.shape(lane, id.id(), s_max, stats)) return true;
+                }
+            }
+        }
+        return false;
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
