@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/coherent_rays.h"
@@ -34,22 +35,30 @@ PrimitiveTable triangles_and_spheres(int count, double size, std::uint64_t seed,
     return builder.finish();
 }
 
-/// Triangles, spheres and cylinders, as many of each: a tree of packets in lanes.
+template <class Shape>
+void add_shape(TableBuilder& builder, Shape shape) {
+    auto& column = std::get<ShapeColumn<Shape>>(builder.table.columns);
+    shape.prepare();
+    column.shapes.push_back(shape);
+    column.placements.push_back(kNoPlacement);
+    column.materials.push_back(MaterialId{0});
+}
+
+/// Triangles and spheres, and as many cylinders, cones and discs in turn: a tree of packets in
+/// lanes.
 PrimitiveTable triangles_and_round_bodies(int count, double size, double part, std::uint64_t seed) {
     RandomEngine random(seed);
     TableBuilder builder;
-    auto& cylinders = std::get<ShapeColumn<Cylinder>>(builder.table.columns);
     for (int i = 0; i < count; ++i) {
         const Vec3 a = uniform_point(random, size);
         builder.add_triangle(a, a + uniform_point(random, part), a + uniform_point(random, part));
         builder.add_sphere(uniform_point(random, size), uniform(random, 0.1, 0.5) * part);
         const Vec3 base = uniform_point(random, size);
-        cylinders.shapes.push_back({.base = base,
-                                    .top = base + uniform_point(random, part),
-                                    .radius = uniform(random, 0.1, 0.3) * part});
-        cylinders.shapes.back().prepare();
-        cylinders.placements.push_back(kNoPlacement);
-        cylinders.materials.push_back(MaterialId{0});
+        const Vec3 top = base + uniform_point(random, part);
+        const double radius = uniform(random, 0.1, 0.3) * part;
+        if (i % 3 == 0) add_shape(builder, Cylinder{.base = base, .top = top, .radius = radius});
+        if (i % 3 == 1) add_shape(builder, Cone{.base = base, .top = top, .base_radius = radius});
+        if (i % 3 == 2) add_shape(builder, Disc{.center = base, .normal = top, .radius = radius});
     }
     return builder.finish();
 }
@@ -340,6 +349,33 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRaysAtManyShapesWithoutATestInLane
     tree->occluded_batch(shadows, {occluded.get(), shadows.size()}, &coherent, Coherence::Coherent);
     EXPECT_GT(coherent.node_visits, 0u);
     EXPECT_LT(2 * coherent.node_visits, any.node_visits);
+}
+
+TEST(CoherentBatch, TheRoadFollowsWhatTheTreeHolds) {
+    const auto road = [](std::size_t triangles, std::size_t spheres, std::size_t frustums,
+                         std::size_t others, bool any_hit, std::size_t registers) {
+        WideBvhLayout layout;
+        layout.triangles.resize(triangles);
+        layout.spheres.resize(spheres);
+        layout.frustums.resize(frustums);
+        layout.others.resize(others);
+        return coherent_road(layout, any_hit, registers);
+    };
+    constexpr std::size_t kAvx512 = 1, kAvx2 = 2, kSse4 = 4;
+    for (const std::size_t registers : {kAvx512, kAvx2, kSse4}) {
+        const CoherentRoad closest =
+            registers == kSse4 ? CoherentRoad::Pyramids : CoherentRoad::Lanes;
+        EXPECT_EQ(road(64, 0, 0, 0, false, registers), closest);
+        EXPECT_EQ(road(0, 64, 0, 0, false, registers), closest);
+        EXPECT_EQ(road(32, 32, 1, 0, false, registers), closest);
+        EXPECT_EQ(road(32, 31, 1, 0, false, registers),
+                  registers == kSse4 ? CoherentRoad::Alone : CoherentRoad::Lanes);
+        EXPECT_EQ(road(64, 64, 0, 1, false, registers), CoherentRoad::Pyramids);
+        EXPECT_EQ(road(64, 64, 0, 1, true, registers), CoherentRoad::Pyramids);
+        EXPECT_EQ(road(3, 0, 2, 0, true, registers), CoherentRoad::Lanes);
+        EXPECT_EQ(road(2, 1, 3, 0, true, registers), CoherentRoad::Alone);
+        EXPECT_EQ(road(0, 0, 3, 0, true, registers), CoherentRoad::Alone);
+    }
 }
 
 TEST(CoherentBatch, PacketsThatFailAreNotTriedAgainAtOnceAndHitTheSame) {

@@ -9,6 +9,7 @@
 #include "alhazen/aggregates/wide_bvh/stream_override.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
+#include "support/scratch_folder.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -77,13 +78,12 @@ TEST(IndexedLeaves, AreRefittedLikeTheOthers) {
 
 TEST(IndexedLeaves, AreStoredAndLoaded) {
     const PrimitiveTable table = random_mixture(600, 1, 0.2, 65);
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / "alhazen_indexed_leaves_test.bvh";
+    const ScratchFolder folder;
+    const std::filesystem::path file = folder.path() / "leaves.bvh";
     WideBvhAggregate(table, kIndexed).save(file);
     const auto loaded = WideBvhAggregate::load(table, file);
     EXPECT_TRUE(loaded->layout().is_indexed());
     expect_hits_of_list(table, *loaded);
-    std::filesystem::remove(file);
 }
 
 }  // namespace

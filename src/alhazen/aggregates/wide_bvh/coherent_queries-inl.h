@@ -149,8 +149,11 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
          layout.others.data()},
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
     constexpr bool kAnyHit = !InLanes::kOrdered;
-    if constexpr (kAnyHit || kParts<float, kPacketLanes> <= kMostLaneRegisters) {
-        if (in_lanes(layout)) {
+    constexpr std::size_t kRegisters = kParts<float, kPacketLanes>;
+    const CoherentRoad road = coherent_road(layout, kAnyHit, kRegisters);
+    if (road == CoherentRoad::Alone) return otherwise(0, rays.size());
+    if constexpr (kAnyHit || kRegisters <= kMostLaneRegisters) {
+        if (road == CoherentRoad::Lanes) {
             return run_lanes<InLanes>(scene, prefetch_table, rays, results, stats, otherwise);
         }
     }

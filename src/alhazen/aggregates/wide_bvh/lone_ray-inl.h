@@ -1,5 +1,4 @@
-/// A ray of a packet in lanes on its own: made ready for nodes and leaves from the packet's rows,
-/// which takes a fraction of the time that a query of the caller's ray does.
+/// A ray of a packet in lanes on its own: made ready for nodes and leaves from the packet's rows.
 ///
 /// Source: slab_ray.h, triangle_filter.h, shape_filters.h, whose bounds it has; errors that depend
 /// on the ray are those of the farthest ray of the packet.

@@ -10,16 +10,12 @@ namespace alhazen {
 
 namespace {
 
-/// Fewest primitives with a test in lanes for each one without, in trees of packets: the others are
-/// tested ray by ray, and packets were slower among them.
-constexpr std::size_t kLanePrimitivesPerScalar = 64;
-
 std::atomic<int> stream_overrides{0};
 
 struct ScheduledTree {
     std::size_t bytes;
     bool treeless;       ///< TreelessPackets takes all primitives
-    bool suits_packets;  ///< packets are faster than single rays
+    bool suits_packets;  ///< packets are faster than single rays, on some road and target
     bool has_packets;    ///< the kernels trace packets
 };
 
@@ -61,7 +57,7 @@ StreamOverride::~StreamOverride() {
 Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {
     const ScheduledTree tree{layout.memory_bytes(), treeless,
-                             in_lanes(layout) || suits_packets(table, unbounded), has_packets};
+                             layout.others.empty() || suits_packets(table, unbounded), has_packets};
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
         batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);
     }

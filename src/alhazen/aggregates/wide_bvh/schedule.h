@@ -33,10 +33,30 @@ inline constexpr int kMinPacketLanes = 3;
 /// Most registers that sixteen numbers may take where packets in lanes look for closest hits: with
 /// four, eye rays by pyramids are a third faster, while any hit gains by lanes with four as well.
 inline constexpr std::size_t kMostLaneRegisters = 2;
-/// Whether the coherent rays of a tree go in packets in lanes, and not by pyramids: those test
-/// solids and algebraic surfaces eight rays at a time, where packets in lanes test them ray by ray.
-[[nodiscard]] inline bool in_lanes(const WideBvhLayout& layout) {
-    return layout.others.empty();
+/// Fewest primitives with a test in lanes for each one without, where packets go as pyramids: the
+/// others are tested ray by ray, and packets were slower among them.
+inline constexpr std::size_t kLanePrimitivesPerScalar = 64;
+
+/// How coherent rays go.
+enum class CoherentRoad {
+    Lanes,     ///< packets in lanes (lane_queries-inl.h)
+    Pyramids,  ///< packets in beams (packet_queries-inl.h), by trial
+    Alone,     ///< in no packet
+};
+
+/// The road of a tree whose schedule is Packets. `registers`: of sixteen floats. Lanes test solids
+/// and algebraic surfaces ray by ray, where pyramids test them eight rays at a time; both test
+/// cylinders, cones and discs ray by ray, and shadow rays, soon done, gain nothing where these are
+/// half of the tree.
+[[nodiscard]] inline CoherentRoad coherent_road(const WideBvhLayout& layout, bool any_hit,
+                                                std::size_t registers) {
+    if (!layout.others.empty()) return CoherentRoad::Pyramids;
+    const std::size_t lanes = layout.triangles.size() + layout.spheres.size();
+    const std::size_t scalars = layout.frustums.size();
+    if (any_hit) return 3 * scalars <= 2 * lanes ? CoherentRoad::Lanes : CoherentRoad::Alone;
+    if (registers <= kMostLaneRegisters) return CoherentRoad::Lanes;
+    return kLanePrimitivesPerScalar * scalars <= lanes ? CoherentRoad::Pyramids
+                                                       : CoherentRoad::Alone;
 }
 /// Fewest rays of a packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;

@@ -36,8 +36,8 @@ struct PatchWalk {
         }
     };
     // The tree has up to 17 levels (nine, and eight that divide 2^31 leaves evenly), each of which
-    // leaves fifteen children. One more for
-    // `begin_above_end`, and three that `push_children` writes beyond.
+    // leaves fifteen children. One more for `begin_above_end`, and some that `push_children` writes
+    // beyond.
     static constexpr int kMostWaiting = 276;
 
     float from[3], inverse[3];  ///< in the frame; 1 / direction
