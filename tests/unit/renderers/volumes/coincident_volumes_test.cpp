@@ -27,6 +27,11 @@ SceneMaker below_a_lamp() {
               maker.material(shining({4, 4, 4})));
     return maker;
 }
+/// A lamp in the left one of two volumes that touch: light goes through the common face to points
+/// in the right one.
+void add_lamp_inside(SceneMaker& maker) {
+    maker.add(ball({-0.3, -0.1, 0.5}, 0.12), maker.material(shining({12, 10, 8})));
+}
 void add_floor(SceneMaker& maker) {
     maker.add(rectangle({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), maker.material(matt({0.6, 0.5, 0.4})));
 }
@@ -60,11 +65,13 @@ TEST(CoincidentVolumes, TwoHalvesAreTheWhole) {
     for (const auto& [name, material] : cases) {
         SceneMaker whole = below_a_lamp();
         add_floor(whole);
+        add_lamp_inside(whole);
         whole.add(BoxShape{{-0.7, -0.6, 0.1}, {0.8, 0.5, 0.9}}, whole.material(material));
         const Blocks truth = blocks_of(whole.compile(), "path_tracing", 96);
         for (const bool turned : {false, true}) {
             SceneMaker maker = below_a_lamp();
             add_floor(maker);
+            add_lamp_inside(maker);
             std::vector<BoxShape> halves{{{-0.7, -0.6, 0.1}, {0.15, 0.5, 0.9}},
                                          {{0.15, -0.6, 0.1}, {0.8, 0.5, 0.9}}};
             if (turned) std::swap(halves[0], halves[1]);
@@ -91,6 +98,7 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
         for (const bool turned : {false, true}) {
             SceneMaker maker = below_a_lamp();
             add_floor(maker);
+            add_lamp_inside(maker);
             const MaterialId a = maker.material(c.a), b = maker.material(c.b);
             const BoxShape left{{-0.7, -0.6, 0.1}, {0.15, 0.5, 0.9}};
             const BoxShape right{{0.15, -0.6, 0.1}, {0.8, 0.5, 0.9}};

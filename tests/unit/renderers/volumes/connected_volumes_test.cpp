@@ -99,6 +99,46 @@ TEST(ConnectedVolumes, WhatBendsLightBlocksConnections) {
     }
 }
 
+/// Volumes of one index that touch: their faces are one, which bends nothing, in either order.
+TEST(ConnectedVolumes, FacesThatCoincideAreOne) {
+    for (const double index : {1.0, 1.3}) {
+        for (const bool turned : {false, true}) {
+            SceneMaker maker;
+            const MaterialId a = maker.material(fog(kAbsorbs, kFog, 0.3, index));
+            const MaterialId b = maker.material(fog({}, kDenser, 0, index));
+            if (!turned) maker.add(BoxShape{{0, -9, -9}, {4, 9, 9}}, a);
+            maker.add(BoxShape{{4, -9, -9}, {10, 9, 9}}, b);
+            if (turned) maker.add(BoxShape{{0, -9, -9}, {4, 9, 9}}, a);
+            const Passed passed = pass(maker.compile(), {3, 0.1, 0.2}, {6, 0.2, 0.4});
+            const double length = std::sqrt(9.0 + 0.01 + 0.04);
+            EXPECT_TRUE(passed.same) << index << turned;
+            for (int i = 0; i < 3; ++i) {
+                const double depth =
+                    length * ((kFog[i] + kAbsorbs[i]) / 3.0 + kDenser[i] * 2.0 / 3.0);
+                EXPECT_NEAR(passed.share[i], std::exp(-depth), 1e-12) << index << turned;
+                EXPECT_NEAR(passed.in_batch[i], std::exp(-depth), 1e-12) << index << turned;
+            }
+        }
+    }
+}
+
+/// Whatever side is the endless one, and however far away it ends.
+TEST(ConnectedVolumes, VolumesWithoutEndAreFoundFromBothSides) {
+    for (int k = 0; k < 6; ++k) {
+        Vec3 normal;
+        (k % 3 == 0 ? normal.x : k % 3 == 1 ? normal.y : normal.z) = k < 3 ? 1.0 : -1.0;
+        for (const double away : {0.5, 3.0, 3000.0}) {
+            SceneMaker maker;
+            maker.add(ball({0, 0, 0}, 0.2), maker.material(matt({1, 1, 1})));
+            maker.add(Plane{away * normal, normal}, maker.material(absorbing(kAbsorbs)));
+            const Scene scene = maker.compile();
+            const MediaFinder finder(scene);
+            EXPECT_NE(finder.around({0.3, 0.1, 0.2}, 0).here(), nullptr) << k << " " << away;
+            EXPECT_EQ(finder.around(2.0 * away * normal, 0).here(), nullptr) << k << " " << away;
+        }
+    }
+}
+
 TEST(ConnectedVolumes, SceneswhereNothingScattersKeepTheirBoundaries) {
     SceneMaker maker;
     maker.add(BoxShape{{0, -9, -9}, {10, 9, 9}}, maker.material(absorbing(kAbsorbs)));
