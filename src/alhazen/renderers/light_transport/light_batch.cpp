@@ -120,8 +120,7 @@ Spectrum LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind,
     if (!find_crossings(ray, time, kind)) return {};
     Spectrum share = Spectrum::all(1);
     for (const Hit& crossing : crossings_) {
-        OtherFaces none;
-        share = share * through(ray, time, kind, crossing, waves, nullptr, none);
+        share = share * through(ray, time, kind, crossing, waves, nullptr);
         if (share.is_black()) break;
     }
     return share;
@@ -148,11 +147,11 @@ Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
         from = to;
     };
     if (met) {
-        OtherFaces crossed;
+        crossed_.clear();
         for (const Hit& crossing : crossings_) {
-            if (take_crossed(crossing, crossed)) continue;
+            if (take_crossed(crossing)) continue;
             pass_volume(crossing.t);
-            share = share * through(ray, time, kind, crossing, waves, &around, crossed);
+            share = share * through(ray, time, kind, crossing, waves, &around);
             if (share.is_black()) return share;
         }
     }
@@ -160,27 +159,27 @@ Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
     return share;
 }
 
-bool LightBatch::take_crossed(const Hit& hit, OtherFaces& crossed) const {
-    if (crossed.empty()) return false;
+bool LightBatch::take_crossed(const Hit& hit) {
+    if (crossed_.empty()) return false;
     const std::uint64_t part = part_number(parts_of(*scene_.aggregate, hit));
-    for (Unmade<OtherFace>& face : crossed) {
-        if (face.value.inside.part != part) continue;
-        face = crossed.back();
-        crossed.pop_back();
+    for (OtherFace& face : crossed_) {
+        if (face.inside.part != part) continue;
+        face = crossed_.back();
+        crossed_.pop_back();
         return true;
     }
     return false;
 }
 
 Spectrum LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                             const Wavelengths& waves, MediumStack* media, OtherFaces& crossed) {
+                             const Wavelengths& waves, MediumStack* media) {
     ShadingPoint point;
     const bool inside = media != nullptr && !media->empty();
     const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
         faces_.find(point, ray.direction, arrival, mask_of(kind));
-        crossed = faces_.others();
+        crossed_ = faces_.others();
     }
     const double coverage = point.material->coverage;
     if (coverage == 0.0 && media == nullptr) return Spectrum::all(1);
@@ -188,7 +187,7 @@ Spectrum LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit
     if (point.material->thin || media != nullptr) {
         ScatterPoint scatter;
         scatter.set(scene_, point, media != nullptr ? *media : MediumStack(), waves, false, nullptr,
-                    media != nullptr ? &crossed : nullptr);
+                    media != nullptr ? &crossed_ : nullptr);
         covered = scatter.straight();
         if (scatter.is_null_boundary()) {
             scatter.cross(*media);

@@ -62,13 +62,11 @@ class LightBatch {
     [[nodiscard]] Spectrum through_volumes(const Ray& ray, float time, RayKind kind,
                                            const MediumStack& media, const Wavelengths& waves,
                                            bool met, FreeFlight* flight);
-    /// `media`: those before it, then those behind; null: it cannot lie between volumes. `crossed`:
-    /// the faces that coincide with it, and need not be crossed again.
+    /// `media`: those before it, then those behind; null: it cannot lie between volumes.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                                   const Wavelengths& waves, MediumStack* media,
-                                   OtherFaces& crossed);
+                                   const Wavelengths& waves, MediumStack* media);
     /// Takes the face of that hit from those that have been crossed, if it is one of them.
-    [[nodiscard]] bool take_crossed(const Hit& hit, OtherFaces& crossed) const;
+    [[nodiscard]] bool take_crossed(const Hit& hit);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
                                    const MediumStack& media, const Wavelengths& waves,
                                    FreeFlight* flight);
@@ -85,6 +83,7 @@ class LightBatch {
     std::vector<MediumStack> around_;  ///< [ray]; where volumes are followed
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
+    OtherFaces crossed_;  ///< that coincide with the last crossing, and need not be crossed again
 };
 
 }  // namespace alhazen

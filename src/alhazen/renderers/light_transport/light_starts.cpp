@@ -44,7 +44,7 @@ void LightStarts::begin_from_infinity(WalkStart& start) const {
         start.throughput = {};
         return;
     }
-    start.media = media_.around(start.ray.origin, start.time);
+    start.media = media_.without_end_around(start.ray.origin, start.time);
     const Extinction taken = scattering_.extinction(start.media.here());
     if (taken.is_black()) return;
     start.throughput = start.throughput * transmittance(taken.of(*start.waves),

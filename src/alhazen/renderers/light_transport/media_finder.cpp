@@ -1,6 +1,7 @@
 #include "alhazen/renderers/light_transport/media_finder.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/renderers/core/local_shading.h"
@@ -30,8 +31,17 @@ MediaFinder::MediaFinder(const Scene& scene)
 
 MediumStack MediaFinder::around(const Vec3& point, float time) const {
     if (!has_volumes_ || !scene_.aggregate) return {};
-    MediumStack media = along(kFromAfar, point, time, false);
-    if (reaches_infinity_) media.surround(along(-kFromAfar, point, time, true));
+    Found found = along(kFromAfar, point, time);
+    if (reaches_infinity_) {
+        found.all.surround(along(-kFromAfar, point, time).endless, found.endless);
+    }
+    return found.all;
+}
+
+MediumStack MediaFinder::without_end_around(const Vec3& point, float time) const {
+    if (!has_volumes_ || !scene_.aggregate || !reaches_infinity_) return {};
+    MediumStack media = along(kFromAfar, point, time).endless;
+    media.surround(along(-kFromAfar, point, time).endless, media);
     return media;
 }
 
@@ -50,15 +60,30 @@ bool MediaFinder::is_endless(const Hit& hit) const {
     return !scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top())).bounded();
 }
 
-MediumStack MediaFinder::along(const Vec3& direction, const Vec3& point, float time,
-                               bool endless_alone) const {
-    MediumStack media;
+MediaFinder::Found MediaFinder::along(const Vec3& direction, const Vec3& point, float time) const {
+    Found found;
+    MediumStack& media = found.all;
     double left = way_before_all(direction, point, time);
     Ray ray{point - left * direction, direction};
     ray.t_max = left;
     ShadingPoint at;
     ScatterPoint scatter;
     CoincidentFaces faces(faces_);
+    OtherFaces endless;
+    const auto cross_endless = [&](const Hit& hit, MediumStack& around) {
+        if (!is_endless(hit)) {
+            for (const OtherFace& other : faces.others()) {
+                if (!other.endless) continue;
+                other.entering ? around.enter(other.inside) : around.leave(other.inside);
+            }
+            return;
+        }
+        endless.clear();
+        std::copy_if(faces.others().begin(), faces.others().end(), std::back_inserter(endless),
+                     [](const OtherFace& other) { return other.endless; });
+        scatter.set(scene_, at, around, kColorChannels, false, nullptr, &endless);
+        scatter.cross(around);
+    };
     for (int passed = 0; passed < kMaxPassedSurfaces; ++passed) {
         Hit hit;
         if (!scene_.aggregate->closest(ray, hit, {nullptr, kAllRays, time})) break;
@@ -66,13 +91,15 @@ MediumStack MediaFinder::along(const Vec3& direction, const Vec3& point, float t
         set_shading_point(scene_, ray, hit, arrival, {}, at);
         faces.find(at, direction, arrival, kAllRays);
         scatter.set(scene_, at, media, kColorChannels, false, nullptr, &faces.others());
-        const bool counts = !endless_alone || is_endless(hit);
-        if (counts && scatter.bounds_volume()) scatter.cross(media);
+        if (scatter.bounds_volume()) {
+            scatter.cross(media);
+            if (reaches_infinity_) cross_endless(hit, found.endless);
+        }
         left -= hit.t;
         if (!(left > 0.0)) break;
         ray = leaving_ray(at.surface, direction, left);
     }
-    return media;
+    return found;
 }
 
 }  // namespace alhazen

@@ -18,11 +18,16 @@ class MediaFinder {
     /// False: the scene has no volumes, and no point lies in one.
     [[nodiscard]] bool has_volumes() const { return has_volumes_; }
     [[nodiscard]] MediumStack around(const Vec3& point, float time) const;
+    /// Those without end: no other, closed or open, reaches to a point that is infinitely far away.
+    [[nodiscard]] MediumStack without_end_around(const Vec3& point, float time) const;
 
   private:
-    /// Along a ray that goes to the point; `endless_alone`: what is bounded is not there.
-    [[nodiscard]] MediumStack along(const Vec3& direction, const Vec3& point, float time,
-                                    bool endless_alone) const;
+    struct Found {
+        MediumStack all, endless;
+    };
+
+    /// Along a ray that goes to the point.
+    [[nodiscard]] Found along(const Vec3& direction, const Vec3& point, float time) const;
     /// How far before the point all crossings lie.
     [[nodiscard]] double way_before_all(const Vec3& direction, const Vec3& point, float time) const;
     [[nodiscard]] bool is_endless(const Hit& hit) const;

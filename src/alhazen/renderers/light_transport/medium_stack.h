@@ -51,11 +51,11 @@ class MediumStack {
         if (media_.full()) remove(0);
         media_.push_back(medium);
     }
-    /// Puts around them the volumes of `other` whose parts and materials they lack.
-    void surround(const MediumStack& other) {
+    /// Puts around them the volumes of `other` that `known` lacks, by part or by material.
+    void surround(const MediumStack& other, const MediumStack& known) {
         MediumStack all;
         for (const Unmade<Medium>& m : other.media_) {
-            if (place_of(m.value) == media_.size()) all.enter(m.value);
+            if (known.place_of(m.value) == known.media_.size()) all.enter(m.value);
         }
         if (all.empty()) return;
         for (const Unmade<Medium>& m : media_) all.enter(m.value);

@@ -191,14 +191,17 @@ void ScatterPoint::cross(MediumStack& media) const {
         media = {};
         if (behind_inside_) media.enter(inside_);
     } else {
-        // What is left first: what is entered is the innermost.
+        // What is left first: what is entered is inside of all that stays.
         if (!entering_) media.leave(inside_);
         for (const OtherFace& other : others_) {
             if (!other.entering) media.leave(other.inside);
         }
+        for (const OtherFace& other : others_) {
+            if (other.entering && other.around) media.enter(other.inside);
+        }
         if (entering_) media.enter(inside_);
         for (const OtherFace& other : others_) {
-            if (other.entering) media.enter(other.inside);
+            if (other.entering && !other.around) media.enter(other.inside);
         }
     }
 }

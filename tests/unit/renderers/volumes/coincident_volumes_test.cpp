@@ -114,6 +114,34 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
     }
 }
 
+/// Nested volumes with one face in common light things as those a little apart.
+TEST(CoincidentVolumes, FlushVolumesNestInAnyOrder) {
+    const std::vector<Material> materials{clear(1.5, {2, 1, 2}), clear(1.33, {0.3, 2, 2}),
+                                          clear(1.2, {0.2, 0.1, 0.1})};
+    for (const std::size_t count : {2u, 3u}) {
+        const auto scene = [&](double apart, bool inner_first) {
+            SceneMaker maker = below_a_lamp();
+            add_floor(maker);
+            for (std::size_t k = 0; k < count; ++k) {
+                const std::size_t i = inner_first ? k : count - 1 - k;
+                const double more = 0.2 * double(i);
+                maker.add(BoxShape{{-0.5 - more, -0.4 - more, 0.3 - apart * double(i)},
+                                   {0.5 + more, 0.4 + more, 0.8 + 0.1 * double(i)}},
+                          maker.material(materials[i]));
+            }
+            return maker.compile();
+        };
+        const Blocks truth = blocks_of(scene(1e-4, false), "path_tracing", 96);
+        for (const bool inner_first : {false, true}) {
+            const Scene flush = scene(0.0, inner_first);
+            for (const std::string renderer : {"path_tracing", "bidirectional"}) {
+                expect_light_of(truth, flush, renderer, 48, 0.08,
+                                std::to_string(count) + (inner_first ? ", inner first" : ""));
+            }
+        }
+    }
+}
+
 /// The table is met, not passed: also where the glass is the lower primitive.
 TEST(CoincidentVolumes, ABlockStandsOnItsTable) {
     for (const auto& [name, material] : std::vector<std::pair<std::string, Material>>{

@@ -225,7 +225,6 @@ TEST(VolumeAgreement, GlassInFog) {
     expect_agreement(maker.compile(), "glass in fog", kBehindGlass, 48, 0.05);
 }
 
-/// A ball of fog that flies while the shutter is open, seen by an open lens.
 /// A boundary that covers in part is open into its volume for the rest: eye, lamps and paths agree
 /// on what lies behind. Before, paths went in without a medium, and lost it where they went out.
 TEST(VolumeAgreement, BoundariesThatCoverInPart) {
@@ -260,6 +259,7 @@ TEST(VolumeAgreement, BoundariesThatCoverInPart) {
     }
 }
 
+/// A ball of fog that flies while the shutter is open, seen by an open lens.
 TEST(VolumeAgreement, FogThatMoves) {
     SceneMaker maker = over_a_floor();
     auto& camera = std::get<PerspectiveCamera>(maker.description().cameras[0].camera);
