@@ -15,22 +15,28 @@ namespace {
 
 using namespace alhazen::testing;
 
-const std::vector<std::string> kRenderers{"path_tracing", "bidirectional",
-                                          "vcm:photons=400,radius=0.03,pilot=off"};
+/// Whose paths scatter that often at most: boundaries of clear volumes count.
+std::string eye_paths(int depth) {
+    return "path_tracing:depth=" + std::to_string(depth);
+}
+std::vector<std::string> renderers(int depth) {
+    return {eye_paths(depth), "bidirectional:depth=" + std::to_string(depth),
+            "vcm:photons=400,radius=0.03,pilot=off,depth=" + std::to_string(depth)};
+}
+constexpr int kFew = 6, kMany = 64;
 
 /// Looks aslant from above at what is below a lamp.
 SceneMaker below_a_lamp() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
         look_along({0, -3.5, 2}, {0, 3.5, -1.4}, {0, 0, 1}, 0.6, 1.0);
-    maker.add(rectangle({-0.8, -0.8, 2}, {0, 1.6, 0}, {1.6, 0, 0}),
-              maker.material(shining({4, 4, 4})));
+    maker.add(rectangle({-1.5, -1.5, 2}, {0, 3, 0}, {3, 0, 0}), maker.material(shining({2, 2, 2})));
     return maker;
 }
 /// A lamp in the left one of two volumes that touch: light goes through the common face to points
 /// in the right one.
 void add_lamp_inside(SceneMaker& maker) {
-    maker.add(ball({-0.3, -0.1, 0.5}, 0.12), maker.material(shining({12, 10, 8})));
+    maker.add(ball({-0.3, -0.1, 0.5}, 0.25), maker.material(shining({3, 2.5, 2})));
 }
 void add_floor(SceneMaker& maker) {
     maker.add(rectangle({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), maker.material(matt({0.6, 0.5, 0.4})));
@@ -57,30 +63,51 @@ void expect_light_of(const Blocks& truth, const Scene& scene, const std::string&
     }
 }
 
+double sum_of(const Rgb& c) {
+    return c.r + c.g + c.b;
+}
+/// Of the same volumes in another order: path by path, but for rounding.
+void expect_same_paths(const Scene& a, const Scene& b, const std::string& renderer,
+                       const std::string& name) {
+    const Film first = picture_of(a, renderer, 8, 16), second = picture_of(b, renderer, 8, 16);
+    const double whole = sum_of(mean_of(first));
+    for (int i = 0; i < 64; ++i) {
+        const double difference = sum_of(first.at(i % 8, i / 8)) - sum_of(second.at(i % 8, i / 8));
+        EXPECT_NEAR(difference, 0.0, 1e-6 * whole) << name << ", " << renderer << ", pixel " << i;
+    }
+}
+
 TEST(CoincidentVolumes, TwoHalvesAreTheWhole) {
-    const std::vector<std::pair<std::string, Material>> cases{
-        {"fog", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3)},
-        {"milk", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3, 1.2)},
-        {"ink", clear(1.3, {0.5, 1, 2})}};
-    for (const auto& [name, material] : cases) {
+    struct Case {
+        std::string name;
+        Material material;
+        int depth, samples;
+        double most;
+    };
+    const std::vector<Case> cases{
+        {"fog", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3), kFew, 120, 0.0105},
+        {"milk", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3, 1.2), kFew, 112, 0.0155},
+        {"ink", clear(1.3, {0.5, 1, 2}), kMany, 96, 0.0105}};
+    for (const auto& [name, material, depth, samples, most] : cases) {
         SceneMaker whole = below_a_lamp();
         add_floor(whole);
         add_lamp_inside(whole);
         whole.add(BoxShape{{-0.7, -0.6, 0.1}, {0.8, 0.5, 0.9}}, whole.material(material));
-        const Blocks truth = blocks_of(whole.compile(), "path_tracing", 96);
-        for (const bool turned : {false, true}) {
+        const Blocks truth = blocks_of(whole.compile(), eye_paths(depth), samples);
+        const auto halves = [&, &material = material](bool turned) {
             SceneMaker maker = below_a_lamp();
             add_floor(maker);
             add_lamp_inside(maker);
-            std::vector<BoxShape> halves{{{-0.7, -0.6, 0.1}, {0.15, 0.5, 0.9}},
-                                         {{0.15, -0.6, 0.1}, {0.8, 0.5, 0.9}}};
-            if (turned) std::swap(halves[0], halves[1]);
-            for (const BoxShape& half : halves) maker.add(half, maker.material(material));
-            const Scene scene = maker.compile();
-            for (const std::string& renderer : kRenderers) {
-                expect_light_of(truth, scene, renderer, 48, 0.08,
-                                name + (turned ? ", turned" : ""));
-            }
+            std::vector<BoxShape> boxes{{{-0.7, -0.6, 0.1}, {0.15, 0.5, 0.9}},
+                                        {{0.15, -0.6, 0.1}, {0.8, 0.5, 0.9}}};
+            if (turned) std::swap(boxes[0], boxes[1]);
+            for (const BoxShape& box : boxes) maker.add(box, maker.material(material));
+            return maker.compile();
+        };
+        const Scene scene = halves(false), turned = halves(true);
+        for (const std::string& renderer : renderers(depth)) {
+            expect_light_of(truth, scene, renderer, samples, most, name);
+            expect_same_paths(scene, turned, renderer, name);
         }
     }
 }
@@ -89,13 +116,15 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
     struct Case {
         std::string name;
         Material a, b;
+        int depth;
+        double most;
     };
     const std::vector<Case> cases{
-        {"fogs", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3), fog({0.1, 0.1, 0}, {3, 2, 1}, -0.3)},
-        {"glass and wine", clear(1.5, {0.2, 0.1, 0.2}), clear(1.33, {0.3, 2, 2})}};
+        {"fogs", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3), fog({0.1, 0.1, 0}, {3, 2, 1}, -0.3),
+         kFew, 0.012},
+        {"glass and wine", clear(1.5, {0.2, 0.1, 0.2}), clear(1.33, {0.3, 2, 2}), kMany, 0.02}};
     for (const Case& c : cases) {
-        Blocks truth;
-        for (const bool turned : {false, true}) {
+        const auto touching = [&](bool turned) {
             SceneMaker maker = below_a_lamp();
             add_floor(maker);
             add_lamp_inside(maker);
@@ -105,11 +134,14 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
             if (!turned) maker.add(left, a);
             maker.add(right, b);
             if (turned) maker.add(left, a);
-            const Scene scene = maker.compile();
-            if (!turned) truth = blocks_of(scene, "path_tracing", 96);
-            for (const std::string& renderer : kRenderers) {
-                expect_light_of(truth, scene, renderer, 48, 0.08, c.name);
-            }
+            return maker.compile();
+        };
+        const Scene scene = touching(false), turned = touching(true);
+        const Blocks truth = blocks_of(scene, eye_paths(c.depth), 64);
+        for (const std::string& renderer : renderers(c.depth)) {
+            if (renderer != eye_paths(c.depth))
+                expect_light_of(truth, scene, renderer, 64, c.most, c.name);
+            expect_same_paths(scene, turned, renderer, c.name);
         }
     }
 }
@@ -131,13 +163,11 @@ TEST(CoincidentVolumes, FlushVolumesNestInAnyOrder) {
             }
             return maker.compile();
         };
-        const Blocks truth = blocks_of(scene(1e-4, false), "path_tracing", 96);
-        for (const bool inner_first : {false, true}) {
-            const Scene flush = scene(0.0, inner_first);
-            for (const std::string renderer : {"path_tracing", "bidirectional"}) {
-                expect_light_of(truth, flush, renderer, 48, 0.08,
-                                std::to_string(count) + (inner_first ? ", inner first" : ""));
-            }
+        const Blocks truth = blocks_of(scene(1e-4, false), eye_paths(kMany), 64);
+        const Scene flush = scene(0.0, false), inner_first = scene(0.0, true);
+        for (const std::string& renderer : renderers(kMany)) {
+            expect_light_of(truth, flush, renderer, 64, 0.032, std::to_string(count));
+            expect_same_paths(flush, inner_first, renderer, std::to_string(count));
         }
     }
 }
@@ -146,23 +176,23 @@ TEST(CoincidentVolumes, FlushVolumesNestInAnyOrder) {
 TEST(CoincidentVolumes, ABlockStandsOnItsTable) {
     for (const auto& [name, material] : std::vector<std::pair<std::string, Material>>{
              {"glass", clear(1.5, {0.2, 0.1, 0.2})}, {"fog", fog({}, {1.2, 1.6, 2}, 0.3)}}) {
-        Blocks truth;
-        for (const bool block_first : {false, true}) {
+        const auto on_table = [&, &material = material](bool block_first) {
             SceneMaker maker = below_a_lamp();
             const BoxShape table{{-4, -4, -0.5}, {4, 4, 0}};
             const MaterialId matt_one = maker.material(matt({0.6, 0.5, 0.4}));
             if (!block_first) maker.add(table, matt_one);
             maker.add(BoxShape{{-0.7, -0.6, 0}, {0.8, 0.5, 0.6}}, maker.material(material));
             if (block_first) maker.add(table, matt_one);
-            const Scene scene = maker.compile();
-            if (!block_first) truth = blocks_of(scene, "path_tracing", 96);
-            for (const std::string& renderer : kRenderers) {
-                expect_light_of(truth, scene, renderer, 48, 0.08, name);
-            }
-            if (block_first) {
-                expect_light_of(truth, scene, "sppm:photons=20000,radius=0.05", 16, 0.08, name);
-            }
+            return maker.compile();
+        };
+        const Scene scene = on_table(false), block_first = on_table(true);
+        const Blocks truth = blocks_of(scene, eye_paths(kMany), 64);
+        for (const std::string& renderer : renderers(kMany)) {
+            if (renderer != eye_paths(kMany))
+                expect_light_of(truth, scene, renderer, 64, 0.016, name);
+            expect_same_paths(scene, block_first, renderer, name);
         }
+        expect_light_of(truth, block_first, "sppm:photons=8000,radius=0.05", 16, 0.026, name);
     }
 }
 
