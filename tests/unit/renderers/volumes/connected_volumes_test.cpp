@@ -223,8 +223,9 @@ TEST(ConnectedVolumes, NothingBoundedReachesToInfinity) {
     maker.add(Plane{{0, 0, -20}, {0, 0, 1}}, maker.material(absorbing(kFog)));
     const Scene scene = maker.compile();
     const MediaFinder finder(scene);
-    EXPECT_EQ(finder.without_end_around({4, 3, 5}, 0).here(), nullptr);
-    EXPECT_EQ(finder.without_end_around({-4, -3, 5}, 0).here(), nullptr);
+    EXPECT_NE(finder.around({1, 1, -1}, 0).here(), nullptr);
+    EXPECT_EQ(finder.without_end_around({1, 1, -1}, 0).here(), nullptr);
+    EXPECT_EQ(finder.without_end_around({1.2, 0.9, -1.5}, 0).here(), nullptr);
     EXPECT_NE(finder.without_end_around({4, 3, -25}, 0).here(), nullptr);
 }
 
