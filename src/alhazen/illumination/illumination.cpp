@@ -165,6 +165,12 @@ LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& 
     return draw;
 }
 
+Environment::Sight sight_for(const Environment& environment, const LitPoint& at,
+                             const Vec3& direction) {
+    return at.in_volume ? environment.sight(direction)
+                        : environment.sight(at.normal, at.both_sides, direction);
+}
+
 /// With which `draw_environment` gives a direction, once the environment is chosen.
 double density_for(const Environment& environment, const LitPoint& at, const Vec3& direction) {
     return at.in_volume ? environment.density(direction)
@@ -177,9 +183,7 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
     draw.to_light =
         at.in_volume ? environment.sample(u) : environment.sample(at.normal, at.both_sides, u);
     draw.distance = kInfinity;
-    const Environment::Sight sight =
-        at.in_volume ? environment.sight(draw.to_light)
-                     : environment.sight(at.normal, at.both_sides, draw.to_light);
+    const Environment::Sight sight = sight_for(environment, at, draw.to_light);
     draw.radiance = waves.emission(sight.radiance);
     draw.density = probability * sight.density;
     draw.passes = mask_of(RayKind::Shadow);
@@ -187,6 +191,12 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
 }
 
 }  // namespace
+
+bool Illumination::chooses() const {
+    const Data& d = *data_;
+    const bool one_near = d.near_share == 1.0 && d.near_count() == 1;
+    return !(one_near || (d.near_share == 0.0 && d.far.size() == 1));
+}
 
 LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u,
                              const Wavelengths& waves) const {
@@ -251,6 +261,25 @@ Spectrum Illumination::environment(const Vec3& direction, const Wavelengths& wav
 double Illumination::environment_density(const LitPoint& at, const Vec3& direction) const {
     if (!data_->environment) return 0.0;
     return data_->probability_of_environment() * density_for(*data_->environment, at, direction);
+}
+
+Illumination::FarLight Illumination::far_light(const LitPoint& at, const Vec3& direction,
+                                               const Wavelengths& waves) const {
+    if (!data_->environment) return {};
+    const Environment::Sight sight = sight_for(*data_->environment, at, direction);
+    return {waves.emission(sight.radiance), data_->probability_of_environment() * sight.density};
+}
+
+bool Illumination::looks_up() const {
+    return data_->environment && data_->environment->is_looked_up();
+}
+
+void Illumination::fetch_guide(const Vec2& u) const {
+    data_->environment->fetch_guide(u);
+}
+
+void Illumination::fetch_texels(const Vec2& u) const {
+    data_->environment->fetch_texels(u);
 }
 
 }  // namespace alhazen

@@ -82,6 +82,8 @@ class Illumination {
     /// Whether some emitting surface is left to chance: `draw` and `emit` never give it.
     [[nodiscard]] bool leaves_some_to_chance() const;
 
+    /// Whether `draw` uses `choice`: there is more than one light.
+    [[nodiscard]] bool chooses() const;
     /// A direction to a light. `choice` and `u` in [0, 1).
     [[nodiscard]] LightDraw draw(const LitPoint& at, double choice, const Vec2& u,
                                  const Wavelengths& waves) const;
@@ -95,6 +97,19 @@ class Illumination {
     [[nodiscard]] Spectrum environment(const Vec3& direction, const Wavelengths& waves) const;
     /// The density with which `draw(at)` gives that direction to the environment.
     [[nodiscard]] double environment_density(const LitPoint& at, const Vec3& direction) const;
+
+    /// Both at once.
+    struct FarLight {
+        Spectrum radiance;
+        double density = 0;
+    };
+    [[nodiscard]] FarLight far_light(const LitPoint& at, const Vec3& direction,
+                                     const Wavelengths& waves) const;
+    /// Whether `draw` reads a picture of the sky; if so, what it will read for these numbers can be
+    /// fetched into the cache: first the guide, some draws later the texels.
+    [[nodiscard]] bool looks_up() const;
+    void fetch_guide(const Vec2& u) const;
+    void fetch_texels(const Vec2& u) const;
 
     /// A ray from a light into the scene.
     [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction,

@@ -22,6 +22,7 @@ class LightChooser {
     /// `choice` in [0, 1).
     [[nodiscard]] ChosenLight choose(double choice) const;
     [[nodiscard]] double probability(std::size_t light) const;
+    [[nodiscard]] std::size_t size() const { return sums_.size(); }
     [[nodiscard]] double total() const { return sums_.empty() ? 0.0 : sums_.back(); }
 
   private:

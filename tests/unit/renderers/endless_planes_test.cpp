@@ -89,5 +89,64 @@ TEST(EndlessPlanes, TheSunLightsOneAboveAllThatIsBounded) {
     }
 }
 
+/// Light from afar begins in it. Before, light paths knew nothing of the medium there; the same for
+/// an eye and a lamp that the water above all that is bounded holds.
+TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
+    Material water;
+    water.index.value = 1.0 + 1e-9;
+    water.dielectric = Dielectric{{0.3, 0.1, 0.05}};
+    Material fog = water;
+    fog.index.value = 1.0;
+    fog.scattering = {{0.2, 0.3, 0.2}, 0.3};
+    struct Case {
+        std::string name;
+        Plane plane;
+        Material material;
+    };
+    const std::vector<Case> cases{
+        {"water below", {{0, 0, -0.2}, {0, 0, 1}}, water},
+        {"water above all", {{0, 0, 9}, normalize(Vec3{0.1, 0, 1})}, water},
+        {"fog below", {{0, 0, -0.2}, {0, 0, 1}}, fog},
+        {"fog above all", {{0, 0, 9}, normalize(Vec3{0.1, 0, 1})}, fog}};
+    for (const Case& c : cases) {
+        SceneMaker maker;
+        maker.description().cameras[0].camera =
+            OrthographicCamera{{0, 0, 1.2}, {0, 0, -1}, {0.9, 0, 0}, {0, 0.9, 0}};
+        maker.description().picture.background = Rgb{0.5, 0.8, 1.2};
+        // Seen from above, and lit from below by way of a card aslant.
+        maker.add(ball({0.3, 0.2, 0.3}, 0.3), maker.material(matt({0.7, 0.7, 0.2})));
+        maker.add(rectangle({-0.6, -0.5, 0}, {0.5, 0, 0.5}, {0, 1, 0}),
+                  maker.material(matt({0.8, 0.8, 0.8})));
+        maker.add(rectangle({-0.1, -0.3, 0.4}, {0, 0.2, 0}, {0.2, 0, 0}),
+                  maker.material(shining({2, 2, 2})));
+        maker.add(c.plane, maker.material(c.material));
+        const Scene scene = maker.compile();
+        std::vector<std::string> renderers{"path_tracing:depth=5", "bidirectional:depth=5",
+                                           "vcm:photons=400,radius=0.02,pilot=off,depth=5"};
+        // Fog beside the disc of the light paths stays dark to it.
+        if (!scene.has_scattering) renderers.push_back("light_tracing:depth=5");
+        expect_same_light(scene, c.name, renderers, 24, kMost);
+    }
+}
+
+/// A sheet of glass with open edges, far from all light that is seen: it holds no point from which
+/// light comes from afar.
+TEST(EndlessPlanes, AnOpenSheetHoldsNoLightFromAfar) {
+    SceneMaker maker = table_under_the_sky();
+    maker.description().picture.background = Rgb{};
+    maker.add(Plane{{0, 0, -0.1}, {0, 0, 1}}, maker.material(matt({0.8, 0.8, 0.8})));
+    maker.light(DirectionalLight{.to_light = {0.75, 0.57, 0.1}, .color = {4, 4, 4}});
+    TriangleMesh sheet;
+    sheet.positions = {{-1, 0.5, 0.1}, {-1, 1.5, 0.1}, {-1, 1.5, 1.5}, {-1, 0.5, 1.5}};
+    sheet.triangles = {{0, 2, 1}, {0, 3, 2}};
+    Material tint;
+    tint.index.value = 1.2;
+    tint.dielectric = Dielectric{{0.4, 0.2, 0.2}};
+    maker.add(maker.mesh(sheet), maker.material(tint));
+    expect_same_light(maker.compile(), "open sheet",
+                      {"path_tracing:depth=5", "bidirectional:depth=5", "light_tracing:depth=5"},
+                      24, kMost);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/image_io.h"
@@ -37,6 +38,25 @@ TEST(EnvironmentOption, ASceneWithoutLightGetsTheStudioWhereLightIsFollowed) {
     EXPECT_TRUE(loaded.scene.lights.empty());
     // The others still get a headlight.
     EXPECT_EQ(complete_view(loaded.description, loaded.scene, {}).size(), 1u);
+}
+
+/// A point of light at the eye would be seen through water by renderers that send light from it,
+/// and by no others.
+TEST(EnvironmentOption, ABackgroundIsTheLightOfASceneWithoutWhereLightIsFollowed) {
+    for (const char* renderer : {"path_tracing", "bidirectional", "vcm", "sppm"}) {
+        LoadedScene loaded = loaded_ball();
+        loaded.description.picture.background = loaded.scene.background = Rgb{0.1, 0.2, 0.3};
+        EXPECT_TRUE(set_environment(loaded, "", renderer, {}).empty());
+        const FramingOptions options{.follows_light = follows_light(renderer)};
+        const auto notes = complete_view(loaded.description, loaded.scene, options);
+        ASSERT_EQ(notes.size(), 1u);
+        EXPECT_NE(notes[0].find("background"), std::string::npos) << notes[0];
+        EXPECT_TRUE(loaded.scene.lights.empty());
+        EXPECT_EQ(loaded.scene.background, (Rgb{0.1, 0.2, 0.3}));
+        // The others get their headlight.
+        EXPECT_EQ(complete_view(loaded.description, loaded.scene, {}).size(), 1u);
+        EXPECT_EQ(loaded.scene.lights.size(), 1u);
+    }
 }
 
 TEST(EnvironmentOption, ASceneThatGlowsGetsNothingWhereLightIsFollowed) {

@@ -257,8 +257,8 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     if (value.is_black()) return;
     FreeFlight flight;
     const Ray ray = from_lens(y, *joined);
-    const Spectrum seen = joins_.seen(
-        ray, time, media_from_lens(scene_, camera_, ray, time, y, behind_), waves_, &flight);
+    const Spectrum seen =
+        joins_.seen(ray, time, media_from_lens(camera_, ray, time, y, behind_), waves_, &flight);
     if (seen.is_black()) return;
     begin_path(a, 0);
     of_light(a - 1).from_eye = joined->density * y.facing(joined->to_lens) * y.reached(flight);

@@ -22,6 +22,8 @@ class VisibleBatch {
         : scene_(scene), stats_(stats), follows_light_(follows_light), constant_(scene) {}
     /// From now on surfaces are as exact optics have them, in the media of `path(k).medium`.
     void use(ExactOptics& optics) { optics_ = &optics; }
+    /// From now on surfaces of coverage 0 are reported that may be openings into volumes.
+    void report_openings() { reports_openings_ = true; }
 
     /// `path(k)` returns `kind`, `cone`, `inside` and `time` of ray k. Calls `tell(k, point, t)`
     /// once for each ray: with a null pointer where nothing is seen, else with the point and its
@@ -122,7 +124,7 @@ class VisibleBatch {
         Arrival arrival{path.inside, path.cone.width_at(t), path.time, meets_backs};
         if constexpr (std::is_same_v<AnyPath, Path>) arrival.medium = path.medium;
         set_shading_point(scene_, rest, hit, arrival, needs, point_);
-        if (point_.material->coverage > 0.0) {
+        if (point_.material->coverage > 0.0 || (reports_openings_ && !point_.material->thin)) {
             reported_ = &hit;
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
@@ -132,7 +134,7 @@ class VisibleBatch {
 
     const Scene& scene_;
     TraversalStats* stats_;
-    bool follows_light_;
+    bool follows_light_, reports_openings_ = false;
     ExactOptics* optics_ = nullptr;
     MaterialCache constant_;
     ShadingPoint point_;

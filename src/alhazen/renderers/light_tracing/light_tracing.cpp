@@ -87,8 +87,7 @@ class LightTiles final : public TileRenderer {
             v.importance_correction(joined->to_lens) * joined->density * (v.throughput * value);
         const Ray ray = from_lens(v, *joined);
         light =
-            light * joins_.seen(ray, time,
-                                media_from_lens(job_.scene, camera_, ray, time, v, behind_), waves);
+            light * joins_.seen(ray, time, media_from_lens(camera_, ray, time, v, behind_), waves);
         if (!light.is_black() && !splats_.add(joined->film, waves.color(light))) {
             ++counters_.non_finite;
         }

@@ -4,6 +4,7 @@
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
 
 namespace alhazen {
 
@@ -11,6 +12,7 @@ class CameraRays {
   public:
     explicit CameraRays(const RenderJob& job)
         : lens_(job.camera),
+          follows_volumes_(ScatteringMedia(job.scene).are_followed()),
           motion_(job.camera_motion),
           moves_(job.scene.has_motion || job.camera_motion != nullptr),
           finder_(job.scene),
@@ -22,6 +24,8 @@ class CameraRays {
         if (!parallel_) media_ = finder_.around(picture_plane(job.camera).eye, 0.0f);
     }
 
+    /// ScatteringMedia::are_followed.
+    [[nodiscard]] bool follows_volumes() const { return follows_volumes_; }
     /// Around the start of an eye ray: that of the eye as the shutter opens; of parallel cameras,
     /// whose rays begin at many places, each its own.
     [[nodiscard]] MediumStack media(const Ray& ray, float time) const {
@@ -51,6 +55,7 @@ class CameraRays {
 
   private:
     LensRays lens_;
+    bool follows_volumes_;
     const TransformMotion* motion_;
     bool moves_;
     MediaFinder finder_;

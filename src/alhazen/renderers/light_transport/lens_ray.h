@@ -17,13 +17,13 @@ namespace alhazen {
     return ray;
 }
 
-/// The volumes around the start of that ray. Where none scatters, those at the vertex: one is all
-/// along it. `behind`: as of PathVertex::media_along; the result may be in it.
-[[nodiscard]] inline const MediumStack& media_from_lens(const Scene& scene,
-                                                        const CameraRays& camera, const Ray& ray,
+/// The volumes around the start of that ray. Where none scatters and no boundary is open, those at
+/// the vertex: one is all along it. `behind`: as of PathVertex::media_along; the result may be in
+/// it.
+[[nodiscard]] inline const MediumStack& media_from_lens(const CameraRays& camera, const Ray& ray,
                                                         float time, const PathVertex& v,
                                                         MediumStack& behind) {
-    if (!scene.has_scattering) return v.media_along(-ray.direction, behind);
+    if (!camera.follows_volumes()) return v.media_along(-ray.direction, behind);
     behind = camera.media(ray, time);
     return behind;
 }

@@ -26,6 +26,7 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
       count_(counters[RayKind::Shadow]),
       stats_(stats),
       media_(scene),
+      faces_(scene),
       has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return !m.double_sided; })),
       met_(std::make_unique<bool[]>(kMostLightRays)) {
@@ -37,12 +38,13 @@ void LightBatch::add(const Ray& ray, float time, const MediumStack& media, const
                      const Spectrum& light, Spectrum& sum) {
     if (rays_.size() == kMostLightRays) finish();
     const Medium* const medium = media.here();
-    // Volumes that scatter may end on its way.
-    const Spectrum left = media_.any() || medium == nullptr || medium->absorption.is_black()
-                              ? light
-                              : light * left_by(medium, ray.t_max * length(ray.direction), waves);
+    // Volumes that are followed may end on its way.
+    const Spectrum left =
+        media_.are_followed() || medium == nullptr || medium->absorption.is_black()
+            ? light
+            : light * left_by(medium, ray.t_max * length(ray.direction), waves);
     if (left.is_black()) return;
-    if (media_.any()) around_.push_back(media);
+    if (media_.are_followed()) around_.push_back(media);
     rays_.push_back(ray);
     times_.push_back(time);
     waiting_.push_back({left, &waves, &sum});
@@ -56,7 +58,7 @@ void LightBatch::finish() {
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         count_.hit += met[i];
         const Waiting& w = waiting_[i];
-        if (media_.any()) {
+        if (media_.are_followed()) {
             *w.sum += through_volumes(rays_[i], times_[i], RayKind::Shadow, around_[i], *w.waves,
                                       met[i], nullptr) *
                       w.light;
@@ -95,7 +97,7 @@ Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const Med
     ++count_.cast;
     const bool met = scene_.aggregate->occluded(ray, query(time, kind));
     count_.hit += met;
-    if (media_.any()) return through_volumes(ray, time, kind, media, waves, met, flight);
+    if (media_.are_followed()) return through_volumes(ray, time, kind, media, waves, met, flight);
     if (met && scene_.all_opaque) return {};
     const Spectrum left = left_by(media.here(), ray.t_max * length(ray.direction), waves);
     return met ? left * through_surfaces(ray, time, kind, waves) : left;
@@ -145,7 +147,9 @@ Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
         from = to;
     };
     if (met) {
+        crossed_.clear();
         for (const Hit& crossing : crossings_) {
+            if (take_crossed(crossing)) continue;
             pass_volume(crossing.t);
             share = share * through(ray, time, kind, crossing, waves, &around);
             if (share.is_black()) return share;
@@ -155,19 +159,41 @@ Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
     return share;
 }
 
+bool LightBatch::take_crossed(const Hit& hit) {
+    if (crossed_.empty()) return false;
+    const std::uint64_t part = part_number(parts_of(*scene_.aggregate, hit));
+    for (OtherFace& face : crossed_) {
+        if (face.inside.part != part) continue;
+        face = crossed_.back();
+        crossed_.pop_back();
+        return true;
+    }
+    return false;
+}
+
 Spectrum LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                             const Wavelengths& waves, MediumStack* media) const {
+                             const Wavelengths& waves, MediumStack* media) {
     ShadingPoint point;
     const bool inside = media != nullptr && !media->empty();
-    set_shading_point(scene_, ray, crossing, {inside, 0.0, time, kind != RayKind::Eye}, {}, point);
+    const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};
+    set_shading_point(scene_, ray, crossing, arrival, {}, point);
+    if (media != nullptr) {
+        faces_.find(point, ray.direction, arrival, mask_of(kind));
+        crossed_ = faces_.others();
+    }
     const double coverage = point.material->coverage;
-    if (coverage == 0.0) return Spectrum::all(1);
+    if (coverage == 0.0 && media == nullptr) return Spectrum::all(1);
     Spectrum covered;
     if (point.material->thin || media != nullptr) {
         ScatterPoint scatter;
-        scatter.set(scene_, point, media != nullptr ? *media : MediumStack(), waves);
+        scatter.set(scene_, point, media != nullptr ? *media : MediumStack(), waves, false, nullptr,
+                    media != nullptr ? &crossed_ : nullptr);
         covered = scatter.straight();
-        if (scatter.is_null_boundary()) scatter.cross(*media);
+        if (scatter.is_null_boundary()) {
+            scatter.cross(*media);
+        } else if (media != nullptr && coverage < 1.0) {
+            scatter.cross_opening(*media);
+        }
     }
     return Spectrum::all(1.0 - coverage) + coverage * covered;
 }

@@ -3,14 +3,15 @@
 ///
 /// Conventions: alpha coverage and thin sheets let light through, tinted; what bends light blocks
 /// it, for a straight connection does not exist there. Where volumes scatter, boundaries that do
-/// not bend it let it into the next volume. Single-sided surfaces block from both sides; the eye
-/// alone does not see their backs.
+/// not bend it let it into the next volume; so do the openings of those that cover in part.
+/// Single-sided surfaces block from both sides; the eye alone does not see their backs.
 
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/coincident_faces.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/scene/scene.h"
@@ -63,7 +64,9 @@ class LightBatch {
                                            bool met, FreeFlight* flight);
     /// `media`: those before it, then those behind; null: it cannot lie between volumes.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                                   const Wavelengths& waves, MediumStack* media) const;
+                                   const Wavelengths& waves, MediumStack* media);
+    /// Takes the face of that hit from those that have been crossed, if it is one of them.
+    [[nodiscard]] bool take_crossed(const Hit& hit);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
                                    const MediumStack& media, const Wavelengths& waves,
                                    FreeFlight* flight);
@@ -72,13 +75,15 @@ class LightBatch {
     RayCount& count_;
     TraversalStats* stats_;
     ScatteringMedia media_;
+    CoincidentFaces faces_;
     bool has_single_sided_;
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::vector<float> times_;
-    std::vector<MediumStack> around_;  ///< [ray]; where some volume scatters
+    std::vector<MediumStack> around_;  ///< [ray]; where volumes are followed
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
+    OtherFaces crossed_;  ///< that coincide with the last crossing, and need not be crossed again
 };
 
 }  // namespace alhazen

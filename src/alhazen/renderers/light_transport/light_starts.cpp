@@ -12,6 +12,7 @@ namespace alhazen {
 LightStarts::LightStarts(const Scene& scene)
     : scene_(scene),
       media_(scene),
+      scattering_(scene),
       is_endless_(reaches_infinity(scene)),
       radius_(is_endless_ ? sphere_around_bounded(scene).radius : 0.0) {}
 
@@ -30,12 +31,24 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     start.throughput = (cosine / densities) * light.radiance;
     start.parallel = light.infinite;
     if (light.infinite) {
-        if (is_endless_ && !begin_before_all(start.ray, time)) start.throughput = {};
+        if (is_endless_) begin_from_infinity(start);
     } else {
         start.media = media_.around(light.ray.origin, time);
     }
     start.density = light.infinite ? light.place_density : light.direction_density;
     return start;
+}
+
+void LightStarts::begin_from_infinity(WalkStart& start) const {
+    if (!begin_before_all(start.ray, start.time)) {
+        start.throughput = {};
+        return;
+    }
+    start.media = media_.without_end_around(start.ray.origin, start.time);
+    const Extinction taken = scattering_.extinction(start.media.here());
+    if (taken.is_black()) return;
+    start.throughput = start.throughput * transmittance(taken.of(*start.waves),
+                                                        std::numeric_limits<double>::infinity());
 }
 
 bool LightStarts::begin_before_all(Ray& ray, float time) const {

@@ -3,7 +3,8 @@
 ///
 /// Conventions: rays of the environment and of parallel light come from a disc before all that is
 /// bounded (Illumination::emit). Where something is endless they begin before its last crossing, so
-/// that it reflects, bends or blocks them as it does any light.
+/// that it reflects, bends or blocks them as it does any light. What comes from afar in a volume
+/// without end that takes light is black.
 /// Threads: const functions may be called from many.
 
 #include <vector>
@@ -11,6 +12,7 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
 
 namespace alhazen {
 
@@ -25,9 +27,12 @@ class LightStarts {
     /// Moves the origin back. False where something opaque lies too far away to begin before it:
     /// no light comes through.
     [[nodiscard]] bool begin_before_all(Ray& ray, float time) const;
+    /// Moves the beginning of light from afar before all that is endless, into the volumes there.
+    void begin_from_infinity(WalkStart& start) const;
 
     const Scene& scene_;
     MediaFinder media_;
+    ScatteringMedia scattering_;
     bool is_endless_;
     double radius_;  ///< of a sphere around what is bounded
 };

@@ -11,8 +11,14 @@
 #include "alhazen/base/inline_vector.h"
 #include "alhazen/base/unmade.h"
 #include "alhazen/imaging/image/rgb.h"
+#include "alhazen/primitives/surface.h"
 
 namespace alhazen {
+
+/// Of a part as it was placed.
+[[nodiscard]] inline std::uint64_t part_number(const HitParts& parts) {
+    return std::uint64_t{parts.instance} << 32 | parts.part;
+}
 
 struct Medium {
     std::uint64_t part = 0;  ///< that bounds it
@@ -44,6 +50,16 @@ class MediumStack {
     void enter(const Medium& medium) {
         if (media_.full()) remove(0);
         media_.push_back(medium);
+    }
+    /// Puts around them the volumes of `other` that `known` lacks, by part or by material.
+    void surround(const MediumStack& other, const MediumStack& known) {
+        MediumStack all;
+        for (const Unmade<Medium>& m : other.media_) {
+            if (known.place_of(m.value) == known.media_.size()) all.enter(m.value);
+        }
+        if (all.empty()) return;
+        for (const Unmade<Medium>& m : media_) all.enter(m.value);
+        *this = all;
     }
     /// Nothing happens where the volume was never entered.
     void leave(const Medium& volume) {

@@ -33,13 +33,30 @@ bool RandomWalk::scatters_within(Front& front, const Medium& medium,
     return true;
 }
 
+void RandomWalk::absorb(Front& front, double length) const {
+    // What scatters has taken its share.
+    if (const Medium* const medium = front.media.here();
+        medium != nullptr && scattering_.in(*medium) == nullptr) {
+        front.throughput =
+            front.throughput * transmittance(front.waves.absorption(medium->absorption), length);
+    }
+}
+
+void RandomWalk::pass_opening(Front& front) {
+    opening_.set(scene_, point_, front.media, front.waves, false, &bsdfs_);
+    if (!opening_.bounds_volume()) return;
+    absorb(front, segment_);
+    segment_ = 0.0;
+    opening_.cross(front.media);
+}
+
 RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const WalkStart& start) {
     segment_ = 0.0;
     Ray& ray = front.ray;
-    const Medium* const medium = front.media.here();
-    const VolumeScattering* const scattering =
-        medium != nullptr ? scattering_.in(*medium) : nullptr;
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
+        const Medium* const medium = front.media.here();
+        const VolumeScattering* const scattering =
+            medium != nullptr ? scattering_.in(*medium) : nullptr;
         ++counters_[kind_].cast;
         hit_ = Hit();
         const bool found =
@@ -50,14 +67,20 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const Wal
         }
         if (!found) return Meets::Nothing;
         ++counters_[kind_].hit;
-        set_shading_point(scene_, ray, hit_,
-                          {!front.media.empty(), 0.0, start.time, kind_ != RayKind::Eye},
-                          {.constant = &constant_}, point_);
+        const Arrival arrival{!front.media.empty(), 0.0, start.time, kind_ != RayKind::Eye};
+        set_shading_point(scene_, ray, hit_, arrival, {.constant = &constant_}, point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (luck.chance.stops(luck.id, of_walk(luck, met_++), point_.material->coverage)) {
+            faces_.find(point_, ray.direction, arrival, mask_of(kind_));
+            if (faces_.opaque()) {
+                hit_ = *faces_.opaque();
+                set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
+                                  point_);
+            }
             return Meets::Surface;
         }
+        if (scattering_.has_open_boundaries()) pass_opening(front);
         ray = leaving_ray(point_.surface, ray.direction);
     }
     return Meets::Nothing;
@@ -110,7 +133,7 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     PathVertex& v = ends.v;
     const bool from_eye = transport == Transport::Radiance;
     if (from_eye) set_emission(front, ends);
-    v.scatter.set(scene_, point_, front.media, front.waves, true, &bsdfs_);
+    v.scatter.set(scene_, point_, front.media, front.waves, true, &bsdfs_, &faces_.others());
     if (v.scatter.needs_hero()) {
         front.waves.keep_hero(front.throughput);
         v.throughput = front.throughput;
@@ -171,13 +194,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
     int count = 0;
     for (std::uint32_t pair = luck.first_pair; count < luck.most; pair += kWalkPairs) {
         const Meets meets = find(front, luck, start);
-        // What scatters has taken its share.
-        if (const Medium* const medium = front.media.here();
-            medium != nullptr && scattering_.in(*medium) == nullptr) {
-            front.throughput =
-                front.throughput * transmittance(front.waves.absorption(medium->absorption),
-                                                 meets == Meets::Nothing ? kEndless : segment_);
-        }
+        absorb(front, meets == Meets::Nothing ? kEndless : segment_);
         if (meets == Meets::Nothing) {
             escape_ = {true, front.ray.direction, front.throughput,
                        front.density * flight_.passing(),

@@ -50,7 +50,8 @@ class RandomWalk {
           stats_(stats),
           scattering_(scene),
           constant_(scene),
-          bsdfs_(scene) {}
+          bsdfs_(scene),
+          faces_(scene) {}
 
     /// Sets `vertices`. A path from the eye that leaves the scene sets `escaped`; its direction and
     /// density by solid angle are those of the last ray.
@@ -81,6 +82,10 @@ class RandomWalk {
 
     /// What it stops at next: a surface, or a point in a volume where the ray then begins.
     [[nodiscard]] Meets find(Front& front, const WalkLuck& luck, const WalkStart& start);
+    /// A medium that does not scatter takes its share of a stretch.
+    void absorb(Front& front, double length) const;
+    /// Goes into or out of a volume where the surface does not cover.
+    void pass_opening(Front& front);
     /// Whether a stretch of that length in a medium that scatters does, before its end.
     [[nodiscard]] bool scatters_within(Front& front, const Medium& medium,
                                        const VolumeScattering& scattering, double length,
@@ -113,6 +118,8 @@ class RandomWalk {
     MaterialCache constant_;
     BsdfCache bsdfs_;
     ShadingPoint point_;
+    CoincidentFaces faces_;  ///< at the point
+    ScatterPoint opening_;   ///< a surface that is passed where it does not cover
     Hit hit_;
     double travelled_ = 0;  ///< since the last vertex
     double segment_ = 0;    ///< of it in the ray at hand

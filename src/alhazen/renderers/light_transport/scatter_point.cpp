@@ -8,10 +8,6 @@ namespace alhazen {
 
 namespace {
 
-std::uint64_t part_of(const Surface& surface) {
-    return std::uint64_t{surface.instance} << 32 | surface.part;
-}
-
 /// Sets the BSDF at the point; of blended materials their weighted sum.
 void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, BsdfCache* known,
               Bsdf& bsdf) {
@@ -37,8 +33,15 @@ void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place
 
 }  // namespace
 
+Medium ScatterPoint::volume_of(const ShadingPoint& point) {
+    const MaterialSample& material = *point.material;
+    return {part_number({point.surface.part, point.surface.instance}), material.index,
+            material.absorption, static_cast<std::uint32_t>(point.surface.materials[0])};
+}
+
 void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-                       const Wavelengths& waves, bool both_ways, BsdfCache* known) {
+                       const Wavelengths& waves, bool both_ways, BsdfCache* known,
+                       const OtherFaces* others) {
     const Surface& surface = point.surface;
     const MaterialSample& material = *point.material;
     geometric_ = point.geometric;
@@ -49,8 +52,9 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     const bool has_tangent = surface.tangent != Vec3{};
     frame_ = ShadingFrame::of(point.normal, has_tangent ? surface.tangent : surface.dpdu);
     local_view_ = frame_.to_local(view_);
-    inside_ = {part_of(surface), material.index, material.absorption,
-               static_cast<std::uint32_t>(surface.materials[0])};
+    inside_ = volume_of(point);
+    others_.clear();
+    if (others != nullptr) others_ = *others;
     media_known_ = point.behind.known;
     if (media_known_) {
         behind_inside_ = point.behind.inside;
@@ -99,6 +103,15 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     }
     const double own = point.material->index;
     if (thin_ || !(own > 0.0)) return {};
+    if (!others_.empty()) {
+        MediumStack behind = media;
+        cross(behind);
+        const auto index = [&](const Medium* m) {
+            return m == nullptr ? Spectrum::all(air)
+                                : index_of(material(m->material), m->index, waves);
+        };
+        return over(index(media.here()), index(behind.here()));
+    }
     const Medium* const around = entering_ ? media.here() : media.without(inside_);
     const double outside = around != nullptr ? around->index : air;
     if (!waves.is_spectral()) return Spectrum::all(entering_ ? outside / own : own / outside);
@@ -177,10 +190,19 @@ void ScatterPoint::cross(MediumStack& media) const {
     if (media_known_) {
         media = {};
         if (behind_inside_) media.enter(inside_);
-    } else if (entering_) {
-        media.enter(inside_);
     } else {
-        media.leave(inside_);
+        // What is left first: what is entered is inside of all that stays.
+        if (!entering_) media.leave(inside_);
+        for (const OtherFace& other : others_) {
+            if (!other.entering) media.leave(other.inside);
+        }
+        for (const OtherFace& other : others_) {
+            if (other.entering && other.around) media.enter(other.inside);
+        }
+        if (entering_) media.enter(inside_);
+        for (const OtherFace& other : others_) {
+            if (other.entering && !other.around) media.enter(other.inside);
+        }
     }
 }
 

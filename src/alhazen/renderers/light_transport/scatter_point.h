@@ -13,6 +13,7 @@
 
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/light_transport/bsdf_cache.h"
+#include "alhazen/renderers/light_transport/coincident_faces.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/renderers/light_transport/shading_frame.h"
 #include "alhazen/shading/bsdf/bsdf.h"
@@ -34,9 +35,13 @@ struct Scattered {
 class ScatterPoint {
   public:
     /// `media`: around the path before the surface. `both_ways`: `reverse_density` will be asked.
-    /// `known`: BSDFs that many points share; null: there are none.
+    /// `known`: BSDFs that many points share; null: there are none. `others`: faces that coincide
+    /// with the surface and are crossed with it; null: none.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
-             const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr);
+             const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr,
+             const OtherFaces* others = nullptr);
+    /// The volume that a surface bounds.
+    [[nodiscard]] static Medium volume_of(const ShadingPoint& point);
 
     /// Whether the point is that of the hero alone: Wavelengths::keep_hero is due before anything
     /// is asked.
@@ -59,6 +64,8 @@ class ScatterPoint {
     [[nodiscard]] double reverse_density(const Vec3& direction) const;
     [[nodiscard]] std::optional<Scattered> sample(double choice, const Vec2& u,
                                                   Transport transport) const;
+    /// Whether `sample` uses `choice`.
+    [[nodiscard]] bool chooses() const { return !null_ && bsdf_.chooses(); }
 
     /// Both ways of a smooth boundary between clear media, reflection first, weighed without a
     /// choice; none where one of them is all, at other surfaces, and where it disperses.
@@ -98,6 +105,10 @@ class ScatterPoint {
     }
     /// The media beyond the surface, for a path that is transmitted.
     void cross(MediumStack& media) const;
+    /// The same for one that goes straight on where the surface does not cover.
+    void cross_opening(MediumStack& media) const {
+        if (bounds_volume()) cross(media);
+    }
 
   private:
     /// The index on the side of the view over that behind, of each wavelength; 0 where the material
@@ -113,6 +124,7 @@ class ScatterPoint {
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;
     Medium inside_;  ///< of the volume that the surface bounds
+    OtherFaces others_;
     bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
     bool null_ = false;
     bool media_known_ = false;  ///< a solid tells what is behind

@@ -1,6 +1,8 @@
 #pragma once
 /// Which media of a scene scatter light, and what a medium takes from a ray.
 
+#include <algorithm>
+
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
@@ -25,12 +27,29 @@ struct Extinction {
     }
 };
 
+/// Whether the surface may bound a volume: false of opaque ones and thin sheets.
+[[nodiscard]] inline bool may_bound_volume(const Material& m) {
+    if (m.conductor || m.dielectric) return m.dielectric.has_value();
+    if (const auto& p = m.metallic_roughness) {
+        return p->transmission.value > 0.0 && p->thickness.value > 0.0;
+    }
+    return m.transmissive.texture != kNoTexture || !m.transmissive.color.is_black();
+}
+
 class ScatteringMedia {
   public:
-    explicit ScatteringMedia(const Scene& scene) : scene_(scene) {}
+    explicit ScatteringMedia(const Scene& scene)
+        : scene_(scene),
+          open_(std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+              return m.alpha_mode != AlphaMode::Opaque && may_bound_volume(m);
+          })) {}
 
     /// Whether some medium does.
     [[nodiscard]] bool any() const { return scene_.has_scattering; }
+    /// Whether some boundary of a volume may cover in part, and be open for the rest.
+    [[nodiscard]] bool has_open_boundaries() const { return open_; }
+    /// Whether a straight ray may go through more than one volume.
+    [[nodiscard]] bool are_followed() const { return any() || open_; }
     /// Of a medium; null: it does not.
     [[nodiscard]] const VolumeScattering* in(const Medium& medium) const {
         if (!any()) return nullptr;
@@ -47,6 +66,7 @@ class ScatteringMedia {
 
   private:
     const Scene& scene_;
+    bool open_;
 };
 
 }  // namespace alhazen

@@ -16,6 +16,8 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
     : job_(job),
       scene_(job.scene),
       lights_(lights),
+      fetches_(lights.looks_up()),
+      chooses_light_(lights.chooses()),
       settings_(settings),
       counters_(counters),
       chance_(job),
@@ -23,9 +25,11 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       bsdfs_(scene_),
+      faces_(scene_),
       media_(scene_),
       layers_(layers),
       manifold_(manifold) {
+    if (media_.has_open_boundaries()) visible_.report_openings();
     if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
 }
 
@@ -124,6 +128,7 @@ void PathTracer::bounce(bool first) {
         rays_, first ? Coherence::Coherent : Coherence::Any,
         [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },
         [&](std::size_t k, const ShadingPoint* point, double t) {
+            if (fetches_) fetch_ahead(k);
             EyePath& path = paths_[alive_[k]];
             Spectrum& sum = light_[path.sample];
             if (path.sample == recorded_) record_ray(path, rays_[k], point, t);
@@ -206,19 +211,43 @@ double PathTracer::limit_of(const Spectrum& light, int scatterings) const {
     return largest > settings_.clamp ? settings_.clamp / largest : 1.0;
 }
 
+void PathTracer::fetch_ahead(std::size_t k) {
+    constexpr std::size_t kTexels = 4, kGuide = 8;
+    const auto place = [&](std::size_t later) {
+        const EyePath& path = paths_[alive_[later]];
+        return chance_.draw(path.sample, path.drawn, PathChance::kLight);
+    };
+    if (k + kGuide < alive_.size()) lights_.fetch_guide(place(k + kGuide));
+    if (k + kTexels < alive_.size()) lights_.fetch_texels(place(k + kTexels));
+}
+
 void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
-    Spectrum light = path.throughput * lights_.environment(ray.direction, waves(path));
+    Illumination::FarLight far;
+    if (path.singular) {
+        far.radiance = lights_.environment(ray.direction, waves(path));
+    } else {
+        far = lights_.far_light(path.from, ray.direction, waves(path));
+    }
+    Spectrum light = path.throughput * far.radiance;
     if (light.is_black()) return;
     if (const Medium* medium = path.media.here();
         medium != nullptr && media_.in(*medium) == nullptr) {
         light = light * transmittance(waves(path).absorption(medium->absorption),
                                       std::numeric_limits<double>::infinity());
     }
-    if (!path.singular) {
-        const double other = lights_.environment_density(path.from, ray.direction);
-        light = power_heuristic(path.density, other) * light;
-    }
+    if (!path.singular) light = power_heuristic(path.density, far.density) * light;
     add(path, light, sum);
+}
+
+void PathTracer::pass(EyePath& path, const Ray& ray, const ShadingPoint& point) {
+    if (path.met >= kMaxPassedSurfaces) return record_step(path, PathStep::PassedMost);
+    record_step(path, PathStep::Straight);
+    if (media_.has_open_boundaries()) {
+        scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
+        scatter_.cross_opening(path.media);
+        path.inside = !path.media.empty();
+    }
+    go_on(path, leaving_ray(point.surface, ray.direction));
 }
 
 void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
@@ -229,14 +258,18 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     path.travelled += t;
     path.cone = path.cone.from(t);
     if (!chance_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
-        if (path.met < kMaxPassedSurfaces) {
-            record_step(path, PathStep::Straight);
-            go_on(path, leaving_ray(point.surface, ray.direction));
-        } else {
-            record_step(path, PathStep::PassedMost);
-        }
-        return;
+        return pass(path, ray, point);
     }
+    if (scene_.all_opaque) return stop(path, ray, hit, point, sum);
+    const Arrival arrival{path.inside, path.cone.width, path.time, path.kind != RayKind::Eye};
+    faces_.find(point, ray.direction, arrival, mask_of(path.kind));
+    if (!faces_.opaque()) return stop(path, ray, hit, point, sum);
+    set_shading_point(scene_, faces_.ray(), *faces_.opaque(), arrival, {}, opaque_face_);
+    stop(path, ray, *faces_.opaque(), opaque_face_, sum);
+}
+
+void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
+                      Spectrum& sum) {
     add_emission(path, ray, hit, point, sum);
     const bool deepest = path.scatterings >= settings_.depth;
     // What scatters in volumes has boundaries that are no scatterings.
@@ -244,12 +277,13 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }
-    scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
+    scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
     if (deepest && !scatter_.is_null_boundary()) {
         record_step(path, PathStep::Deepest);
         return;
     }
     if (scatter_.needs_hero()) keep_hero(path);
+    leaving_.emplace(point.surface);
     if (scatter_.has_density()) {
         add_direct_light(path, point, sum);
         if (chains_) add_chains(path, point, sum);
@@ -275,9 +309,9 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
 
 void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
     const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
-    const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
+    const double choice = choices(path, chooses_light_).y;
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
-    const LightDraw drawn = lights_.draw(at, choices.y, place, waves(path));
+    const LightDraw drawn = lights_.draw(at, choice, place, waves(path));
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
@@ -291,7 +325,7 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
         behind_ = path.media;
         scatter_.cross(behind_);
     }
-    const Ray shadow = leaving_ray(point.surface, drawn.to_light, kBeforeEnd * drawn.distance);
+    const Ray shadow = leaving_->along(drawn.to_light, kBeforeEnd * drawn.distance);
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
     Spectrum* const waiting = record_shadow(path, shadow, shown);
     Spectrum& to = waiting != nullptr ? *waiting
@@ -333,8 +367,8 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     const LitPoint at = LitPoint::inside_volume(ray.origin);
     if (path.scatterings == 0) path.first = {.transmitted = true};
     const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
-    const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
-    const LightDraw drawn = lights_.draw(at, choices.y, place, waves(path));
+    const double choice = choices(path, chooses_light_).y;
+    const LightDraw drawn = lights_.draw(at, choice, place, waves(path));
     if (drawn.density > 0.0 && !drawn.radiance.is_black()) {
         const double phase = henyey_greenstein(dot(ray.direction, drawn.to_light), g);
         double weight = phase / drawn.density;
@@ -379,8 +413,9 @@ void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spec
 
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
-    const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
-    const std::optional<Scattered> drawn = scatter_.sample(choices.x, u, Transport::Radiance);
+    const bool has_lobes = scatter_.has_density() || scatter_.has_singular();
+    const double choice = choices(path, has_lobes && scatter_.chooses()).x;
+    const std::optional<Scattered> drawn = scatter_.sample(choice, u, Transport::Radiance);
     if (!drawn || drawn->weight.is_black()) return;
     path.throughput = path.throughput * drawn->weight;
     if (drawn->dispersed) keep_hero(path);
@@ -422,7 +457,7 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         path.inside = !path.media.empty();
     }
     if (!survives(path)) return;
-    go_on(path, leaving_ray(point.surface, drawn->direction));
+    go_on(path, leaving_->along(drawn->direction));
 }
 
 bool PathTracer::survives(EyePath& path) {

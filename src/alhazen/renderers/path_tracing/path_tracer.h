@@ -101,11 +101,22 @@ class PathTracer {
     [[nodiscard]] bool cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
                                     Spectrum& sum);
     void scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray, Spectrum& sum);
+    /// Fetches what paths after the `k`-th will read when they draw a light.
+    void fetch_ahead(std::size_t k);
     void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
+    /// Goes straight on where the surface does not cover.
+    void pass(EyePath& path, const Ray& ray, const ShadingPoint& point);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
+              Spectrum& sum);
+    /// At the surface where the path stops: what its light does there.
+    void stop(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
               Spectrum& sum);
     void add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
                       const ShadingPoint& point, Spectrum& sum);
+    /// The numbers of choices at the next scattering. `needed`: some choice is not certain.
+    [[nodiscard]] Vec2 choices(const EyePath& path, bool needed) {
+        return needed ? chance_.draw(path.sample, path.drawn, PathChance::kChoices) : Vec2{};
+    }
     void add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
     /// Light by way of mirrors and glass.
     void add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
@@ -141,6 +152,8 @@ class PathTracer {
     const RenderJob& job_;
     const Scene& scene_;
     const Illumination& lights_;
+    bool fetches_;        ///< Illumination::looks_up
+    bool chooses_light_;  ///< Illumination::chooses
     PathSettings settings_;
     RayCounters& counters_;
     PathChance chance_;
@@ -149,6 +162,9 @@ class PathTracer {
     LightBatch shadows_;
     BsdfCache bsdfs_;
     ScatterPoint scatter_;
+    std::optional<LeavingRays> leaving_;  ///< the surface at hand
+    CoincidentFaces faces_;
+    ShadingPoint opaque_face_;  ///< of them, where it is met
     ScatteringMedia media_;
     MediumStack behind_;             ///< the surface at hand
     LightLayers* layers_;            ///< null: none is wanted

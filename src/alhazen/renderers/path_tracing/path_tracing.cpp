@@ -12,8 +12,9 @@ namespace alhazen {
 
 namespace {
 
-/// Enough that the batch stays worth its casts while paths end.
-constexpr std::size_t kPathsAtOnce = 1024;
+/// Enough that the batch stays worth its casts while paths end; few enough for its paths to stay in
+/// the cache.
+constexpr std::size_t kPathsAtOnce = 256;
 
 class PathTiles final : public TiledRenderer {
   public:

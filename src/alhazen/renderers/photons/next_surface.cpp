@@ -31,16 +31,24 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
         }
         ++counters_[path.kind].hit;
         if (cross_medium(path, hit_.t, numbers)) return PathMeets::Volume;
-        set_shading_point(
-            scene_, path.ray, hit_,
-            {!path.media.empty(), path.cone.width_at(hit_.t), path.time, path.kind != RayKind::Eye},
-            {}, point_);
+        const Arrival arrival{!path.media.empty(), path.cone.width_at(hit_.t), path.time,
+                              path.kind != RayKind::Eye};
+        set_shading_point(scene_, path.ray, hit_, arrival, {}, point_);
         path.cone = path.cone.from(hit_.t);
         path.travelled += hit_.t;
         const double coverage = point_.material->coverage;
         const std::uint32_t number = path.met++;
         if (coverage >= 1.0 || numbers.at(kCoverage + number) < coverage) {
+            faces_.find(point_, path.ray.direction, arrival, mask_of(path.kind));
+            if (faces_.opaque()) {
+                hit_ = *faces_.opaque();
+                set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
+            }
             return PathMeets::Surface;
+        }
+        if (media_.has_open_boundaries()) {
+            opening_.set(scene_, point_, path.media, *path.waves);
+            opening_.cross_opening(path.media);
         }
         path.ray = leaving_ray(point_.surface, path.ray.direction);
     }

@@ -2,7 +2,8 @@
 /// The end of a path on its way from surface to surface, for paths that are followed one by one.
 ///
 /// Conventions: surfaces that are there in part are met by chance, by their coverage; those of
-/// coverage 0 are passed. Media take their share of the light; where one scatters it the path may
+/// coverage 0 are passed. Openings lead into the volumes that the surfaces bound. Media take their
+/// share of the light; where one scatters it the path may
 /// end before the next surface.
 
 #include <cstdint>
@@ -49,7 +50,7 @@ struct VolumePoint {
 class NextSurface {
   public:
     NextSurface(const Scene& scene, RayCounters& counters, TraversalStats* stats)
-        : scene_(scene), counters_(counters), stats_(stats), media_(scene) {}
+        : scene_(scene), counters_(counters), stats_(stats), media_(scene), faces_(scene) {}
 
     /// Goes on to where the path stops next: Nothing where it leaves the scene.
     [[nodiscard]] PathMeets find(PathEnd& path, const PathNumbers& numbers);
@@ -59,6 +60,8 @@ class NextSurface {
     [[nodiscard]] const VolumePoint& volume() const { return volume_; }
     [[nodiscard]] const ScatteringMedia& media() const { return media_; }
     [[nodiscard]] const Hit& hit() const { return hit_; }
+    /// Those that are crossed with the surface that was found.
+    [[nodiscard]] const OtherFaces& others() const { return faces_.others(); }
     /// Continues from what was found. The point of the surface is `at`.
     static void go_on(PathEnd& path, const ShapeSurface& at, const ScatterPoint& scatter,
                       const Scattered& drawn);
@@ -74,6 +77,8 @@ class NextSurface {
     TraversalStats* stats_;
     ScatteringMedia media_;
     ShadingPoint point_;
+    CoincidentFaces faces_;  ///< at the point
+    ScatterPoint opening_;   ///< a surface that is passed where it does not cover
     VolumePoint volume_;
     Hit hit_;
 };

@@ -120,7 +120,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         const ShadingPoint& point = next_.point();
         if (point.material->unlit) return true;
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
-        scatter_.set(scene_, point, path.media, waves);
+        scatter_.set(scene_, point, path.media, waves, false, nullptr, &next_.others());
         if (scatter_.is_null_boundary()) {
             // No event: its way goes on straight.
             if (path.met > kMaxPassedSurfaces) return true;

@@ -314,7 +314,9 @@ std::vector<std::string> complete_view(SceneDescription& description, Scene& sce
     }
     if (options.nothing_around) return notes;
     if (options.follows_light && (scene.environment || glows(scene))) return notes;
-    if (lacks_light(description, scene)) {
+    if (options.follows_light && lacks_light(description, scene) && !scene.background.is_black()) {
+        notes.push_back("no lights in the file: its background lights it (--environment)");
+    } else if (lacks_light(description, scene)) {
         const Light light = headlight(find_camera(scene, options.camera).camera);
         description.lights.push_back({"headlight", light, {}});
         scene.lights.push_back(light);

@@ -44,7 +44,7 @@ struct FramingOptions {
     std::optional<ViewAngles> view;  ///< if given: a framing camera is put before those of the file
     std::string camera;              ///< the selected camera; empty: the first
     double aspect = 4.0 / 3.0;       ///< width / height of the picture
-    bool follows_light = false;      ///< of the renderer: an environment lights the scene
+    bool follows_light = false;      ///< of the renderer: environment and background light it
     bool nothing_around = false;     ///< neither lights nor surroundings are added
 };
 
@@ -56,10 +56,12 @@ struct FramingOptions {
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was
 /// added and the file has none. Formats whose scenes are meant as they are get no light
-/// (ImportConventions::headlight). A scene with lights of its own and without a background gets dim
-/// grey surroundings where its format has none (ImportConventions::surroundings). Returns what was
-/// done, a sentence each. A scene that gets a camera must have its aggregate. Throws Error: Scene
-/// when there is nothing to frame, Usage as find_camera.
+/// (ImportConventions::headlight). Where light is followed a background is one: a point at the eye
+/// would be found behind water by those alone that send light from it. A scene with lights of its
+/// own and without a background gets dim grey surroundings where its format has none
+/// (ImportConventions::surroundings). Returns what was done, a sentence each. A scene that gets a
+/// camera must have its aggregate. Throws Error: Scene when there is nothing to frame, Usage as
+/// find_camera.
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,
                                        const FramingOptions& options);
 

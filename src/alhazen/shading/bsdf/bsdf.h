@@ -64,6 +64,8 @@ class Bsdf {
     /// `choice` and `u` in [0, 1). Empty where the light is absorbed.
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
+    /// Whether `sample` uses `choice`.
+    [[nodiscard]] bool chooses() const { return !matt_.is; }
     /// Share of the light from all directions that goes to `view`, or a close approximation.
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
     /// False: only singular lobes, or none: lights need not be sampled.

@@ -159,19 +159,48 @@ Rgb DirectionPicture::radiance_at(const Place& place) const {
     const double left = std::floor(x), above = std::floor(y);
     const double fx = x - left, fy = y - above;
     const int i = static_cast<int>(left), j = static_cast<int>(above);
+    const bool is_within = i >= 0 && i + 1 < picture_.width && j >= 0 && j + 1 < picture_.height;
+    if (is_within && picture_.channels >= 3) {
+        const float *p = picture_.pixel(i, j), *q = picture_.pixel(i, j + 1);
+        const int next = picture_.channels;
+        const auto at = [](const float* t) { return Rgb{t[0], t[1], t[2]}; };
+        return (1.0 - fy) * ((1.0 - fx) * at(p) + fx * at(p + next)) +
+               fy * ((1.0 - fx) * at(q) + fx * at(q + next));
+    }
     return (1.0 - fy) * ((1.0 - fx) * texel(i, j) + fx * texel(i + 1, j)) +
            fy * ((1.0 - fx) * texel(i, j + 1) + fx * texel(i + 1, j + 1));
 }
 
+std::size_t DirectionPicture::row_for(double share) const {
+    const std::size_t part = part_of(share, row_parts_);
+    return pick(rows_, row_guide_[part], row_guide_[part + 1], share * rows_.back());
+}
+
+const std::uint32_t* DirectionPicture::guide_for(std::size_t row, double share) const {
+    return &column_guides_[row * (column_parts_ + 1) + part_of(share, column_parts_)];
+}
+
+void DirectionPicture::fetch_guide(const Vec2& u) const {
+    __builtin_prefetch(guide_for(row_for(u.y), static_cast<float>(u.x)));
+}
+
+void DirectionPicture::fetch_texels(const Vec2& u) const {
+    const std::size_t y = row_for(u.y);
+    const std::size_t x = *guide_for(y, static_cast<float>(u.x));
+    __builtin_prefetch(&columns_[y * std::size_t(picture_.width + 1) + x]);
+    const int column = std::clamp(static_cast<int>(x) - 1, 0, picture_.width - 1);
+    const int row = static_cast<int>(y);
+    __builtin_prefetch(picture_.pixel(column, row));
+    __builtin_prefetch(picture_.pixel(column, std::min(row + 1, picture_.height - 1)));
+}
+
 Vec3 DirectionPicture::sample(const Vec2& u) const {
     const double wanted_row = u.y * rows_.back();
-    const std::size_t row_part = part_of(u.y, row_parts_);
-    const std::size_t y = pick(rows_, row_guide_[row_part], row_guide_[row_part + 1], wanted_row);
+    const std::size_t y = row_for(u.y);
     const std::size_t w = std::size_t(picture_.width);
     const std::span<const float> row = std::span(columns_).subspan(y * (w + 1), w + 1);
     const float wanted = static_cast<float>(u.x);
-    const std::uint32_t* const guide =
-        &column_guides_[y * (column_parts_ + 1) + part_of(wanted, column_parts_)];
+    const std::uint32_t* const guide = guide_for(y, wanted);
     const std::size_t x = pick(row, guide[0], guide[1], wanted);
     const double share_y =
         std::clamp((wanted_row - rows_[y]) / (rows_[y + 1] - rows_[y]), 0.0, 1.0);

@@ -34,6 +34,10 @@ class DirectionPicture {
     [[nodiscard]] Rgb radiance(const Vec3& direction) const;
     /// Unit; `u` in [0, 1)^2. Precondition: not black.
     [[nodiscard]] Vec3 sample(const Vec2& u) const;
+    /// Fetches into the cache where `sample` will begin its search; some time later, what that
+    /// search and the radiance there will read.
+    void fetch_guide(const Vec2& u) const;
+    void fetch_texels(const Vec2& u) const;
     /// By solid angle.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// Both.
@@ -54,6 +58,9 @@ class DirectionPicture {
         double column, row;
     };
     [[nodiscard]] static Place place_of(const Vec3& direction);
+    /// The row and the beginning of the search in it.
+    [[nodiscard]] std::size_t row_for(double share) const;
+    [[nodiscard]] const std::uint32_t* guide_for(std::size_t row, double share) const;
     [[nodiscard]] Rgb radiance_at(const Place& place) const;
     [[nodiscard]] double density_at(const Place& place) const;
     void blacken_bad_texels();

@@ -141,8 +141,7 @@ Vec3 Environment::sample(const Vec2& u) const {
         const Vec3 a = perpendicular(z), b = cross(z, a);
         return normalize((1.0 - height) * z + (scale * p.x) * a + (scale * p.y) * b);
     }
-    const double rest = std::min((u.x - sun_share_) / (1.0 - sun_share_), 0x1.fffffffffffffp-1);
-    return world_from_picture_ * picture_->sample({rest, u.y});
+    return world_from_picture_ * picture_->sample(in_sky(u));
 }
 
 double Environment::density(const Vec3& direction) const {

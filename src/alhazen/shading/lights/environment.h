@@ -7,6 +7,7 @@
 /// in general up x (the x axis made perpendicular to it).
 /// Threads: const functions may be called from many.
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -44,6 +45,16 @@ class Environment {
     [[nodiscard]] Sight sight(const Vec3& normal, bool both_sides, const Vec3& direction) const;
     [[nodiscard]] Sight sight(const Vec3& direction) const;
 
+    /// Whether it has a picture, which `sample` looks up; for these numbers, parts of it are
+    /// fetched into the cache: DirectionPicture::fetch_guide, then fetch_texels.
+    [[nodiscard]] bool is_looked_up() const { return picture_.has_value(); }
+    void fetch_guide(const Vec2& u) const {
+        if (u.x >= sun_share_) picture_->fetch_guide(in_sky(u));
+    }
+    void fetch_texels(const Vec2& u) const {
+        if (u.x >= sun_share_) picture_->fetch_texels(in_sky(u));
+    }
+
     /// Over all directions.
     [[nodiscard]] Rgb mean() const;
     [[nodiscard]] bool shines() const { return mean().max() > 0.0; }
@@ -53,6 +64,10 @@ class Environment {
 
   private:
     [[nodiscard]] double sun_solid_angle() const;
+    /// The numbers for the picture of those that are not for the sun.
+    [[nodiscard]] Vec2 in_sky(const Vec2& u) const {
+        return {std::min((u.x - sun_share_) / (1.0 - sun_share_), 0x1.fffffffffffffp-1), u.y};
+    }
     [[nodiscard]] bool is_in_sun(const Vec3& direction) const {
         return sun_ && dot(direction, sun_->direction) >= sun_->cosine;
     }

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
+#include "alhazen/renderers/light_transport/coincident_faces.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
@@ -96,6 +101,152 @@ TEST(ConnectedVolumes, WhatBendsLightBlocksConnections) {
         EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).in_batch.is_black()) << index;
         // Between volumes of the same index nothing is bent.
         EXPECT_FALSE(pass(scene, {1, 0.1, 0.2}, {3, 0.1, 0.2}).share.is_black()) << index;
+    }
+}
+
+/// Volumes of one index that touch: their faces are one, which bends nothing, in either order.
+TEST(ConnectedVolumes, FacesThatCoincideAreOne) {
+    for (const double index : {1.0, 1.3}) {
+        for (const bool turned : {false, true}) {
+            SceneMaker maker;
+            const MaterialId a = maker.material(fog(kAbsorbs, kFog, 0.3, index));
+            const MaterialId b = maker.material(fog({}, kDenser, 0, index));
+            if (!turned) maker.add(BoxShape{{0, -9, -9}, {4, 9, 9}}, a);
+            maker.add(BoxShape{{4, -9, -9}, {10, 9, 9}}, b);
+            if (turned) maker.add(BoxShape{{0, -9, -9}, {4, 9, 9}}, a);
+            const Passed passed = pass(maker.compile(), {3, 0.1, 0.2}, {6, 0.2, 0.4});
+            const double length = std::sqrt(9.0 + 0.01 + 0.04);
+            EXPECT_TRUE(passed.same) << index << turned;
+            for (int i = 0; i < 3; ++i) {
+                const double depth =
+                    length * ((kFog[i] + kAbsorbs[i]) / 3.0 + kDenser[i] * 2.0 / 3.0);
+                EXPECT_NEAR(passed.share[i], std::exp(-depth), 1e-12) << index << turned;
+                EXPECT_NEAR(passed.in_batch[i], std::exp(-depth), 1e-12) << index << turned;
+            }
+        }
+    }
+}
+
+/// Whatever side is the endless one, and however far away it ends.
+TEST(ConnectedVolumes, VolumesWithoutEndAreFoundFromBothSides) {
+    for (int k = 0; k < 6; ++k) {
+        Vec3 normal;
+        (k % 3 == 0 ? normal.x : k % 3 == 1 ? normal.y : normal.z) = k < 3 ? 1.0 : -1.0;
+        for (const double away : {0.5, 3.0, 3000.0}) {
+            SceneMaker maker;
+            maker.add(ball({0, 0, 0}, 0.2), maker.material(matt({1, 1, 1})));
+            maker.add(Plane{away * normal, normal}, maker.material(absorbing(kAbsorbs)));
+            const Scene scene = maker.compile();
+            const MediaFinder finder(scene);
+            EXPECT_NE(finder.around({0.3, 0.1, 0.2}, 0).here(), nullptr) << k << " " << away;
+            EXPECT_EQ(finder.around(2.0 * away * normal, 0).here(), nullptr) << k << " " << away;
+        }
+    }
+}
+
+/// Where they share a face that which is left last lies outside, whichever is named first.
+TEST(ConnectedVolumes, FlushVolumesNestInAnyOrder) {
+    for (const std::size_t count : {2u, 3u, 5u}) {
+        std::vector<std::size_t> order(count);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        // The ways to the sides of a flat inner one and through its other end.
+        for (const bool rod : {false, true}) {
+            do {
+                SceneMaker maker;
+                for (const std::size_t i : order) {
+                    const double size = 1.0 + double(i);
+                    maker.add(BoxShape{{-size, -size, 0}, {size, size, rod ? 1.0 : size}},
+                              maker.material(fog({}, (size / 10.0) * kFog)));
+                }
+                const Scene scene = maker.compile();
+                const Vec3 from{0.1, 0.2, -1}, to{0.1, 0.2, 0.6};
+                const Passed passed = pass(scene, from, to);
+                EXPECT_TRUE(passed.same);
+                // Out of all.
+                const Passed out = pass(scene, to, {0.1, 0.2, 9});
+                EXPECT_TRUE(out.same);
+                double sizes = 0.4;
+                for (std::size_t i = 1; i < count && !rod; ++i) sizes += 1.0 + double(i);
+                for (int i = 0; i < 3; ++i) {
+                    EXPECT_NEAR(passed.share[i], std::exp(-0.06 * kFog[i]), 1e-12);
+                    EXPECT_NEAR(passed.in_batch[i], std::exp(-0.06 * kFog[i]), 1e-12);
+                    EXPECT_NEAR(out.share[i], std::exp(-0.1 * sizes * kFog[i]), 1e-12);
+                }
+            } while (std::next_permutation(order.begin(), order.end()));
+        }
+    }
+}
+
+/// A bounded volume of the same material holds the point, too: that one alone is left.
+TEST(ConnectedVolumes, VolumesWithoutEndLieAroundThoseOfTheirMaterial) {
+    for (int k = 0; k < 6; ++k) {
+        Vec3 normal;
+        (k % 3 == 0 ? normal.x : k % 3 == 1 ? normal.y : normal.z) = k < 3 ? 1.0 : -1.0;
+        SceneMaker maker;
+        const MaterialId water = maker.material(fog(kAbsorbs, kFog));
+        maker.add(ball({0, 0, 0}, 0.2), water);
+        maker.add(Plane{5.0 * normal, normal}, water);
+        const Passed passed = pass(maker.compile(), {0.1, 0, 0}, {1.1, 0, 0});
+        EXPECT_TRUE(passed.same) << k;
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_NEAR(passed.share[i], std::exp(-kFog[i] - kAbsorbs[i]), 1e-12) << k;
+        }
+    }
+}
+
+/// Two planes bound one volume, which is left through either.
+TEST(ConnectedVolumes, ALayerBetweenTwoPlanesIsOneVolume) {
+    SceneMaker maker;
+    const MaterialId water = maker.material(fog(kAbsorbs, kFog));
+    maker.add(Plane{{0, 0, 1}, {0, 0, 1}}, water);
+    maker.add(Plane{{0, 0, -1}, {0, 0, -1}}, water);
+    const Scene scene = maker.compile();
+    for (const double side : {-1.0, 1.0}) {
+        const Passed passed = pass(scene, {0, 0, 0}, {0, 0, 3.0 * side});
+        EXPECT_TRUE(passed.same) << side;
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_NEAR(passed.share[i], std::exp(-kFog[i] - kAbsorbs[i]), 1e-12) << side;
+        }
+    }
+}
+
+/// What is bounded holds no point that is infinitely far away, closed or open.
+TEST(ConnectedVolumes, NothingBoundedReachesToInfinity) {
+    SceneMaker maker;
+    TriangleMesh sheet;
+    sheet.positions = {{-9, -9, -1}, {9, -9, 1}, {0, 9, 0}};
+    for (const bool turned : {false, true}) {
+        sheet.triangles = {{0, 1, 2}};
+        if (turned) std::swap(sheet.triangles[0][1], sheet.triangles[0][2]);
+        maker.add(maker.mesh(sheet), maker.material(absorbing(kAbsorbs)));
+    }
+    maker.add(Plane{{0, 0, -20}, {0, 0, 1}}, maker.material(absorbing(kFog)));
+    const Scene scene = maker.compile();
+    const MediaFinder finder(scene);
+    EXPECT_NE(finder.around({1, 1, -1}, 0).here(), nullptr);
+    EXPECT_EQ(finder.without_end_around({1, 1, -1}, 0).here(), nullptr);
+    EXPECT_EQ(finder.without_end_around({1.2, 0.9, -1.5}, 0).here(), nullptr);
+    EXPECT_NE(finder.without_end_around({4, 3, -25}, 0).here(), nullptr);
+}
+
+/// Behind what is opaque nothing is crossed.
+TEST(ConnectedVolumes, NothingIsCrossedWithAnOpaqueFace) {
+    SceneMaker maker;
+    maker.add(BoxShape{{-1, -1, 0}, {1, 1, 1}}, maker.material(fog({}, kFog)));
+    maker.add(BoxShape{{-2, -2, 0}, {2, 2, 2}}, maker.material(fog({}, kDenser)));
+    maker.add(BoxShape{{-3, -3, -1}, {3, 3, 0}}, maker.material(matt({1, 1, 1})));
+    const Scene scene = maker.compile();
+    CoincidentFaces faces(scene);
+    for (const double x : {0.1, 1.5}) {
+        const Ray ray{{x, 0.2, 0.5}, {0, 0, -1}};
+        Hit hit;
+        ASSERT_TRUE(scene.aggregate->closest(ray, hit, {nullptr, kAllRays, 0.0f}));
+        ShadingPoint point;
+        const Arrival arrival{true, 0.0, 0.0f, false};
+        set_shading_point(scene, ray, hit, arrival, {}, point);
+        faces.find(point, ray.direction, arrival, kAllRays);
+        EXPECT_TRUE(faces.opaque().has_value()) << x;
+        EXPECT_TRUE(faces.others().empty()) << x;
     }
 }
 

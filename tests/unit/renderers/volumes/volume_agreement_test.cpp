@@ -225,6 +225,40 @@ TEST(VolumeAgreement, GlassInFog) {
     expect_agreement(maker.compile(), "glass in fog", kBehindGlass, 48, 0.05);
 }
 
+/// A boundary that covers in part is open into its volume for the rest: eye, lamps and paths agree
+/// on what lies behind. Before, paths went in without a medium, and lost it where they went out.
+TEST(VolumeAgreement, BoundariesThatCoverInPart) {
+    struct Case {
+        std::string name;
+        Material material;
+        AlphaMode mode;
+        double alpha;
+    };
+    Material ink = smooth_glass(1.2);
+    ink.metallic_roughness->attenuation_color = {0.5, 0.7, 0.9};
+    ink.metallic_roughness->attenuation_distance = 0.3;
+    const std::vector<Case> cases{
+        {"ink", ink, AlphaMode::Blend, 0.4},
+        {"cut out ink", ink, AlphaMode::Mask, 0.2},
+        {"fog", fog({0.2, 0.5, 0.9}, {0.8, 1.2, 1.6}, 0.3), AlphaMode::Blend, 0.5},
+        {"cut out fog", fog({0.2, 0.5, 0.9}, {0.8, 1.2, 1.6}, 0.3), AlphaMode::Mask, 0.2},
+        {"milk", fog({0.02, 0.05, 0.3}, {1, 2, 3}, 0.5, 1.35), AlphaMode::Blend, 0.5}};
+    for (const Case& c : cases) {
+        SceneMaker maker = over_a_floor();
+        Material material = c.material;
+        material.alpha_mode = c.mode;
+        material.alpha.value = c.alpha;
+        maker.add(BoxShape{{-0.7, -0.6, 0.02}, {0.6, 0.5, 0.9}}, maker.material(material));
+        maker.add(rectangle({-0.5, -0.5, 2}, {0, 1, 0}, {1, 0, 0}),
+                  maker.material(shining({4, 4, 4})));
+        // A lamp and a ball inside.
+        maker.add(ball({0.2, 0, 0.5}, 0.1), maker.material(shining({3, 2, 2})));
+        maker.add(ball({-0.3, 0.1, 0.4}, 0.2), maker.material(matt({0.7, 0.7, 0.7})));
+        expect_agreement(maker.compile(), c.name, c.mode == AlphaMode::Mask ? kAll : kBehindGlass,
+                         64, 0.06);
+    }
+}
+
 /// A ball of fog that flies while the shutter is open, seen by an open lens.
 TEST(VolumeAgreement, FogThatMoves) {
     SceneMaker maker = over_a_floor();

@@ -1,0 +1,164 @@
+#include "alhazen/renderers/light_transport/coincident_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/light_transport/shading_frame.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Rays leave a surface that many error bounds away from it (leaving_ray): what lies within meets
+/// none of them.
+constexpr double kErrorsAway = 32.0, kLeastCosine = 1e-3;
+
+/// The `number`-th direction in which a ray that crosses a surface along `direction` looks for ends
+/// of volumes: straight on, then nearly along the surface.
+Vec3 outward(const ShadingPoint& point, const Vec3& direction, std::size_t number) {
+    if (number == 0) return direction;
+    constexpr double kInward = 0.1;
+    const Vec3& n = point.geometric;
+    const ShadingFrame frame = ShadingFrame::of(dot(direction, n) > 0.0 ? n : -n, {});
+    // Along no edge of what people build: 0.8 and 0.6, in turns of a right angle.
+    const Vec3 x = 0.8 * frame.x + 0.6 * frame.y, y = 0.8 * frame.y - 0.6 * frame.x;
+    const Vec3 along = number == 1 ? x : number == 2 ? -x : number == 3 ? y : -y;
+    return normalize(along + kInward * frame.z);
+}
+
+}  // namespace
+
+CoincidentFaces::CoincidentFaces(const Scene& scene) : scene_(scene) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), may_bound_volume)) return;
+    std::vector<Kind> kinds;
+    for (const Material& m : scene.materials) {
+        kinds.push_back(may_bound_volume(m) ? Kind::BoundsVolume
+                        : m.is_opaque()     ? Kind::Opaque
+                                            : Kind::Neither);
+    }
+    kinds_ = std::make_shared<const std::vector<Kind>>(std::move(kinds));
+}
+
+void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
+                           RayMask mask) {
+    others_.clear();
+    opaque_.reset();
+    const Surface& surface = point.surface;
+    const auto material = static_cast<std::size_t>(surface.materials[0]);
+    if (!kinds_ || (*kinds_)[material] != Kind::BoundsVolume) return;
+    if (point.behind.known || point.material->thin || point.material->coverage < 1.0) return;
+    constexpr double kLeast = 0x1p-500;
+    const double cosine = std::max(std::abs(dot(direction, surface.normal)), kLeastCosine);
+    const double away = kErrorsAway * dot(abs(surface.normal), surface.error) / cosine;
+    ray_ = {surface.point - away * direction, direction, 0.0, std::max(2.0 * away, kLeast)};
+    hits_.clear();
+    scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
+    const HitParts own{surface.part, surface.instance};
+    for (const Hit& hit : hits_) {
+        if (!(parts_of(*scene_.aggregate, hit) == own)) look_at(hit, arrival);
+    }
+    if (opaque_) {
+        others_.clear();
+    } else if (!others_.empty()) {
+        sort_entered(point, direction, arrival, mask);
+    }
+}
+
+void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
+    set_shading_point(scene_, ray_, hit, arrival, {}, other_);
+    if (other_.behind.known || other_.material->thin || other_.material->coverage < 1.0) return;
+    const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
+    if ((*kinds_)[material] == Kind::Opaque) {
+        if (!opaque_) opaque_ = hit;
+    } else if ((*kinds_)[material] == Kind::BoundsVolume) {
+        const Box3 box = scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top()));
+        others_.push_back(
+            {ScatterPoint::volume_of(other_), other_.entering, false, !box.bounded()});
+    }
+}
+
+void CoincidentFaces::sort_entered(const ShadingPoint& point, const Vec3& direction,
+                                   const Arrival& arrival, RayMask mask) {
+    entered_.clear();
+    if (point.entering) entered_.push_back({{}, others_.size()});
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+        if (others_[i].entering) entered_.push_back({{}, i});
+    }
+    if (entered_.size() < 2) return;
+    const auto same = [](const Entered& a, const Entered& b) { return a.left == b.left; };
+    const auto outer = [](const Entered& a, const Entered& b) { return a.left > b.left; };
+    const Medium own = ScatterPoint::volume_of(point);
+    for (std::size_t k = 0; k < entered_[0].left.size(); ++k) {
+        follow(leaving_ray(point.surface, outward(point, direction, k)), k, own, arrival, mask);
+        std::stable_sort(entered_.begin(), entered_.end(), outer);
+        if (std::adjacent_find(entered_.begin(), entered_.end(), same) == entered_.end()) break;
+    }
+    sorted_.clear();
+    bool around = point.entering;
+    for (const Entered& e : entered_) {
+        if (e.other == others_.size()) {
+            around = false;
+            continue;
+        }
+        sorted_.push_back(others_[e.other]);
+        sorted_.back().around = around;
+    }
+    for (const OtherFace& other : others_) {
+        if (!other.entering) sorted_.push_back(other);
+    }
+    std::swap(others_, sorted_);
+}
+
+void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& own,
+                             const Arrival& arrival, RayMask mask) {
+    within_.clear();
+    for (std::size_t i = 0; i < entered_.size(); ++i) {
+        Entered& e = entered_[i];
+        e.left[number] = std::numeric_limits<double>::infinity();
+        const Medium& inside = e.other < others_.size() ? others_[e.other].inside : own;
+        within_.push_back({inside.part, inside.material, i});
+    }
+    hits_.clear();
+    scene_.aggregate->all_hits(ray, hits_, {nullptr, mask, arrival.time});
+    std::size_t missing = entered_.size();
+    double last = 0.0;
+    for (const Hit& hit : hits_) {
+        if (missing == 0) return;
+        set_shading_point(scene_, ray, hit, arrival, {}, other_);
+        if ((*kinds_)[static_cast<std::size_t>(other_.surface.materials[0])] !=
+                Kind::BoundsVolume ||
+            other_.material->thin) {
+            continue;
+        }
+        const Medium volume = ScatterPoint::volume_of(other_);
+        if (other_.entering) {
+            within_.push_back({volume.part, volume.material, entered_.size()});
+            continue;
+        }
+        // As MediumStack leaves them.
+        auto left = std::find_if(within_.rbegin(), within_.rend(),
+                                 [&](const Within& w) { return w.part == volume.part; });
+        if (left == within_.rend()) {
+            left = std::find_if(within_.rbegin(), within_.rend(),
+                                [&](const Within& w) { return w.material == volume.material; });
+        }
+        if (left == within_.rend()) continue;
+        if (left->entered < entered_.size()) {
+            // Faces that coincide are left together.
+            const Vec3& normal = other_.surface.normal;
+            const double cosine = std::max(std::abs(dot(ray.direction, normal)), kLeastCosine);
+            const double apart = kErrorsAway * dot(abs(normal), other_.surface.error) / cosine;
+            if (hit.t - last > 2.0 * apart) last = hit.t;
+            entered_[left->entered].left[number] = last;
+            --missing;
+        }
+        within_.erase(std::next(left).base());
+    }
+}
+
+}  // namespace alhazen
