@@ -129,24 +129,5 @@ TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
     }
 }
 
-/// A sheet of glass with open edges, far from all light that is seen: it holds no point from which
-/// light comes from afar.
-TEST(EndlessPlanes, AnOpenSheetHoldsNoLightFromAfar) {
-    SceneMaker maker = table_under_the_sky();
-    maker.description().picture.background = Rgb{};
-    maker.add(Plane{{0, 0, -0.1}, {0, 0, 1}}, maker.material(matt({0.8, 0.8, 0.8})));
-    maker.light(DirectionalLight{.to_light = {0.75, 0.57, 0.1}, .color = {4, 4, 4}});
-    TriangleMesh sheet;
-    sheet.positions = {{-1, 0.5, 0.1}, {-1, 1.5, 0.1}, {-1, 1.5, 1.5}, {-1, 0.5, 1.5}};
-    sheet.triangles = {{0, 2, 1}, {0, 3, 2}};
-    Material tint;
-    tint.index.value = 1.2;
-    tint.dielectric = Dielectric{{0.4, 0.2, 0.2}};
-    maker.add(maker.mesh(sheet), maker.material(tint));
-    expect_same_light(maker.compile(), "open sheet",
-                      {"path_tracing:depth=5", "bidirectional:depth=5", "light_tracing:depth=5"},
-                      24, kMost);
-}
-
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE
