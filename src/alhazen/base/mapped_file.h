@@ -22,7 +22,7 @@ class MappedFile {
     MappedFile(const MappedFile&) = delete;
     MappedFile& operator=(const MappedFile&) = delete;
 
-    /// Starts at a page boundary.
+    /// The bytes of the file; the first lies at a page boundary.
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
   private:
