@@ -6,8 +6,8 @@ The scene is a city of BOXES boxes (alhazen generate city; default 1667: 10 003 
 A pixel differs if a channel at its centre differs by more than 1 % from that of `whitted`. Programs that colour a pixel
 by its centre draw N x N pixels. pdftoppm colours each pixel that a region touches: it draws K times as many along both
 axes, K odd, of which the central one of each pixel is compared. Its antialiased picture is compared with that of
-`--antialias exact`, by 10 %. Programs that are not installed are skipped (scripts/setup --peers, --browser). --rows: the
-number of evenly spaced rows to compare; default: all.
+`--antialias exact`, by 10 %. Programs that are not installed are skipped (scripts/setup --peers, --browser). --rows:
+the number of evenly spaced rows to compare; default: all.
 """
 
 import argparse

@@ -4,9 +4,9 @@
 Usage: bench/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--filter NAME] [--json FILE]
        [--keep DIR]
 Each renders for T seconds, and for N T seconds to make the reference of its error; prints the difference of both
-references. RMSE is of linear light, unlimited and clamped to 1 (as a picture shows it). Neither program denoises, clamps
-or samples adaptively. Both have the same pixel filter: by default that of Cycles (Blackman-Harris of radius 1.5), for
-which Alhazen shares samples between pixels, or a box. Times exclude the building of the scene.
+references. RMSE is of linear light, unlimited and clamped to 1 (as a picture shows it). Neither program denoises,
+clamps or samples adaptively. Both have the same pixel filter: by default that of Cycles (Blackman-Harris of radius
+1.5), for which Alhazen shares samples between pixels, or a box. Times exclude the building of the scene.
 """
 
 import argparse

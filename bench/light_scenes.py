@@ -116,7 +116,7 @@ def split(vertices, faces):
 
 
 def interior(data, splits=0):
-    """A room with a metal floor and bunny, lit by a window and an area light. Each split makes four triangles of one."""
+    """A room with a metal floor and bunny, lit by a window and an area light. A split makes four triangles of one."""
     scene = Scene(eye=(0.2, -3.6, 1.3), at=(0, 0.2, 0.75), angle=45)
     white = scene.matt("white", (0.75, 0.74, 0.7))
     blue = scene.matt("blue", (0.2, 0.3, 0.6))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the part of path tracing that is ray queries: the rays of a picture by the kernels alone and by the renderer.
+"""Measures the part of path tracing that is ray queries: the rays of a picture by the kernels and by the renderer.
 
 Usage: bench/paths.py ALHAZEN PATH_BENCH DATA [--scenes NAME,...] [--keep DIR] [options of alhazen_path_bench]
 Writes the scenes of light_scenes.py and runs alhazen_path_bench on them (path_bench.cpp describes the measurement).

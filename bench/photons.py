@@ -3,8 +3,8 @@
 
 Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--shadows N] [--spp N]
                         [--photons N] [--keep DIR]
-Each program is compared with its own references, because their light differs: POV-Ray does not bounce light from wall to
-table here. A reference is the mean of pictures with more photons and samples, whose photons differ from those of the
+Each program is compared with its own references, because their light differs: POV-Ray does not bounce light from wall
+to table here. A reference is the mean of pictures with more photons and samples, whose photons differ from those of the
 measured picture: in alhazen by the seed, in POV-Ray, which has no seed, by their number. Noise: the root mean squared
 difference from that mean, less the remaining noise of the mean itself (estimated by the spread of its pictures; squares
 are subtracted), in display values from 0 to 255; over all pixels, those around the caustic and those in the bowl. It
@@ -52,7 +52,7 @@ def lathe(profile):
 
 
 def body(index, color, distance):
-    """A transparent material with Fresnel reflection and Beer's law, in POV-Ray exp(-(1 - fade_color) path / distance)."""
+    """A transparent material with Fresnel reflection and Beer's law: exp(-(1 - fade_color) path / distance)."""
     short = 0.1
     fade = ", ".join(f"{1 + short * math.log(c) / distance:.6g}" for c in color)
     return (f"pigment {{ rgbf <1, 1, 1, 1> }} finish {{ ambient 0 diffuse 0 specular 0 reflection {{ 0, 1 fresnel on }} "

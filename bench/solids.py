@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares CSG solids and curved surfaces with POV-Ray: same scene, eye rays, flat colours; one thread, in turn, medians.
+"""Compares CSG solids and curved surfaces with POV-Ray: same scene, eye rays, flat colours; one thread, medians.
 
 Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--patch-type N] [--flatness X] [--json FILE] [--markdown FILE] [--keep FOLDER]
 A scene is KIND[=SIZE][@SIDE]: plate, menger, spheres (SIZE leaves), or torus, quartic, sextic, blob (one surface).

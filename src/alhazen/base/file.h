@@ -16,7 +16,7 @@ namespace alhazen {
 /// Default limit of `read_file`: 4 GiB.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 
-/// Returns the bytes of `path`. Throws Error (File) when it cannot be opened, is not a regular file
+/// Returns the bytes of `path`. Throws Error (File) if it cannot be opened, is not a regular file
 /// or fails while it is read; Error (Resource) when it is larger than `max_bytes`.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path,
                                     std::uint64_t max_bytes = kMaxFileBytes);
@@ -31,11 +31,11 @@ void write_file_atomically(const std::filesystem::path& path,
 /// Writes a text.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 
-/// Throws Error (File) when `path` is known not to be writable: its folder is missing or not
+/// Throws Error (File) if `path` is known not to be writable: its folder is missing or not
 /// writable, or it is a folder itself. For callers with long work before the write.
 void check_writable(const std::filesystem::path& path);
 
-/// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) when it is
+/// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) if it is
 /// empty, holds a NUL, or does not lie in one of the folders `roots` after all symbolic links are
 /// followed; the same holds for absolute names.
 [[nodiscard]] std::filesystem::path resolve_inside(std::span<const std::filesystem::path> roots,

@@ -15,7 +15,7 @@ namespace alhazen {
 
 class MappedFile {
   public:
-    /// Throws Error (File) when the file cannot be opened, is not a regular file or cannot be
+    /// Throws Error (File) if the file cannot be opened, is not a regular file or cannot be
     /// mapped.
     [[nodiscard]] static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path);
     ~MappedFile();

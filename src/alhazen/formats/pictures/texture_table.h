@@ -56,7 +56,7 @@ class TextureTable {
     /// (exit status 5).
     void report(const FileLocation& where, const Error& error);
     struct Picture {
-        std::shared_ptr<const StoredImage> image;  ///< null when unreadable
+        std::shared_ptr<const StoredImage> image;  ///< null if unreadable
         /// True if the mip levels of the stored samples [0] or of the decoded samples [1] are
         /// counted.
         bool counted_pyramid[2] = {false, false};
@@ -65,7 +65,7 @@ class TextureTable {
     /// Runs `decode` with the limits left and counts the memory of its result.
     template <class Decode>
     std::shared_ptr<const StoredImage> decoded(const Decode& decode);
-    /// Throws when `bytes` exceeds the memory left.
+    /// Throws if `bytes` exceeds the memory left.
     void count(std::uint64_t bytes, const std::string& name);
 
     std::optional<TextureId> use(Picture& picture, const ImageTexture& settings, std::string name,

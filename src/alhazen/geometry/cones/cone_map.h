@@ -78,7 +78,7 @@ struct ConeBoxTest {
     if (!(across > 0.0)) return test;
     const double nx = xc / across, ny = yc / across;
     const Vec3 g = nx * map.x.g + ny * map.y.g;
-    // True if the box lies beyond the plane n (x, y) = w, which touches the cone where w >= 0.
+    // The distance of the box beyond the plane n (x, y) = w, which touches the cone where w >= 0.
     const double slack = 1e-9 * (across + std::abs(wc) + z_reach);
     const double ahead = across - wc - AffineForm{g - map.w.g, 0}.reach(half);
     if (!(ahead > slack)) return test;
