@@ -53,8 +53,7 @@ class EyeRays {
         up_ = up;
     }
 
-    bool from_eye_ = true;  ///< true: rays run from the eye along the sums; false: they are
-                            ///< parallel, or those of `wide_`
+    bool from_eye_ = true;  ///< true: rays run from the eye; false: parallel, or those of `wide_`
     Vec3 fixed_;            ///< the eye, or the direction of all rays
     Vec3 middle_, right_, up_;
     std::optional<WideView> wide_;
@@ -77,8 +76,7 @@ class LensRays {
 
   private:
     Lens lens_;
-    Vec3 normal_, across_, along_;  ///< unit vectors: the normal of the picture, and two in its
-                                    ///< plane
+    Vec3 normal_, across_, along_;  ///< unit: the picture's normal, two in its plane
 };
 
 }  // namespace alhazen

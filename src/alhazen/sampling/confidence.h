@@ -15,8 +15,7 @@ namespace alhazen {
 struct Estimate {
     double value = 0;
     double half_width = 0;
-    double rounding = 0;  ///< the part of half_width due to rounding, which adds up and does not
-                          ///< average out
+    double rounding = 0;  ///< part of half_width due to rounding, which does not average out
 
     [[nodiscard]] double lo() const { return value - half_width; }
     [[nodiscard]] double hi() const { return value + half_width; }

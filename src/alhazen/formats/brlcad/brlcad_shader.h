@@ -2,9 +2,9 @@
 /// Text of BRL-CAD's shaders: names and parameters.
 ///
 /// Source: BRL-CAD, manual pages of `rt` and of its shaders.
-/// Conventions: both forms of the files, `stack checker a=255,0,0;plastic sh=4` and `stack
-/// {{checker {a {255 0 0}}} {plastic {sh 4}}}`, give the same list. A parameter is a word; its
-/// values are the numbers after it.
+/// Conventions: both forms of the files, `stack checker a=255,0,0;plastic sh=4` and
+/// `stack {{checker {a {255 0 0}}} {plastic {sh 4}}}`, give the same list. A parameter is a word;
+/// its values are the numbers after it.
 
 #include <optional>
 #include <string>

@@ -63,8 +63,7 @@ class NffBuilder {
     std::optional<MaterialId> material_;
     std::map<std::pair<MaterialId, bool>, std::size_t> meshes_;        ///< [material, smooth]
     std::map<TriangleMesh*, std::vector<PolygonTriangles>> polygons_;  ///< of each mesh
-    std::vector<bool> default_intensity_;                              ///< [light] true if it has
-                                                                       ///< the default intensity
+    std::vector<bool> default_intensity_;                              ///< [light]
     std::optional<Rgb> ambient_;
     std::uint64_t elements_ = 0;
     std::uint64_t degenerate_ = 0;

@@ -61,8 +61,7 @@ class ObjMaterials {
     TextureTable textures_;
     PictureFinder finder_;
     std::vector<MtlMaterial> entries_;
-    std::vector<std::string> entry_folders_;  ///< [entry] folder of its library, relative to the
-                                              ///< scene
+    std::vector<std::string> entry_folders_;  ///< [entry] of its library, relative to the scene
     std::string current_folder_;              ///< of the current entry
     std::unordered_map<std::string, std::size_t> entry_of_;
     std::unordered_map<std::string, MaterialId> used_;

@@ -42,10 +42,8 @@ class FacetTree {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     struct Node {
         FacetPlane plane;
-        std::uint32_t before = kNone, behind = kNone;  ///< children in front of and behind the
-                                                       ///< plane
-        std::uint32_t in = kNone;                      ///< root of a tree of the pieces in the
-                                                       ///< plane
+        std::uint32_t before = kNone, behind = kNone;  ///< children on either side
+        std::uint32_t in = kNone;                      ///< tree of the pieces in the plane
         std::uint32_t first = 0, count = 0;            ///< range of the pieces in the plane
         std::uint32_t first_corner = 0, corners = 0;   ///< range of the hull's corners
     };
@@ -83,8 +81,7 @@ class FacetTree {
 using BeamSides = std::vector<FacetPlane>;
 
 struct FacetWalkCounts {
-    std::uint64_t hulls = 0;     ///< hulls tested; a polygon in the plane of a node counts as a
-                                 ///< hull
+    std::uint64_t hulls = 0;     ///< tested, including polygons in the planes of nodes
     std::uint64_t missed = 0;    ///< tested hulls that the beam misses
     std::uint64_t polygons = 0;  ///< polygons returned
 

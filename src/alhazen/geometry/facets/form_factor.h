@@ -37,8 +37,7 @@ struct FormFactorOptions {
 
 struct FormFactor {
     double value = 0;  ///< part of the light leaving the receiver that meets the other polygon
-    double error = 0;  ///< estimate: the sum of the magnitudes of the differences made by
-                       ///< subdivision
+    double error = 0;  ///< estimate: sum of the absolute differences by subdivision
     std::uint64_t points = 0;
     FacetWalkCounts walk;
 

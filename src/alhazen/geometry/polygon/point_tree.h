@@ -48,8 +48,7 @@ class PointTree {
     std::vector<bool> active_;             ///< [position in ids_]
     std::vector<std::uint32_t> place_of_;  ///< [id] its index in ids_
     std::vector<Node> nodes_;              ///< [1] the root; [2k], [2k + 1] the children of k
-    std::size_t leaf_count_ = 1;           ///< a power of two; the nodes from this index on are
-                                           ///< leaves
+    std::size_t leaf_count_ = 1;           ///< a power of two; index of the first leaf
     mutable std::uint64_t tests_ = 0;
 };
 

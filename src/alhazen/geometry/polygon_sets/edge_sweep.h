@@ -43,8 +43,7 @@ class EdgeSweep {
     /// The state of an edge that the sweep has reached.
     struct Active {
         std::uint32_t next_member = kNone;  ///< next edge of its bundle
-        std::uint32_t sub_edge = kNone;     ///< of the bundle that it leads; kNone if the parity is
-                                            ///< 0
+        std::uint32_t sub_edge = kNone;     ///< of the bundle that it leads; parity 0: kNone
         std::uint8_t owner = 0;
         std::uint8_t above = 0;  ///< the state above its bundle
     };

@@ -17,8 +17,7 @@ namespace alhazen {
 struct Mending {
     std::size_t crossings = 0;        ///< places where edges crossed away from vertices
     std::size_t overlaps = 0;         ///< overlapping pieces of edges
-    std::size_t flat_loops = 0;       ///< loops without area, including those of fewer than 3
-                                      ///< distinct points
+    std::size_t flat_loops = 0;       ///< without area, or of fewer than 3 distinct points
     std::size_t repeated_points = 0;  ///< points equal to the previous one
     std::size_t touches = 0;          ///< places where the outline touched itself
 

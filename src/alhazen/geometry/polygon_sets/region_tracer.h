@@ -45,8 +45,7 @@ class RegionTracer {
     struct Link {
         std::uint32_t from = 0;
         std::uint32_t to = 0;
-        std::uint32_t next = kNone;  ///< first: the next link that leaves `from`; then: the link
-                                     ///< after it
+        std::uint32_t next = kNone;  ///< first: next link from `from`; then: the link after it
         bool visited = false;
     };
     /// An edge at a point where outlines meet, seen from the point.

@@ -31,8 +31,7 @@ class Periodogram {
 
   private:
     int reach_, sets_ = 0;
-    std::vector<double> sums_;  ///< [fy + reach][fx], where fx starts at 0: the spectrum is
-                                ///< symmetric
+    std::vector<double> sums_;  ///< [fy + reach][fx], fx >= 0: the spectrum is symmetric
 };
 
 }  // namespace alhazen

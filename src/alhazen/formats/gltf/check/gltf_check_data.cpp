@@ -324,8 +324,7 @@ class DataChecker {
     bool told_rounding_ = false;
     std::set<std::pair<Index, bool>> checked_quaternions_;
     std::set<std::pair<std::vector<Index>, std::vector<Index>>> checked_weights_;
-    std::uint64_t weight_budget_ = std::uint64_t{1} << 30;  ///< number of values that may still be
-                                                            ///< read
+    std::uint64_t weight_budget_ = std::uint64_t{1} << 30;  ///< values left to read
 };
 
 }  // namespace

@@ -34,8 +34,7 @@ void read_asset(const JsonObject& root);
 void read_buffers(const JsonObject& root, Loading& loading);  ///< also reads buffer views
 void read_accessors(const JsonObject& root, Loading& loading);
 void read_textures(const JsonObject& root, Loading& loading);   ///< also reads images and samplers
-void read_materials(const JsonObject& root, Loading& loading);  ///< also reads
-                                                                ///< KHR_materials_variants
+void read_materials(const JsonObject& root, Loading& loading);  ///< and variants
 void read_meshes(const JsonObject& root, Loading& loading);
 void read_cameras(const JsonObject& root, Loading& loading);
 void read_lights(const JsonObject& root, Loading& loading);

@@ -58,8 +58,7 @@ class NodeBuilder {
     DefaultMaterial default_material_;
     std::map<ObjectKey, ObjectIndex> objects_;                    ///< shared by nodes
     std::map<Index, std::vector<Affine>> joints_;                 ///< of the used skins
-    std::vector<char> mesh_seen_;                                 ///< [mesh] already included in
-                                                                  ///< the counts below
+    std::vector<char> mesh_seen_;                                 ///< [mesh] counted below
     std::size_t points_ = 0, lines_ = 0, without_positions_ = 0;  ///< omitted primitives
     std::map<std::string, std::size_t> other_attributes_;         ///< ignored attributes
 };

@@ -22,8 +22,7 @@ struct NativeContext {
     SceneDescription& scene;
     Diagnostics& diagnostics;
     const ImportOptions& options;
-    std::vector<std::filesystem::path> roots;  ///< files named in the scene must lie inside one of
-                                               ///< these
+    std::vector<std::filesystem::path> roots;  ///< folders of files that may be named
     TextureTable textures;
 
     // Names defined so far; a name must be defined before it is used.
