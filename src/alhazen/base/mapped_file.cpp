@@ -20,7 +20,7 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
     if (path.empty() || path.native().find('\0') != std::string::npos) {
         fail("the name of the file is empty or holds a NUL");
     }
-    // O_NONBLOCK: opening a FIFO without a writer would otherwise block.
+    // O_NONBLOCK: opening a FIFO without a writer would block.
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (fd < 0) fail(std::string("cannot open the file: ") + std::strerror(errno));
     struct stat status {};

@@ -13,7 +13,7 @@ struct Refusal {
     std::string_view name;
     const char* what;
 };
-/// AFF statements that are recognised and rejected.
+/// AFF statements that are recognised but not supported.
 constexpr std::array<Refusal, 7> kRefused{{
     {"m", "a mesh"},
     {"xs", "a static transform"},

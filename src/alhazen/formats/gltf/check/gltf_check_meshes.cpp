@@ -58,7 +58,8 @@ class PrimitiveChecker {
         }
     }
 
-    /// Numbered attributes start at 0 without gaps; joints and weights come in pairs.
+    /// Checks that numbered attributes start at 0 without gaps, and that joints and weights come in
+    /// pairs.
     void sets() const {
         std::map<std::string_view, std::set<std::uint32_t>> sets;
         for (const auto& [name, index] : primitive_.attributes) {

@@ -5,7 +5,7 @@ namespace alhazen {
 
 namespace {
 
-/// `filter`, or `bilinear` in files of the first version.
+/// Reads `filter`, or `bilinear` in files of the first version.
 void read_filter(BlockReader& reader, TextureFilter& out) {
     bool bilinear = true;
     if (reader.has("filter") && reader.has("bilinear")) {
@@ -17,7 +17,7 @@ void read_filter(BlockReader& reader, TextureFilter& out) {
     }
 }
 
-/// Two rows of three numbers that act on the column (u, v, 1).
+/// Reads two rows of three numbers, a matrix that multiplies the column (u, v, 1).
 void read_uv_transform(BlockReader& reader, UvTransform& out) {
     constexpr std::string_view kKey = "uv_transform";
     const auto value = reader.find(kKey);
