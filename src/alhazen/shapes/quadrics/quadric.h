@@ -1,6 +1,6 @@
 #pragma once
-/// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, clipped by a box
-/// and by planes, with caps or open; or unclipped.
+/// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, unclipped or
+/// clipped by a box and by planes, with or without caps.
 ///
 /// Source: clipped_quadric.h.
 /// Conventions: part 0 the quadric, 1 to 6 the faces -x +x -y +y -z +z of the box, 7 and above the
