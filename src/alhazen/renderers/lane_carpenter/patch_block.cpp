@@ -203,7 +203,7 @@ struct FourSolution {
     Four u, v;
 };
 
-/// A step in the lanes of `active`. Returns the lanes where it was longer than the error.
+/// A step in the lanes of `active`. Returns the lanes whose step was longer than the error.
 HWY_INLINE FourMask step_four(const FourPlane& plane, const FourVec& origin,
                               const FourVec& direction, const Four& error, const FourMask& active,
                               FourSolution& solution) {
