@@ -7,9 +7,9 @@
 /// in Triangles", in Graphics Gems, 1990.
 /// Differs: only the half of a tube that faces the point is sampled.
 /// Conventions: densities are by solid angle at the lit point, for multiple importance sampling.
-/// Spheres are sampled uniformly by solid angle, all others by
-/// area. The outer side is that of the normal: of a rectangle edge_u x edge_v, of polygons and
-/// triangles the side from which they run anticlockwise.
+/// Spheres are sampled uniformly by solid angle, all others by area. The outer side is that of the
+/// normal: of a rectangle edge_u x edge_v, of polygons and triangles the side from which they run
+/// anticlockwise.
 /// Complexity: O(1); O(log n) for n triangles. Threads: const functions may be called concurrently.
 
 #include <array>

@@ -24,8 +24,8 @@ struct LeafKind {
     [[nodiscard]] std::uint32_t blocks(std::uint32_t count) const {
         return (count + width() - 1) >> width_log2;
     }
-    /// Size up to which builders need not divide: half a block is not worth its own box, except by
-    /// the cost that `collapse` weighs.
+    /// Largest number of primitives that builders need not divide: half a block is not worth its
+    /// own box, unless the cost evaluated by `collapse` says otherwise.
     [[nodiscard]] std::uint32_t indivisible() const { return width() > 2 ? width() / 2 : 1; }
 };
 using LeafKinds = std::array<LeafKind, kLeafKinds>;

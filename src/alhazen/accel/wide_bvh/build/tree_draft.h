@@ -21,10 +21,10 @@ struct DraftNode {
 };
 
 struct DraftBvh {
-    std::vector<DraftNode> nodes;  ///< none for an empty tree
+    std::vector<DraftNode> nodes;  ///< empty for an empty tree
     std::uint32_t root = 0;
 };
-/// A DraftBvh whose nodes lie elsewhere.
+/// A DraftBvh with nodes stored elsewhere.
 struct DraftView {
     std::span<const DraftNode> nodes;
     std::uint32_t root = 0;
@@ -36,7 +36,7 @@ struct DraftView {
 /// Writes the tree with the references in leaf order. Subtrees that begin at level kMaxSahLevel and
 /// are too deep are rebalanced, so the depth is bounded.
 [[nodiscard]] BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references);
-/// The same, from `references` to `ordered`, as many as the leaves have.
+/// The same, from `references` to `ordered`, which has capacity for all references of the leaves.
 [[nodiscard]] BinaryBvh linearize(const DraftView& draft,
                                   std::span<const BuildReference> references,
                                   std::span<BuildReference> ordered);
