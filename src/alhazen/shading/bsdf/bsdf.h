@@ -49,8 +49,8 @@ class Bsdf {
     /// Adds a lobe with `weight`, below `covers`. If there are kMaxLobes already, the lobe of least
     /// importance (weight times albedo at normal incidence) is dropped.
     void add(const Spectrum& weight, const Lobe& lobe, CoverSet covers = 0);
-    /// Adds a layer and returns its set, to be passed to `add`; the empty set if there is no
-    /// capacity left.
+    /// Adds a layer and returns its set, to be passed to `add`; the empty set if its share is 0 or
+    /// no capacity is left.
     CoverSet add_cover(const Cover& cover);
     /// Adds all lobes and covers of another BSDF, scaled by `weight`: blended materials.
     void add(const Bsdf& other, double weight);

@@ -176,7 +176,7 @@ class LayerMaker {
     const SurfaceLookup& lookup_;
     const BsdfPlace& place_;
     Bsdf bsdf_;
-    CoverSet covers_ = 0;  ///< of the layers above
+    CoverSet covers_ = 0;  ///< covers of the layers above
     double metallic_ = 0, transmission_ = 0, roughness_ = 1;
     Spectrum base_;
     Ggx ggx_;

@@ -26,7 +26,7 @@ class Cover {
   private:
     bool sheen_ = false;
     double share_ = 0, roughness_ = 0;  ///< roughness: alpha of a face; below kSmoothAlpha: smooth
-    double f0_ = 0, f90_ = 1;           ///< of a face
+    double f0_ = 0, f90_ = 1;           ///< reflectances of a face
     double several_ = 0;                ///< reflected share of light that meets several facets
 };
 

@@ -34,7 +34,7 @@ struct PlaneMueller {
 /// Light that a lobe scatters from a direction to the view, and the part of it that has a matrix.
 struct PolarizedValue {
     Spectrum all, part;
-    PlaneMueller matrix;  ///< of `part`
+    PlaneMueller matrix;  ///< matrix of `part`
 };
 
 /// For radiance. Singular lobes: the share of the light from the mirror direction (direction.z

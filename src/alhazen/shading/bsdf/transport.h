@@ -18,7 +18,7 @@ struct BsdfSample {
     Vec3 direction;         ///< unit, local; z < 0: transmitted
     Spectrum weight;        ///< value * |cosine| / density
     double density = 0;     ///< by solid angle; for a singular lobe the probability of its choice
-    bool singular = false;  ///< its directions have no density
+    bool singular = false;  ///< true: the directions of the lobe have no density
     double eta = 1;         ///< transmitted: index on the side it enters over that it left
     /// The direction is valid for the first wavelength only, and so is `weight`.
     bool dispersed = false;

@@ -32,7 +32,7 @@ inline constexpr double kLeastTurbidity = 1.0, kLargestTurbidity = 10.0;
 struct EnvironmentSettings {
     EnvironmentKind kind = EnvironmentKind::Constant;
     Rgb color{1, 1, 1};  ///< radiance; a factor for other kinds than Constant
-    std::string file;    ///< of a picture, as named in the scene
+    std::string file;    ///< name of the picture, as in the scene
     /// The picture, already read. If it is not linear, it is decoded from sRGB.
     std::shared_ptr<const Image> picture;
     double scale = 1;        ///< a further factor, at least 0
@@ -42,7 +42,7 @@ struct EnvironmentSettings {
     /// Sky: direction of the sun before `rotation`; default: 40 degrees high, over the right
     /// shoulder of a viewer who faces the front.
     std::optional<Vec3> to_sun;
-    Rgb ground{0.2, 0.2, 0.2};  ///< of a sky: albedo, 0..1
+    Rgb ground{0.2, 0.2, 0.2};  ///< albedo of the ground below a sky, 0..1
 };
 
 }  // namespace alhazen

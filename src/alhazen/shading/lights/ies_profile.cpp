@@ -72,7 +72,7 @@ class IesReader {
     int line_ = 0;
 };
 
-/// Position of an angle in a list: the index below, and the fraction of the way to the next.
+/// Position of an angle in a list: the index below, and the fraction of the interval to the next.
 struct BetweenAngles {
     std::size_t below, above;
     double share;

@@ -57,7 +57,7 @@ class IesProfile;
 
 /// Angular distribution of a light at a point (ies_profile.h).
 struct LightProfile {
-    std::string file;                           ///< as named; empty: the same in all directions
+    std::string file;                           ///< name; empty: the same in all directions
     std::shared_ptr<const IesProfile> profile;  ///< content of `file`, already read
     Vec3 down{0, 0, -1};                        ///< direction of its vertical angle 0
     Vec3 front{1, 0, 0};                        ///< direction of its horizontal angle 0
@@ -102,7 +102,7 @@ struct AreaLight {
     bool seen = true;  ///< visible as an emitting surface to all rays but shadow rays
     /// `extent` ready for sampling; made by `ready_to_sample`.
     std::shared_ptr<const LightSurface> surface;
-    bool is_part = false;  ///< its surface is already a part of the scene
+    bool is_part = false;  ///< true: its surface is already a part of the scene
 };
 
 using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, AreaLight>;

@@ -59,7 +59,7 @@ struct ExtentSample {
     Vec3 to_light;  ///< unit
     Vec3 normal;    ///< unit, of the outer side
     double distance = 0;
-    double density = 0;  ///< by solid angle; 0: the point is not lit from there
+    double density = 0;  ///< density by solid angle; 0: the point is not lit from there
 };
 
 /// An extent ready for sampling.
@@ -79,7 +79,7 @@ class LightSurface {
   private:
     struct Place {
         Vec3 point, normal;
-        double density;  ///< by area
+        double density;  ///< density by area
     };
     [[nodiscard]] ExtentSample seen(const Vec3& from, const Place& place) const;
     [[nodiscard]] ExtentSample on_sphere(const SphereExtent& s, const Vec3& from,

@@ -45,7 +45,7 @@ enum class AlphaMode { Opaque, Mask, Blend };
 /// (+u), y up (+v), z along the normal, each stored as (c + 1) / 2.
 struct NormalMap {
     TextureId texture = kNoTexture;
-    double scale = 1;  ///< of x and y
+    double scale = 1;  ///< factor on x and y
 };
 
 /// A clear layer of index 1.5 on top.
@@ -65,7 +65,7 @@ struct IridescentFilm {
     ScalarInput strength{0, kNoTexture, Channel::Red};
     double index = 1.3;
     double thinnest_nm = 100, thickest_nm = 400;
-    TextureId thickness_texture = kNoTexture;  ///< its green channel
+    TextureId thickness_texture = kNoTexture;  ///< texture of the thickness, its green channel
 };
 /// Anisotropy: grooves along a direction in the surface, at angle `rotation` (radians) from the
 /// tangent to the bitangent. Red and green of the texture rotate it further, blue scales
@@ -212,7 +212,7 @@ struct MaterialSample {
     return sample.single_sided && (sample.thin || sample.transmissive.is_black());
 }
 
-/// The coverage (see MaterialSample) alone.
+/// The coverage (see MaterialSample), without the other terms.
 [[nodiscard]] double coverage_of(const Material& material, std::span<const Texture> textures,
                                  const SurfaceLookup& lookup);
 

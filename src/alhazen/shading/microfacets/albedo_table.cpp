@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCosines = 44, kAlphas = 32, kMeans = 257;
 
-/// A slice of a table at one alpha, made when it is asked for the second time, and recent results.
+/// A slice of a table at one alpha, made at the second request, and recent results.
 struct AlphaSlice {
     std::uint64_t table = 0;  ///< AlbedoTable::id_; 0: none
     double alpha = 0;

@@ -2,7 +2,7 @@
 /// Single-scattering albedo of rough boundaries between clear media: reflected and transmitted.
 ///
 /// Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
-/// course (dielectrics, both ways).
+/// course (dielectrics, both directions).
 /// Differs: computed by quadrature when first used; see albedo_table.h for the axes.
 /// Conventions: as ggx_albedo.h; `eta` is the index on the side of the view over that behind,
 /// clamped to 1/3..3.

@@ -33,7 +33,7 @@ struct BoundaryMueller {
 /// Amplitudes for a cosine of 0..1 (clamped) to the normal; `eta` is the index on the side of the
 /// ray over that behind.
 [[nodiscard]] FresnelAmplitudes dielectric_reflection(double cosine, double eta);
-/// 0 beyond the critical angle.
+/// Amplitudes of the refracted light; 0 beyond the critical angle.
 [[nodiscard]] FresnelAmplitudes dielectric_refraction(double cosine, double eta);
 /// Amplitudes of a conductor with index `n + i k` relative to the medium of the ray.
 [[nodiscard]] FresnelAmplitudes conductor_reflection(double cosine, double n, double k);

@@ -49,7 +49,7 @@ Value integral(const Illuminant& illuminant, Value (*seen)(double)) {
 }
 
 double luminance_of(const Illuminant& illuminant) {
-    // Caches the last illuminant, as the same one is asked for repeatedly.
+    // Caches the last illuminant, which is often requested repeatedly.
     struct Late {
         IlluminantKind kind = IlluminantKind::E;
         double kelvin = -1, luminance = 1;

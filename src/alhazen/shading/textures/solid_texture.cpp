@@ -26,7 +26,7 @@ double square_wave(double x) {
     return std::fmod(std::floor(x), 2.0) == 0.0 ? 1.0 : -1.0;
 }
 
-/// In cells.
+/// Offset towards the cell above, in cells.
 constexpr double kAboveFaces = 1e-7;
 
 /// Waves are averaged exactly over at most this many cells; beyond, the mean is grey.

@@ -34,11 +34,11 @@ struct SolidTexture {
         Wood,     ///< rings of width `size` around the line along `direction`, bent by noise
     };
     Kind kind = Kind::Checks;
-    Rgba color{1, 1, 1, 1};  ///< of the cube or slab that begins at `origin`
+    Rgba color{1, 1, 1, 1};  ///< colour of the cube or slab that begins at `origin`
     Rgba other{0, 0, 0, 1};
     Vec3 origin;
     double size = 1;          ///< > 0
-    Vec3 direction{0, 0, 1};  ///< of any length but 0
+    Vec3 direction{0, 0, 1};  ///< axis of the pattern, of any length but 0
     int octaves = 4;          ///< 1 to 16
     double turbulence = 1;    ///< marble and wood: displacement by noise, in units of `size`
     friend bool operator==(const SolidTexture&, const SolidTexture&) = default;
