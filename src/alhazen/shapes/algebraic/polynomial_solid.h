@@ -27,7 +27,7 @@ namespace alhazen {
 struct ClipSegment {
     Vec3 o, d;
     ClipRange range;
-    double shift = 0;  ///< of o along the line
+    double shift = 0;  ///< t of o on the ray
     /// Bound of the error of an end's coordinate over the size of the clip, in half ulps.
     double relative_error = 0;
 };

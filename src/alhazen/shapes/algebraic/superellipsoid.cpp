@@ -129,9 +129,9 @@ class CrossingSearch {
     }
 
     struct Slope {
-        Interval range{0.0, 0.0};  ///< of the derivative of the function by t, over q
+        Interval range{0.0, 0.0};  ///< range of the derivative of the function by t, over q
         double terms = 0;          ///< bound of the sum of the magnitudes of its terms
-        double noise = 0;          ///< its error bound
+        double noise = 0;          ///< error bound of the derivative
 
         [[nodiscard]] bool has_sign() const { return range.lo > noise || range.hi < -noise; }
         [[nodiscard]] double most() const {

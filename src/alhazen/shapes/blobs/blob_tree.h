@@ -54,8 +54,8 @@ class BlobTree {
     static constexpr std::uint32_t kLeafSize = 4;
     struct Node {
         Box3 box;
-        std::uint32_t first = 0, count = 0;  ///< of a leaf: its range in order_; else 0
-        std::uint32_t second_child = 0;      ///< of an inner node; the first child follows the node
+        std::uint32_t first = 0, count = 0;  ///< range of a leaf in order_; else 0
+        std::uint32_t second_child = 0;      ///< for an inner node; its first child follows it
     };
 
     void build(const std::vector<Box3>& boxes, std::uint32_t first, std::uint32_t end);

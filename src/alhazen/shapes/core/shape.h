@@ -55,7 +55,7 @@ concept WritesManyHits = S::kMaxHits ==
 /// A solid that may be unbounded.
 template <class S>
 concept UnboundedSolid = requires(const S& shape, const Ray& ray) {
-    /// Whether the line of the ray, regardless of its limits, is inside at t = -infinity.
+    /// True if the line of the ray, regardless of its limits, is inside at t = -infinity.
     { shape.inside_at_minus_infinity(ray) } -> std::same_as<bool>;
 };
 
@@ -94,7 +94,7 @@ inline void append_hits(const S& shape, const Ray& ray, ShapeHits& hits) {
     }
 }
 
-/// Whether the line of a ray is inside the solid at t = -infinity.
+/// True if the line of a ray is inside the solid at t = -infinity.
 template <Shape S>
 [[nodiscard]] inline bool inside_at_minus_infinity(const S& shape, const Ray& ray) {
     if constexpr (UnboundedSolid<S>) {

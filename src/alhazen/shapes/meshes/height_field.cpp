@@ -282,7 +282,7 @@ void HeightField::validate(const FileLocation& where, Diagnostics& diagnostics) 
                            std::to_string(heights == nullptr ? 0 : heights->size()));
     }
     for (const float h : *heights) {
-        // Also true for NaN.
+        // The negation covers NaN.
         if (!(double{h} > base && h <= std::numeric_limits<float>::max())) {
             return checks.fail("every height must be a number above the base, which is " +
                                shortest(base) + "; found " + shortest(double{h}));
@@ -333,7 +333,7 @@ ShapeSurface HeightField::surface(const Ray&, const ShapeHit& hit) const {
     for (int k = 0; k < 3; ++k) {
         surface.point[k] = std::clamp(p[k], bounds.lo[k], bounds.hi[k]);
     }
-    // As for a triangle of a mesh.
+    // Error bound as for a triangle of a mesh.
     surface.error = gamma_bound(7) * (std::abs(w) * abs(p0) + std::abs(hit.u) * abs(p1) +
                                       std::abs(hit.v) * abs(p2)) +
                     gamma_bound(2) * std::abs(rest) * abs(p0);

@@ -229,8 +229,8 @@ class CellFacts {
         return thin ? Hull::Thin : Hull::Around;
     }
     enum class Newton { Certified, Unique, NoRoot, Unsure };
-    /// Whether Newton's method is certified; sets the first step from the middle, in half-widths,
-    /// and the approximate distance of the cell's borders from its middle. No root: the step leads
+    /// Classifies Newton's method in the cell; sets the first step from the middle, in half-widths,
+    /// and the approximate distance of the cell's borders from its middle. NoRoot: the step leads
     /// farther out of the cell than possible for a root in it, with a margin for `tiny`.
     Newton newton(double tiny, PlanePoint& step, double& radius) const {
         const PlanePoint &f = bounds_.f, &f_u = bounds_.f_u, &f_v = bounds_.f_v;

@@ -38,7 +38,7 @@ class PatchLinesApart {
         PatchWay* way;
         const PatchLeaf* leaf;
         LeafAnswer answer;
-        double a, b, bend;  ///< of LeafStart
+        double a, b, bend;  ///< as in LeafStart
     };
 
     void walk_on(PatchWay& way) { walking_[walking_count_++] = &way; }

@@ -20,8 +20,8 @@
 
 namespace alhazen {
 
-inline constexpr int kMaxCellLevel = 42;    ///< of the borders of cells
-inline constexpr int kMaxBorderLevel = 44;  ///< of the polylines that approximate borders
+inline constexpr int kMaxCellLevel = 42;    ///< largest level of the borders of cells
+inline constexpr int kMaxBorderLevel = 44;  ///< level of the polylines that approximate borders
 
 /// A point of the plane. Uninitialised, since nets are created for every ray.
 struct PlanePoint {

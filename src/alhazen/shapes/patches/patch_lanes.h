@@ -77,7 +77,7 @@ struct alignas(64) PatchPacket {
 
 /// Bounds of a cell from its control points.
 struct CellBounds {
-    double least[3], most[3];          ///< of x, y and along `aside`
+    double least[3], most[3];          ///< range of x, y and along `aside`
     PlanePoint f, f_u, f_v;            ///< value and derivatives at the middle, in half-widths
     double bend_u[3], bend_v[3];       ///< |second differences| by uu, uv, vv, solved for u and v
     double size_uu, size_uv, size_vv;  ///< |second differences|

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kFewestLeaves = 20;  ///< least limit of the leaves of a patch
 /// Memory limit of a bicubic patch with its points, leaves and boxes.
 constexpr std::size_t kMostBytes = 4096;
-constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 13;  ///< with its share of the boxes
+constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 13;  ///< includes its share of the boxes
 constexpr int kMostLeafLevel = 8;
 /// Fraction of a patch's area, averaged over directions, that may remain uncertified.
 constexpr double kUncertified = 0.05;

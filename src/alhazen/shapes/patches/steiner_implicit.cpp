@@ -156,7 +156,7 @@ std::size_t pair_index(std::size_t i, std::size_t j) {
 
 // ---- polynomials along a line
 
-using AlongLine = std::array<double, 5>;  ///< by ascending powers
+using AlongLine = std::array<double, 5>;  ///< coefficients of ascending powers
 
 /// Largest distance of a root on the patch from the ray, relative to the patch's size.
 constexpr double kMostOff = 1e-8;

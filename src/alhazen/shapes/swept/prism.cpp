@@ -19,7 +19,7 @@ double larger(double a, double b) {
 template <class Real>
 struct ProfileLine {
     Real x, y, c;
-    double error;  ///< of the sum, for every point of the profile
+    double error;  ///< error bound of the sum, for every point of the profile
 
     ProfileLine(const Prism& prism, const Ray& ray, double shift) {
         const Vec3& d = ray.direction;
@@ -49,7 +49,7 @@ struct ProfileLine {
 /// A ray near the prism, in double.
 struct PrismRay {
     double shift, ox, oy, oz, dx, dy, dz;
-    double size, size_growth;  ///< of the section: a + b t
+    double size, size_growth;  ///< size of the section: a + b t
     double far;                ///< magnitude of the numbers that the origin was computed from
 
     PrismRay(const Prism& prism, const Ray& ray) : shift(0) {

@@ -144,7 +144,7 @@ std::vector<TrimArc> trim_arcs(std::span<const TrimLoop> loops, double flatness)
 
 namespace {
 
-/// Looks for a proper crossing of two arcs.
+/// Searches for a proper crossing of two arcs.
 class ArcCrossing {
   public:
     explicit ArcCrossing(double size) : flatness_(1e-9 * size) {}
