@@ -132,14 +132,14 @@ class AdaptiveGrid {
     std::vector<GridPoint> points_;
     std::vector<Rgb> shades_;
     std::vector<double> distances_;
-    NumberTable samples_;                         ///< of all points except the corners of pixels
+    NumberTable samples_;                         ///< all points except the corners of pixels
     std::vector<Cell> open_, split_, next_open_;  ///< to be tested, to be divided
     std::vector<Cell> ended_;                     ///< kept if neighbours count
     NumberTable ended_cells_;                     ///< by level and place, except level 0:
     std::vector<std::uint32_t> ended_pixels_;
     std::vector<std::uint32_t> woken_;  ///< ended cells whose neighbours have new points
     std::vector<std::uint32_t> watched_, next_watched_;  ///< objects, by cell
-    std::vector<std::uint32_t> live_, near_;             ///< of the current cell
+    std::vector<std::uint32_t> live_, near_;             ///< objects in the current cell
     std::vector<Rgb> pixels_;
     std::vector<std::uint32_t> asked_;
     std::vector<std::uint64_t> added_, divided_;

@@ -19,7 +19,7 @@ constexpr std::uint32_t kNoObject = ~0u;
 
 /// Polygons that may be joined.
 struct PolygonGroup {
-    std::vector<Vec3> positions;                  ///< of their corners, polygon by polygon
+    std::vector<Vec3> positions;                  ///< corners of the polygons, polygon by polygon
     std::vector<std::uint32_t> shapes;            ///< [polygon]
     std::vector<std::uint32_t> first_corners{0};  ///< [polygon], and the number of corners
     double off_plane = 0;  ///< bound of the distance of surfaces from the plane of their corners

@@ -76,7 +76,7 @@ class ObjectSearch {
     std::vector<std::uint8_t> met_;
     std::vector<Cell> cells_, next_cells_;
     std::vector<std::uint32_t> sought_, next_sought_;  ///< objects, by cell
-    std::vector<GridPoint> points_;                    ///< of this level
+    std::vector<GridPoint> points_;                    ///< points of this level
     NumberTable rays_;
     std::vector<double> distances_;      ///< [ray]
     std::vector<std::uint32_t> pixels_;  ///< [ray]

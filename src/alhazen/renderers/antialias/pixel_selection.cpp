@@ -300,7 +300,7 @@ class PixelSelection {
     std::size_t across_ = 0;                   ///< initial cells in a row
     std::vector<PixelRound> changed_;  ///< [initial cell] the last round with rays in or next to it
     std::vector<SelectionCell> cells_;   ///< not done
-    std::vector<SelectionCell> before_;  ///< those of the previous round, during division
+    std::vector<SelectionCell> before_;  ///< cells of the previous round, during division
 };
 
 }  // namespace

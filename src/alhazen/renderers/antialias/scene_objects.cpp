@@ -61,7 +61,7 @@ struct SceneObjects::Place {
     Affine world_from_inner{};
     const Instance* outermost = nullptr;
     bool of_shared_mesh = false;
-    std::uint32_t part = 0;  ///< of the enclosing instance
+    std::uint32_t part = 0;  ///< part of the enclosing instance
     bool is_seen = true;
 };
 

@@ -33,7 +33,7 @@ inline constexpr std::array<Vec3, 4> kDiagonals{{{kThird, kThird, kThird},
                                                  {kThird, -kThird, -kThird}}};
 
 struct SceneObject {
-    BoundingSphere sphere;  ///< of infinite radius if unbounded
+    BoundingSphere sphere;  ///< the radius is infinite if unbounded
     Box3 box;
     /// [diagonal] unknown: all numbers.
     std::array<Interval, 4> diagonals{kAllNumbers, kAllNumbers, kAllNumbers, kAllNumbers};

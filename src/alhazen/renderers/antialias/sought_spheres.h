@@ -61,7 +61,7 @@ class SoughtSpheres final : public ObjectWatch {
     bool behind_all_;
     std::vector<std::uint32_t> sought_;      ///< [sphere of the tree] object
     std::shared_ptr<const Aggregate> tree_;  ///< over the spheres of level 0
-    double t_min_ = 0;                       ///< of queries: -infinity if the eye is in a sphere
+    double t_min_ = 0;                       ///< -infinity if the eye is in a sphere
 };
 
 }  // namespace alhazen

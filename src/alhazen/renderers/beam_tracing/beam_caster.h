@@ -33,7 +33,7 @@ struct BeamView {
     RayKind kind = RayKind::Eye;
     std::uint32_t from = kNoFacet;  ///< the facet where the beam starts
     bool has_start = false;
-    FacetPlane start{{}, 0};  ///< with `has_start`: only facets in front of it are visible
+    FacetPlane start{{}, 0};  ///< if `has_start`: only facets in front of it are visible
 };
 
 struct SeenFacet {

@@ -20,10 +20,10 @@
 namespace alhazen {
 
 struct BeamDrawingOptions {
-    int width = 0, height = 0;  ///< of the picture, pixels
+    int width = 0, height = 0;  ///< size of the picture, pixels
     bool shaded = true;         ///< false: all regions are white
     bool lines = false;
-    double tolerance = 1.5 / 255;  ///< of encoded colours
+    double tolerance = 1.5 / 255;  ///< largest error of encoded colours
     /// Name of a part, for its title.
     std::function<std::string(std::uint32_t part)> name_of;
 };

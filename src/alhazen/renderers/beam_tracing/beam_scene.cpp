@@ -274,7 +274,7 @@ class BeamGatherer {
     std::vector<FacetPiece> pieces_;
     Affine world_;
     bool mirrored_ = false;       ///< the placement reverses orientation
-    const Part* part_ = nullptr;  ///< of the current facets
+    const Part* part_ = nullptr;  ///< part of the current facets
     int refusals_ = 0, mendings_ = 0;
     std::string refused_;
 };

@@ -131,7 +131,7 @@ class BeamTileRenderer final : public TileRenderer {
     std::vector<BeamSample> samples_;
     std::vector<Rgb> row_;
     std::vector<PixelGeometry> geometry_;
-    std::vector<double> errors_;  ///< of refraction
+    std::vector<double> errors_;  ///< errors of refraction
 };
 
 double elapsed_since(std::chrono::steady_clock::time_point start) {

@@ -243,7 +243,7 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     if (b >= 2) of_eye(b - 2).from_light = at_vertex_before(z.density_back(to_y), z, eye_[b - 2]);
     set_light_of_path(a == 1 ? back : light_[0].back);
     light = path_weight(path_, static_cast<int>(a) + 1) * light;
-    // With the hero alone on both sides its factor of four must count only once.
+    // If both sides have only the hero, its factor of four must count once.
     if (y.hero_only && z.hero_only) light = (1.0 / Spectrum::kCount) * light;
     sum += passing * light;
 }

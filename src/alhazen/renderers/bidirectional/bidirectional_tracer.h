@@ -79,7 +79,7 @@ class BidirectionalTracer {
         const PathVertex& v;
         Vec3 to_light;
         double distance;
-        double eye_density;  ///< by solid angle, of the eye's path continuing to the light
+        double eye_density;  ///< density by solid angle of the eye's path continuing to the light
         double reached;      ///< shares of walks in both directions that arrive (PathVertex)
         double backward;
     };
@@ -104,9 +104,9 @@ class BidirectionalTracer {
     std::vector<PathVertex> eye_, light_;
     MediumStack behind_;  ///< at the current surface
     RandomWalk::Escape escape_;
-    LightEnd begin_;  ///< of `light_`
+    LightEnd begin_;  ///< the light of `light_`
     const Wavelengths* all_waves_ = nullptr;
-    Wavelengths waves_;  ///< of the sample, at the start of both paths
+    Wavelengths waves_;  ///< wavelengths of the sample, at the start of both paths
     WholePath path_;
 };
 

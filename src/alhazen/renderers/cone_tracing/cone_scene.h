@@ -34,7 +34,7 @@ struct ConeSource {
     PlacedMesh mesh;
     Placement placement;
     Vec3 point, normal;  ///< world: centre of the sphere; a point of the plane, its normal
-    double radius = 0;   ///< of the sphere
+    double radius = 0;   ///< radius of the sphere
     const ConeTree* tree = nullptr;  ///< over the triangles of the mesh, in its own frame
 };
 

@@ -22,7 +22,7 @@ namespace alhazen {
 struct ConePiece {
     std::uint32_t source = 0;
     std::uint32_t part = 0;  ///< face of the shape, or triangle of the mesh
-    double z = 0;            ///< of its centroid, along the centre line
+    double z = 0;            ///< distance of its centroid along the centre line
     double share = 0;        ///< covered share of the cone
     Vec2 at{0, 0};           ///< its centroid in the disc of the cone
     double u = 0, v = 0;     ///< weights of the second and third corner of a triangle

@@ -24,14 +24,14 @@ struct ConePath {
     ConeStart start;
     bool inside = false;        ///< starts inside a transparent object
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
-    Rgb absorption;             ///< of the medium it starts in
+    Rgb absorption;             ///< absorption of the medium it starts in
 };
 
 /// Identifies one of the cones to a light: a large piece has several.
 struct ConeToLight {
     std::size_t light = 0;  ///< index in Scene::lights
     int part = 0, parts = 1;
-    double weight = 1;  ///< of the part of the piece
+    double weight = 1;  ///< weight of the part of the piece
 };
 
 /// Observer of traced cones, called in order: a piece is shaded between `begin_piece` and
@@ -78,7 +78,7 @@ class ConeTracer {
         const ConePath& path;
         Ray ray;            ///< through the middle of the piece
         double t = 0;       ///< along `ray`
-        double radius = 0;  ///< of a disc of its size, perpendicular to the cone
+        double radius = 0;  ///< radius of a disc of the piece's size, perpendicular to the cone
         int depth = 0;
     };
 

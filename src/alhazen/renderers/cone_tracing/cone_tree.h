@@ -20,7 +20,7 @@ class ConeTree {
   public:
     struct Node {
         Vec3 center, half;
-        std::uint32_t first = 0;  ///< of its items in `order`; of its two children
+        std::uint32_t first = 0;  ///< index of its first item in `order`, or of its first child
         std::uint32_t count = 0;  ///< items of a leaf; 0: an inner node
     };
 

@@ -5,7 +5,7 @@ namespace alhazen {
 
 /// Treatment of the gaps between parts of different subdivision.
 enum class Cracks {
-    Show,     ///< as subdivision leaves them
+    Show,     ///< left as they are
     Tighter,  ///< halve the tolerance until no sample lies in one
     Clark,    ///< a straight edge stays straight, which avoids gaps
 };

@@ -197,7 +197,7 @@ HWY_INLINE FourPlane select(const FourMask& mask, const FourPlane& yes, const Fo
     return result;
 }
 
-/// What a step of Newton's method changes: the point, u and v.
+/// The result of a step of Newton's method: the point, u and v.
 struct FourSolution {
     FourVec point;
     Four u, v;

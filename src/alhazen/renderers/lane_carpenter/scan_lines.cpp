@@ -328,7 +328,7 @@ class ScanLines::Impl {
     const ScanScene& scene_;
     ScreenView view_;
     const SampleGrid& grid_;
-    const std::int32_t* xs_;  ///< of the grid
+    const std::int32_t* xs_;  ///< x of the grid's columns
     double most_nearness_;    ///< largest nearness in front of the eye
     bool with_chords_, some_may_pass_;
     bool split_ahead_ = false;

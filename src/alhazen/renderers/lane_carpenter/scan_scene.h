@@ -43,7 +43,7 @@ struct ScanPiece {
 /// A flat polygon with the odd-even rule, or a triangle of a mesh.
 struct ScanFacet {
     std::uint32_t source = 0;
-    std::uint32_t part = 0;   ///< of the shape, or the triangle's index
+    std::uint32_t part = 0;   ///< part of the shape, or index of the triangle
     std::uint32_t first = 0;  ///< in ScanScene::loops; loops of a shape's facet
     std::uint32_t loops = 0;  ///< 0: a triangle
     Vec3 point, normal;       ///< its plane, world space; zero for a triangle

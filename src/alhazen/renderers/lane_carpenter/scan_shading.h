@@ -55,7 +55,7 @@ class ScanShading {
     double flatness_;
     EyeRays eye_;
     std::vector<Vec3> columns_;  ///< terms of eye rays
-    std::vector<Vec3> sums_;     ///< of the rays of a run
+    std::vector<Vec3> sums_;     ///< sums of terms for the rays of a run
     std::vector<Ray> rays_;
     PatchBlock block_;
     std::vector<Rgb> ambient_;

@@ -39,7 +39,7 @@ struct ScreenChord {
     ScreenPoint from;
     double scale = 0;  ///< pixels per unit of nearness
     Vec3 along;
-    double squared = 0;  ///< its length
+    double squared = 0;  ///< squared length
 
     ScreenChord(const ScreenView& view, const ScreenPoint& a, const ScreenPoint& b);
     /// True if the squared distance of `p` is at most `squared_distance`.

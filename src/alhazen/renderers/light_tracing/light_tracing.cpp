@@ -104,7 +104,7 @@ class LightTiles final : public TileRenderer {
     RandomWalk walk_;
     LightBatch joins_;
     SplatFilm& splats_;
-    std::vector<SampleId> ids_;  ///< of the current pixel
+    std::vector<SampleId> ids_;  ///< samples of the current pixel
     std::vector<PathVertex> vertices_;
     MediumStack behind_;  ///< at the current surface
 };

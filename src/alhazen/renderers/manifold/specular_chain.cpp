@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Largest number of surfaces of other parts passed on the way to the part.
+/// Largest number of surfaces of other parts that a ray passes before the part.
 constexpr int kMostPassed = 64;
 
 }  // namespace

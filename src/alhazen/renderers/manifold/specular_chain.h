@@ -71,8 +71,8 @@ struct ChainIndices {
 struct ChainSlope {
     std::array<Vec3, 2> first;      ///< perpendicular to the first direction
     std::array<Vec3, 2> point;      ///< derivatives of the first vertex by these
-    std::array<Vec3, 2> end;        ///< of the last vertex
-    std::array<Vec3, 2> direction;  ///< of the last direction
+    std::array<Vec3, 2> end;        ///< derivatives of the last vertex
+    std::array<Vec3, 2> direction;  ///< derivatives of the last direction
 };
 
 class ChainTracer {

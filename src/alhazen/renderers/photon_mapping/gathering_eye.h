@@ -46,7 +46,7 @@ class GatheringEye final : public PhotonEye {
     int gather_;
     NextSurface next_;
     ScatterPoint met_;
-    Wavelengths along_;  ///< of the gathering ray
+    Wavelengths along_;  ///< wavelengths of the gathering ray
     PhotonDensity density_;
 };
 

@@ -49,7 +49,7 @@ class IrradianceCache {
 
     double error_;
     std::vector<IrradianceRecord> records_;
-    std::map<int, Level> levels_;  ///< by the binary logarithm of the side of their cells
+    std::map<int, Level> levels_;  ///< key: binary logarithm of the side of the cells
 };
 
 }  // namespace alhazen

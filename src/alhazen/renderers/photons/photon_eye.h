@@ -87,7 +87,7 @@ class PhotonEye {
     struct Branch {
         PathEnd path;
         Last last;
-        Wavelengths waves;         ///< of the path, which may have the hero only
+        Wavelengths waves;         ///< wavelengths of the path, possibly the hero only
         bool straight = true;      ///< no scattering so far
         bool unlikely = false;     ///< a branch of probability below 1/2 was chosen
         std::uint64_t way = 0;     ///< hash of the pixel and the branches at smooth glass
@@ -135,7 +135,7 @@ class PhotonEye {
     std::vector<Spectrum> light_, direct_;  ///< [sample]
     std::vector<Wavelengths> waves_;        ///< [sample]
     std::vector<Branch> waiting_;           ///< branches of the current sample
-    int splits_ = 0;                        ///< of the current sample
+    int splits_ = 0;                        ///< number of splits of the current sample
 };
 
 }  // namespace alhazen

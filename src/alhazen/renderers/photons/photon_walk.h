@@ -33,7 +33,7 @@ struct PhotonShot {
     PhotonKinds kinds;        ///< kinds to be stored
     int depth = 64;           ///< largest number of surfaces
     std::uint64_t seed = 0;
-    const Wavelengths* waves = &kColorChannels;  ///< of all photons at emission
+    const Wavelengths* waves = &kColorChannels;  ///< wavelengths of all photons at emission
     const ProjectionMap* projection = nullptr;   ///< directions of emission; null: unrestricted
     PhotonKinds in_volumes;                      ///< kinds to be stored in volumes
     ShutterPart shutter{};                       ///< interval of their times

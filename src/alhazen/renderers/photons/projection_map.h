@@ -64,7 +64,7 @@ class ProjectionMap {
     void for_neighbors(std::size_t cell, const Visit& visit) const;
 
     const Illumination& lights_;
-    std::size_t strata_ = 1;  ///< of the choice of a light
+    std::size_t strata_ = 1;  ///< number of strata of the choice of a light
     std::size_t side_ = 1;    ///< cells of a map along latitude, and around the z axis
     std::size_t marked_ = 0;
     std::vector<double> sums_;  ///< [cell] cumulative probability; empty: none marked

@@ -21,7 +21,7 @@ namespace alhazen {
 
 struct SppmSettings {
     std::uint64_t photons = 100000;  ///< photons emitted per pass
-    double radius = 0;               ///< of the first pass; 0: three pixels
+    double radius = 0;               ///< radius of the first pass; 0: three pixels
     double alpha = 2.0 / 3.0;        ///< share of the photons of each further pass that is kept
     double memory = 512;             ///< limit for a pass, in megabytes
     PathSettings paths;

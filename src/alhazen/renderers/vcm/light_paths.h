@@ -50,7 +50,7 @@ struct LightPathShot {
 class LightPathNumbers {
   public:
     LightPathNumbers(const RenderJob& job, std::uint64_t seed);
-    /// With `RenderJob::round` for PathChance.
+    /// The job, with a `RenderJob::round` for PathChance.
     [[nodiscard]] const RenderJob& job() const { return job_; }
     [[nodiscard]] static SampleId id(std::uint64_t number);
 

@@ -14,8 +14,8 @@ namespace alhazen {
 /// The strategies with fewer vertices on a side than there are up to a given vertex of it.
 struct SideSums {
     double own = 1;     ///< density of the vertex, from its side
-    double fixed = 0;   ///< of the strategy that connects the vertex to the previous one
-    double factor = 0;  ///< of all others, over the squared density of the vertex before as the
+    double fixed = 0;   ///< sum for the strategy that connects the vertex to the previous one
+    double factor = 0;  ///< for all others, over the squared density of the vertex before as the
                         ///< other side finds it
 
     /// For the first surface of a light path, from the densities of the light. `joined`: density of

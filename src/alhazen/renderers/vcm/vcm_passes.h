@@ -21,7 +21,7 @@ struct VcmSettings {
     Pilot pilot = Pilot::Say;
     std::uint64_t photons = 0;  ///< light paths of a pass to merge with; 0: one for each pixel of
                                 ///< the frame, kUsualMost at most
-    double radius = 0;          ///< of the first pass; 0: three pixels
+    double radius = 0;          ///< radius of the first pass; 0: three pixels
     double alpha = 0.75;        ///< share of the photons of each further pass that is kept
     double memory = 512;        ///< limit for a pass, in megabytes
     PathSettings paths;
@@ -35,7 +35,7 @@ struct VcmSettings {
 
 /// Counts of a render.
 struct MergeWork {
-    std::uint64_t light_rays = 0;  ///< of the light paths for merging
+    std::uint64_t light_rays = 0;  ///< rays of the light paths for merging
     std::uint64_t merged = 0;      ///< merged pairs of vertices
 };
 

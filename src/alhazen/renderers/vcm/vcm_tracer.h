@@ -13,7 +13,7 @@ namespace alhazen {
 struct MergePass {
     const LightVertexGrid& grid;
     double merging;                        ///< WholePath::merging
-    const Wavelengths* waves;              ///< of all paths; null: each path has its own
+    const Wavelengths* waves;              ///< common to all paths; null: each path has its own
     std::atomic<std::uint64_t> merged{0};  ///< merged pairs of vertices
 };
 
