@@ -37,7 +37,7 @@ class InsertionTree {
     struct Node {
         BoxBound bound;
         std::uint32_t parent = kNone;
-        std::uint32_t primitive = kNone;  ///< of a leaf
+        std::uint32_t primitive = kNone;  ///< primitive of a leaf
         std::uint32_t leaves = 1;         ///< primitives below
         std::vector<std::uint32_t> children;
     };

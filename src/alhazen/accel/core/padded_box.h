@@ -47,7 +47,7 @@ struct PaddedBox {
 /// The part of a ray inside a box.
 struct RaySpan {
     double begin, end;  ///< begin > end if the ray misses the box
-    Vec3 inverse;       ///< of the direction; infinite if the ray is perpendicular to the axis
+    Vec3 inverse;       ///< of the direction; infinite if perpendicular to the axis
 
     RaySpan(const Box3& box, const Ray& ray, double t_max) : begin(ray.t_min), end(t_max) {
         for (int k = 0; k < 3; ++k) {

@@ -286,7 +286,7 @@ class LightBufferBuilder {
     DirectionWindows windows_;
     std::vector<Entry> entries_;
     std::vector<LightBuffer::Cell> cells_;
-    std::vector<Vec3> outline_;  ///< of the current polygon, relative to the light
+    std::vector<Vec3> outline_;  ///< outline of the current polygon, relative to the light
 };
 
 LightBuffer::Config LightBuffer::configure(SettingsReader& reader) {

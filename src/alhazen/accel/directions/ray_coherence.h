@@ -27,9 +27,8 @@ class RayCoherence {
         "lists for the directions from every primitive and light";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        int resolution =
-            0;             ///< of a face of the cube of directions; 0: by the number of primitives
-        int most = 20000;  ///< with more primitives the fallback accelerator traces all rays
+        int resolution = 0;  ///< cells along an edge of the cube; 0: by the number of primitives
+        int most = 20000;    ///< with more primitives the fallback accelerator traces all rays
         int memory_mib = 256;
         FallbackAccelerator::Kind others = FallbackAccelerator::Kind::Hierarchy;
     };

@@ -278,7 +278,7 @@ class Clustering {
     }
 
     DraftNode* nodes_;
-    std::size_t count_;  ///< of clusters
+    std::size_t count_;  ///< number of clusters
     HugeArray<Cluster> clusters_, next_;
     HugeArray<std::uint32_t> partners_;
 };

@@ -82,7 +82,7 @@ struct ObjectSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< areas times costs of blocks
     int axis = -1;                                        ///< -1: none found
     int last_left = 0;  ///< the last bin, or rank along the axis, on the left
-    Box4 left, right;   ///< of the two sides
+    Box4 left, right;   ///< boxes of the two sides
     /// For a swept set: the order of its references along the axis.
     std::array<std::uint8_t, kSweepSize> places;
 };

@@ -15,7 +15,7 @@ namespace alhazen {
 struct DraftNode {
     FloatBox box;
     std::uint32_t left = 0, right = 0;  ///< nodes; both 0: a leaf
-    std::uint32_t begin = 0, end = 0;   ///< of a leaf: its references, of one kind
+    std::uint32_t begin = 0, end = 0;   ///< range of a leaf's references, of one kind
 
     [[nodiscard]] bool is_leaf() const { return right == 0; }
 };
