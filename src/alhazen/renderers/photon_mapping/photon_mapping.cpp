@@ -34,7 +34,7 @@ class PhotonTiles final : public TiledRenderer {
     const IrradianceCache* cache_;
 };
 
-/// Throws where a setting would do nothing with wavelengths.
+/// Throws for settings without effect in spectral rendering.
 void refuse_wavelengths(const PhotonMappingSettings& settings) {
     const auto refuse = [](const char* why) {
         throw Error(ErrorKind::Usage, std::string("photon_mapping: ") + why);
