@@ -65,8 +65,7 @@ class TemporaryName {
 void check_path(const fs::path& path) {
     if (path.empty()) fail(path, "the name of the file is empty");
     // The system would read the name up to the NUL and open another file.
-    if (path.native().find('\0') != std::string::npos)
-        fail(path, "the name of the file holds a NUL");
+    if (path.native().find('\0') != std::string::npos) fail(path, "the file name contains a NUL");
 }
 
 /// The file that `path` names, through symbolic links, so that a link stays a link.
@@ -204,7 +203,7 @@ fs::path resolve_inside(std::span<const fs::path> roots, const fs::path& folder,
         throw Error(ErrorKind::Scene, "the file name \"" + name + "\" " + why);
     };
     if (name.empty()) refuse("is empty");
-    if (name.find('\0') != std::string::npos) refuse("holds a NUL");
+    if (name.find('\0') != std::string::npos) refuse("contains a NUL");
     const auto whole = [](const fs::path& path) {
         return fs::absolute(path.empty() ? fs::path(".") : path).lexically_normal();
     };

@@ -27,9 +27,8 @@ struct Projection {
 
 /// The error of renderers that do not support wide cameras.
 [[nodiscard]] inline Error flat_pictures_only(std::string_view who) {
-    return Error(ErrorKind::Usage, std::string(who) +
-                                       " draw flat pictures: they have no fisheyes and no "
-                                       "panoramas");
+    return Error(ErrorKind::Usage,
+                 std::string(who) + " do not support fisheye and panorama cameras");
 }
 
 }  // namespace alhazen

@@ -274,7 +274,7 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
     if (!renderer.follows_light() &&
         std::any_of(scene.materials.begin(), scene.materials.end(), scatters)) {
         notes.push_back(
-            fmt::format("renderer '{}' scatters no light inside of volumes; those that do: {}",
+            fmt::format("renderer '{}' does not support scattering media; supported by: {}",
                         options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
@@ -282,23 +282,25 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
     if (!renderer.lights_have_extent() &&
         std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {
         notes.push_back(
-            fmt::format("renderer '{}' takes lights with extent as points at their "
-                        "centres; 'distributed' does not",
+            fmt::format("renderer '{}' replaces area lights by point lights at their "
+                        "centres; 'distributed', 'cone_tracing' and the renderers of light "
+                        "transport do not",
                         options.renderer));
     }
     const CameraDescription& described = chosen_camera(scene, options);
     const Camera& camera = described.camera;
     if (scene.has_motion || !described.keys.empty()) {
         notes.push_back(
-            fmt::format("renderer '{}' shows the moment at which the shutter opens; 'distributed' "
-                        "all of its time",
+            fmt::format("renderer '{}' renders the moment at which the shutter opens; "
+                        "'distributed', 'ambient_occlusion' and the renderers of light transport "
+                        "render all of its time",
                         options.renderer));
     }
     const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
     if (perspective != nullptr && perspective->lens.radius > 0.0) {
         notes.push_back(
-            fmt::format("renderer '{}' sees through the centre of the lens; "
-                        "'distributed' through all of it",
+            fmt::format("renderer '{}' uses the centre of the lens; "
+                        "'distributed' and the renderers of light transport sample all of it",
                         options.renderer));
     }
     return notes;

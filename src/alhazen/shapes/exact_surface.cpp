@@ -148,7 +148,7 @@ std::size_t plane_count(const ClippedQuadric& solid) {
 template <class S>
 std::string refusal_of(const S& shape, const Affine& world) {
     constexpr const char* kUnknown = "is of a kind without a closed form";
-    constexpr const char* kSlender = "is stretched aslant, its axes in a ratio above 1e5";
+    constexpr const char* kSlender = "is stretched obliquely, with an axis ratio above 1e5";
     if constexpr (std::is_same_v<S, Torus>) {
         return similarity(world.linear) ? "" : "is placed with different scales along its axes";
     } else if constexpr (std::is_same_v<S, Tgc>) {

@@ -408,7 +408,7 @@ TEST(PhotonRenderers, SayWhyTheyCannotShoot) {
         EXPECT_NE(message_of(lit, name + ":photons=0").find("photons=0"), std::string::npos);
         EXPECT_NE(message_of(lit, name + ":photons=1000000000,memory=1").find("memory"),
                   std::string::npos);
-        EXPECT_NE(message_of(unsent, name).find("no light of the scene sends photons"),
+        EXPECT_NE(message_of(unsent, name).find("no light of the scene emits photons"),
                   std::string::npos);
         EXPECT_EQ(message_of(dark, name), "");
     }

@@ -350,7 +350,8 @@ Bsp::Config Bsp::configure(SettingsReader& reader) {
     config.directions = kDirections[planes];
     config.polygons = planes == 3;
     config.candidates = reader.count(
-        "candidates", "planes weighed per direction, polygons that contribute planes", 16, 1, 1000);
+        "candidates", "planes evaluated per direction, polygons that contribute planes", 16, 1,
+        1000);
     config.axis_cost =
         reader.number("axis_cost", "cost of a step at an axis-aligned plane", 15, 0.001, 1e6);
     config.traversal_cost =

@@ -19,7 +19,7 @@ namespace alhazen {
 class Octree {
   public:
     static constexpr const char* kName = "octree";
-    static constexpr const char* kDescription = "cells divided at their middles; four traversals";
+    static constexpr const char* kDescription = "cells halved along each axis; four traversals";
     static constexpr bool kVisitsRepeatedly = true;
 
     enum class Walk : std::uint8_t { PointLocation, NeighborFinding, Smart, Parametric };

@@ -93,7 +93,7 @@ class BptReader {
         where_ = cursor_.location(file_);
         if (values_in_line(cursor_) == 3) {
             error("expected the two degrees of patch " + std::to_string(patch_) +
-                  ", found a point: the patch before has more points than its degrees ask for");
+                  ", found a point: the patch before has more points than its degrees require");
             skip_to_degrees();
             return;
         }
@@ -130,7 +130,7 @@ class BptReader {
             const bool more = cursor_.skip_to_word("#");
             if (!more || is_degree_line(cursor_)) {
                 error("patch " + std::to_string(patch_) + " has " + std::to_string(k) +
-                      " points; its degrees ask for " + std::to_string(count));
+                      " points; its degrees require " + std::to_string(count));
                 return false;
             }
             Vec3 point;

@@ -147,10 +147,13 @@ Material BrlcadMaterials::make(const std::vector<BrlcadShader>& shaders, const R
         if (shader.name == "light") {
             tell_unknown(shader, kLightParameters, place);
             if (shader.number("shadows", "s").value_or(1.0) == 0.0) {
-                tell_once("a light without shadows casts them here", place);
+                tell_once("lights without shadows are not supported: this one casts shadows",
+                          place);
             }
             if (shader.number("shadows", "s").value_or(1.0) > 1.0) {
-                tell_once("the soft shadows of a light are hard: it shines from its middle", place);
+                tell_once(
+                    "soft shadows are not supported: the light is a point light at its centre",
+                    place);
             }
             light = light_of(shader, color);
             // Invisible, and transparent to its own light. add_brlcad_lights sets its brightness if

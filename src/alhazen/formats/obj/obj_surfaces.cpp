@@ -142,7 +142,7 @@ class SurfaceMaker {
         }
         if (std::uint64_t{net.rows} * net.columns != e.points.size()) {
             error("the surface has " + std::to_string(e.points.size()) +
-                  " points; its degrees and parameters ask for " + std::to_string(net.rows) +
+                  " points; its degrees and parameters require " + std::to_string(net.rows) +
                   " by " + std::to_string(net.columns));
             return false;
         }

@@ -115,8 +115,7 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
     const Affine world_from_part = place.world_from_node * node_from_part;
     if (!is_invertible(world_from_part)) {
         // An object scaled to zero, as in animations, is invisible.
-        return values_.warning(component,
-                               "'" + place.name + "' is scaled to nothing and not drawn");
+        return values_.warning(component, "'" + place.name + "' has scale 0 and is not drawn");
     }
     scene_.objects[0].parts.push_back(
         {std::move(what), world_from_part, material, place.name, place.location});

@@ -32,7 +32,7 @@ FilterIntegral::FilterIntegral(const FilterEntry& entry, double radius)
       knots_{-radius, -0.5 * radius, 0.0, 0.5 * radius, radius} {
     if (entry.integral == nullptr) {
         throw Error(ErrorKind::Usage, std::string("filter '") + entry.name +
-                                          "': its integral has no closed form; exact areas take "
+                                          "': its integral has no closed form; exact areas support "
                                           "box, tent, gaussian, mitchell, blackman_harris");
     }
     scale_ = 0.5 / integral(radius);

@@ -285,9 +285,10 @@ void check_layers(const RenderJob& job) {
     if (job.aovs == nullptr) return;
     const AovSet& wanted = job.aovs->wanted();
     if (wanted.has_tests() || wanted.has(AovKind::Time)) {
-        throw Error(ErrorKind::Usage,
-                    "--antialias: pixels share their rays, so that they have no time and counts "
-                    "of tests of their own; of the costs --aov count.rays has a meaning");
+        throw Error(
+            ErrorKind::Usage,
+            "--antialias: pixels share their rays, so the time and the tests of a pixel are "
+            "undefined; of the cost layers only --aov count.rays is available");
     }
 }
 

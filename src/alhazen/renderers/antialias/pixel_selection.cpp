@@ -309,7 +309,7 @@ RenderReport render_selected_pixels(const SingleRayRenderer& renderer, const Ren
                                     Film& film) {
     if (job.aovs != nullptr) {
         throw Error(ErrorKind::Usage,
-                    "--antialias pixel_selection: layers are for pixels with rays of their own");
+                    "--antialias pixel_selection: layers require a ray in every pixel");
     }
     return PixelSelection(renderer, job, film).run();
 }

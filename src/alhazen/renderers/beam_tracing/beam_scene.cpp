@@ -49,11 +49,12 @@ class BeamGatherer {
     BeamScene gather() {
         add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
         if (!refused_.empty()) {
-            throw Error(ErrorKind::Usage,
-                        "beams take planar facets: polygons, rectangles, boxes, polyhedra and "
-                        "triangle meshes, of materials without alpha (a tolerance takes "
-                        "triangles for other shapes that have an end); these are none: " +
-                            refused_);
+            throw Error(
+                ErrorKind::Usage,
+                "beams support only planar facets: polygons, rectangles, boxes, polyhedra and "
+                "triangle meshes, of materials without alpha (with a "
+                "tolerance other bounded shapes are tessellated); unsupported: " +
+                    refused_);
         }
         result_.tree = FacetTree(std::move(pool_), std::move(pieces_));
         return std::move(result_);

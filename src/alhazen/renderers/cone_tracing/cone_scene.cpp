@@ -104,10 +104,11 @@ class ConeGatherer {
     ConeScene gather() {
         add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
         if (!refused_.empty()) {
-            throw Error(ErrorKind::Usage,
-                        "cones take spheres, planes, polygons, boxes, polyhedra, rectangles and "
-                        "triangle meshes; these are none: " +
-                            refused_);
+            throw Error(
+                ErrorKind::Usage,
+                "cones support only spheres, planes, polygons, boxes, polyhedra, rectangles and "
+                "triangle meshes; unsupported: " +
+                    refused_);
         }
         join_surfaces();
         build_tree();

@@ -53,10 +53,11 @@ class ScanGatherer {
     ScanScene gather() {
         add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
         if (!refused_.empty()) {
-            throw Error(ErrorKind::Usage,
-                        "scan lines take patches, the shapes that are patches, and polygons; "
-                        "these are neither: " +
-                            refused_);
+            throw Error(
+                ErrorKind::Usage,
+                "scan lines support only patches, the shapes that are patches, and polygons; "
+                "unsupported: " +
+                    refused_);
         }
         return std::move(result_);
     }

@@ -123,7 +123,8 @@ RenderReport LightTracing::render(const RenderJob& job, Film& film) const {
     RenderReport report = trace_paths(job, lights, {.depth = 0}, film);
     if (lights.leaves_some_to_chance()) {
         report.notes.push_back(
-            "light_tracing: some emitting surfaces send no light, for they cannot be sampled; "
+            "light_tracing: some emitting surfaces emit no light paths because they cannot be "
+            "sampled; "
             "path_tracing finds their light");
     }
     if (!report.complete() || !lights.shines()) return report;

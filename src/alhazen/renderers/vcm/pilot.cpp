@@ -135,7 +135,7 @@ PilotFinding make_pilot_run(const RenderJob& job, const Film& film, const VcmSet
     const double merged = work(merging), joined = work(joining), by_eye = work(eye);
     finding.pays = merged < joined;
     finding.sentence = fmt::format(
-        "vcm: a pilot run of {} passes at {} x {} pixels says that merging {}: its variance times "
+        "vcm: a pilot run of {} passes at {} x {} pixels shows that merging {}: its variance times "
         "cost is {} of bidirectional, and {} of path_tracing",
         kPilotPasses, width, height, finding.pays ? "pays" : "does not pay", beside(merged, joined),
         beside(merged, by_eye));

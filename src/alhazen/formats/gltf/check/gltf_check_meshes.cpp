@@ -75,7 +75,8 @@ class PrimitiveChecker {
             loading_.error(place_ + "/attributes", "there must be as many JOINTS_n as WEIGHTS_n");
         }
         const auto has = [&](const char* name) { return primitive_.attributes.count(name) != 0; };
-        if (!has("POSITION")) loading_.warning(place_, "there are no positions; nothing to see");
+        if (!has("POSITION"))
+            loading_.warning(place_, "there are no positions; the primitive is invisible");
         if (has("TANGENT") && !has("NORMAL")) {
             loading_.warning(place_, "there are tangents without normals");
         }

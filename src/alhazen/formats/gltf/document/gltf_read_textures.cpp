@@ -86,7 +86,7 @@ void media_type(const JsonObject& texture, const std::vector<Image>& images, Ind
     if (type.empty() || std::find(allowed.begin(), allowed.end(), type) != allowed.end()) return;
     // Unknown types are reported elsewhere; the content then determines the type.
     if (type != "image/jpeg" && type != "image/png" && type != "image/webp") return;
-    texture.error("source", "an image of " + type + " cannot be the source here");
+    texture.error("source", "the source must not be an image of type " + type);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ void read_lens(BlockReader& reader, PerspectiveCamera& camera) {
     }
     if (has_point && reader.has("focus_distance")) {
         reader.error(reader.block(),
-                     "'focus_at' and 'focus_distance' say the same; expected one "
+                     "'focus_at' and 'focus_distance' exclude each other; expected one "
                      "of them");
     }
     if (has_lens && camera.lens.radius > 0 && !has_point && !reader.has("focus_distance")) {

@@ -332,7 +332,7 @@ void read_dispersion(BlockReader& reader, Material& m) {
                abbe = reader.find("abbe");
     if ((glass ? 1 : 0) + (sellmeier ? 1 : 0) + (abbe ? 1 : 0) > 1) {
         reader.error(reader.block(),
-                     "'glass', 'sellmeier' and 'abbe' say the same; expected one of them");
+                     "'glass', 'sellmeier' and 'abbe' exclude each other; expected one of them");
         return;
     }
     if ((glass || sellmeier) && reader.has("index")) {

@@ -9,7 +9,8 @@ namespace {
 void read_filter(BlockReader& reader, TextureFilter& out) {
     bool bilinear = true;
     if (reader.has("filter") && reader.has("bilinear")) {
-        reader.error(reader.block(), "'filter' and 'bilinear' say the same; expected one of them");
+        reader.error(reader.block(),
+                     "'filter' and 'bilinear' exclude each other; expected one of them");
     }
     reader.read_word("filter", native_words<TextureFilter>(), out);
     if (reader.read("bilinear", bilinear)) {
