@@ -344,7 +344,8 @@ class Lattice {
         }
         return true;
     }
-    /// Tests along the normal; beside an edge of the surface the nearest point lies elsewhere.
+    /// Tests along the normal and seven other directions: near an edge the normal may miss the
+    /// surface.
     bool is_near(const Vec3& p, const Vec3& face, double limit) {
         if (line_.distance(p, face, limit) <= limit) return true;
         const double c = std::sqrt(1.0 / 3.0);
