@@ -84,7 +84,7 @@ export class Controls {
     const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
     return {values, wishes: new Set(this.wishes), lights: this.lights.state()};
   }
-  /** Choices that the scene no longer has are kept. */
+  /** Keeps choices that the scene does not have. */
   restore({values, wishes, lights}: Settings) {
     for (const [key, field] of this.fields) {
       const now = field.value;

@@ -203,7 +203,7 @@ void* alhazenGetGeometryBufferData(AlhazenGeometry geometry, AlhazenBufferType t
 }
 void alhazenUpdateGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
                                  unsigned int slot) {
-    // Only checks the arguments: a commit reads every buffer anew.
+    // Only checks the arguments: a commit reads every buffer again.
     with_geometry(geometry, [&](Geometry& g) { (void)g.buffer(type, slot); });
 }
 void alhazenSetGeometryMask(AlhazenGeometry geometry, unsigned int mask) {

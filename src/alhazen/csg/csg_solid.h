@@ -116,9 +116,8 @@ class CsgSolid {
     bool unbounded_ = false;                     ///< some leaf is unbounded
     std::vector<const SolidAggregate*> solids_;  ///< [instance of the table] null for a mesh
     Vec3 center_;
-    double half_ = 1.0;  ///< half the size of the solid
-    double offset_ =
-        0.0;  ///< part of the tolerance due to the distance of the center from the origin
+    double half_ = 1.0;    ///< half the size of the solid
+    double offset_ = 0.0;  ///< term for the distance of the center from the origin
 };
 
 inline CsgRay CsgSolid::prepare(const Ray& ray, RayMask mask) const {

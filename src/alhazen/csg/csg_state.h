@@ -78,7 +78,7 @@ class CsgState {
     }
     [[nodiscard]] bool changed(std::uint32_t leaf) const { return (leaf_[leaf] & kChanged) != 0; }
 
-    /// Starts to record changes anew.
+    /// Clears the record of changes.
     void forget_changes() {
         for (const std::uint32_t leaf : changed_leaves_) {
             leaf_[leaf] = static_cast<std::uint8_t>(leaf_[leaf] & ~kChanged);
@@ -102,8 +102,8 @@ class CsgState {
 
     const CsgTree* tree_ = nullptr;
     bool value_ = false;
-    std::vector<std::int32_t>
-        surplus_;  ///< [node] true operands, minus the number outside of all leaves
+    /// [node] number of true operands minus that number outside all leaves.
+    std::vector<std::int32_t> surplus_;
     std::vector<std::uint8_t> node_changed_;  ///< [node]
     std::vector<std::uint8_t> leaf_;          ///< [leaf] bits
     std::vector<std::uint32_t> touched_, changed_leaves_, changed_nodes_;

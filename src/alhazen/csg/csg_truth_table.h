@@ -71,8 +71,8 @@ class CsgTruthTable final : public LaneSolid, public CsgEvaluator {
     void fill(const CsgCrossing& crossing, Hit& hit) const;
 
     // The data of the lanes is first and contiguous.
-    decltype(CsgLanesKernel::first) first_in_lanes_ =
-        nullptr;  ///< null where lanes do not support all leaves
+    /// Null if lanes do not support all leaves.
+    decltype(CsgLanesKernel::first) first_in_lanes_ = nullptr;
     CsgLanesSolid lanes_;
     const CsgSolid& solid_;
     std::array<Place, kMaxLeaves> places_{};

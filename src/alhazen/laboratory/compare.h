@@ -24,7 +24,7 @@ namespace alhazen {
 struct CompareOptions {
     /// "NAME" or "NAME:SETTING=VALUE,..."; `list` and `wide_bvh` are added if missing.
     std::vector<std::string> accelerators;
-    bool tune = true;  ///< also measures accelerators without settings with the best settings found
+    bool tune = true;  ///< accelerators without settings: measures the best settings found, too
     double time_limit = 10;  ///< seconds for each of: counts, times, picture; twice for the search
     TrialOptions trial;
     ProgressSink* progress = nullptr;
@@ -50,7 +50,7 @@ struct Measurement {
     Variant variant = Variant::Default;
     std::string unavailable;  ///< reason if it could not be built; else empty
     double build_seconds = 0;
-    std::uint64_t bytes = 0;  ///< of the acceleration structures, after all rays
+    std::uint64_t bytes = 0;  ///< size of the acceleration structures after all rays
     ReplayFigures figures;
     PictureCheck picture;
     int tried = 0;  ///< number of builds of the search; 0 without a search

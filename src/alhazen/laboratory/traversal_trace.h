@@ -17,7 +17,7 @@ struct TraversalStep {
 
     Kind kind = Kind::Cell;
     bool met = true;            ///< the ray intersects the bound or hits the primitive
-    std::uint32_t number = 0;   ///< of the cell, the node or the primitive
+    std::uint32_t number = 0;   ///< number of the cell, node or primitive
     std::vector<Vec3> corners;  ///< of the convex cell or bound; none for a primitive
 };
 

@@ -32,8 +32,8 @@ inline constexpr std::uint32_t kNoPlacement = 0xFFFFFFFFu;
 template <class S>
 struct ShapeColumn {
     std::vector<S> shapes;
-    std::vector<std::uint32_t>
-        placements;  ///< [shape] index into PrimitiveTable::placements, or kNoPlacement
+    /// [shape] index into PrimitiveTable::placements, or kNoPlacement.
+    std::vector<std::uint32_t> placements;
     std::vector<MaterialId> materials;  ///< [shape]
     std::vector<std::uint32_t> parts;   ///< [shape] number of its part; empty: all 0
     /// [shape]; shapes beyond its end are visible to all rays.
@@ -230,8 +230,8 @@ class PrimitiveTable final : public BoundsSource {
         std::uint32_t first;
         RayMask visible_to;
     };
-    std::vector<MaskRange>
-        masks_;  ///< ascending; empty where all primitives are visible to all rays
+    /// Ascending; empty if all primitives are visible to all rays.
+    std::vector<MaskRange> masks_;
     RayMask common_mask_ = kAllRays;  ///< bits common to all masks
 };
 

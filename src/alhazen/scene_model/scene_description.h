@@ -58,8 +58,8 @@ enum class Combine : std::uint8_t {
 
 /// The material of a surface that a subtracted part cuts.
 enum class CutMaterial : std::uint8_t {
-    Own,      ///< that of the subtracted part
-    Minuend,  ///< that of the solid cut there
+    Own,      ///< the subtracted part's material
+    Minuend,  ///< the material of the solid that is cut
 };
 
 /// A list of parts. Every object but a group is a solid, whose parts must bound volumes (closed

@@ -43,7 +43,7 @@ struct RenderOptions {
     /// Instead of a camera of the scene; null: none.
     const CameraDescription* view = nullptr;
     std::optional<int> width, height;  ///< one given: the other follows from the aspect ratio
-    std::optional<PixelBox> crop;      ///< of the full frame; default all of it
+    std::optional<PixelBox> crop;      ///< part of the full frame; default: all of it
     int samples_per_pixel = 1;
     /// Adaptive supersampling; replaces samples_per_pixel.
     std::optional<AntialiasSettings> antialias;
@@ -74,12 +74,12 @@ struct RenderResult {
     int threads = 0;
     bool complete = true;                   ///< false after a stop; unfinished tiles are black
     std::size_t tiles_done = 0, tiles = 0;  ///< or parts, as counted by the renderer
-    std::shared_ptr<const AntialiasReport> antialias;  ///< of adaptive supersampling; else null
-    std::shared_ptr<const SamplingReport> sampling;    ///< of RenderOptions::sampling, else null
-    std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a scan-line renderer, else null
-    std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
-    std::vector<std::string> notes, remarks;           ///< of RenderReport
-    PhotonCloud photons;                               ///< of RenderOptions::keep_photons
+    std::shared_ptr<const AntialiasReport> antialias;  ///< null without adaptive supersampling
+    std::shared_ptr<const SamplingReport> sampling;    ///< null without RenderOptions::sampling
+    std::shared_ptr<const ScanLineReport> scan_lines;  ///< null unless a scan-line renderer
+    std::shared_ptr<const BeamReport> beams;           ///< null unless a beam renderer
+    std::vector<std::string> notes, remarks;           ///< as in RenderReport
+    PhotonCloud photons;                               ///< with RenderOptions::keep_photons
 };
 
 /// The camera that the options select. Throws Error (Usage) for an unknown name.

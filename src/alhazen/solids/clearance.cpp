@@ -154,7 +154,7 @@ class SlabSearch {
 
   private:
     static constexpr int kTilts = 24;
-    static constexpr int kSections = 32;  ///< of an interval, by the golden ratio
+    static constexpr int kSections = 32;  ///< golden-section steps per interval
 
     [[nodiscard]] double width(const Vec3& n) const { return b_.extent(n).lo - a_.extent(n).hi; }
 

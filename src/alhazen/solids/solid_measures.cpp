@@ -32,7 +32,7 @@ constexpr double kLeastStep = 2, kMostStep = 16;
 /// Independent line sets for Crofton's formula, and lines per set. The check converges slowly.
 constexpr std::size_t kCroftonSets = 16;
 constexpr std::uint32_t kCroftonLines = 2048, kLeastCroftonLines = 32;
-constexpr double kShareOfCrofton = 1.0 / 16;  ///< of the time, at most
+constexpr double kShareOfCrofton = 1.0 / 16;  ///< largest share of the time
 /// Share of the time for the volume when the area is measured too.
 constexpr double kShareOfVolume = 0.875;
 /// Half of an interval of the requested width is exceeded once in twenty cases; work on the volume

@@ -48,8 +48,8 @@ struct MeasureOptions {
     /// half this share of the volume: the error of the volume is then below this in more than 95 of
     /// 100 cases.
     double relative_error = 1e-4;
-    double seconds =
-        2;  ///< work also ends when more lines would take longer; at least a few thousand are cast
+    /// Work also ends when more lines would take longer; at least a few thousand are cast.
+    double seconds = 2;
     bool area = true;  ///< also measures the area by both methods
     std::uint64_t seed = 1;
     /// From this many lines on, more lines are cast instead of cutting cells. A cell takes 12 bytes
@@ -76,8 +76,8 @@ struct SolidMeasures {
     std::array<Estimate, 3> volume_by_direction;
     std::array<Vec3, 3> directions;
     std::uint64_t lines = 0;
-    std::uint64_t inconsistent_lines =
-        0;  ///< lines whose crossings did not come in pairs: left out
+    /// Number of lines left out because their crossings could not be paired.
+    std::uint64_t inconsistent_lines = 0;
     /// True if the three directions (both areas) differ by at most 2.5 times what their intervals
     /// allow, which chance exceeds about once in a thousand.
     bool directions_agree = true;

@@ -62,7 +62,7 @@ class StratifiedChords {
     [[nodiscard]] std::uint64_t lines() const { return casts_ * kLinesPerCell * cells_.size(); }
     /// Number of lines if their density were that of the sparsest cells everywhere.
     [[nodiscard]] double sparsest() const;
-    /// Cuts the cells until there are about `lines` lines, and casts all lines anew. If there are
+    /// Cuts the cells until there are about `lines` lines, and casts all lines again. If there are
     /// as many cells already, casts additional lines and keeps the earlier ones. Returns the number
     /// of lines cast, including surveys: about kCostOfLine per line.
     std::uint64_t grow_to(std::uint64_t lines);

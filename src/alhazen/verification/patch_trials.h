@@ -29,8 +29,8 @@ struct PatchModel {
     std::string name;
     std::vector<BezierNet> nets;
     std::vector<bool> open;  ///< [4 * patch + side]: no other patch has this side
-    std::vector<bool>
-        open_corner;           ///< [4 * patch + 2 * (u == 1) + (v == 1)]: an open side ends here
+    /// [4 * patch + 2 * (u == 1) + (v == 1)]: an open side ends here.
+    std::vector<bool> open_corner;
     std::vector<bool> turned;  ///< [patch] du x dv points to the other side than its neighbours'
     Box3 box;
     double reach = 0, most_weight = 0;

@@ -66,8 +66,8 @@ struct LoneSurface {
     PrimitiveTable table;
     bool closed = false;
     bool is_mesh = false;
-    bool is_whole_scene =
-        false;  ///< the table is empty: the aggregate of the scene is the surface's
+    /// The table is empty: the aggregate of the scene is used.
+    bool is_whole_scene = false;
 };
 
 /// True if the scene is only this mesh, not moved: its aggregate can be used.

@@ -17,7 +17,7 @@ export const norm = (a: Vec3) => Math.hypot(a[0], a[1], a[2]);
 export const unit = (a: Vec3) => scaled(1 / (norm(a) || 1), a);
 export const along = (ray: Line, t: number) => add(ray.origin, scaled(t, ray.direction));
 
-// Four significant digits; JSON has null for what is not finite.
+// Four significant digits; JSON represents non-finite numbers by null.
 export function number(x: number | null | undefined) {
   if (x === null || x === undefined) return "\u221e";
   if (x === 0) return "0";

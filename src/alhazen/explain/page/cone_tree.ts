@@ -6,7 +6,7 @@ import type {SceneView} from "./scene_view";
 
 const CONE_NAMES = {eye: "cone of the pixel", reflection: "reflected cone", refraction: "refracted cone"};
 
-/** `from`: the object that it leaves, if any. A large piece asks for each light in parts. */
+/** `from`: the object that it leaves, if any. A large piece samples each light in parts. */
 function nameOf(c: Cone, from: string | undefined) {
   const whence = from === undefined ? "" : ` from \u2018${from}\u2019`;
   if (c.kind !== "shadow") return CONE_NAMES[c.kind] + whence;

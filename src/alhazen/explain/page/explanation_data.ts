@@ -8,7 +8,7 @@ export interface Crossing {
   t: number;
   object: string;
 }
-/** What a light adds to a point, and the shadow ray to it. */
+/** The contribution of a light to a point, and the shadow ray to it. */
 export interface LightTerm {
   light: string;
   cosine: number;
@@ -177,7 +177,7 @@ export interface Beams {
   pieces: BeamPiece[];
 }
 
-/** A ray of a path, and what happened at its end; colours are in the pixel. Without an object it meets no surface. */
+/** A ray of a path and the event at its end; colours are in the pixel. Without an object it hits no surface. */
 export interface PathVertex {
   kind: Exclude<RayKind, "shadow">;
   origin: Vec3;

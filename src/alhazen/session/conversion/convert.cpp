@@ -150,7 +150,7 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     return output.finish(bytes_of(bytes));
 }
 
-/// Writes the Bezier patches without weights.
+/// Writes the non-rational Bezier patches.
 ConvertReport write_patches(const SceneDescription& description, const fs::path& path,
                             const ConvertOptions& options, ConvertOutput& output) {
     PlacedCounts counts = count_placed(description);

@@ -34,8 +34,8 @@ struct ConvertReport {
     std::uint64_t triangles = 0;     ///< written: each mesh once (native), or all placed meshes
     std::uint64_t masked_parts = 0;  ///< mesh formats: parts whose visibility mask is lost
     std::string left_out;            ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
-    std::vector<std::string>
-        lost;  ///< OBJ: material properties that MTL cannot express, one line each
+    /// OBJ: material properties that MTL cannot express, one line each.
+    std::vector<std::string> lost;
 };
 
 /// Throws Error (Usage) with the known suffixes when `path` has none of them, or when it is the
