@@ -54,7 +54,7 @@ class SceneStore {
     void read_again();
     /// Waits, at most this long, until the first reading has ended. Rethrows its error.
     void wait_for_first(std::chrono::milliseconds most) const;
-    /// The error of the first reading if there has never been a scene; otherwise null.
+    /// The error of the last reading if there has never been a scene; otherwise null.
     [[nodiscard]] std::exception_ptr failure() const;
 
     /// The state for a page: menus, unless it knows those of version `known`, and current work.

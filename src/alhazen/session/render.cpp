@@ -82,7 +82,7 @@ void check_camera(const Camera& camera, const RenderOptions& options, const Rend
 }
 
 /// Samples per pixel for the width of texture lookups. With rounds the number is not known in
-/// advance: the smallest is used.
+/// advance; at most 16 are assumed.
 int samples_of_cone(const RenderOptions& options) {
     constexpr int kLeast = 16;
     const bool rounds = options.sampling && options.sampling->has_rounds();

@@ -18,7 +18,7 @@ namespace alhazen {
 
 struct SampleStudyOptions {
     std::uint32_t points = 256;  ///< per pixel, 1 .. kMostStudied
-    std::uint32_t sets = 0;      ///< number of pixels averaged; 0: as many as take moments
+    std::uint32_t sets = 0;      ///< pixels averaged; 0: 16384 / points, from 4 to 256
     std::uint32_t pair = 0;
     std::uint64_t seed = 0;
     SamplePixel pixel;  ///< the pixel drawn, and the first of those averaged

@@ -198,7 +198,7 @@ void RoadComparison::add_mixed(VerifyRays& rays, Block& block) {
     constexpr std::size_t kMixedRays = 3 * VerifyRays::kTileRays;
     for (std::size_t i = 0; i < kMixedRays; ++i) {
         block.samples.push_back(rays.next());
-        // The mask changes every fourth ray.
+        // The mask changes after one ray of each of the four kinds.
         block.masks.push_back(next_mask(mixed_count_++ / 4));
     }
 }
