@@ -24,14 +24,14 @@ struct ConvertArguments {
 };
 
 int run(const ConvertArguments& args) {
-    // Check the names before any work.
+    // Checks the names before any work.
     check_convert_target(args.scene.scene, args.output);
     Diagnostics diagnostics;
     SceneDescription description =
         load_description(args.scene.scene, args.scene.load_options(), diagnostics);
     if (!args.quiet) print_warnings(diagnostics);
     if (args.tolerance) {
-        // A native file holds shapes without triangles too; --meshes-only leaves them out.
+        // A native file can hold shapes without a tessellation; --meshes-only leaves them out.
         const bool keep_others = args.convert.meshes_only ||
                                  std::filesystem::path(args.output).extension() == ".alhazen";
         const TessellationReport report = tessellate(description, *args.tolerance, keep_others);

@@ -17,7 +17,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// More warnings would hide what follows.
+/// More warnings would hide later output.
 constexpr std::size_t kMaxShownWarnings = 20;
 
 /// Integers separated by `separator`; empty for any other text.

@@ -44,7 +44,7 @@ void check(const RenderOptions& options) {
          fmt::format("depth must be 0 to {}", kMaxDepth));
 }
 
-/// The names of renderers of which `has` is true.
+/// The names of the renderers for which `has` is true.
 std::string renderers_where(bool (Renderer::*has)() const) {
     std::string names;
     for (const RendererEntry& entry : renderers()) {
@@ -54,7 +54,7 @@ std::string renderers_where(bool (Renderer::*has)() const) {
     return names;
 }
 
-/// Of renderers that promise all light.
+/// Throws if a physically based renderer would ignore scattering in volumes.
 void check_scattering(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
     if (!renderer.follows_light() || renderer.scatters_in_volumes()) return;
     for (const Material& material : scene.materials) {
@@ -81,8 +81,8 @@ void check_camera(const Camera& camera, const RenderOptions& options, const Rend
     }
 }
 
-/// Rounds do not know in advance how many samples a pixel gets: textures are as sharp as for the
-/// least.
+/// Samples per pixel for the width of texture lookups. With rounds the number is not known in
+/// advance; at most 16 are assumed.
 int samples_of_cone(const RenderOptions& options) {
     constexpr int kLeast = 16;
     const bool rounds = options.sampling && options.sampling->has_rounds();
@@ -99,7 +99,7 @@ Scene adjusted(const Scene& scene, const RenderOptions& options, const Renderer&
     return result;
 }
 
-/// `description`: of the scene, or null.
+/// `description`: that of the scene, or null.
 RenderResult render_described(const Scene& original, const SceneDescription* description,
                               const PictureSettings& picture, const RenderOptions& options) {
     check(options);

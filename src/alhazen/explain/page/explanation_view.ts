@@ -78,7 +78,7 @@ function header(data: Explanation, picture: string | null) {
   }
   return head;
 }
-// The tree is that of whitted, whoever made the picture.
+// The tree is that of whitted, whichever renderer made the picture.
 function otherRenderer({renderer, draws_at_random, path}: Explanation) {
   if (renderer === "whitted") return null;
   return element("p", {class: "cut", id: "other"}, draws_at_random

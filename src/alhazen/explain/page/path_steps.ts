@@ -1,4 +1,4 @@
-// One path of path_tracing: what it carries from surface to surface, what it comes upon, and what lights send.
+// A path of path_tracing: its throughput from surface to surface, emission it meets, and light samples.
 
 import {add, along, element, headRow, norm, number, scaled, scrolling, swatch, triple, unit} from "./basics";
 import type {Vec3} from "./basics";
