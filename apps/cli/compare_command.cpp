@@ -72,7 +72,7 @@ std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args)
 /// Checks that a scene can be read, before long work on the first ones.
 void check_readable(const std::string& scene) {
     if (std::ifstream(scene).good() && std::filesystem::is_regular_file(scene)) return;
-    throw Error(ErrorKind::File, fmt::format("cannot read {}: no file that may be read", scene));
+    throw Error(ErrorKind::File, fmt::format("cannot read {}: not a readable regular file", scene));
 }
 
 SceneDescription read_scene(const CompareArguments& args, const std::string& scene,

@@ -50,12 +50,12 @@ int run(const ConvertArguments& args) {
     }
     if (report.masked_parts > 0) {
         tell(
-            "warning: {} parts are not seen by all rays; in mesh files everything is (.alhazen "
-            "keeps 'visible_to')\n",
+            "warning: mesh files do not keep the visibility masks of {} parts (.alhazen keeps "
+            "'visible_to')\n",
             report.masked_parts);
     }
     for (const std::string& line : report.lost) {
-        tell("warning: the MTL file cannot say {}\n", line);
+        tell("warning: the MTL file cannot express {}\n", line);
     }
     const std::size_t beside = report.files.size() - 1;
     tell("{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,

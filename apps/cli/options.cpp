@@ -131,7 +131,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->type_name("N")
         ->capture_default_str();
     csg = kDefaultCsgEvaluator;
-    command.add_option("--csg", csg, "Who evaluates solids made of others; see `alhazen list csg`")
+    command.add_option("--csg", csg, "Evaluator of CSG solids; see `alhazen list csg`")
         ->type_name("NAME")
         ->capture_default_str();
     command.add_flag("--compact", compact,

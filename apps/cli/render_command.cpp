@@ -332,16 +332,16 @@ void add_render(CLI::App& app, int& exit_status) {
         ->capture_default_str();
     command
         ->add_option("--spp", args->spp,
-                     "Samples per pixel; if not given 1, of renderers that distribute rays 16 or "
-                     "64; with --noise or a limit of --time the most of a pixel")
+                     "Samples per pixel; default: 1, or 16 or 64 for renderers that distribute "
+                     "rays; with --noise or a limit of --time the maximum of a pixel")
         ->type_name("N");
     command
         ->add_option("--sampler", args->sampling.sampler,
-                     "Where samples lie; see `alhazen list samplers`")
+                     "Sampler by name; see `alhazen list samplers`")
         ->type_name("NAME");
     command
         ->add_option("--filter", args->sampling.filter,
-                     "How they become a pixel; see `alhazen list filters`")
+                     "Reconstruction filter by name; see `alhazen list filters`")
         ->type_name("NAME[:radius=PIXELS,shared=on]");
     command
         ->add_option("--noise", args->sampling.noise,

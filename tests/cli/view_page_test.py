@@ -396,7 +396,7 @@ class ViewPage(unittest.TestCase):
         self.server.process.wait()
         again = Server(ALHAZEN, self.scene, "--port", str(self.server.port))
         self.addCleanup(again.close)
-        page.wait(MESSAGE + ".startsWith('Another server') && " + MESSAGE + ".includes('no key')")
+        page.wait(MESSAGE + ".startsWith('The server was replaced') && " + MESSAGE + ".includes('no key')")
 
     def test_the_policy_allows_this_server_alone(self):
         self.open("900,700")

@@ -142,7 +142,7 @@ export class LightList {
     this.buttons.children[0].toggleAttribute("hidden", this.boxes.length < 2);
     this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
     if (this.block.hidden) return;
-    if (!changes.length) this.block.value = "// No light is other than in the file.\n";
+    if (!changes.length) this.block.value = "// No light differs from the file.\n";
     else void this.listener.blocks(changes).then(text => this.block.value = text);
   }
 }

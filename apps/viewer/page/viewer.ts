@@ -17,7 +17,7 @@ const WIDEST = 4096;          // widest picture of the server
 const MOST_RAW = 1.5e6;       // most pixels sent uncompressed; larger pictures are JPEG
 const STOPPED = "Reading the file was ended.";
 const NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
-const OTHER_SERVER = "Another server has come in place of this page\u2019s, and the page has no key to it: open the address that " +
+const OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that " +
   "`alhazen view` printed.";
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 

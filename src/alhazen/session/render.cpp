@@ -71,13 +71,13 @@ void check_camera(const Camera& camera, const RenderOptions& options, const Rend
     if (!std::holds_alternative<WideCamera>(camera)) return;
     if (!renderer.takes_wide_cameras()) {
         throw Error(ErrorKind::Usage,
-                    fmt::format("fisheyes and panoramas are for the renderers {}; renderer '{}' "
-                                "draws flat pictures only",
+                    fmt::format("fisheyes and panoramas require one of the renderers {}; renderer "
+                                "'{}' supports planar projections only",
                                 renderers_where(&Renderer::takes_wide_cameras), options.renderer));
     }
     if (options.antialias) {
         throw Error(ErrorKind::Usage,
-                    "--antialias knows flat pictures only: it excludes fisheyes and panoramas");
+                    "--antialias supports planar projections only, neither fisheyes nor panoramas");
     }
 }
 
@@ -256,7 +256,7 @@ void check_photons(const RenderOptions& options, const Renderer& renderer) {
 void check_spectral(const RenderOptions& options, const Renderer& renderer) {
     if (!options.spectral || renderer.takes_wavelengths()) return;
     throw Error(ErrorKind::Usage,
-                fmt::format("--spectral is for renderers that follow light by its wavelengths: {}; "
+                fmt::format("--spectral requires a renderer that traces wavelengths: {}; "
                             "renderer '{}' does not",
                             renderers_where(&Renderer::takes_wavelengths), options.renderer));
 }

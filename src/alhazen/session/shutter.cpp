@@ -35,10 +35,11 @@ class PoseMotion {
   private:
     void require(bool same) const {
         if (same) return;
-        throw Error(ErrorKind::Scene,
-                    fmt::format("{}: has other things at another time; --shutter needs a scene in "
-                                "which things move and none come or go",
-                                d_.path.string()));
+        throw Error(
+            ErrorKind::Scene,
+            fmt::format("{}: its objects differ between times; --shutter requires a scene in "
+                        "which objects move and none appear or vanish",
+                        d_.path.string()));
     }
 
     /// Keys with the transform `of(pose)` at each time.

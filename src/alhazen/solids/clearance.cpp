@@ -247,7 +247,7 @@ std::vector<Pair> nearest_pairs(const std::vector<SurfacePoint>& on_a,
 
 Clearance clearance(const IsolatedSolid& a, const IsolatedSolid& b, std::uint64_t seed) {
     if (!a.box().bounded() || !b.box().bounded()) {
-        throw Error(ErrorKind::Usage, "a solid is not bounded: its clearance is not looked for");
+        throw Error(ErrorKind::Usage, "a solid is not bounded: clearance requires bounded solids");
     }
     const auto on_a = surface_points(a, mix64(seed));
     const auto on_b = surface_points(b, mix64(seed + 1));

@@ -172,7 +172,7 @@ var ConeTree = class {
       root.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
-    root.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. A cone\u2019s radiance is the sum of weight \xD7 colour, and what is left of it times the background."));
+    root.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; the weight is its visible fraction. A cone\u2019s radiance is the sum of weight \xD7 colour, plus what is left of the cone times the background."));
     if (cones.cut) root.append(element("p", { class: "cut" }, "The tree is cut: it has more than 2000 cones."));
     root.append(element("div", { class: "outline" }, element("ul", { "aria-label": "Cones" }, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
@@ -302,11 +302,11 @@ function pathSteps(root, data, path, view) {
     view.draw();
   };
   root.append(
-    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. The light of all rows adds up to the sample.`),
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Throughput is the fraction of the radiance at the origin of the ray that reaches the pixel. The light of all rows adds up to the sample.`),
     scrolling("The path", element(
       "table",
       {},
-      headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+      headRow(["ray", "", "throughput", "hits", "direct light", "event", ""]),
       element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
       element("tfoot", {}, element(
         "tr",
@@ -1207,7 +1207,7 @@ function header(data, picture) {
 }
 function otherRenderer({ renderer, draws_at_random, path }) {
   if (renderer === "whitted") return null;
-  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws rays at random for each sample. The tree shows the rays that whitted traces for this pixel: towards points of lights, in mirror directions and through glass. Its colour may differ.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour may differ.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {
@@ -1600,7 +1600,7 @@ var LightList = class {
     this.buttons.children[0].toggleAttribute("hidden", this.boxes.length < 2);
     this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
     if (this.block.hidden) return;
-    if (!changes.length) this.block.value = "// No light is other than in the file.\n";
+    if (!changes.length) this.block.value = "// No light differs from the file.\n";
     else void this.listener.blocks(changes).then((text) => this.block.value = text);
   }
 };
@@ -2062,7 +2062,7 @@ var WIDEST = 4096;
 var MOST_RAW = 15e5;
 var STOPPED = "Reading the file was ended.";
 var NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
-var OTHER_SERVER = "Another server has come in place of this page\u2019s, and the page has no key to it: open the address that `alhazen view` printed.";
+var OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that `alhazen view` printed.";
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
   // Tests read these, too.

@@ -20,8 +20,8 @@ export class ConeTree {
       root.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
-    root.append(element("p", {class: "soft"}, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. " +
-      "A cone\u2019s radiance is the sum of weight \u00d7 colour, and what is left of it times the background."));
+    root.append(element("p", {class: "soft"}, "By cone_tracing: each piece covers a share of its cone; the weight is its visible fraction. " +
+      "A cone\u2019s radiance is the sum of weight \u00d7 colour, plus what is left of the cone times the background."));
     if (cones.cut) root.append(element("p", {class: "cut"}, "The tree is cut: it has more than 2000 cones."));
     root.append(element("div", {class: "outline"}, element("ul", {"aria-label": "Cones"}, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];

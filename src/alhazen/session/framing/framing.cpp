@@ -172,10 +172,11 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     const SeenParts seen(*scene.aggregate);
     const Box3& box = seen.box();
     if (box.empty()) {
-        throw Error(ErrorKind::Scene,
-                    scene.aggregate->box().empty()
-                        ? "the scene has nothing that could be seen, and no camera"
-                        : "the scene has no camera, and nothing of finite size that one would see");
+        throw Error(
+            ErrorKind::Scene,
+            scene.aggregate->box().empty()
+                ? "the scene has no camera and no visible geometry to frame"
+                : "the scene has no camera and no visible geometry of finite size to frame");
     }
     if (!is_finite(box.size())) {
         throw Error(ErrorKind::Scene, "the scene has no camera and is too large to be framed");

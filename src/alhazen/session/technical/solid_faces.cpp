@@ -83,12 +83,6 @@ bool add_faces(const AnyShape& shape, std::vector<SolidFace>& faces, Box3& box) 
     return true;
 }
 
-/// A boundary between two sectors around a curve.
-struct Spoke {
-    double angle = 0;
-    Vec3 along;
-};
-
 }  // namespace
 
 double SolidFace::value(const Vec3& p) const {

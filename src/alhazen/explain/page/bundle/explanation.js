@@ -172,7 +172,7 @@ var ConeTree = class {
       root2.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
-    root2.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. A cone\u2019s radiance is the sum of weight \xD7 colour, and what is left of it times the background."));
+    root2.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; the weight is its visible fraction. A cone\u2019s radiance is the sum of weight \xD7 colour, plus what is left of the cone times the background."));
     if (cones.cut) root2.append(element("p", { class: "cut" }, "The tree is cut: it has more than 2000 cones."));
     root2.append(element("div", { class: "outline" }, element("ul", { "aria-label": "Cones" }, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
@@ -302,11 +302,11 @@ function pathSteps(root2, data, path, view) {
     view.draw();
   };
   root2.append(
-    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. The light of all rows adds up to the sample.`),
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Throughput is the fraction of the radiance at the origin of the ray that reaches the pixel. The light of all rows adds up to the sample.`),
     scrolling("The path", element(
       "table",
       {},
-      headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+      headRow(["ray", "", "throughput", "hits", "direct light", "event", ""]),
       element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
       element("tfoot", {}, element(
         "tr",
@@ -1207,7 +1207,7 @@ function header(data, picture) {
 }
 function otherRenderer({ renderer, draws_at_random, path }) {
   if (renderer === "whitted") return null;
-  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws rays at random for each sample. The tree shows the rays that whitted traces for this pixel: towards points of lights, in mirror directions and through glass. Its colour may differ.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour may differ.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {
