@@ -45,7 +45,7 @@ TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
     }
 }
 
-// Rays that the floor scatters found a lamp's back as bright as its front, which no lamp draws.
+// Scattered rays see the back of a single-sided light as black, consistent with sampling the light.
 TEST(LightTransport, ASingleSidedLampShinesToItsFrontAlone) {
     for (const char* renderer :
          {"path_tracing", "path_tracing --spectral", "bidirectional", "light_tracing",

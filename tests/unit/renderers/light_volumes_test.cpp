@@ -89,7 +89,7 @@ TEST(LightVolumes, AnEyeInGlassLooksThroughIt) {
     }
 }
 
-/// Of the picture, half begins in a block that absorbs, half beside it.
+/// Half of the eye rays begin in an absorbing block, half next to it.
 TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
     const double absorption = 0.7, way = 1;
     SceneMaker maker = wall_of_light();
@@ -110,7 +110,7 @@ TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
 }
 
 TEST(LightVolumes, ALampInGlassShinesThroughIt) {
-    // A small lamp in the middle of a ball: its rays meet the glass straight on.
+    // A small light in the middle of a ball: its rays meet the glass at normal incidence.
     const double radius = 0.5, lamp = 0.02, absorption = 1.5, high = 2;
     constexpr double kSide = 1.5;
     SceneMaker maker = floor_from_above(kSide);
@@ -169,7 +169,7 @@ TEST(LightVolumes, AreFoundBelowAnOpenSheet) {
     EXPECT_TRUE(finder.around({0, 0, 1.5}, 0).empty());
 }
 
-/// Light that is focused by glass, found by paths that happen to hit the lamp and by others.
+/// Light focused by glass, found by paths that hit the light by chance and by other paths.
 TEST(LightVolumes, PathsAgreeOnGlassInARoom) {
     const auto room = [](const Material& of_ball) {
         SceneMaker maker;

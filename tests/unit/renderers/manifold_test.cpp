@@ -69,7 +69,7 @@ TriangleMesh smooth_mesh(int levels) {
     return mesh;
 }
 
-/// Shapes around (0, 0, 2), of every way to know how their normals change.
+/// Shapes around (0, 0, 2), with every kind of derivative of the normal.
 void add_shape(SceneMaker& maker, int which, MaterialId material) {
     const Affine up = Affine::translate({0, 0, 2});
     switch (which) {
@@ -364,7 +364,7 @@ TEST(Manifold, APoolOfWaterIsLitFromAbove) {
     EXPECT_NEAR(seen, expected, 0.02 * expected);
 }
 
-/// Small rooms, seen by paths from the lights and by chains.
+/// Adds a small room, rendered by light paths and by specular chains.
 void add_room(SceneMaker& maker) {
     const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
     maker.description().cameras[0].camera =
@@ -375,7 +375,8 @@ void add_room(SceneMaker& maker) {
     maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
 }
 
-/// Light paths do not find what the eye sees in mirrors and through glass: it sees none here.
+/// Hides the last part from the eye, because light paths do not find surfaces seen in mirrors and
+/// through glass.
 void hide_last(SceneMaker& maker) {
     maker.description().objects[0].parts.back().visible_to =
         kRaysOfAllKinds & ~mask_of(RayKind::Eye);

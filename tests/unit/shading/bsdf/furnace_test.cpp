@@ -14,7 +14,7 @@ constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1};
 void expect_furnace(const NamedBsdf& b, double expected) {
     for (const double cosine : kViews) {
         Spectrum sum = furnace(b.bsdf, view_at(cosine), 1 << 14);
-        // Where these samples are too few to tell, more.
+        // More samples if these are too few to decide.
         if (std::abs(sum.a - expected) > 0.7 * b.error * expected) {
             sum = furnace(b.bsdf, view_at(cosine), 1 << 18);
         }
