@@ -182,7 +182,7 @@ TEST(MotionAggregate, BatchesAreSingleRaysAtTheirTimes) {
     }
 }
 
-/// `shape` rests, alone, seen by reflected rays only where `masked`; balls slide before it.
+/// One resting `shape`, visible to reflected rays only if `masked`; balls slide in front of it.
 SceneDescription sliding_balls_before(const AnyShape& shape, bool masked) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> number(-1, 1);

@@ -110,7 +110,7 @@ TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         ASSERT_EQ(encoded.samples[i], encode_channel(values[i], Encoding::Srgb, 8)) << values[i];
     }
-    // Of more pixels than are written at once.
+    // With more pixels than one write takes.
     const auto count = static_cast<std::size_t>(pixels);
     ASSERT_GT(count, 4096U);
     for (const Encoding encoding : {Encoding::Srgb, Encoding::LinearTruncated}) {

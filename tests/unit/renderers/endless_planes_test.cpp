@@ -15,7 +15,7 @@ using namespace alhazen::testing;
 /// As in TheThreeStrategiesAgreeOnThirteenScenes.
 constexpr double kMost = 5.7;
 
-/// A matt table with a ball, seen from above, under an even sky.
+/// A matt table with a ball, seen from above, under a uniform sky.
 SceneMaker table_under_the_sky() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -75,7 +75,7 @@ TEST(EndlessPlanes, StrategiesAgreeBesideAndBelowThem) {
     }
 }
 
-/// Before, light paths began below it.
+/// Light paths of the sun begin above an unbounded surface.
 TEST(EndlessPlanes, TheSunLightsOneAboveAllThatIsBounded) {
     SceneMaker maker = table_under_the_sky();
     maker.description().picture.background.reset();

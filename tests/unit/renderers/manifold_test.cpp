@@ -252,8 +252,8 @@ TEST(Manifold, AllChainsThroughABallAreFound) {
     EXPECT_GT(several, 5);
 }
 
-/// Irradiance across the light that a mirror of radius r sends from a lamp of intensity 1: the
-/// tangential and the sagittal focus.
+/// Irradiance, perpendicular to its direction, of the light of intensity 1 that a mirror of radius
+/// r reflects: from the tangential and the sagittal focus.
 double by_convex_mirror(double to_mirror, double to_floor, double cosine, double radius) {
     const double product = 2.0 * to_mirror * to_floor / radius;
     return 1.0 /
@@ -437,7 +437,7 @@ TEST(Manifold, RoomsWithPointsOfLightAreAsLightTracingShowsThem) {
 }
 
 TEST(Manifold, LightOfLampsThatCanBeHitIsNotCountedTwice) {
-    // Paths find it, too, if slowly; light paths need no mirror at all.
+    // Paths also find it, slowly; light paths need no specular chain.
     expect_chains(
         "lamp above a glass ball", 6, "light_tracing",
         [](SceneMaker& m) {

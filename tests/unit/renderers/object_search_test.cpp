@@ -252,7 +252,7 @@ void expect_equal_shades(const Scene& scene) {
     for (std::size_t k = 0; k < kRayKindCount; ++k) {
         EXPECT_EQ(parts.rays[k].cast, whole.rays[k].cast) << k;
     }
-    // A batch after that starts from nothing.
+    // The next batch starts without a remainder.
     answers->trace(std::span(rays).first(9), std::span(shaded).first(9), {}, parts);
     EXPECT_TRUE(std::equal(shaded.begin(), shaded.begin() + 9, traced.begin()));
 }

@@ -67,7 +67,7 @@ TEST(PhotonRenderers, ASphereOfLightOverAFloorGivesItsFormFactor) {
     }
 }
 
-/// Light by way of a mirror is a caustic of parallel rays: as bright as the direct light.
+/// Light reflected by a mirror is a caustic of parallel rays, as bright as the direct light.
 TEST(PhotonRenderers, APlaneMirrorAddsTheLightOfTheLampBehindIt) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -78,7 +78,7 @@ TEST(PhotonRenderers, APlaneMirrorAddsTheLightOfTheLampBehindIt) {
     maker.add(rectangle({1, -3, 0}, {0, 6, 0}, {0, 0, 3}), maker.material(mirror));
     maker.light(PointLight{.position = {0, 0, 1}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
     const Scene scene = maker.compile();
-    // The image of the lamp is at (2, 0, 1): cosine 1 / sqrt(5), squared distance 5.
+    // The image of the light is at (2, 0, 1): cosine 1 / sqrt(5), squared distance 5.
     const double expected = 1.0 + 0.8 / (5.0 * std::sqrt(5.0));
     for (const char* renderer :
          {"photon_mapping:photons=1000,caustics=100000,nearest=400,filter=disc",
@@ -109,9 +109,9 @@ TEST(PhotonRenderers, APointOfLightInABallOfGlassLightsTheFloor) {
     }
 }
 
-/// A wall that shines, seen straight through a slab: (1 - R) / (1 + R) of it, over all orders. Each
-/// sample follows both branches at each side; with a random choice a sample would be all or
-/// nothing.
+/// An emitting wall, seen through a slab at normal incidence: (1 - R) / (1 + R) of it, over all
+/// orders. Each sample follows both branches at each side; with a random choice a sample would be
+/// all or nothing.
 TEST(PhotonRenderers, BothWaysThroughASlabOfGlassAreOneSample) {
     SceneMaker maker;
     maker.description().cameras[0].camera =

@@ -327,7 +327,7 @@ TEST(VcmPilot, SaysWhetherMergingPays) {
     EXPECT_NE(remark(plain, "vcm:pilot=choose").find("does not pay"), std::string::npos);
     EXPECT_NE(remark(plain, "vcm:pilot=choose").find("none are merged"), std::string::npos);
     EXPECT_EQ(remark(plain, "vcm:pilot=off"), "");
-    // Too short a render for a pilot that only says something.
+    // The render is too short for a pilot that only reports.
     EXPECT_EQ(remark(plain, "vcm"), "");
 }
 

@@ -1,5 +1,4 @@
-/// Whatever the number of rays that are traced together: the same picture, bounded memory, and an
-/// end when one is asked for.
+/// For any number of rays traced together: the same picture, bounded memory, and an end on request.
 
 #include "alhazen/renderers/core/wavefront.h"
 

@@ -81,7 +81,7 @@ TEST(Lighting, LightsOfOneNameAreNumberedAtOnce) {
     SceneMaker maker;
     for (std::size_t i = 0; i < kCount; ++i) maker.light(PointLight{});
     for (LightDescription& light : maker.description().lights) light.name = "lamp";
-    // Numbers that are names already are left out.
+    // Numbers that would repeat an existing name are skipped.
     maker.description().lights[0].name = "lamp (3)";
     maker.description().lights[3].name = "lamp (2)";
     const std::vector<NamedLight> choices = light_choices(maker.description());

@@ -139,7 +139,7 @@ void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, do
     EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
     EXPECT_TRUE(is_there(shape, found.point, random, size));
     check_normal(shape, found, random, size);
-    // Nothing is nearer.
+    // No other point is nearer.
     const Box3 box = shape.box();
     std::vector<std::pair<double, Vec3>> starts;
     for (int i = 0; i < 200; ++i) {

@@ -224,7 +224,7 @@ TEST(ShadowRays, AreAsManyAsAsked) {
             const PixelValues eight = pixels_of(scene, renderer + ",shadows=8", 1);
             EXPECT_GT(one.mean, 0.02) << renderer;
             EXPECT_NEAR(eight.mean, one.mean, 4.0 * one.deviation / 32) << renderer;
-            // More even than by chance.
+            // Stratified: a smaller deviation than that of independent samples.
             EXPECT_LT(eight.deviation, 0.3 * one.deviation) << renderer;
         }
     }

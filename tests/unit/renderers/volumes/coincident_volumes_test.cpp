@@ -66,7 +66,7 @@ void expect_light_of(const Blocks& truth, const Scene& scene, const std::string&
 double sum_of(const Rgb& c) {
     return c.r + c.g + c.b;
 }
-/// Of the same volumes in another order: path by path, but for rounding.
+/// Expects equal paths of the same volumes in another order, up to rounding.
 void expect_same_paths(const Scene& a, const Scene& b, const std::string& renderer,
                        const std::string& name) {
     const Film first = picture_of(a, renderer, 8, 16), second = picture_of(b, renderer, 8, 16);

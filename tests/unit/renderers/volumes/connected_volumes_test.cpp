@@ -128,7 +128,7 @@ TEST(ConnectedVolumes, FacesThatCoincideAreOne) {
     }
 }
 
-/// Whatever side is the endless one, and however far away it ends.
+/// Either side may be the unbounded one, and its boundary at any distance.
 TEST(ConnectedVolumes, VolumesWithoutEndAreFoundFromBothSides) {
     for (int k = 0; k < 6; ++k) {
         Vec3 normal;
@@ -178,7 +178,7 @@ TEST(ConnectedVolumes, FlushVolumesNestInAnyOrder) {
     }
 }
 
-/// A bounded volume of the same material holds the point, too: that one alone is left.
+/// A bounded volume of the same material also contains the point: leaving removes that one alone.
 TEST(ConnectedVolumes, VolumesWithoutEndLieAroundThoseOfTheirMaterial) {
     for (int k = 0; k < 6; ++k) {
         Vec3 normal;

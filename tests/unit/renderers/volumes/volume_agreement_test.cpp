@@ -68,7 +68,7 @@ std::vector<std::string> spectral(std::vector<std::string> renderers) {
     return renderers;
 }
 
-/// A floor seen aslant from above.
+/// A floor seen obliquely from above.
 SceneMaker over_a_floor() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -89,8 +89,8 @@ TEST(VolumeAgreement, APointOfLightOutsideOfFog) {
     }
 }
 
-/// Photons that come through a boundary which is passed straight are direct light, as all that
-/// shadow rays find: it is not found twice. Balls of estimates reach beyond the fog, which is thin.
+/// Photons through a boundary without refraction are direct light, which shadow rays find: it is
+/// not counted twice. Balls of estimates extend beyond the thin fog.
 TEST(VolumeAgreement, PhotonsOfAPointOutsideOfFog) {
     SceneMaker maker = over_a_floor();
     maker.add(BoxShape{{-1, -1, 0.02}, {1, 1, 1.2}},

@@ -114,7 +114,7 @@ TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
     }
 }
 
-/// A layer in the sun, through boundaries that are passed straight.
+/// A layer in sunlight, with boundaries without refraction.
 TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     const Rgb absorption{0.1, 0.3, 0}, scattering{0.3, 0.2, 0.6};
     constexpr double kThick = 1.5;
@@ -145,8 +145,8 @@ TEST(VolumePaths, ALampInABallOfFogIsFoundFromOutside) {
     maker.description().conventions.shading.clamp_attenuation = false;
     maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, scattering)));
     maker.light(PointLight{.position = {0, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
-    // By the distance r from the lamp: a shell sends its light to all sides alike; the view passes
-    // the way from there to the surface.
+    // Integral over the distance r from the light: a shell scatters isotropically, and the light is
+    // attenuated from there to the surface.
     Rgb expected;
     constexpr int kShells = 200, kCosines = 200;
     for (int i = 0; i < kShells * kCosines; ++i) {

@@ -64,7 +64,7 @@ Bsdf bsdf_of_parameters(const MetallicRoughness& p, double index = 1.5, bool ins
     return bsdf_of(m, {}, {}, {.from_inside = inside});
 }
 
-/// White materials of the glTF model, whose layers lose nothing.
+/// White materials of the glTF model, whose layers lose no energy.
 std::vector<NamedBsdf> white_materials(double roughness) {
     std::vector<NamedBsdf> list;
     const auto add = [&](std::string name, const auto& change, bool inside = false) {
