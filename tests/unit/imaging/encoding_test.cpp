@@ -94,7 +94,7 @@ TEST(Encoding, AlphaDoesNotGoThroughTheCurve) {
 
 TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
     std::vector<double> values{-1.0, 0.0, 1e-300, 1.0, 2.0, std::nan(""), 0.0031308};
-    for (int code = 0; code < 256; ++code) {  // where codes change, and beside
+    for (int code = 0; code < 256; ++code) {  // where codes change, and next to it
         const double edge = linear_from_srgb((code + 0.5) / 255.0);
         double below = edge, above = edge;
         for (int k = 0; k < 20; ++k) {

@@ -350,7 +350,7 @@ TEST(BeamTracing, TheErrorOfRefractionIsALayer) {
     Film film(kWidth, kHeight, {0, 0, kWidth, kHeight});
     (void)BeamTracing().render(job, film);
     const auto& values = aovs.layers().find("refraction_error")->values;
-    EXPECT_EQ(values.front(), 0.0f);  // beside the block
+    EXPECT_EQ(values.front(), 0.0f);  // next to the block
     const float middle = values[kHeight / 2 * kWidth + kWidth / 2];
     float most = 0;
     for (const float v : values) most = std::max(most, v);

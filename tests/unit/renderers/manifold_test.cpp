@@ -309,7 +309,7 @@ TEST(Manifold, AConcaveMirrorSendsTheLampAlongAllFourWays) {
 }
 
 TEST(Manifold, APaneOfGlassShiftsTheLamp) {
-    constexpr double kIndex = 1.5, kThick = 0.4, kAbove = 1.6;  // the rest of the way in air
+    constexpr double kIndex = 1.5, kThick = 0.4, kAbove = 1.6;  // the rest is in air
     for (const double aside : {0.0, 0.7}) {
         SceneMaker maker = floor_from_above(1e-4);
         maker.description().conventions.shading.clamp_attenuation = false;
