@@ -261,7 +261,7 @@ TEST(BrlcadScene, OnePartThatCannotBeReadLeavesTheOthers) {
     EXPECT_EQ(text_of(group.found()),
               "a.asc:3:27: warning: the matrix of member 'b' of 'a' is not an affine transform; "
               "the member is left out\n");
-    // Where nothing is left all is told as errors.
+    // If nothing is left all findings are errors.
     Diagnostics found;
     (void)import(kBall + "put a comb region yes tree {l ball {1 0 0 9 0 1 0 0 0 0 1 0 1 0 0 1}}\n",
                  found);
