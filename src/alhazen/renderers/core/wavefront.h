@@ -92,10 +92,9 @@ struct MetSurface {
 /// The state of the work on some rays of one generation.
 struct Wavefront {
     std::vector<MetSurface> met;
-    Generation next;  ///< the secondary rays of `met`
-    std::vector<std::uint32_t>
-        split;              ///< rays of `next`, one per wavelength of a dispersing surface
-    std::vector<Rgb> left;  ///< [ray] transmittance so far, of surfaces and media
+    Generation next;                   ///< the secondary rays of `met`
+    std::vector<std::uint32_t> split;  ///< rays of `next`, by wavelength, of dispersing surfaces
+    std::vector<Rgb> left;             ///< [ray] transmittance so far, of surfaces and media
     /// Rays that have not ended: their numbers and, behind the first surface, their remainders.
     std::vector<std::uint32_t> active;
     std::vector<Ray> rays;
