@@ -59,7 +59,7 @@ struct LightRay {
 /// How one of many lights is chosen.
 enum class LightChoice : std::uint8_t {
     Uniform,  ///< all with the same probability
-    Power,    ///< by emitted power
+    Power,    ///< by largest intensity
     Tree,     ///< by an estimate of the light that arrives (light_tree.h)
 };
 inline constexpr const char* kLightChoiceNames[] = {"uniform", "power", "tree"};
