@@ -22,7 +22,7 @@
 
 namespace alhazen {
 
-/// Lights by `sample`, exact mirrors and a pinhole.
+/// Nothing is random: lights by `sample`, exact mirrored and refracted directions, time 0.
 struct NoChance {
     explicit NoChance(const RenderJob&) {}
     [[nodiscard]] LightSample light_from(const Light& light, std::size_t /*number*/,
