@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Sets the BSDF at the point; of blended materials their weighted sum.
+/// Sets the BSDF at the point; for blended materials the weighted sum.
 void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, BsdfCache* known,
               Bsdf& bsdf) {
     if (known != nullptr && !surface.has_extras) {
@@ -164,7 +164,7 @@ std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
 }
 
 std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transport) const {
-    // The lowest choice reflects, the highest refracts.
+    // The lowest choice gives reflection, the highest refraction.
     const auto reflected = sample(0.0, {}, transport);
     if (!reflected || !reflected->singular || reflected->transmitted) return std::nullopt;
     const auto refracted = sample(0x1.fffffffffffffp-1, {}, transport);
@@ -172,7 +172,7 @@ std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transp
         refracted->dispersed) {
         return std::nullopt;
     }
-    // Else there are other lobes.
+    // A smaller sum means other lobes.
     if (!(reflected->density + refracted->density > 1.0 - 0x1p-40)) return std::nullopt;
     std::array<Scattered, 2> ways{*reflected, *refracted};
     for (Scattered& way : ways) way.weight = way.density * way.weight;
@@ -191,7 +191,7 @@ void ScatterPoint::cross(MediumStack& media) const {
         media = {};
         if (behind_inside_) media.enter(inside_);
     } else {
-        // What is left first: what is entered is inside of all that stays.
+        // Volumes are left before others are entered: new ones are innermost.
         if (!entering_) media.leave(inside_);
         for (const OtherFace& other : others_) {
             if (!other.entering) media.leave(other.inside);

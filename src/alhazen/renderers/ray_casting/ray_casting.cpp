@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kRaysAtOnce = 256;
 
-/// Casts eye rays.
+/// The estimator of ray casting.
 class Caster {
   public:
     Caster(const RenderJob& job, std::size_t /*rays_at_once*/, RayCounters& counters)
