@@ -122,6 +122,28 @@ HWY_INLINE Lanes<float, N> as_floats(const Lanes<double, N>& a) {
     }
 }
 
+/// Every float is a double.
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> as_doubles(const Lanes<float, N>& a) {
+    Lanes<double, N> r;
+    const LaneTag<double, N> d;
+    if constexpr (kParts<double, N> == kParts<float, N>) {
+        for (std::size_t i = 0; i < kParts<double, N>; ++i) {
+            r.part[i] = hn::PromoteTo(d, a.part[i]);
+        }
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to divide
+    } else {
+        static_assert(kParts<double, N> == 2 * kParts<float, N>);
+        const hn::Half<LaneTag<float, N>> half;
+        for (std::size_t i = 0; i < kParts<float, N>; ++i) {
+            r.part[2 * i] = hn::PromoteTo(d, hn::LowerHalf(half, a.part[i]));
+            r.part[2 * i + 1] = hn::PromoteTo(d, hn::UpperHalf(half, a.part[i]));
+        }
+#endif
+    }
+    return r;
+}
+
 /// Sets the fourth lane to 0.
 HWY_INLINE Lanes<float, 4> first_three(const Lanes<float, 4>& a) {
     HWY_ALIGN static constexpr std::uint32_t kKeep[4] = {~0u, ~0u, ~0u, 0};

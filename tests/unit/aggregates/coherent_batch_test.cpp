@@ -231,6 +231,50 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
     }
 }
 
+TEST(CoherentBatch, CornersThatFloatHoldsAndOthersAreDecidedAsByTheList) {
+    // Blocks hold corners exactly where they are on the grid; the others come from the mesh.
+    const auto on_grid = [](const Vec3& p) {
+        const auto snap = [](double x) { return std::round(x * 1024) / 1024; };
+        return Vec3{snap(p.x), snap(p.y), snap(p.z)};
+    };
+    for (const Vec3& middle : {Vec3{}, Vec3{96, 32, -64}}) {
+        for (const int every : {1, 2, 1000}) {
+            RandomEngine random(19);
+            TableBuilder builder;
+            for (int i = 0; i < 1500; ++i) {
+                Vec3 p[3] = {uniform_point(random, 1), {}, {}};
+                p[1] = p[0] + uniform_point(random, 0.1), p[2] = p[0] + uniform_point(random, 0.1);
+                for (Vec3& corner : p)
+                    corner = middle + (i % every == 0 ? on_grid(corner) : corner);
+                builder.add_triangle(p[0], p[1], p[2]);
+            }
+            const PrimitiveTable table = builder.finish();
+            const Vec3 eye = middle + Vec3{0.1, 0.2, 3};
+            const std::string name = "corners, every " + std::to_string(every) + " on the grid";
+            compare(name, table, eye_rays(eye, {0, 0, -1}, 0.6, 40));
+            compare(name, table, shadow_rays(middle + Vec3{-1.2, -1.1, -1.3}, 0.3, eye, 24));
+        }
+    }
+}
+
+TEST(CoherentBatch, RangesThatFloatCannotTellHold) {
+    for (const auto& [name, table] : tables(1, 20)) {
+        Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 24);
+        const auto list = make_aggregate("list", table);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            Ray& ray = rays[i];
+            if (i % 4 == 0) ray.t_min = -0.0;
+            if (i % 4 == 1) ray.t_min = -1e-60;
+            Hit hit;
+            if (i % 4 < 2 || !list->closest(ray, hit, nullptr)) continue;
+            // Equal as floats; in the order of doubles, or against it.
+            ray.t_min = i % 4 == 2 ? std::nextafter(hit.t, 0.0) : std::nextafter(hit.t, 9.0);
+            ray.t_max = hit.t;
+        }
+        compare("ranges of no length at " + name, table, rays);
+    }
+}
+
 TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
     // Corners behind the eye, next to it and at its depth, whose slopes are meaningless.
     RandomEngine random(18);

@@ -19,6 +19,7 @@
 #define HWY_TARGET_INCLUDE "unit/simd/lanes_test.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Must follow foreach_target.h.
+#include "alhazen/simd/lane_rows-inl.h"
 #include "alhazen/simd/lanes-inl.h"
 
 #ifndef ALHAZEN_LANES_TEST_ONCE
@@ -34,6 +35,15 @@ struct alignas(64) Case {
     std::uint32_t bits[4];
 };
 
+/// Sixteen rows of four floats, and what is made of them.
+struct alignas(64) Rows {
+    float in[16][4];
+    float turned[4][16];            ///< [column][row]
+    float least[2][4], most[2][4];  ///< of the columns: of 16 lanes, of 32
+    float doubled[32];              ///< a column twice, the second time times two
+    double promoted[8];
+};
+
 }  // namespace alhazen::lanes_test
 #endif
 
@@ -46,6 +56,31 @@ namespace {
 #include "alhazen/geometry/watertight_triangle_formulas-inl.h"
 
 using lanes_test::Case;
+using lanes_test::Rows;
+
+void turn_rows(Rows& r) {
+    Lanes<float, 4> in[4][4];
+    for (std::size_t g = 0; g < 4; ++g) {
+        for (std::size_t i = 0; i < 4; ++i) in[g][i] = load_lanes<4>(r.in[4 * g + i]);
+        transpose(in[g]);
+    }
+    Lanes<float, 16> columns[4];
+    Lanes<float, 32> longer[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+        columns[k] = joined<16>(in[0][k], in[1][k], in[2][k], in[3][k]);
+        store_lanes(columns[k], r.turned[k]);
+        store_lanes(columns[k], r.doubled);
+        store_lanes(columns[k] + columns[k], r.doubled + 16);
+        longer[k] = load_lanes<32>(r.doubled);
+    }
+    const LaneExtremes<16> few(columns);
+    const LaneExtremes<32> many(longer);
+    store_lanes(few.least, r.least[0]);
+    store_lanes(few.most, r.most[0]);
+    store_lanes(many.least, r.least[1]);
+    store_lanes(many.most, r.most[1]);
+    store_lanes(as_doubles(load_lanes<8>(r.turned[1])), r.promoted);
+}
 
 void operators(Case& c) {
     const Doubles a = load_lanes(c.in[0]);
@@ -100,6 +135,7 @@ namespace {
 ALHAZEN_KERNEL_TABLE(operators);
 ALHAZEN_KERNEL_TABLE(triangle);
 ALHAZEN_KERNEL_TABLE(sphere);
+ALHAZEN_KERNEL_TABLE(turn_rows);
 
 using lanes_test::Case;
 using lanes_test::kInputs;
@@ -214,6 +250,36 @@ TEST(Lanes, ComparisonsAreThoseOfTheScalar) {
                 ASSERT_TRUE(same(c.out[9][lane], c.in[0][3]));
             }
             for (int i = 0; i < 4; ++i) ASSERT_EQ(bits[i], c.bits[i]) << target << " mask " << i;
+        }
+    }
+}
+
+TEST(Lanes, RowsBecomeColumnsAndGiveTheirExtremes) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        std::mt19937_64 random(44);
+        std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+        for (int round = 0; round < 200; ++round) {
+            lanes_test::Rows r{};
+            for (auto& row : r.in) {
+                for (float& x : row) x = uniform(random);
+            }
+            ALHAZEN_KERNEL(turn_rows)(r);
+            for (std::size_t k = 0; k < 4; ++k) {
+                float least = 9, most = -9;
+                for (std::size_t i = 0; i < 16; ++i) {
+                    ASSERT_EQ(r.turned[k][i], r.in[i][k]) << target;
+                    least = std::fmin(least, r.in[i][k]);
+                    most = std::fmax(most, r.in[i][k]);
+                }
+                ASSERT_EQ(r.least[0][k], least) << target;
+                ASSERT_EQ(r.most[0][k], most) << target;
+                ASSERT_EQ(r.least[1][k], std::fmin(least, 2 * least)) << target;
+                ASSERT_EQ(r.most[1][k], std::fmax(most, 2 * most)) << target;
+            }
+            for (std::size_t i = 0; i < 8; ++i) {
+                ASSERT_EQ(r.promoted[i], double{r.in[i][1]}) << target;
+            }
         }
     }
 }

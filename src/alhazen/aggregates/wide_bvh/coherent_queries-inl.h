@@ -119,15 +119,17 @@ template <class Leaves, class Result, class Stats, class Otherwise>
 HWY_INLINE void run_lanes(const WideBvhScene& scene, const PrefetchTable& prefetch_table,
                           std::span<const Ray> rays, std::span<Result> results, Stats stats,
                           Otherwise&& otherwise) {
+    const LaneFrame frame(scene.layout->frame);
     for (std::size_t i = 0; i < rays.size(); i += kPacketLanes) {
         const std::size_t count = std::min(kPacketLanes, rays.size() - i);
-        for (const Ray& next :
-             rays.subspan(i + count).first(std::min(kPacketLanes, rays.size() - i - count))) {
-            hwy::Prefetch(&next);
+        if (rays.size() - i - count >= kPacketLanes) {
+            const Ray* next = &rays[i + count];
+            HWY_UNROLL(32)
+            for (std::size_t k = 0; k < kPacketLanes; ++k) hwy::Prefetch(next + k);
         }
         const std::span<Result> here = results.subspan(i, count);
         std::uint32_t alone =
-            trace_lanes<Leaves>(scene, prefetch_table, rays.subspan(i, count), here,
+            trace_lanes<Leaves>(scene, prefetch_table, frame, rays.subspan(i, count), here,
                                 static_cast<std::uint32_t>(wanted_rays(here)), stats);
         for (; alone != 0; alone &= alone - 1) {
             otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
@@ -149,7 +151,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
          layout.others.data()},
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
     constexpr bool kAnyHit = !InLanes::kOrdered;
-    constexpr std::size_t kRegisters = kParts<float, kPacketLanes>;
+    constexpr std::size_t kRegisters = kParts<float, 16>;
     const CoherentRoad road = coherent_road(layout, kAnyHit, kRegisters);
     if (road == CoherentRoad::Alone) return otherwise(0, rays.size());
     if constexpr (kAnyHit || kRegisters <= kMostLaneRegisters) {

@@ -87,6 +87,8 @@ struct PairRows {
     const double* vertex[3][3];  ///< [corner][axis]
     const double *origin[3], *direction[3], *t_min, *t_max;
 };
+/// The corners of eight triangles: [corner][axis].
+using PairCorners = Doubles[3][3];
 
 /// What the test in double finds for them.
 struct PairVerdicts {
@@ -94,15 +96,24 @@ struct PairVerdicts {
     alignas(64) double t[kLaneCount], u[kLaneCount], v[kLaneCount];
 
     HWY_NOINLINE HWY_FLATTEN void test(const PairRows& rows) {
+        PairCorners corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) corners[i][k] = load_lanes(rows.vertex[i][k]);
+        }
+        test(rows, corners);
+    }
+    /// With corners that lie elsewhere than the rows say.
+    HWY_INLINE void test(const PairRows& rows, const PairCorners& corners) {
         using D = Doubles;
         const D dz = load_lanes(rows.direction[2]);
         const D sx = load_lanes(rows.direction[0]) / dz, sy = load_lanes(rows.direction[1]) / dz;
         const D sz = D(1.0) / dz;
         exact::ShearedVertex<D> p[3];
+        HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
-            p[i] = exact::sheared(load_lanes(rows.vertex[i][0]), load_lanes(rows.vertex[i][1]),
-                                  load_lanes(rows.vertex[i][2]), load_lanes(rows.origin[0]),
-                                  load_lanes(rows.origin[1]), load_lanes(rows.origin[2]), sx, sy);
+            p[i] = exact::sheared(corners[i][0], corners[i][1], corners[i][2],
+                                  load_lanes(rows.origin[0]), load_lanes(rows.origin[1]),
+                                  load_lanes(rows.origin[2]), sx, sy);
         }
         const exact::TriangleEdges<D> edges(p[0], p[1], p[2]);
         const std::uint32_t missed = bits_of(edges.missed());

@@ -1,5 +1,5 @@
-/// The filters of triangles and spheres with sixteen rays in the lanes (lane_packet-inl.h): one of
-/// them against all rays of a set.
+/// The filters of triangles and spheres with the rays of a packet in lanes (lane_packet-inl.h): one
+/// of them against all rays of a set.
 ///
 /// Source: triangle_filter.h and shape_filters.h, whose bounds they have; errors that depend on the
 /// ray are those of the farthest ray of the packet.

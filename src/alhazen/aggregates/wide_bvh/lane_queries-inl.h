@@ -148,7 +148,7 @@ class LaneLeaves {
         bool changed = false;
         std::uint32_t met = meet_triangles(block, packet_);
         if constexpr (Derived::kOrdered) {
-            // Each against eight triangles takes less than each triangle against sixteen rays.
+            // Each against eight triangles takes less than each triangle against all rays.
             if (std::popcount(lanes) < std::popcount(met)) {
                 for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
                     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
@@ -213,9 +213,11 @@ class LaneLeaves {
     template <class Hits, class Stats>
     HWY_INLINE void resolve(std::uint32_t lanes, const TrianglePlace* places, Hits&& hits,
                             Stats stats) {
-        for (std::size_t half = 0; half < kPacketHalves; ++half) {
-            const std::uint32_t here = lanes >> (half * kRayLanes) & kAllLanes;
-            if (here != 0) resolution_.resolve(half, here, places + half * kRayLanes, hits, stats);
+        for (std::size_t group = 0; group < kLaneGroups; ++group) {
+            const std::uint32_t here = lanes >> (group * kRayLanes) & kAllLanes;
+            if (here == 0) continue;
+            packet_.lay_out(group, rays_);
+            resolution_.resolve(group, here, places + group * kRayLanes, hits, stats);
         }
     }
 
@@ -236,8 +238,10 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     HWY_INLINE ClosestLanes(const WideBvhScene& scene, std::span<const Ray> rays,
                             std::span<Hit> best, LanePacket& packet)
         : LaneLeaves(scene, rays, best, packet) {
+        if (HWY_LIKELY(!any_found(best))) return;
+        for (std::size_t group = 0; group < kLaneGroups; ++group) packet.lay_out(group, rays);
         for (std::size_t i = 0; i < best.size(); ++i) {
-            if (HWY_LIKELY(!best[i].found())) continue;
+            if (!best[i].found()) continue;
             packet.s_max[i] = std::min(packet.s_max[i], parameter().above(best[i].t));
             packet.rays[i / kRayLanes].t_max[i % kRayLanes] = best[i].t;
         }
@@ -308,6 +312,19 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
 
   private:
+    static HWY_INLINE bool any_found(std::span<const Hit> hits) {
+        auto all = static_cast<std::uint32_t>(kNoPrimitive);
+        if (HWY_LIKELY(hits.size() == kPacketLanes)) {
+            const Hit* hit = hits.data();
+            HWY_UNROLL(32)
+            for (std::size_t i = 0; i < kPacketLanes; ++i) {
+                all &= static_cast<std::uint32_t>(hit[i].primitive);
+            }
+        } else {
+            for (const Hit& hit : hits) all &= static_cast<std::uint32_t>(hit.primitive);
+        }
+        return all != static_cast<std::uint32_t>(kNoPrimitive);
+    }
     [[nodiscard]] HWY_INLINE LocalParameter parameter() const {
         return {scene_.layout->frame.scale, 0.0};
     }
@@ -420,15 +437,16 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
     std::uint32_t wanting_ = ~0u;
 };
 
-/// Traces up to sixteen rays, those of `wanted`; bits of those that are left to be traced alone.
+/// Traces up to kPacketLanes rays, those of `wanted`; bits of those that are left to be traced
+/// alone.
 template <class Leaves, class Result, class Stats>
 HWY_NOINLINE std::uint32_t trace_lanes(const WideBvhScene& scene,
-                                       const PrefetchTable& prefetch_table,
+                                       const PrefetchTable& prefetch_table, const LaneFrame& frame,
                                        std::span<const Ray> rays, std::span<Result> results,
                                        std::uint32_t wanted, Stats stats) {
     const WideBvhLayout& layout = *scene.layout;
     LanePacket packet;
-    std::uint32_t rest = packet.load(layout.frame, rays, wanted);
+    std::uint32_t rest = packet.load(frame, rays, wanted);
     const std::uint32_t alone = wanted & ~rest;
     if (rest == 0) return alone;
     Leaves leaves(scene, rays, results, packet);

@@ -35,21 +35,17 @@ class PacketResolution {
     /// Tests rays of group `g`, each with the triangle at `places[lane]`; calls `hits(ray, id,
     /// shape_hit)` for those that hit.
     template <class Hits, class Stats>
-    HWY_NOINLINE void resolve(std::size_t g, std::uint32_t lanes, const TrianglePlace* places,
-                              Hits&& hits, Stats stats) {
-        bool first = true;
-        for (std::uint32_t rest = lanes; rest != 0; first = false) {
-            const TrianglePlace place = places[std::countr_zero(rest)];
-            const std::uint32_t same = rest & lanes_with(places, place);
-            set_corners(place, first ? kAllLanes : same);
-            rest &= ~same;
+    HWY_NOINLINE HWY_FLATTEN void resolve(std::size_t g, std::uint32_t lanes,
+                                          const TrianglePlace* places, Hits&& hits, Stats stats) {
+        PairCorners corners;
+        if (HWY_UNLIKELY(!take_corners_of_blocks(lanes, places, corners))) {
+            take_corners(lanes, places, corners);
         }
         const RayLanes& rays = packet_.rays[g];
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        PairRows rows;
+        PairRows rows{};
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
-            for (std::size_t i = 0; i < 3; ++i) rows.vertex[i][k] = vertex_[i][axes[k]];
             rows.origin[k] = rays.origin[axes[k]];
             rows.direction[k] = rays.direction[axes[k]];
         }
@@ -59,16 +55,21 @@ class PacketResolution {
         const std::uint32_t set_up = bits_of((z > abs(load_lanes(rows.direction[0]))) &
                                              (z > abs(load_lanes(rows.direction[1]))));
         PairVerdicts verdicts;
-        verdicts.test(rows);
-        verdicts.take(
-            lanes, set_up,
-            [&](std::size_t lane, ShapeHit& hit)
-                HWY_ATTR { return resolve_scalar(g * kGroupRays + lane, places[lane], hit); },
-            [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
-                stats.primitive_hits(1);
-                hits(g * kGroupRays + lane, id(places[lane]).id(), hit);
-                return false;
-            });
+        verdicts.test(rows, corners);
+        const std::uint32_t alone = (verdicts.unsure | ~set_up) & lanes;
+        for (std::uint32_t rest = verdicts.hit & lanes & ~alone; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            stats.primitive_hits(1);
+            hits(g * kGroupRays + lane, id(places[lane]).id(),
+                 ShapeHit{verdicts.t[lane], verdicts.u[lane], verdicts.v[lane], 0});
+        }
+        for (std::uint32_t rest = alone; HWY_UNLIKELY(rest != 0); rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            ShapeHit hit;
+            if (!resolve_scalar(g * kGroupRays + lane, places[lane], hit)) continue;
+            stats.primitive_hits(1);
+            hits(g * kGroupRays + lane, id(places[lane]).id(), hit);
+        }
     }
 
   private:
@@ -88,37 +89,81 @@ class PacketResolution {
         return bits_of(same);
     }
 
-    /// In all lanes or in some.
-    HWY_INLINE void set_corners(TrianglePlace place, std::uint32_t lanes) {
-        if (HWY_LIKELY(!id(place).exact())) {
-            // From the mesh: in the block they are rounded.
-            return set_corners(scene_.table->corner_positions(triangle(place)), lanes);
+    /// Calls `take(place, same)` for each triangle of `lanes` and its lanes; the first has those
+    /// that are not in use, too. False when `take` was.
+    template <class Take>
+    static HWY_INLINE bool for_each_place(std::uint32_t lanes, const TrianglePlace* places,
+                                          Take&& take) {
+        std::uint32_t others = kAllLanes & ~lanes;
+        for (std::uint32_t rest = lanes; rest != 0;) {
+            const TrianglePlace place = places[std::countr_zero(rest)];
+            const std::uint32_t same = rest & lanes_with(places, place);
+            rest &= ~same;
+            if (!take(place, same | others)) return false;
+            others = 0;
         }
-        const LocalFrame& frame = scene_.layout->frame;
-        const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
-        Vec3 corner[3];
-        for (std::size_t i = 0; i < 3; ++i) {
-            corner[i] = frame.world(block.corner(i, place % kBlockWidth));
-        }
-        set_corners({&corner[0], &corner[1], &corner[2]}, lanes);
+        return true;
     }
-    HWY_INLINE void set_corners(const std::array<const Vec3*, 3>& corners, std::uint32_t lanes) {
+    /// The corners of blocks that float holds exactly, as LocalFrame::world; false where one is not
+    /// among them.
+    HWY_INLINE bool take_corners_of_blocks(std::uint32_t lanes, const TrianglePlace* places,
+                                           PairCorners& corners) const {
+        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        Floats local[3][3] = {};
+        const bool taken =
+            for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
+                const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
+                const std::size_t lane = place % kBlockWidth;
+                if (!block.ids[lane].exact()) return false;
+                const auto mask = lanes_of_bits<float>(same);
+                HWY_UNROLL(3)
+                for (std::size_t i = 0; i < 3; ++i) {
+                    HWY_UNROLL(3)
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        local[i][k] =
+                            select_lanes(mask, Floats(block.vertex[i][axes[k]][lane]), local[i][k]);
+                    }
+                }
+                return true;
+            });
+        if (!taken) return false;
+        const LocalFrame& frame = scene_.layout->frame;
         HWY_UNROLL(3)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3& p = *corners[i];
-            if (lanes == kAllLanes) {
-                store_lanes(Doubles(p.x), vertex_[i][0]);
-                store_lanes(Doubles(p.y), vertex_[i][1]);
-                store_lanes(Doubles(p.z), vertex_[i][2]);
-                continue;
-            }
-            for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                vertex_[i][0][lane] = p.x;
-                vertex_[i][1][lane] = p.y;
-                vertex_[i][2][lane] = p.z;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Doubles center((&frame.center.x)[axes[k]]);
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                corners[i][k] = Doubles(frame.inverse_scale) * as_doubles(local[i][k]) + center;
             }
         }
+        return true;
+    }
+    /// From the mesh where they are rounded in the block.
+    HWY_INLINE void take_corners(std::uint32_t lanes, const TrianglePlace* places,
+                                 PairCorners& corners) const {
+        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        (void)for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
+            Vec3 exact[3];
+            std::array<const Vec3*, 3> from{&exact[0], &exact[1], &exact[2]};
+            if (id(place).exact()) {
+                const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    exact[i] = scene_.layout->frame.world(block.corner(i, place % kBlockWidth));
+                }
+            } else {
+                from = scene_.table->corner_positions(triangle(place));
+            }
+            const auto mask = lanes_of_bits<double>(same);
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                HWY_UNROLL(3)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    corners[i][k] =
+                        select_lanes(mask, Doubles((&from[i]->x)[axes[k]]), corners[i][k]);
+                }
+            }
+            return true;
+        });
     }
     HWY_NOINLINE bool resolve_scalar(std::size_t ray, TrianglePlace place, ShapeHit& hit) const {
         const auto [a, b, c] = scene_.table->triangle_vertices(triangle(place));
@@ -128,7 +173,6 @@ class PacketResolution {
     const WideBvhScene& scene_;
     const Packet& packet_;
     std::span<const Ray> rays_;
-    alignas(64) double vertex_[3][3][kLaneCount];  ///< [corner][axis][lane], axes of the scene
 };
 
 /// Offers the hits of PacketResolution to the closest ones.

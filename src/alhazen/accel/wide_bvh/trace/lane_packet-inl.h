@@ -1,4 +1,4 @@
-/// A packet of sixteen coherent rays in lanes, and the frustum around those that go one way: what
+/// A packet of coherent rays in lanes, and the frustum around those that go one way: what
 /// traverse_lanes-inl.h takes through the tree.
 ///
 /// Source: Wald, Slusallek, Benthin and Wagner, "Interactive Rendering with Coherent Ray Tracing",
@@ -33,13 +33,16 @@
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/ray_group-inl.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray.h"
+#include "alhazen/simd/lane_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-inline constexpr std::size_t kPacketLanes = 16;
-inline constexpr std::size_t kPacketHalves = kPacketLanes / kRayLanes;
+/// Rays of a packet: two registers where one holds sixteen, else more than that would lose.
+inline constexpr std::size_t kPacketLanes = hn::MaxLanes(LaneTag<float, 16>()) == 16 ? 32 : 16;
+/// Of eight rays.
+inline constexpr std::size_t kLaneGroups = kPacketLanes / kRayLanes;
 using PacketFloats = Lanes<float, kPacketLanes>;
 using PacketMask = LaneMask<float, kPacketLanes>;
 using PacketRow = float[kPacketLanes];
@@ -57,22 +60,39 @@ HWY_INLINE float most_of(const PacketFloats& a) {
     return -least_of(-a);
 }
 
+/// What brings rays into the local frame, made once for many packets: a ray is two rows of four
+/// numbers. What is not scaled keeps its bits.
+struct LaneFrame {
+    const LocalFrame& frame;
+    alignas(64) double from[4], by[2][4];
+
+    explicit LaneFrame(const LocalFrame& f)
+        : frame(f),
+          from{f.center.x, f.center.y, f.center.z, 0.0},
+          by{{f.scale, f.scale, f.scale, 1.0}, {1.0, 1.0, f.scale, f.scale}} {}
+};
+
 struct alignas(64) LanePacket {
     PacketRow origin[3], direction[3];                                     ///< in the local frame
     PacketRow reciprocal[3], near_offset[3], far_offset[3], s_min, s_max;  ///< as in SlabRay
     PacketRow sure_min, sure_max;                  ///< as in TriangleFilterRay
     PacketRow slope[2];                            ///< TriangleFilterRay::sx, sy of the set
-    RayLanes rays[kPacketHalves];                  ///< as given
+    RayLanes rays[kLaneGroups];                    ///< as given: see lay_out
     std::uint32_t kx, ky, kz;                      ///< of the set, as in RayShear
     std::size_t near_row[3];                       ///< of the set: of WideNodeOf::planes
     float near_error, edge_slack, edge_slack_min;  ///< as in TriangleFilterRay, of any ray
     float place_error;  ///< TriangleFilterRay::s_slack of a reciprocal of 1
 
-    /// Takes up to sixteen rays; those of `wanted` that can be traced in lanes.
-    [[nodiscard]] std::uint32_t load(const LocalFrame& frame, std::span<const Ray> given,
+    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes.
+    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, std::span<const Ray> given,
                                      std::uint32_t wanted);
     /// Chooses those of the rays that go the way of the first, and makes their frustum.
     [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
+
+    /// Fills `rays[group]`, once; `given` as for `load`.
+    HWY_INLINE void lay_out(std::size_t group, std::span<const Ray> given) {
+        if (!laid_out_[group]) take_group(group, given);
+    }
 
     /// After rays have been limited.
     HWY_INLINE void shrink() {
@@ -108,12 +128,17 @@ struct alignas(64) LanePacket {
     }
 
   private:
-    HWY_INLINE std::uint32_t load_half(const LocalFrame& frame, std::size_t half);
-    void make_frustum(std::uint32_t set);
+    static constexpr std::size_t kLoadedRays = 16;  ///< at a time
+
+    HWY_INLINE std::uint32_t load_rows(const LaneFrame& lane_frame,
+                                       std::span<const Ray, kLoadedRays> given, std::size_t at);
+    void take_group(std::size_t group, std::span<const Ray> given);
+    void make_frustum(std::uint32_t set, std::size_t first);
 
     std::uint32_t set_ = 0;
     float slack_ = 0;  ///< of a box, in space
-    float set_near_[3], set_near_offset_[3], set_far_[3], set_far_offset_[3];
+    bool laid_out_[kLaneGroups] = {};
+    alignas(16) float set_near_[4], set_near_offset_[4], set_far_[4], set_far_offset_[4];
     float set_s_min_ = 0, set_s_max_ = 0;
 };
 
@@ -149,53 +174,85 @@ struct LaneSlabs {
     }
 };
 
-HWY_INLINE std::uint32_t LanePacket::load_half(const LocalFrame& frame, std::size_t half) {
-    using D = Doubles;
-    using F = Floats;
-    const RayLanes& given = rays[half];
-    const std::size_t at = half * kRayLanes;
-    const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
-    F away[3], across[3];
+/// Fills sixteen lanes of the rows of origins, directions and ends; bits of the rays that can be
+/// traced.
+HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
+                                               std::span<const Ray, kLoadedRays> given,
+                                               std::size_t at) {
+    using F = Lanes<float, kLoadedRays>;
+    static_assert(offsetof(Ray, direction) == 3 * sizeof(double) &&
+                  offsetof(Ray, t_min) == 6 * sizeof(double));
+    const auto from = load_lanes<4>(lane_frame.from);
+    const auto by0 = load_lanes<4>(lane_frame.by[0]), by1 = load_lanes<4>(lane_frame.by[1]);
+    // Origin and x of the direction; the rest of the direction and the ends.
+    Lanes<float, 4> first[4][4], second[4][4];
+    HWY_UNROLL(4)
+    for (std::size_t g = 0; g < 4; ++g) {
+        HWY_UNROLL(4)
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Ray& ray = given[4 * g + i];
+            first[g][i] = as_floats((load_lanes<4>(&ray.origin.x) - from) * by0);
+            second[g][i] = as_floats(load_lanes<4>(&ray.direction.y) * by1);
+        }
+        transpose(first[g]);
+        transpose(second[g]);
+    }
+    const auto row = [](const Lanes<float, 4>(&rows)[4][4], std::size_t k) HWY_ATTR {
+        return joined<kLoadedRays>(rows[0][k], rows[1][k], rows[2][k], rows[3][k]);
+    };
+    const F o[3] = {row(first, 0), row(first, 1), row(first, 2)};
+    const F d[3] = {row(first, 3), row(second, 0), row(second, 1)};
+    const F t_min = row(second, 2), t_max = row(second, 3);
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {
-        const F o = as_floats((load_lanes(given.origin[k]) - D(center[k])) * D(frame.scale));
-        const F d = as_floats(load_lanes(given.direction[k]));
-        away[k] = abs(o);
-        across[k] = abs(d);
-        store_lanes(o, origin[k] + at);
-        store_lanes(d, direction[k] + at);
+        store_lanes(o[k], origin[k] + at);
+        store_lanes(d[k], direction[k] + at);
     }
-    const D t_min = load_lanes(given.t_min), t_max = load_lanes(given.t_max);
     // As local_ray_nearby.
-    const F begin = min_lanes(as_floats(t_min * D(frame.scale)), F(1e37f));
-    const F end = min_lanes(as_floats(t_max * D(frame.scale)), F(1e37f));
+    const F begin = min_lanes(t_min, F(1e37f)), end = min_lanes(t_max, F(1e37f));
     const F less(1.0f - 0x1p-22f), more(1.0f + 0x1p-22f), tiny(0x1p-100f);
     store_lanes(max_lanes(mul_sub(begin, less, tiny), F(0.0f)), s_min + at);
     store_lanes(mul_add(begin, more, tiny), sure_min + at);
     store_lanes(mul_sub(end, less, tiny), sure_max + at);
     store_lanes(mul_add(end, more, tiny), s_max + at);
-    // A NaN is near nothing.
-    LaneMask<float> usable = (away[0] <= F(8.0f)) & (away[1] <= F(8.0f)) & (away[2] <= F(8.0f));
+    // A NaN is near nothing. Rounding keeps the order of the ends; those that are equal then are
+    // left to others, as is a beginning of -0, which may have been less.
+    const F least(lane_frame.frame.slack.least_length);
+    LaneMask<float, kLoadedRays> usable = (t_min < t_max) & (copysign(F(1.0f), t_min) > F(0.0f));
+    LaneMask<float, kLoadedRays> moves = abs(d[0]) >= least;
     HWY_UNROLL(3)
-    for (std::size_t k = 0; k < 3; ++k) usable = usable & (across[k] <= F(0x1p40f));
-    const F least(frame.slack.least_length);
-    usable = usable & ((across[0] >= least) | (across[1] >= least) | (across[2] >= least));
-    return bits_of(usable) & bits_of((t_min <= t_max) & (t_min >= D(0.0)));
+    for (std::size_t k = 0; k < 3; ++k) {
+        usable = usable & (abs(o[k]) <= F(8.0f)) & (abs(d[k]) <= F(0x1p40f));
+        moves = moves | (abs(d[k]) >= least);
+    }
+    return bits_of(usable & moves);
 }
 
-inline std::uint32_t LanePacket::load(const LocalFrame& frame, std::span<const Ray> given,
+inline void LanePacket::take_group(std::size_t group, std::span<const Ray> given) {
+    laid_out_[group] = true;
+    const std::size_t first = group * kRayLanes;
+    if (given.size() >= first + kRayLanes) {
+        return take_lanes(given.subspan(first).first<kRayLanes>(), rays[group]);
+    }
+    for (std::size_t i = 0; i < kRayLanes; ++i) {
+        rays[group].set(i, given[std::min(first + i, given.size() - 1)]);
+    }
+}
+
+inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, std::span<const Ray> given,
                                       std::uint32_t wanted) {
+    const LocalFrame& frame = lane_frame.frame;
     std::uint32_t usable = 0;
-    for (std::size_t half = 0; half < kPacketHalves; ++half) {
-        const std::size_t first = half * kRayLanes;
-        if (given.size() >= first + kRayLanes) {
-            take_lanes(given.subspan(first).first<kRayLanes>(), rays[half]);
-        } else {
-            for (std::size_t i = 0; i < kRayLanes; ++i) {
-                rays[half].set(i, given[std::min(first + i, given.size() - 1)]);
-            }
+    for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
+        if (HWY_LIKELY(given.size() >= at + kLoadedRays)) {
+            usable |= load_rows(lane_frame, given.subspan(at).first<kLoadedRays>(), at) << at;
+            continue;
         }
-        usable |= load_half(frame, half) << first;
+        Ray repeated[kLoadedRays];
+        for (std::size_t i = 0; i < kLoadedRays; ++i) {
+            repeated[i] = given[std::min(at + i, given.size() - 1)];
+        }
+        usable |= load_rows(lane_frame, repeated, at) << at;
     }
     usable &= wanted;
     if (usable == 0) return 0;
@@ -241,28 +298,37 @@ inline std::uint32_t LanePacket::choose_set(std::uint32_t among) {
         same = same & (up ? r > zero : r < zero);
     }
     const std::uint32_t set = bits_of(same) & among;
-    make_frustum(set);
+    make_frustum(set, first);
     return set;
 }
 
-inline void LanePacket::make_frustum(std::uint32_t set) {
+inline void LanePacket::make_frustum(std::uint32_t set, std::size_t first) {
+    using F4 = Lanes<float, 4>;
     set_ = set;
     const PacketMask in_set = lanes_of_bits<float, kPacketLanes>(set);
-    const PacketFloats infinite(std::numeric_limits<float>::infinity());
-    for (std::size_t k = 0; k < 3; ++k) {
-        const PacketFloats o = load_row(origin[k]), a = abs(load_row(reciprocal[k]));
-        const float o_least = least_of(select_lanes(in_set, o, infinite)) - slack_;
-        const float o_most = most_of(select_lanes(in_set, o, -infinite)) + slack_;
-        const float a_least = least_of(select_lanes(in_set, a, infinite));
-        const float a_most = most_of(select_lanes(in_set, a, -infinite));
-        const bool up = near_row[k] == k;
-        set_near_[k] = up ? a_least : -a_least;
-        set_far_[k] = up ? a_most : -a_most;
-        set_near_offset_[k] = -(up ? o_most : o_least) * set_near_[k];
-        set_far_offset_[k] = -(up ? o_least : o_most) * set_far_[k];
-    }
-    set_s_min_ = least_of(select_lanes(in_set, load_row(s_min), infinite));
-    shrink();
+    // Rays of other sets repeat the first.
+    const auto row_of_set = [&](const PacketRow& row) HWY_ATTR {
+        return select_lanes(in_set, load_row(row), PacketFloats(row[first]));
+    };
+    const PacketFloats starts[4] = {row_of_set(origin[0]), row_of_set(origin[1]),
+                                    row_of_set(origin[2]), row_of_set(s_min)};
+    const PacketFloats steps[4] = {abs(row_of_set(reciprocal[0])), abs(row_of_set(reciprocal[1])),
+                                   abs(row_of_set(reciprocal[2])), row_of_set(s_max)};
+    const LaneExtremes<kPacketLanes> o(starts), a(steps);
+    std::uint32_t ways = 0;
+    for (std::size_t k = 0; k < 3; ++k) ways |= std::uint32_t{near_row[k] == k} << k;
+    const auto up = lanes_of_bits<float, 4>(ways);
+    const F4 o_least = o.least - F4(slack_), o_most = o.most + F4(slack_);
+    const F4 near = select_lanes(up, a.least, -a.least), far = select_lanes(up, a.most, -a.most);
+    store_lanes(near, set_near_);
+    store_lanes(far, set_far_);
+    store_lanes(-select_lanes(up, o_most, o_least) * near, set_near_offset_);
+    store_lanes(-select_lanes(up, o_least, o_most) * far, set_far_offset_);
+    HWY_ALIGN float ends[2][4];
+    store_lanes(o.least, ends[0]);
+    store_lanes(a.most, ends[1]);
+    set_s_min_ = ends[0][3];
+    set_s_max_ = ends[1][3];
     const PacketFloats sz = load_row(reciprocal[kz]);
     store_lanes(load_row(direction[kx]) * sz, slope[0]);
     store_lanes(load_row(direction[ky]) * sz, slope[1]);

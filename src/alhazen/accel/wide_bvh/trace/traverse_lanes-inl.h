@@ -34,11 +34,12 @@ struct LaneStack {
     std::uint32_t lanes[kSize];
 };
 
-/// Puts the children that rays meet on the stack; returns the new height. The nearest is on top, or
-/// slot 0.
+/// Puts the children that rays meet on the stack, and has them fetched; returns the new height. The
+/// nearest is on top, or slot 0.
 template <bool kOrdered>
 HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, std::uint32_t lanes,
-                                LaneStack& stack, std::size_t height) {
+                                LaneStack& stack, std::size_t height,
+                                const PrefetchTable& prefetch_table) {
     Floats entries;
     std::uint32_t hit = packet.meet_boxes(node.planes, entries);
     if (hit == 0) return height;
@@ -51,6 +52,7 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, 
         hit &= ~(1u << slot);
         const std::uint32_t met = lanes & slabs.meet(node, slot, packet);
         if (met == 0) continue;
+        prefetch_table.prefetch(node.child[slot].bits());
         std::size_t place = height++;
         if constexpr (kOrdered) {
             for (; place > base && stack.entry[place - 1] < entry[slot]; --place) {
@@ -86,11 +88,7 @@ HWY_INLINE void traverse_lanes(const WideNode* nodes, NodeRef root,
             const WideNode& node = nodes[ref.index()];
             stats.nodes(1);
             stats.boxes(node.child_count());
-            const std::size_t before = height;
-            height = push_met<Leaf::kOrdered>(node, packet, lanes, stack, height);
-            // The next two.
-            if (height > before) prefetch_table.prefetch(stack.ref[height - 1].bits());
-            if (height > before + 1) prefetch_table.prefetch(stack.ref[height - 2].bits());
+            height = push_met<Leaf::kOrdered>(node, packet, lanes, stack, height, prefetch_table);
         }
         do {
             if (height == 0) return;

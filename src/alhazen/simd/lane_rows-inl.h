@@ -1,0 +1,139 @@
+/// Rows of numbers turned about in registers: from the rays of an array to lanes of rays, and the
+/// extremes of several rows at once.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h). Nothing goes through memory where
+/// registers hold four floats: what is stored by parts is waited for when it is read as a whole.
+
+#if defined(ALHAZEN_SIMD_LANE_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SIMD_LANE_ROWS_INL_H_
+#undef ALHAZEN_SIMD_LANE_ROWS_INL_H_
+#else
+#define ALHAZEN_SIMD_LANE_ROWS_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Rows of four become columns: lane k of row i is lane i of row k then.
+HWY_INLINE void transpose(Lanes<float, 4> (&rows)[4]) {
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+    if constexpr (kParts<float, 4> == 1) {
+        const LaneTag<float, 4> d;
+        const auto a = hn::InterleaveLower(d, rows[0].part[0], rows[1].part[0]);
+        const auto b = hn::InterleaveLower(d, rows[2].part[0], rows[3].part[0]);
+        const auto c = hn::InterleaveUpper(d, rows[0].part[0], rows[1].part[0]);
+        const auto e = hn::InterleaveUpper(d, rows[2].part[0], rows[3].part[0]);
+        rows[0].part[0] = hn::ConcatLowerLower(d, b, a);
+        rows[1].part[0] = hn::ConcatUpperUpper(d, b, a);
+        rows[2].part[0] = hn::ConcatLowerLower(d, e, c);
+        rows[3].part[0] = hn::ConcatUpperUpper(d, e, c);
+        return;
+    }
+#endif
+    HWY_ALIGN float values[4][4], columns[4][4];
+    for (std::size_t i = 0; i < 4; ++i) store_lanes(rows[i], values[i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) columns[k][i] = values[i][k];
+    }
+    for (std::size_t i = 0; i < 4; ++i) rows[i] = load_lanes<4>(columns[i]);
+}
+/// One after the other.
+template <std::size_t N = 16>
+HWY_INLINE Lanes<float, N> joined(const Lanes<float, N / 4>& a, const Lanes<float, N / 4>& b,
+                                  const Lanes<float, N / 4>& c, const Lanes<float, N / 4>& e) {
+    Lanes<float, N> r;
+    constexpr std::size_t kEach = kParts<float, N / 4>;
+    if constexpr (kParts<float, N> == 4 * kEach) {
+        for (std::size_t i = 0; i < kEach; ++i) {
+            r.part[i] = a.part[i];
+            r.part[kEach + i] = b.part[i];
+            r.part[2 * kEach + i] = c.part[i];
+            r.part[3 * kEach + i] = e.part[i];
+        }
+#if HWY_TARGET != HWY_SCALAR
+    } else {
+        const LaneTag<float, N / 2> half;
+        const auto lower = hn::Combine(half, b.part[0], a.part[0]);
+        const auto upper = hn::Combine(half, e.part[0], c.part[0]);
+        if constexpr (kParts<float, N> == 2) {
+            r.part[0] = lower;
+            r.part[1] = upper;
+        } else {
+            r.part[0] = hn::Combine(LaneTag<float, N>(), upper, lower);
+        }
+#endif
+    }
+    return r;
+}
+
+/// The least lanes of four rows, and the largest. Precondition: no NaN.
+template <std::size_t N>
+struct LaneExtremes {
+    Lanes<float, 4> least, most;
+
+    HWY_INLINE explicit LaneExtremes(const Lanes<float, N> (&rows)[4]) {
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+        const LaneTag<float, N> d;
+        const hn::Repartition<double, LaneTag<float, N>> pairs;
+        using Part = hn::Vec<LaneTag<float, N>>;
+        const auto smaller = [](auto x, auto y) { return hn::Min(x, y); };
+        const auto larger = [](auto x, auto y) { return hn::Max(x, y); };
+        Part low[kParts<float, N>], high[kParts<float, N>];
+        ALHAZEN_UNROLL
+        for (std::size_t i = 0; i < kParts<float, N>; ++i) {
+            const Part l01 = hn::InterleaveLower(d, rows[0].part[i], rows[1].part[i]);
+            const Part u01 = hn::InterleaveUpper(d, rows[0].part[i], rows[1].part[i]);
+            const Part l23 = hn::InterleaveLower(d, rows[2].part[i], rows[3].part[i]);
+            const Part u23 = hn::InterleaveUpper(d, rows[2].part[i], rows[3].part[i]);
+            // Each block of four: rows 0, 1, 0, 1, and 2, 3, 2, 3.
+            const auto fold = [&](const auto& combine) HWY_ATTR {
+                const auto a = hn::BitCast(pairs, combine(l01, u01));
+                const auto b = hn::BitCast(pairs, combine(l23, u23));
+                return combine(hn::BitCast(d, hn::InterleaveLower(pairs, a, b)),
+                               hn::BitCast(d, hn::InterleaveUpper(pairs, a, b)));
+            };
+            low[i] = fold(smaller);
+            high[i] = fold(larger);
+        }
+        for (std::size_t i = 1; i < kParts<float, N>; ++i) {
+            low[0] = smaller(low[0], low[i]);
+            high[0] = larger(high[0], high[i]);
+        }
+        least.part[0] = over_blocks(d, low[0], smaller);
+        most.part[0] = over_blocks(d, high[0], larger);
+#else
+        for (std::size_t k = 0; k < 4; ++k) {
+            least.part[k] = most.part[k] = rows[k].part[0];
+            for (std::size_t i = 1; i < N; ++i) {
+                least.part[k] = hn::Min(least.part[k], rows[k].part[i]);
+                most.part[k] = hn::Max(most.part[k], rows[k].part[i]);
+            }
+        }
+#endif
+    }
+
+  private:
+#if HWY_TARGET != HWY_SCALAR
+    template <class D, class F>
+    static HWY_INLINE auto over_blocks(D, hn::Vec<D> a, const F& combine) {
+        if constexpr (hn::MaxLanes(D()) == 4) {
+            return a;
+        } else {
+            const hn::Half<D> half;
+            return over_blocks(half, combine(hn::LowerHalf(half, a), hn::UpperHalf(half, a)),
+                               combine);
+        }
+    }
+#endif
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
