@@ -104,7 +104,11 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
 void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint16_t> codes) {
     if (encoding == Encoding::Srgb && bits == 8) {
         static const SrgbCodes kCodes;
-        for (std::uint16_t& code : codes) code = kCodes.code(*rgb++);
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            // Backgrounds repeat pixels.
+            const bool repeats = i >= 3 && rgb[i] == rgb[i - 3];
+            codes.data()[i] = repeats ? codes.data()[i - 3] : kCodes.code(rgb[i]);
+        }
         return;
     }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.
