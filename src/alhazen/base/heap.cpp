@@ -16,7 +16,7 @@ void prepare_heap() {
     constexpr int kHeapBytes = 64 << 20, kDefaultPad = 128 << 10;
     // Larger blocks have mappings of their own, which they give back.
     (void)mallopt(M_MMAP_THRESHOLD, 16 << 20);
-    (void)mallopt(M_TRIM_THRESHOLD, kHeapBytes);
+    (void)mallopt(M_TRIM_THRESHOLD, 2 * kHeapBytes);
     (void)mallopt(M_TOP_PAD, kHeapBytes);
     void* volatile block = std::malloc(kDefaultPad);  // else the compiler leaves both calls out
     std::free(block);

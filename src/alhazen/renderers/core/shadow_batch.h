@@ -93,7 +93,9 @@ class ShadowBatch {
     std::unique_ptr<Waiting[]> waiting_;
     std::vector<float> times_;  ///< [ray]; where something moves
     std::unique_ptr<bool[]> met_;
-    std::vector<std::uint64_t> order_;  ///< number of the light, then of the ray in 32 bits
+    // By light, in the order in which they were gathered.
+    std::vector<std::uint32_t> begins_;  ///< [light]
+    std::vector<std::uint32_t> places_;  ///< [ray] in `sorted_`
     std::vector<Ray> sorted_;
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
