@@ -27,7 +27,7 @@ ROOMS = {
     "parallel": ["base"],
     "sampling": ["math"],
     "geometry": ["math"],
-    "imaging": ["math"],
+    "imaging": ["math", "simd"],
     "shading": ["sampling", "imaging", "geometry"],
     "cameras": ["geometry", "simd"],
     "shapes": ["geometry", "simd"],
@@ -192,7 +192,7 @@ INSIDE = {
 
 # Start of an include -> rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
-    "hwy/": {"simd", "shapes", "cameras", "accel", "csg", "aggregates", "renderers", "verification"},
+    "hwy/": {"simd", "imaging", "shapes", "cameras", "accel", "csg", "aggregates", "renderers", "verification"},
     "tbb/": {"parallel"},
     "oneapi/": {"parallel"},
     "Imf": {"imaging"},

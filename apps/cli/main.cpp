@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/heap.h"
 #include "alhazen/session/statistics.h"
 #include "commands.h"
 #include "messages.h"
@@ -95,6 +96,7 @@ void open_closed_streams() {
 }  // namespace
 
 int main(int argc, char** argv) {
+    prepare_heap();
     open_closed_streams();
     fail_instead_of_dying_on_writes();
     exit_on_signals();

@@ -352,6 +352,19 @@ class CommandLine(CommandLineCase):
         self.assertIsNone(plain["tests"])
         self.assertEqual(plain["rays"], counted["rays"])
 
+    def test_small_work_does_not_start_the_library_of_tasks(self):
+        def starts_tasks(*arguments):
+            # glibc's loader tells what is loaded: TBB loads its allocator when it starts.
+            result = subprocess.run([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "-q", *arguments],
+                                    capture_output=True, text=True, env={**os.environ, "LD_DEBUG": "files"})
+            self.assertEqual(result.returncode, 0)
+            return "libtbbmalloc" in result.stderr
+
+        if not starts_tasks("--size", "640x480", "-t", "2"):
+            self.skipTest("no TBB with an allocator, one core, or another loader")
+        self.assertFalse(starts_tasks("--size", "640x480", "-t", "1"))
+        self.assertFalse(starts_tasks("--size", "16x12"))
+
     def test_databases_are_generated_as_nff_and_as_native_scenes(self):
         for name in ("tetra.nff", "tetra.alhazen"):
             result = run("generate", "tetra", "--size", "2", "-q", "-o", self.path(name))

@@ -1,3 +1,6 @@
+// TBB is started by the first call that has more than one task and may use more than one thread: to
+// load and start it takes longer than a small picture.
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -11,29 +14,72 @@
 
 namespace alhazen {
 
-struct ThreadLimit::Impl {
-    explicit Impl(int threads) : arena(threads) {}
-    tbb::task_arena arena;
+namespace {
+
+struct Arena {
+    explicit Arena(int most) : threads(most), tasks(most) {}
+    int threads;
+    tbb::task_arena tasks;  ///< starts TBB when it is entered
 };
 
-ThreadLimit::ThreadLimit(int threads) {
-    // TBB uses at most the cores of the machine, and prints a warning to stderr when asked for
-    // more.
+/// The arena that the calls of a thread belong to, until it is entered.
+class Ahead {
+  public:
+    explicit Ahead(Arena* arena) : before_(current_) { current_ = arena; }
+    ~Ahead() { current_ = before_; }
+    Ahead(const Ahead&) = delete;
+    Ahead& operator=(const Ahead&) = delete;
+
+    /// Of the calling thread; null: entered, or there is no limit.
+    [[nodiscard]] static Arena* current() { return current_; }
+
+  private:
+    Arena* before_;
+    static inline constinit thread_local Arena* current_ = nullptr;
+};
+
+/// Whether the calls of this thread take no other thread.
+bool is_alone() {
+    return Ahead::current() != nullptr && Ahead::current()->threads == 1;
+}
+
+template <class Work>
+void run_in_arena(const Work& work) {
+    Arena* const arena = Ahead::current();
+    if (arena == nullptr) return work();
+    arena->tasks.execute([&, flag = Interruptible::current()] {
+        const Interruptible inherited(flag);
+        const Ahead entered(nullptr);
+        work();
+    });
+}
+
+/// TBB uses at most the cores of the machine, and prints a warning to stderr when asked for more.
+int most_threads(int wanted) {
+    if (wanted <= available_cores()) return wanted;
     const std::size_t most =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    threads_ = std::min(threads > 0 ? threads : available_cores(), static_cast<int>(most));
-    impl_ = new Impl(threads_);
+    return std::min(wanted, static_cast<int>(most));
 }
+
+}  // namespace
+
+struct ThreadLimit::Impl {
+    explicit Impl(int threads) : arena(threads) {}
+    Arena arena;
+};
+
+ThreadLimit::ThreadLimit(int threads)
+    : threads_(most_threads(threads > 0 ? threads : available_cores())),
+      impl_(new Impl(threads_)) {}
 
 ThreadLimit::~ThreadLimit() {
     delete impl_;
 }
 
 void ThreadLimit::run(const std::function<void()>& work) {
-    impl_->arena.execute([flag = Interruptible::current(), &work] {
-        const Interruptible inherited(flag);
-        work();
-    });
+    const Ahead ahead(&impl_->arena);
+    work();
 }
 
 void parallel_for(std::size_t count, std::size_t grain,
@@ -44,16 +90,28 @@ void parallel_for(std::size_t count, std::size_t grain,
     if (count <= grain) return body(0, count);
     // Tasks are whole chunks, so the ranges are the same for every thread count and backend.
     const std::size_t chunks = (count - 1) / grain + 1;
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, chunks),
-        [&, flag = Interruptible::current()](const tbb::blocked_range<std::size_t>& range) {
-            const Interruptible inherited(flag);
+    const auto run_chunks = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i) {
+            body(i * grain, std::min(count, (i + 1) * grain));
+        }
+    };
+    if (is_alone()) {
+        for (std::size_t i = 0; i != chunks; ++i) {
             interruption_point();
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                body(i * grain, std::min(count, (i + 1) * grain));
-            }
-        },
-        tbb::simple_partitioner());
+            run_chunks(i, i + 1);
+        }
+        return;
+    }
+    run_in_arena([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, chunks),
+            [&, flag = Interruptible::current()](const tbb::blocked_range<std::size_t>& range) {
+                const Interruptible inherited(flag);
+                interruption_point();
+                run_chunks(range.begin(), range.end());
+            },
+            tbb::simple_partitioner());
+    });
 }
 
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) {
@@ -64,7 +122,12 @@ void parallel_invoke(const std::function<void()>& a, const std::function<void()>
             work();
         };
     };
-    tbb::parallel_invoke(inheriting(a), inheriting(b));
+    if (is_alone()) {
+        inheriting(a)();
+        inheriting(b)();
+        return;
+    }
+    run_in_arena([&] { tbb::parallel_invoke(inheriting(a), inheriting(b)); });
 }
 
 }  // namespace alhazen

@@ -9,6 +9,7 @@
 #include "alhazen/primitives/unused_shear.h"
 #include "alhazen/shapes/core/first_hit.h"
 #include "alhazen/shapes/core/first_hits.h"
+#include "alhazen/shapes/polygons/polygon_lanes.h"
 
 namespace alhazen {
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <set>
@@ -97,6 +98,38 @@ TEST(Parallel, TwoThreadsReallyRunAtOnce) {
     };
     ThreadLimit(2).run([&] { parallel_invoke(meet, meet); });
     EXPECT_EQ(arrived, 2);
+}
+
+TEST(Parallel, ALimitOfOneStaysOnTheCallingThread) {
+    const std::thread::id caller = std::this_thread::get_id();
+    std::vector<std::size_t> begun;
+    ThreadLimit(1).run([&] {
+        parallel_for(100, 7, [&](std::size_t begin, std::size_t) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            begun.push_back(begin);
+        });
+        parallel_invoke([&] { EXPECT_EQ(std::this_thread::get_id(), caller); },
+                        [&] { EXPECT_EQ(std::this_thread::get_id(), caller); });
+    });
+    ASSERT_EQ(begun.size(), 15u);
+    EXPECT_TRUE(std::is_sorted(begun.begin(), begun.end()));
+}
+
+TEST(Parallel, ALimitWithinALimitOfOneHasItsOwnThreads) {
+    if (ThreadLimit(2).threads() < 2) GTEST_SKIP() << "one core";
+    std::atomic<int> arrived{0};
+    const auto meet = [&] {
+        ++arrived;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (arrived < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    };
+    ThreadLimit(1).run([&] {
+        ThreadLimit(2).run([&] { parallel_invoke(meet, meet); });
+        EXPECT_EQ(arrived, 2);
+        const std::thread::id caller = std::this_thread::get_id();
+        parallel_for(
+            8, 1, [&](std::size_t, std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); });
+    });
 }
 
 TEST(Parallel, ZeroMeansAllAvailableCores) {

@@ -1,6 +1,7 @@
 #include "alhazen/imaging/codecs/png.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <png.h>
 
 #include "alhazen/imaging/codecs/image_size.h"
+#include "alhazen/imaging/codecs/png_filter.h"
 
 namespace alhazen {
 
@@ -27,6 +29,7 @@ struct PngState {
 
     png_bytep row = nullptr;
     const CodeRows* rows = nullptr;
+    int filter = 0;  ///< of the row that is written; 0: libpng chooses
     png_textp texts = nullptr;
     int text_count = 0;
     int passes = 1;
@@ -209,6 +212,7 @@ void write_header(PngState& state) {
 }
 
 void write_row(PngState& state) {
+    if (state.filter != 0) png_set_filter(state.png, PNG_FILTER_TYPE_BASE, state.filter);
     png_write_row(state.png, state.row);
 }
 
@@ -263,6 +267,26 @@ void set_bytes(std::span<const std::uint16_t> codes, int bits, png_byte* bytes) 
         *bytes++ = png_byte(code);
     }
     if (all > 255) cannot_write("a code does not fit 8 bits");
+}
+
+/// A row of bytes below a margin of zeros.
+class MarginedRow {
+  public:
+    explicit MarginedRow(std::size_t bytes) : bytes_(kPngRowMargin + bytes) {}
+    [[nodiscard]] png_byte* data() { return bytes_.data() + kPngRowMargin; }
+    [[nodiscard]] std::span<const png_byte> bytes() const {
+        return std::span(bytes_).subspan(kPngRowMargin);
+    }
+    void swap(MarginedRow& other) { bytes_.swap(other.bytes_); }
+
+  private:
+    std::vector<png_byte> bytes_;
+};
+
+int flag_of(PngFilter filter) {
+    constexpr std::array kFlags = {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG,
+                                   PNG_FILTER_PAETH};
+    return kFlags[std::size_t(filter)];
 }
 
 bool is_ascii(const std::string& text) {
@@ -325,12 +349,20 @@ std::vector<std::byte> encode_png(const CodeRows& rows, const ImageMetadata& met
     writer.check(write_header);
 
     std::vector<std::uint16_t> codes(std::size_t(rows.width) * std::size_t(rows.channels));
-    std::vector<png_byte> row(codes.size() * std::size_t(rows.bits / 8));
-    state.row = row.data();
+    const std::size_t code_bytes = std::size_t(rows.bits / 8);
+    MarginedRow row(codes.size() * code_bytes), above = row;
     for (int y = 0; y < rows.height; ++y) {
         rows.fill(y, codes);
         set_bytes(codes, rows.bits, row.data());
+        state.row = row.data();
+        // libpng itself chooses for the first row, before which it must know that others may
+        // follow, and for pictures of one column, for which it takes fewer filters.
+        if (y > 0 && rows.width > 1) {
+            const std::size_t pixel = std::size_t(rows.channels) * code_bytes;
+            state.filter = flag_of(best_png_filter(row.bytes(), above.bytes(), pixel));
+        }
         writer.check(write_row);
+        row.swap(above);
     }
     writer.check(write_end);
     return bytes;

@@ -50,8 +50,9 @@ class SrgbCodes {
         thresholds_[0] = 0.0;
         thresholds_[256] = std::numeric_limits<double>::infinity();
         for (std::uint32_t code = 1; code < 256; ++code) thresholds_[code] = least_with(code);
-        for (std::size_t i = 0; i < kSteps; ++i) {
-            first_[i] = std::uint8_t(encode_channel(double(i) / kSteps, Encoding::Srgb, 8));
+        for (std::size_t i = 0, code = 0; i < kSteps; ++i) {
+            while (double(i) / kSteps >= thresholds_[code + 1]) ++code;
+            first_[i] = std::uint8_t(code);
         }
     }
 
@@ -69,12 +70,19 @@ class SrgbCodes {
 
     /// Positive doubles are ordered as their bits are.
     static double least_with(std::uint32_t code) {
+        const auto has = [&](std::uint64_t bits) {
+            return encode_channel(std::bit_cast<double>(bits), Encoding::Srgb, 8) >= code;
+        };
         auto below = std::bit_cast<std::uint64_t>(0.0), from = std::bit_cast<std::uint64_t>(1.0);
+        // Near to where the inverse of the curve says.
+        const double guess = linear_from_srgb((code - 0.5) / 255.0);
+        const auto before = std::bit_cast<std::uint64_t>(guess * (1.0 - 0x1p-40));
+        const auto behind = std::bit_cast<std::uint64_t>(guess * (1.0 + 0x1p-40));
+        if (!has(before)) below = before;
+        if (has(behind)) from = behind;
         while (from - below > 1) {
             const std::uint64_t middle = below + (from - below) / 2;
-            const bool has =
-                encode_channel(std::bit_cast<double>(middle), Encoding::Srgb, 8) >= code;
-            (has ? from : below) = middle;
+            (has(middle) ? from : below) = middle;
         }
         return std::bit_cast<double>(from);
     }
@@ -104,7 +112,11 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
 void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint16_t> codes) {
     if (encoding == Encoding::Srgb && bits == 8) {
         static const SrgbCodes kCodes;
-        for (std::uint16_t& code : codes) code = kCodes.code(*rgb++);
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            // Backgrounds repeat pixels.
+            const bool repeats = i >= 3 && rgb[i] == rgb[i - 3];
+            codes.data()[i] = repeats ? codes.data()[i - 3] : kCodes.code(rgb[i]);
+        }
         return;
     }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.

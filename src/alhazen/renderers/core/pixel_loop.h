@@ -63,7 +63,7 @@ class PixelLoop {
         std::span<const Pixel> rest = pixels_;
         while (!rest.empty()) {
             const std::span<const Pixel> next = rest.first(std::min(rest.size(), sums_.size()));
-            for (const Pixel& pixel : next) sums_[gathered_++] = separable_sum(pixel);
+            for (const Pixel& pixel : next) sums_.data()[gathered_++] = separable_sum(pixel);
             if (!trace(film, estimator)) return;
             rest = rest.subspan(next.size());
         }
@@ -94,8 +94,7 @@ class PixelLoop {
 
     /// The sum of column and row of the eye ray of a pixel's only sample.
     [[nodiscard]] Vec3 separable_sum(const Pixel& pixel) const {
-        return columns_[static_cast<std::size_t>(pixel.i)] +
-               rows_[static_cast<std::size_t>(pixel.j)];
+        return columns_.data()[pixel.i] + rows_.data()[pixel.j];
     }
     /// The sum of column and row of the eye ray of sample `s`.
     [[nodiscard]] Vec3 sum_of(const Pixel& pixel, int s) const {

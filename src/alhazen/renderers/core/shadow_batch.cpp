@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/exact_optics.h"
@@ -98,23 +99,29 @@ void ShadowBatch::find_met_by_light(std::span<bool> met) {
                     [&](const Waiting& w) { return w.light == light; })) {
         return aggregate.occluded_batch(rays(), met, query(), coherence_to(light));
     }
-    order_.clear();
+    // Sorted by counting: `begins_` has first how many rays go to each light, then where the next
+    // one of them goes to.
+    begins_.assign(scene_.lights.size(), 0);
+    for (const Waiting& w : waiting()) ++begins_[w.light];
+    for (std::uint32_t before = 0; std::uint32_t & count : begins_) {
+        before += std::exchange(count, before);
+    }
+    sorted_.resize(kMostRays);
+    places_.resize(kMostRays);
     for (std::size_t i = 0; const Waiting& w : waiting()) {
-        order_.push_back(std::uint64_t{w.light} << 32 | i++);
+        const std::uint32_t place = begins_[w.light]++;
+        sorted_[place] = rays_[i];
+        places_[i++] = place;
     }
-    std::sort(order_.begin(), order_.end());
-    sorted_.clear();
-    for (const std::uint64_t place : order_) sorted_.push_back(rays_[place & 0xFFFFFFFFu]);
     const std::span<bool> found(sorted_met_.get(), met.size());
-    for (std::size_t first = 0, end = 0; first < order_.size(); first = end) {
-        const std::uint64_t number = order_[first] >> 32;
-        while (end < order_.size() && order_[end] >> 32 == number) ++end;
-        aggregate.occluded_batch(std::span<const Ray>(sorted_).subspan(first, end - first),
-                                 found.subspan(first, end - first), query(), coherence_to(number));
+    for (std::size_t number = 0, first = 0; number < begins_.size(); ++number) {
+        const std::size_t count = begins_[number] - first;
+        if (count == 0) continue;
+        aggregate.occluded_batch(std::span<const Ray>(sorted_).subspan(first, count),
+                                 found.subspan(first, count), query(), coherence_to(number));
+        first += count;
     }
-    for (std::size_t i = 0; const std::uint64_t place : order_) {
-        met[place & 0xFFFFFFFFu] = found[i++];
-    }
+    for (std::size_t i = 0; i < met.size(); ++i) met[i] = found[places_[i]];
 }
 
 /// True if it is faster to find first which rays hit anything, and crossings only for these. False

@@ -92,7 +92,9 @@ class ShadowBatch {
     std::unique_ptr<Waiting[]> waiting_;
     std::vector<float> times_;  ///< [ray]; where something moves
     std::unique_ptr<bool[]> met_;
-    std::vector<std::uint64_t> order_;  ///< number of the light << 32 | number of the ray
+    // Grouped by light, in the order in which rays were added.
+    std::vector<std::uint32_t> begins_;  ///< [light] start of its rays in `sorted_`
+    std::vector<std::uint32_t> places_;  ///< [ray] index in `sorted_`
     std::vector<Ray> sorted_;
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;

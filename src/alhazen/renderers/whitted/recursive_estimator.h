@@ -89,13 +89,15 @@ class RecursiveEstimator {
 
     /// Writes the radiance along eye rays of unit direction.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
-        eye_.clear();
-        for (std::uint32_t i = 0; const Ray& ray : rays) {
-            eye_.add(ray, Path{.sample = i, .time = chance_.time(i), .cone = job_.cone});
-            ++i;
+        Path path{.cone = job_.cone};
+        eye_.begin(rays, path);
+        for (Path& p : eye_.paths()) {
+            p.sample = path.sample++;
+            p.time = chance_.time(p.sample);
         }
         trace_all(eye_, 0);
-        for (std::uint32_t i = 0; Rgb & c : radiance) c = eye_.radiance(i++);
+        const std::span<const Rgb> found = eye_.part(0, rays.size()).radiance;
+        std::copy(found.begin(), found.end(), radiance.begin());
     }
 
     [[nodiscard]] Chance& chance() { return chance_; }
@@ -236,11 +238,8 @@ class RecursiveEstimator {
         const LeavingRays from(point.surface);
         add_direct_light(seen, from, met.direct);
         if (seen.depth < conventions_.max_depth) {
-            Path onward = seen.path;
-            onward.contribution = seen.path.contribution * met.share;
-            onward.cone = seen.path.cone.from(seen.t);
-            if (conventions_.trace_reflections) reflect(seen, from, onward, met, front.next);
-            if (conventions_.trace_refractions) transmit(seen, from, onward, met, front);
+            if (conventions_.trace_reflections) reflect(seen, from, met, front.next);
+            if (conventions_.trace_refractions) transmit(seen, from, met, front);
         }
         met.filtered =
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
@@ -269,15 +268,23 @@ class RecursiveEstimator {
         }
     }
 
-    /// `onward`: the path of the new ray, except for its kind and the effect of this surface.
-    void reflect(const Seen& seen, const LeavingRays& from, const Path& onward, MetSurface& met,
-                 Generation& next) {
+    /// The path of a ray that the surface sends on.
+    static Path onward_path(const Seen& seen, RayKind kind, const Rgb& contribution) {
+        Path path = seen.path;
+        path.kind = kind;
+        path.contribution = contribution;
+        path.cone = seen.path.cone.from(seen.t);
+        return path;
+    }
+
+    void reflect(const Seen& seen, const LeavingRays& from, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         const Rgb& kr = point.material->reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
                                              !point.material->transmissive.is_black());
-        const Rgb contribution = onward.contribution * kr;
-        if (!cast || contribution.max() < conventions_.min_contribution) return;
+        if (!cast) return;
+        const Rgb contribution = seen.path.contribution * met.share * kr;
+        if (contribution.max() < conventions_.min_contribution) return;
         Vec3 direction = mirror(seen.ray.direction, point.normal);
         // Where an interpolated normal reflects the ray into the surface, the geometric one is
         // used.
@@ -286,22 +293,18 @@ class RecursiveEstimator {
         }
         chance_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
-        met.reflected = next.add(onward_ray(conventions_, from, direction), onward);
-        Path& path = next.last_path();
-        path.kind = RayKind::Reflection;
-        path.contribution = contribution;
+        met.reflected = next.add(onward_ray(conventions_, from, direction),
+                                 onward_path(seen, RayKind::Reflection, contribution));
     }
 
-    void transmit(const Seen& seen, const LeavingRays& from, const Path& before, MetSurface& met,
-                  Wavefront& front) {
+    void transmit(const Seen& seen, const LeavingRays& from, MetSurface& met, Wavefront& front) {
         const ShadingPoint& point = seen.point;
         const MaterialSample& material = *point.material;
         const Rgb& kt = point.passing;
-        const Rgb contribution = before.contribution * kt;
-        if (kt.is_black() || contribution.max() < conventions_.min_contribution) return;
-        Path onward = before;
-        onward.kind = RayKind::Refraction;
-        onward.contribution = contribution;
+        if (kt.is_black()) return;
+        const Rgb contribution = seen.path.contribution * met.share * kt;
+        if (contribution.max() < conventions_.min_contribution) return;
+        Path onward = onward_path(seen, RayKind::Refraction, contribution);
         const bool tinted =
             optics_ || material.physical ||
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent;

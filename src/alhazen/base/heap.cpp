@@ -1,0 +1,29 @@
+#include "alhazen/base/heap.h"
+
+#include <cstdlib>
+
+#include "alhazen/base/huge_pages.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#include <unistd.h>
+#endif
+
+namespace alhazen {
+
+void prepare_heap() {
+#ifdef __GLIBC__
+    constexpr int kHeapBytes = 64 << 20, kDefaultPad = 128 << 10;
+    // Larger blocks have mappings of their own, which they give back.
+    (void)mallopt(M_MMAP_THRESHOLD, 16 << 20);
+    (void)mallopt(M_TRIM_THRESHOLD, 2 * kHeapBytes);
+    (void)mallopt(M_TOP_PAD, kHeapBytes);
+    void* volatile block = std::malloc(kDefaultPad);  // else the compiler leaves both calls out
+    std::free(block);
+    (void)mallopt(M_TOP_PAD, kDefaultPad);
+    auto* const end = static_cast<std::byte*>(sbrk(0));
+    prefer_huge_pages(end - kHeapBytes, kHeapBytes);
+#endif
+}
+
+}  // namespace alhazen
