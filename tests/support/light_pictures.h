@@ -145,6 +145,13 @@ inline SceneMaker floor_from_above(double side, const Rgb& color = {1, 1, 1}) {
 struct Blocks {
     static constexpr int kSide = 2;
     std::vector<double> mean, error;
+    int runs = 0;
+
+    [[nodiscard]] double whole() const {
+        double sum = 0.0;
+        for (const double m : mean) sum += m / double(mean.size());
+        return sum;
+    }
 };
 
 inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples,
@@ -168,6 +175,7 @@ inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int sam
         }
     }
     Blocks blocks;
+    blocks.runs = runs;
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const double mean = sum[i] / runs;
         blocks.mean.push_back(mean);
@@ -175,23 +183,6 @@ inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int sam
             std::sqrt(std::max(0.0, squares[i] / runs - mean * mean) / (runs - 1)));
     }
     return blocks;
-}
-
-/// Fails where the means of two renderers differ by more than `most` standard errors of a block.
-inline void expect_same_light(const Scene& scene, const std::string& name,
-                              const std::vector<std::string>& renderers, int samples, double most) {
-    std::vector<Blocks> found;
-    for (const std::string& r : renderers) found.push_back(blocks_of(scene, r, samples));
-    for (std::size_t a = 0; a < found.size(); ++a) {
-        for (std::size_t b = a + 1; b < found.size(); ++b) {
-            for (std::size_t i = 0; i < found[a].mean.size(); ++i) {
-                const double error = std::hypot(found[a].error[i], found[b].error[i]);
-                EXPECT_LE(std::abs(found[a].mean[i] - found[b].mean[i]), most * error + 1e-12)
-                    << name << ", block " << i << ": " << renderers[a] << " " << found[a].mean[i]
-                    << ", " << renderers[b] << " " << found[b].mean[i];
-            }
-        }
-    }
 }
 
 }  // namespace alhazen::testing

@@ -140,7 +140,7 @@ TEST(WideBvhFile, TheSameTreeMakesTheSameFile) {
 
 TEST(WideBvhFile, EveryFlippedBitIsNoticed) {
     const ScratchFolder folder;
-    const PrimitiveTable table = table_of(20, 3, 2, 1);
+    const PrimitiveTable table = table_of(5, 1, 1, 1);
     const auto path = folder.path() / "tree";
     WideBvhAggregate(table).save(path);
     std::string bytes = read_file(path);
@@ -161,7 +161,7 @@ TEST(WideBvhFile, EveryFlippedBitIsNoticed) {
 
 TEST(WideBvhFile, EveryOtherLengthIsRefused) {
     const ScratchFolder folder;
-    const PrimitiveTable table = table_of(20, 3, 2, 1);
+    const PrimitiveTable table = table_of(5, 1, 1, 1);
     const auto path = folder.path() / "tree";
     WideBvhAggregate(table).save(path);
     const std::string bytes = read_file(path);

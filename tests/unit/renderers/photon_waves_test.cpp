@@ -9,14 +9,13 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/photons/photon.h"
 #include "alhazen/renderers/photons/photon_passes.h"
-#include "support/light_pictures.h"
+#include "support/light_agreement.h"
 #include "support/random.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::ball;
-using testing::Blocks;
 using testing::blocks_of;
 using testing::floor_from_above;
 using testing::matt;
@@ -69,35 +68,30 @@ Scene room(double roughness) {
 }
 
 struct Case {
-    const char* renderer;
+    std::string renderer;
     double bias;  ///< of the picture's mean, of disc and radius
-    int samples;
+    int runs, samples;
 };
 void expect_light_of_path_tracing(const Scene& scene, std::span<const Case> cases,
                                   const std::string& name) {
-    const Blocks truth = blocks_of(scene, "path_tracing --spectral", 96);
-    double whole = 0.0;
-    for (const double mean : truth.mean) whole += mean / double(truth.mean.size());
-    EXPECT_GT(whole, 0.05) << name;
+    const std::string eye = "path_tracing --spectral";
+    const testing::Shown truth{eye, blocks_of(scene, eye, 32, 36)};
+    EXPECT_GT(truth.blocks.whole(), 0.05) << name;
     for (const Case& c : cases) {
-        const Blocks found = blocks_of(scene, c.renderer, c.samples);
-        for (std::size_t i = 0; i < truth.mean.size(); ++i) {
-            const double error = std::hypot(found.error[i], truth.error[i]);
-            EXPECT_LE(error, 0.1 * whole) << name << ", block " << i << ", " << c.renderer;
-            EXPECT_LE(std::abs(found.mean[i] - truth.mean[i]), 5.0 * error + c.bias * whole)
-                << name << ", block " << i << ", " << c.renderer << ": " << found.mean[i] << " +- "
-                << found.error[i] << ", path_tracing " << truth.mean[i] << " +- " << truth.error[i];
-        }
+        const testing::Shown found{c.renderer, blocks_of(scene, c.renderer, c.samples, c.runs),
+                                   c.bias};
+        testing::expect_same_light({found, truth}, name, 5e-5, 0.6);
     }
 }
 
 TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
     const Case cases[] = {
-        {"photon_mapping:photons=96000,caustics=48000,nearest=96,filter=disc --spectral", 0.03, 16},
+        {"photon_mapping:photons=96000,caustics=48000,nearest=96,filter=disc --spectral", 0.03, 12,
+         16},
         {"photon_mapping:photons=24000,caustics=48000,nearest=96,filter=disc,gather=4 --spectral",
-         0.03, 32},
-        {"sppm:photons=2000,radius=0.06 --spectral", 0.02, 48},
-        {"vcm:photons=300,radius=0.06,pilot=off --spectral", 0.01, 32},
+         0.03, 12, 32},
+        {"sppm:photons=1000,radius=0.06 --spectral", 0.02, 26, 16},
+        {"vcm:photons=300,radius=0.06,pilot=off --spectral", 0.01, 20, 16},
     };
     for (const double roughness : {0.0, 0.4}) {
         expect_light_of_path_tracing(room(roughness), cases,
@@ -120,9 +114,10 @@ TEST(PhotonWaves, AgreeWithPathTracingOnWhatMoves) {
     const Scene scene = maker.compile();
     ASSERT_TRUE(scene.has_motion);
     const Case cases[] = {
-        {"photon_mapping:photons=8000,caustics=64000,nearest=96,filter=disc --spectral", 0.03, 16},
-        {"sppm:photons=2000,radius=0.06 --spectral", 0.03, 32},
-        {"vcm:photons=2000,radius=0.06,pilot=off --spectral", 0.03, 32},
+        {"photon_mapping:photons=8000,caustics=64000,nearest=96,filter=disc --spectral", 0.03, 12,
+         16},
+        {"sppm:photons=1000,radius=0.06 --spectral", 0.03, 26, 16},
+        {"vcm:photons=1000,radius=0.06,pilot=off --spectral", 0.03, 26, 16},
     };
     expect_light_of_path_tracing(scene, cases, "moving balls");
 }

@@ -9,7 +9,7 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
-#include "support/light_pictures.h"
+#include "support/light_agreement.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -145,7 +145,7 @@ TEST(Spectral, GreyScenesAreThoseOfColours) {
     const Scene scene = maker.compile();
     expect_same_light(scene, "grey",
                       {"path_tracing", "path_tracing --spectral", "bidirectional --spectral"}, 64,
-                      5.0);
+                      5e-5);
 }
 
 TEST(Spectral, ColouredScenesHaveTheColoursOfTheirMaterials) {
@@ -165,7 +165,7 @@ TEST(Spectral, StrategiesAgreeOnLightThatADispersingBallThrows) {
         flint.roughness.value = roughness;
         maker.add(ball({0.1, 0, 0.3}, 0.25), maker.material(flint));
         expect_same_light(maker.compile(), "flint, roughness " + std::to_string(roughness),
-                          {"path_tracing --spectral", "bidirectional --spectral"}, 256, 5.0);
+                          {"path_tracing --spectral", "bidirectional --spectral"}, 64, 5e-5, 32);
     }
 }
 

@@ -9,7 +9,7 @@
 #include "alhazen/math/constants.h"
 #include "alhazen/sampling/random.h"
 #include "support/chi_square.h"
-#include "support/light_pictures.h"
+#include "support/light_agreement.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -20,24 +20,10 @@ BoxShape wide_layer(double bottom, double top) {
     return {{-1000, -1000, bottom}, {1000, 1000, top}};
 }
 
-/// The mean of a picture, over independent ones, against a closed form: within 4 standard errors,
-/// which are at most `error` of it.
-void expect_mean(const Scene& scene, const std::string& renderer, const Rgb& expected, double error,
-                 int samples = 256) {
-    constexpr int kRuns = 12;
-    Rgb sum, squares;
-    for (int run = 0; run < kRuns; ++run) {
-        const Rgb m = mean_of(picture_of(scene, renderer, 4, samples, std::uint64_t(run + 1)));
-        sum += m;
-        squares += m * m;
-    }
-    for (int i = 0; i < 3; ++i) {
-        const double mean = sum[i] / kRuns;
-        const double se = std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1));
-        EXPECT_LE(se, error * expected[i]) << i;
-        EXPECT_LE(std::abs(mean - expected[i]), 4.0 * se + 1e-12 * expected[i])
-            << i << ": " << mean << ", expected " << expected[i];
-    }
+/// A channel fails by chance once in 500 cases.
+void expect_near(const Scene& scene, const std::string& renderer, const Rgb& expected,
+                 double finds) {
+    expect_mean(scene, renderer, expected, {.runs = 24, .samples = 64}, 2e-3, finds);
 }
 
 TEST(HenyeyGreenstein, DrawsFollowItsDensityWhoseMeanCosineIsTheAnisotropy) {
@@ -104,7 +90,7 @@ TEST(VolumeScattering, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
         SceneMaker colored = looking_down();
         colored.description().picture.background = Rgb{1, 1, 1};
         colored.add(ball({0, 0, 0}, 1), colored.material(fog({}, {0.5, 1, 2}, g, kNearlyOne)));
-        expect_mean(colored.compile(), "path_tracing:depth=1000", {1, 1, 1}, 0.01);
+        expect_near(colored.compile(), "path_tracing:depth=1000", {1, 1, 1}, 0.04);
     }
 }
 
@@ -118,7 +104,7 @@ TEST(VolumeScattering, WhatIsNotScatteredFallsByBeersLaw) {
     for (int i = 0; i < 3; ++i)
         expected[i] = 4.0 * std::exp(-1.5 * (absorption[i] + scattering[i]));
     for (const char* renderer : {"path_tracing:depth=0", "bidirectional:depth=0"}) {
-        expect_mean(maker.compile(), renderer, expected, 0.02);
+        expect_near(maker.compile(), renderer, expected, 0.08);
     }
 }
 
@@ -146,7 +132,7 @@ TEST(VolumeScattering, ASlabInEvenLightShowsTheFirstOrderOfItsScattering) {
             expected[c] = sum;
         }
         for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
-            expect_mean(maker.compile(), renderer, expected, 0.01);
+            expect_near(maker.compile(), renderer, expected, 0.04);
         }
     }
 }
@@ -175,7 +161,7 @@ TEST(VolumeScattering, ALampInFogShinesByTheIntegralAlongTheView) {
             }
         }
         for (const char* renderer : {"path_tracing:depth=1", "bidirectional:depth=1"}) {
-            expect_mean(maker.compile(), renderer, expected, 0.03);
+            expect_near(maker.compile(), renderer, expected, 0.12);
         }
     }
 }
@@ -189,7 +175,7 @@ TEST(VolumeScattering, NestedVolumesScatterByTheInnermost) {
     maker.add(rectangle({-9, -9, -4}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
     const double left = std::exp(-0.2 * 2.0);
     for (const char* renderer : {"path_tracing:depth=0", "bidirectional:depth=0"}) {
-        expect_mean(maker.compile(), renderer, {left, left, left}, 0.02);
+        expect_near(maker.compile(), renderer, {left, left, left}, 0.08);
     }
 }
 
