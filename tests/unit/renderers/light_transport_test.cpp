@@ -272,7 +272,7 @@ TEST(LightTransport, TheThreeStrategiesAgreeOnThirteenScenes) {
     for (const NamedScene& named : scenes()) {
         expect_same_light(
             named.scene, named.name,
-            {"path_tracing:depth=5", "light_tracing:depth=5", "bidirectional:depth=5"}, 16);
+            {"path_tracing:depth=5", "light_tracing:depth=5", "bidirectional:depth=5"}, 24);
     }
 }
 

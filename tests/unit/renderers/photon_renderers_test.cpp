@@ -177,7 +177,7 @@ TEST(PhotonRenderers, BothWaysHaveTheirOwnWavelengths) {
     testing::expect_same_light(scene, "pane",
                                {"sppm:photons=2000,radius=0.3,alpha=1,split=1 --spectral",
                                 "sppm:photons=2000,radius=0.3,alpha=1,split=0.001 --spectral"},
-                               16, 2e-5, 24);
+                               16, 2e-5, 36);
 }
 
 Scene room(const std::function<void(SceneMaker&)>& fill) {

@@ -165,7 +165,7 @@ TEST(Spectral, StrategiesAgreeOnLightThatADispersingBallThrows) {
         flint.roughness.value = roughness;
         maker.add(ball({0.1, 0, 0.3}, 0.25), maker.material(flint));
         expect_same_light(maker.compile(), "flint, roughness " + std::to_string(roughness),
-                          {"path_tracing --spectral", "bidirectional --spectral"}, 64, 5e-5, 32);
+                          {"path_tracing --spectral", "bidirectional --spectral"}, 64, 5e-5, 37);
     }
 }
 

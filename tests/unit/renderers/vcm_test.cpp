@@ -234,7 +234,7 @@ TEST(Vcm, AgreesWithPathTracingInSevenRooms) {
             const bool wide = radius > 0.05;
             const std::string renderer = wide ? "vcm:photons=200,radius=0.1,pilot=off"
                                               : "vcm:photons=1000,radius=0.03,pilot=off";
-            const testing::Shown found{renderer, blocks_of(r.scene, renderer, 8),
+            const testing::Shown found{renderer, blocks_of(r.scene, renderer, 8, 16),
                                        wide ? 0.02 : 0.005};
             testing::expect_same_light({found, truth}, r.name, testing::kByChance, 0.5);
         }

@@ -47,7 +47,7 @@ Material clear(double index, const Rgb& absorption) {
 
 /// Pictures of one renderer in one scene; those of fewer samples are more.
 int runs_of(int samples) {
-    return samples < 32 ? 36 : 32;
+    return samples < 32 ? 40 : 32;
 }
 
 /// What differs from the truth by `finds` of the picture is found.
@@ -55,7 +55,7 @@ void expect_light_of(const Shown& truth, const Scene& scene, const std::string& 
                      int samples, double finds, const std::string& name) {
     const double bias = renderer.starts_with("vcm") ? 0.005 : 0.0;
     const Shown found{renderer, blocks_of(scene, renderer, samples, runs_of(samples)), bias};
-    expect_same_light({found, truth}, name, kByChance, finds);
+    expect_same_light({found, truth}, name, kByChance, finds + bias);
 }
 
 double sum_of(const Rgb& c) {
@@ -80,9 +80,9 @@ TEST(CoincidentVolumes, TwoHalvesAreTheWhole) {
         double most;
     };
     const std::vector<Case> cases{
-        {"fog", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3), kFew, 32, 0.06},
-        {"milk", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3, 1.2), kFew, 32, 0.09},
-        {"ink", clear(1.3, {0.5, 1, 2}), kMany, 32, 0.06}};
+        {"fog", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3), kFew, 32, 0.0595},
+        {"milk", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3, 1.2), kFew, 32, 0.088},
+        {"ink", clear(1.3, {0.5, 1, 2}), kMany, 32, 0.0595}};
     for (const auto& [name, material, depth, samples, most] : cases) {
         SceneMaker whole = below_a_lamp();
         add_floor(whole);
@@ -117,8 +117,8 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
     };
     const std::vector<Case> cases{
         {"fogs", fog({0.2, 0.5, 0.9}, {1.2, 1.6, 2}, 0.3), fog({0.1, 0.1, 0}, {3, 2, 1}, -0.3),
-         kFew, 0.075},
-        {"glass and wine", clear(1.5, {0.2, 0.1, 0.2}), clear(1.33, {0.3, 2, 2}), kMany, 0.12}};
+         kFew, 0.068},
+        {"glass and wine", clear(1.5, {0.2, 0.1, 0.2}), clear(1.33, {0.3, 2, 2}), kMany, 0.114}};
     for (const Case& c : cases) {
         const auto touching = [&](bool turned) {
             SceneMaker maker = below_a_lamp();
@@ -189,7 +189,7 @@ TEST(CoincidentVolumes, ABlockStandsOnItsTable) {
                 expect_light_of(truth, scene, renderer, 16, 0.09, name);
             expect_same_paths(scene, block_first, renderer, name);
         }
-        expect_light_of(truth, block_first, "sppm:photons=3000,radius=0.05", 16, 0.15, name);
+        expect_light_of(truth, block_first, "sppm:photons=3000,radius=0.05", 16, 0.148, name);
     }
 }
 
