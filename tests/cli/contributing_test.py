@@ -4,8 +4,9 @@
 Usage: contributing_test.py BUILD_FOLDER SOURCE_FOLDER
 
 For each list, adds a minimal shape, accelerator, renderer or scene format to a scratch copy of the sources. Then the files that
-differ must be exactly those of the list, the copy must pass its tools/check_layers.py, and the sources that the addition
-concerns must compile (-fsyntax-only, with the options of the build's tests; as one unit, which reads their headers once).
+differ must be exactly those of the list, and the copy must pass its tools/check_layers.py. With all four additions in one
+copy, the sources that they concern must compile (-fsyntax-only, with the options of the build's tests; as one unit, which
+reads their headers once).
 """
 
 import filecmp
@@ -110,13 +111,13 @@ ACCELERATOR_H = """#pragma once
 
 namespace alhazen {
 
-class Extra {
+class ExtraAccelerator {
   public:
     static constexpr const char* kName = "extra";
     static constexpr const char* kDescription = "every primitive in turn";
     struct Config {};
     [[nodiscard]] static Config configure(SettingsReader&) { return {}; }
-    [[nodiscard]] static Extra build(const BoundsSource& source, const Config& config);
+    [[nodiscard]] static ExtraAccelerator build(const BoundsSource& source, const Config& config);
 
     template <class Visitor, class Stats>
     void traverse(const Ray&, Visitor& visitor, Stats) const {
@@ -136,8 +137,8 @@ ACCELERATOR_CPP = """#include "alhazen/accel/bounds/extra.h"
 
 namespace alhazen {
 
-Extra Extra::build(const BoundsSource& source, const Config&) {
-    Extra extra;
+ExtraAccelerator ExtraAccelerator::build(const BoundsSource& source, const Config&) {
+    ExtraAccelerator extra;
     extra.count_ = static_cast<std::uint32_t>(source.size());
     return extra;
 }
@@ -150,9 +151,9 @@ ACCELERATOR_TEST = """#include "alhazen/accel/bounds/extra.h"
 
 namespace alhazen {
 
-static_assert(Accelerator<Extra>);
+static_assert(Accelerator<ExtraAccelerator>);
 TEST(Extra, HasAName) {
-    EXPECT_STREQ(Extra::kName, "extra");
+    EXPECT_STREQ(ExtraAccelerator::kName, "extra");
 }
 
 }  // namespace alhazen
@@ -252,16 +253,18 @@ def syntax_command(source, like, root):
 
 
 class Copy:
-    """A scratch copy of the sources."""
+    """A scratch copy of the sources, and the names of what was written there."""
 
     def __init__(self, root):
         self.root = root
+        self.written = set()
         for name in COPIED:
-            shutil.copytree(SOURCE / name, root / name)
+            shutil.copytree(SOURCE / name, root / name, ignore=shutil.ignore_patterns("__pycache__"))
 
     def write(self, name, text):
         (self.root / name).parent.mkdir(parents=True, exist_ok=True)
         (self.root / name).write_text(text, encoding="utf-8")
+        self.written.add(name)
 
     def edit(self, name, *changes):
         """Replaces the first match of each pattern; each must be there."""
@@ -277,116 +280,139 @@ class Copy:
         self.edit(cmake_list, (rf"^( +){re.escape(after)}\n", rf"\g<0>\g<1>{new}\n"))
 
     def changed(self):
-        names = set()
-        for folder in COPIED:
-            for path in (self.root / folder).rglob("*"):
-                name = path.relative_to(self.root).as_posix()
-                old = SOURCE / name
-                if path.is_file() and not (old.is_file() and filecmp.cmp(path, old, shallow=False)):
-                    names.add(name)
-        return {name for name in names if "__pycache__" not in name}
+        def same(name):
+            return (SOURCE / name).is_file() and filecmp.cmp(self.root / name, SOURCE / name, shallow=False)
+        return {name for name in self.written if not same(name)}
+
+    def restore(self):
+        for name in self.written:
+            if (SOURCE / name).is_file():
+                shutil.copy(SOURCE / name, self.root / name)
+            else:
+                (self.root / name).unlink()
+        self.written.clear()
+
+
+def add_shape(copy):
+    copy.write("src/alhazen/shapes/quadrics/extra.h", SHAPE_H)
+    copy.write("src/alhazen/shapes/quadrics/extra.cpp", SHAPE_CPP)
+    copy.edit("src/alhazen/shapes/shape_list.h",
+              (r'^#include "alhazen/shapes/quadrics/frustum.h"\n|^#include "alhazen/shapes/quadrics/hyperboloid.h"\n',
+               r'#include "alhazen/shapes/quadrics/extra.h"\n\g<0>'),
+              (r"(using AnalyticShapes =\s+ShapeTypes<[^>]*)>", r"\g<1>, Extra>"))
+    copy.list_source("src/alhazen/shapes/CMakeLists.txt", "quadrics/sphere.cpp", "quadrics/extra.cpp")
+    copy.edit("docs/reference/formats/native.md",
+              (r"^\| `sphere` .*?\n", r"\g<0>| `extra` | `middle`, `size` | (0, 0, 0), 1 |\n"))
+    copy.write("tests/unit/shapes/quadrics/extra_test.cpp", SHAPE_TEST)
+    copy.list_source("tests/unit/CMakeLists.txt", "shapes/quadrics/sphere_test.cpp", "shapes/quadrics/extra_test.cpp")
+
+
+def add_accelerator(copy):
+    copy.write("src/alhazen/accel/bounds/extra.h", ACCELERATOR_H)
+    copy.write("src/alhazen/accel/bounds/extra.cpp", ACCELERATOR_CPP)
+    copy.edit("src/alhazen/accel/accel_list.h",
+              (r'^#include "alhazen/accel/bounds/goldsmith_salmon.h"\n',
+               r'#include "alhazen/accel/bounds/extra.h"\n\g<0>'),
+              (r"(using BoundAccelerators = std::tuple<[^>]*)>", r"\g<1>, ExtraAccelerator>"))
+    copy.list_source("src/alhazen/accel/CMakeLists.txt", "bounds/bounding_volumes.cpp", "bounds/extra.cpp")
+    copy.write("tests/unit/accel/extra_test.cpp", ACCELERATOR_TEST)
+    copy.list_source("tests/unit/CMakeLists.txt", "accel/cell_grid_test.cpp", "accel/extra_test.cpp")
+
+
+def add_renderer(copy):
+    """The least renderer: ray casting by another name."""
+    for suffix in (".h", ".cpp"):
+        text = (SOURCE / f"src/alhazen/renderers/ray_casting/ray_casting{suffix}").read_text(encoding="utf-8")
+        copy.write(f"src/alhazen/renderers/extra/extra{suffix}",
+                   text.replace("renderers/ray_casting/ray_casting.h", "renderers/extra/extra.h")
+                   .replace("RayCasting", "ExtraRenderer"))
+    copy.edit("src/alhazen/renderers/renderer_list.cpp",
+              (r'^#include "alhazen/renderers/ray_casting/ray_casting.h"\n',
+               r'#include "alhazen/renderers/extra/extra.h"\n\g<0>'),
+              (r"RendererEntry, (\d+)>", lambda m: f"RendererEntry, {int(m[1]) + 1}>"),
+              (r'^ *\{"ray_casting".*?\}\},\n',
+               lambda m: m[0] + m[0].replace("ray_casting", "extra").replace("RayCasting", "ExtraRenderer")))
+    copy.list_source("src/alhazen/renderers/CMakeLists.txt", "ray_casting/ray_casting.cpp", "extra/extra.cpp")
+    copy.edit("tools/check_layers.py", (r'^( +)"ray_casting": (\[.*?\]),\n', r'\g<0>\g<1>"extra": \g<2>,\n'))
+    copy.write("tests/unit/renderers/extra_test.cpp", RENDERER_TEST)
+    copy.list_source("tests/unit/CMakeLists.txt", "renderers/mipmap_test.cpp", "renderers/extra_test.cpp")
+
+
+def add_scene_format(copy):
+    copy.write("src/alhazen/formats/extra/extra_importer.h", IMPORTER_H)
+    copy.write("src/alhazen/formats/extra/extra_importer.cpp", IMPORTER_CPP)
+    copy.edit("src/alhazen/formats/importer_list.cpp",
+              (r'^#include "alhazen/formats/gltf/scene/gltf_importer.h"\n',
+               r'#include "alhazen/formats/extra/extra_importer.h"\n\g<0>'),
+              (r"^( +)static const NffImporter nff;\n", r"\g<0>\g<1>static const ExtraImporter extra;\n"),
+              (r"Importer\*, (\d+)>", lambda m: f"Importer*, {int(m[1]) + 1}>"),
+              (r"&nff,", "&nff, &extra,"))
+    copy.list_source("src/alhazen/formats/CMakeLists.txt", "core/default_conventions.cpp", "extra/extra_importer.cpp")
+    copy.edit("tools/check_layers.py", (r'^( +)"nff": (\[.*?\]),\n', r'\g<0>\g<1>"extra": ["core"],\n'))
+    copy.write("tests/unit/formats/extra/extra_test.cpp", IMPORTER_TEST)
+    copy.list_source("tests/unit/CMakeLists.txt", "formats/nff/nff_test.cpp", "formats/extra/extra_test.cpp")
+    copy.edit("tests/fuzz/CMakeLists.txt", (r"foreach\(importer native ", r"\g<0>extra "))
+    copy.write("docs/reference/formats" + "/extra.md", "# Extra\n")
+
+
+# How, the section of CONTRIBUTING.md, the family named there, and the sources to compile.
+ADDITIONS = [
+    (add_shape, "Add a shape", "quadrics", [
+        "src/alhazen/shapes/quadrics/extra.cpp",
+        "src/alhazen/formats/native/read/native_shapes.cpp",
+        "src/alhazen/scene/compile.cpp",
+        "tests/unit/shapes/quadrics/extra_test.cpp",
+    ]),
+    (add_accelerator, "Add an accelerator", "bounds", [
+        "src/alhazen/accel/bounds/extra.cpp",
+        "src/alhazen/accel/accelerator_names.cpp",
+        "tests/unit/accel/extra_test.cpp",
+    ]),
+    (add_renderer, "Add a renderer", "", [
+        "src/alhazen/renderers/extra/extra.cpp",
+        "src/alhazen/renderers/renderer_list.cpp",
+        "tests/unit/renderers/extra_test.cpp",
+    ]),
+    (add_scene_format, "Add a scene format", "", [
+        "src/alhazen/formats/extra/extra_importer.cpp",
+        "src/alhazen/formats/importer_list.cpp",
+        "tests/unit/formats/extra/extra_test.cpp",
+    ]),
+]
 
 
 class Contributing(unittest.TestCase):
-    def check(self, section, family, add, tests, sources):
-        with tempfile.TemporaryDirectory() as folder:
-            copy = Copy(pathlib.Path(folder).resolve())
-            add(copy)
-            self.assertEqual(copy.changed(), listed_files(section, family))
-            layers = subprocess.run([sys.executable, copy.root / "tools/check_layers.py", copy.root],
-                                    capture_output=True, text=True, check=False)
-            self.assertEqual((layers.returncode, layers.stdout + layers.stderr), (0, ""))
-            copy.write("unit.cpp", "".join(f'#include "{source}"\n' for source in sources))
-            command, at = syntax_command("unit.cpp", tests, copy.root)
-            run = subprocess.run(command, cwd=at, capture_output=True, text=True, check=False)
-            self.assertEqual(run.returncode, 0, f"{sources}:\n{run.stderr[:4000]}")
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.copy = Copy(pathlib.Path(folder.name).resolve())
 
-    def test_a_shape_is_added_by_the_listed_files(self):
-        def add(copy):
-            copy.write("src/alhazen/shapes/quadrics/extra.h", SHAPE_H)
-            copy.write("src/alhazen/shapes/quadrics/extra.cpp", SHAPE_CPP)
-            copy.edit("src/alhazen/shapes/shape_list.h",
-                      (r'^#include "alhazen/shapes/quadrics/frustum.h"\n|^#include "alhazen/shapes/quadrics/hyperboloid.h"\n',
-                       r'#include "alhazen/shapes/quadrics/extra.h"\n\g<0>'),
-                      (r"(using AnalyticShapes =\s+ShapeTypes<[^>]*)>", r"\g<1>, Extra>"))
-            copy.list_source("src/alhazen/shapes/CMakeLists.txt", "quadrics/sphere.cpp", "quadrics/extra.cpp")
-            copy.edit("docs/reference/formats/native.md",
-                      (r"^\| `sphere` .*?\n", r"\g<0>| `extra` | `middle`, `size` | (0, 0, 0), 1 |\n"))
-            copy.write("tests/unit/shapes/quadrics/extra_test.cpp", SHAPE_TEST)
-            copy.list_source("tests/unit/CMakeLists.txt", "shapes/quadrics/sphere_test.cpp", "shapes/quadrics/extra_test.cpp")
+    def setUp(self):
+        self.copy.restore()
 
-        self.check("Add a shape", "quadrics", add, "/alhazen_shapes_test.dir/", [
-            "src/alhazen/shapes/quadrics/extra.cpp",
-            "src/alhazen/formats/native/read/native_shapes.cpp",
-            "src/alhazen/scene/compile.cpp",
-            "tests/unit/shapes/quadrics/extra_test.cpp",
-        ])
+    def test_additions_take_the_listed_files(self):
+        for add, section, family, _ in ADDITIONS:
+            with self.subTest(section):
+                self.copy.restore()
+                add(self.copy)
+                self.assertEqual(self.copy.changed(), listed_files(section, family))
+                self.check_layers()
 
-    def test_an_accelerator_is_added_by_the_listed_files(self):
-        def add(copy):
-            copy.write("src/alhazen/accel/bounds/extra.h", ACCELERATOR_H)
-            copy.write("src/alhazen/accel/bounds/extra.cpp", ACCELERATOR_CPP)
-            copy.edit("src/alhazen/accel/accel_list.h",
-                      (r'^#include "alhazen/accel/bounds/goldsmith_salmon.h"\n',
-                       r'#include "alhazen/accel/bounds/extra.h"\n\g<0>'),
-                      (r"(using BoundAccelerators = std::tuple<[^>]*)>", r"\g<1>, Extra>"))
-            copy.list_source("src/alhazen/accel/CMakeLists.txt", "bounds/bounding_volumes.cpp", "bounds/extra.cpp")
-            copy.write("tests/unit/accel/extra_test.cpp", ACCELERATOR_TEST)
-            copy.list_source("tests/unit/CMakeLists.txt", "accel/cell_grid_test.cpp", "accel/extra_test.cpp")
+    def test_all_additions_compile_together(self):
+        for add, _, _, _ in ADDITIONS:
+            add(self.copy)
+        self.check_layers()
+        sources = [source for _, _, _, own in ADDITIONS for source in own]
+        self.copy.write("unit.cpp", "".join(f'#include "{source}"\n' for source in sources))
+        command, at = syntax_command("unit.cpp", "/alhazen_session_test.dir/", self.copy.root)
+        run = subprocess.run(command, cwd=at, capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stderr[:4000])
 
-        self.check("Add an accelerator", "bounds", add, "/alhazen_accelerators_test.dir/", [
-            "src/alhazen/accel/bounds/extra.cpp",
-            "src/alhazen/accel/accelerator_names.cpp",
-            "tests/unit/accel/extra_test.cpp",
-        ])
-
-    def test_a_renderer_is_added_by_the_listed_files(self):
-        """The least renderer: ray casting by another name."""
-        def add(copy):
-            for suffix in (".h", ".cpp"):
-                text = (SOURCE / f"src/alhazen/renderers/ray_casting/ray_casting{suffix}").read_text(encoding="utf-8")
-                copy.write(f"src/alhazen/renderers/extra/extra{suffix}",
-                           text.replace("renderers/ray_casting/ray_casting.h", "renderers/extra/extra.h")
-                           .replace("RayCasting", "Extra"))
-            copy.edit("src/alhazen/renderers/renderer_list.cpp",
-                      (r'^#include "alhazen/renderers/ray_casting/ray_casting.h"\n',
-                       r'#include "alhazen/renderers/extra/extra.h"\n\g<0>'),
-                      (r"RendererEntry, (\d+)>", lambda m: f"RendererEntry, {int(m[1]) + 1}>"),
-                      (r'^ *\{"ray_casting".*?\}\},\n',
-                       lambda m: m[0] + m[0].replace("ray_casting", "extra").replace("RayCasting", "Extra")))
-            copy.list_source("src/alhazen/renderers/CMakeLists.txt", "ray_casting/ray_casting.cpp", "extra/extra.cpp")
-            copy.edit("tools/check_layers.py", (r'^( +)"ray_casting": (\[.*?\]),\n', r'\g<0>\g<1>"extra": \g<2>,\n'))
-            copy.write("tests/unit/renderers/extra_test.cpp", RENDERER_TEST)
-            copy.list_source("tests/unit/CMakeLists.txt", "renderers/mipmap_test.cpp", "renderers/extra_test.cpp")
-
-        self.check("Add a renderer", "", add, "/alhazen_renderers_test.dir/", [
-            "src/alhazen/renderers/extra/extra.cpp",
-            "src/alhazen/renderers/renderer_list.cpp",
-            "tests/unit/renderers/extra_test.cpp",
-        ])
-
-    def test_a_scene_format_is_added_by_the_listed_files(self):
-        def add(copy):
-            copy.write("src/alhazen/formats/extra/extra_importer.h", IMPORTER_H)
-            copy.write("src/alhazen/formats/extra/extra_importer.cpp", IMPORTER_CPP)
-            copy.edit("src/alhazen/formats/importer_list.cpp",
-                      (r'^#include "alhazen/formats/gltf/scene/gltf_importer.h"\n',
-                       r'#include "alhazen/formats/extra/extra_importer.h"\n\g<0>'),
-                      (r"^( +)static const NffImporter nff;\n", r"\g<0>\g<1>static const ExtraImporter extra;\n"),
-                      (r"Importer\*, (\d+)>", lambda m: f"Importer*, {int(m[1]) + 1}>"),
-                      (r"&nff,", "&nff, &extra,"))
-            copy.list_source("src/alhazen/formats/CMakeLists.txt", "core/default_conventions.cpp", "extra/extra_importer.cpp")
-            copy.edit("tools/check_layers.py", (r'^( +)"nff": (\[.*?\]),\n', r'\g<0>\g<1>"extra": ["core"],\n'))
-            copy.write("tests/unit/formats/extra/extra_test.cpp", IMPORTER_TEST)
-            copy.list_source("tests/unit/CMakeLists.txt", "formats/nff/nff_test.cpp", "formats/extra/extra_test.cpp")
-            copy.edit("tests/fuzz/CMakeLists.txt", (r"foreach\(importer native ", r"\g<0>extra "))
-            copy.write("docs/reference/formats" + "/extra.md", "# Extra\n")
-
-        self.check("Add a scene format", "", add, "/alhazen_formats_test.dir/", [
-            "src/alhazen/formats/extra/extra_importer.cpp",
-            "src/alhazen/formats/importer_list.cpp",
-            "tests/unit/formats/extra/extra_test.cpp",
-        ])
+    def check_layers(self):
+        layers = subprocess.run([sys.executable, self.copy.root / "tools/check_layers.py", self.copy.root],
+                                capture_output=True, text=True, check=False)
+        self.assertEqual((layers.returncode, layers.stdout + layers.stderr), (0, ""))
 
 
 if __name__ == "__main__":

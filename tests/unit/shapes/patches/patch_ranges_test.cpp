@@ -138,8 +138,10 @@ std::size_t expect_crossings_in_ranges(std::span<const BezierNet> nets, int bund
     return crossings;
 }
 
-/// Each instruction set tests different lines.
+/// Each instruction set tests different lines, a third of the bundles: x86-64 has three sets, the
+/// plain kernels are one.
 void expect_on_targets(std::span<const BezierNet> nets, int bundles, std::size_t least) {
+    constexpr int kSets = 3;
     const std::vector<std::string> targets = simd_targets();
     const int count = static_cast<int>(targets.size());
     std::size_t crossings = 0;
@@ -147,9 +149,9 @@ void expect_on_targets(std::span<const BezierNet> nets, int bundles, std::size_t
         const SimdTargetOverride forced(targets[static_cast<std::size_t>(k)]);
         SCOPED_TRACE(targets[static_cast<std::size_t>(k)]);
         const auto seed = static_cast<std::uint64_t>(k + 1);
-        crossings += expect_crossings_in_ranges(nets, (bundles + count - 1) / count, seed);
+        crossings += expect_crossings_in_ranges(nets, (bundles + kSets - 1) / kSets, seed);
     }
-    EXPECT_GT(crossings, least);
+    EXPECT_GT(crossings, std::min(count, kSets) * least / kSets);
 }
 
 std::vector<BezierNet> nets_of(const PatchMesh& mesh) {
