@@ -208,7 +208,8 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
     }
     builder.table.placements.emplace_back();
     TableBuilder others = builder;
-    others.add_sphere({50, 50, 50}, 1, true, 0);  // packets are pyramids
+    // Enough shapes without a test in lanes for frustum packets.
+    for (int i = 0; i < 32; ++i) others.add_sphere({50.0 + 3 * i, 50, 50}, 1, true, 0);
     for (const PrimitiveTable& table : {builder.finish(), others.finish()}) {
         for (const Vec3& eye : {Vec3{0.25, 0.5, 3}, Vec3{0.3, 0.2, 2.9}, Vec3{-3, 0.25, 0.25}}) {
             Rays rays;
@@ -286,7 +287,8 @@ TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
     }
     builder.table.placements.emplace_back();
     TableBuilder others = builder;
-    others.add_sphere({50, 50, 50}, 1, true, 0);  // packets are pyramids
+    // Enough shapes without a test in lanes for frustum packets.
+    for (int i = 0; i < 32; ++i) others.add_sphere({50.0 + 3 * i, 50, 50}, 1, true, 0);
     for (const PrimitiveTable& table : {builder.finish(), others.finish()}) {
         for (const Vec3& eye : {Vec3{0, 0, 0}, Vec3{0.5, -0.5, 1}, Vec3{0.51, 0.24, 0.5}}) {
             for (const Vec3& look : {Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0.5, 0.25}}) {
@@ -395,30 +397,32 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRaysAtManyShapesWithoutATestInLane
     EXPECT_LT(2 * coherent.node_visits, any.node_visits);
 }
 
-TEST(CoherentBatch, TheRoadFollowsWhatTheTreeHolds) {
-    const auto road = [](std::size_t triangles, std::size_t spheres, std::size_t frustums,
-                         std::size_t others, bool any_hit, std::size_t registers) {
+TEST(CoherentBatch, TheTraversalFollowsWhatTheTreeHolds) {
+    const auto traversal = [](std::size_t triangles, std::size_t spheres, std::size_t frustums,
+                              std::size_t others, bool any_hit, std::size_t registers) {
         WideBvhLayout layout;
         layout.triangles.resize(triangles);
         layout.spheres.resize(spheres);
         layout.frustums.resize(frustums);
         layout.others.resize(others);
-        return coherent_road(layout, any_hit, registers);
+        return coherent_traversal(layout, any_hit, registers);
     };
     constexpr std::size_t kAvx512 = 1, kAvx2 = 2, kSse4 = 4;
     for (const std::size_t registers : {kAvx512, kAvx2, kSse4}) {
-        const CoherentRoad closest =
-            registers == kSse4 ? CoherentRoad::Pyramids : CoherentRoad::Lanes;
-        EXPECT_EQ(road(64, 0, 0, 0, false, registers), closest);
-        EXPECT_EQ(road(0, 64, 0, 0, false, registers), closest);
-        EXPECT_EQ(road(32, 32, 1, 0, false, registers), closest);
-        EXPECT_EQ(road(32, 31, 1, 0, false, registers),
-                  registers == kSse4 ? CoherentRoad::Alone : CoherentRoad::Lanes);
-        EXPECT_EQ(road(64, 64, 0, 1, false, registers), CoherentRoad::Pyramids);
-        EXPECT_EQ(road(64, 64, 0, 1, true, registers), CoherentRoad::Pyramids);
-        EXPECT_EQ(road(3, 0, 2, 0, true, registers), CoherentRoad::Lanes);
-        EXPECT_EQ(road(2, 1, 3, 0, true, registers), CoherentRoad::Alone);
-        EXPECT_EQ(road(0, 0, 3, 0, true, registers), CoherentRoad::Alone);
+        const CoherentTraversal closest =
+            registers == kSse4 ? CoherentTraversal::Frusta : CoherentTraversal::Lanes;
+        EXPECT_EQ(traversal(64, 0, 0, 0, false, registers), closest);
+        EXPECT_EQ(traversal(0, 64, 0, 0, false, registers), closest);
+        EXPECT_EQ(traversal(32, 32, 1, 0, false, registers), closest);
+        EXPECT_EQ(traversal(32, 31, 1, 0, false, registers),
+                  registers == kSse4 ? CoherentTraversal::Alone : CoherentTraversal::Lanes);
+        EXPECT_EQ(traversal(64, 64, 0, 2, false, registers), closest);
+        EXPECT_EQ(traversal(64, 64, 0, 2, true, registers), CoherentTraversal::Lanes);
+        EXPECT_EQ(traversal(64, 64, 0, 3, false, registers), CoherentTraversal::Frusta);
+        EXPECT_EQ(traversal(64, 64, 0, 3, true, registers), CoherentTraversal::Frusta);
+        EXPECT_EQ(traversal(3, 0, 2, 0, true, registers), CoherentTraversal::Lanes);
+        EXPECT_EQ(traversal(2, 1, 3, 0, true, registers), CoherentTraversal::Alone);
+        EXPECT_EQ(traversal(0, 0, 3, 0, true, registers), CoherentTraversal::Alone);
     }
 }
 

@@ -152,10 +152,10 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
     constexpr bool kAnyHit = !InLanes::kOrdered;
     constexpr std::size_t kRegisters = kParts<float, 16>;
-    const CoherentRoad road = coherent_road(layout, kAnyHit, kRegisters);
-    if (road == CoherentRoad::Alone) return otherwise(0, rays.size());
+    const CoherentTraversal traversal = coherent_traversal(layout, kAnyHit, kRegisters);
+    if (traversal == CoherentTraversal::Alone) return otherwise(0, rays.size());
     if constexpr (kAnyHit || kRegisters <= kMostLaneRegisters) {
-        if (road == CoherentRoad::Lanes) {
+        if (traversal == CoherentTraversal::Lanes) {
             return run_lanes<InLanes>(scene, prefetch_table, rays, results, stats, otherwise);
         }
     }

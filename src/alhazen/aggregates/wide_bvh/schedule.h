@@ -25,50 +25,53 @@ enum class Schedule {
 };
 
 /// Most primitives of a tree that treeless packets replace. Lanes miss a few shapes in less time
-/// than one ray takes through the tree: torus 2.4, Barth's sextic 2.3, quartic 2.4 times faster.
+/// than one ray takes through the tree (docs/log/wide_bvh.md).
 inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 
-/// Fewest rays of a packet in lanes (lane_queries-inl.h) in a subtree: fewer go on one by one.
+/// Fewest rays of a lane packet (lane_queries-inl.h) in a subtree; fewer continue one by one.
 inline constexpr int kMinPacketLanes = 3;
-/// Most registers that sixteen numbers may take where packets in lanes look for closest hits: with
-/// four, eye rays by pyramids are a third faster, while any hit gains by lanes with four as well.
+/// Most registers of sixteen floats with which lane packets look for closest hits. With more,
+/// frustum packets are faster; for any hit lane packets always are.
 inline constexpr std::size_t kMostLaneRegisters = 2;
-/// Fewest primitives with a test in lanes for each one without, where packets go as pyramids: the
-/// others are tested ray by ray, and packets were slower among them.
+/// Fewest leaf blocks with a test in lanes for each one without. The latter are tested ray by ray.
 inline constexpr std::size_t kLanePrimitivesPerScalar = 64;
 
-/// How coherent rays go.
-enum class CoherentRoad {
-    Lanes,     ///< packets in lanes (lane_queries-inl.h)
-    Pyramids,  ///< packets in beams (packet_queries-inl.h), by trial
-    Alone,     ///< in no packet
+/// The traversal of coherent rays.
+enum class CoherentTraversal {
+    Lanes,   ///< lane packets (lane_queries-inl.h)
+    Frusta,  ///< frustum packets (packet_queries-inl.h), given up where they fail
+    Alone,   ///< no packets
 };
 
-/// The road of a tree whose schedule is Packets. `registers`: of sixteen floats. Lanes test solids
-/// and algebraic surfaces ray by ray, where pyramids test them eight rays at a time; both test
-/// cylinders, cones and discs ray by ray, and shadow rays, soon done, gain nothing where these are
-/// half of the tree.
-[[nodiscard]] inline CoherentRoad coherent_road(const WideBvhLayout& layout, bool any_hit,
-                                                std::size_t registers) {
-    if (!layout.others.empty()) return CoherentRoad::Pyramids;
+/// The traversal of a tree whose schedule is Packets. `registers`: of sixteen floats. Lane packets
+/// test all but triangles and spheres ray by ray. Frustum packets test only cylinders, cones and
+/// discs ray by ray, other shapes eight rays at a time.
+[[nodiscard]] inline CoherentTraversal coherent_traversal(const WideBvhLayout& layout, bool any_hit,
+                                                          std::size_t registers) {
     const std::size_t lanes = layout.triangles.size() + layout.spheres.size();
-    const std::size_t scalars = layout.frustums.size();
-    if (any_hit) return 3 * scalars <= 2 * lanes ? CoherentRoad::Lanes : CoherentRoad::Alone;
-    if (registers <= kMostLaneRegisters) return CoherentRoad::Lanes;
-    return kLanePrimitivesPerScalar * scalars <= lanes ? CoherentRoad::Pyramids
-                                                       : CoherentRoad::Alone;
+    const std::size_t scalars = layout.frustums.size() + layout.others.size();
+    const bool lanes_serve = any_hit || registers <= kMostLaneRegisters;
+    if (!layout.others.empty() &&
+        (!lanes_serve || kLanePrimitivesPerScalar * layout.others.size() > lanes)) {
+        return CoherentTraversal::Frusta;
+    }
+    // Shadow rays end early: packets gain nothing where two fifths of the blocks are scalar.
+    if (any_hit)
+        return 3 * scalars <= 2 * lanes ? CoherentTraversal::Lanes : CoherentTraversal::Alone;
+    if (lanes_serve) return CoherentTraversal::Lanes;
+    return kLanePrimitivesPerScalar * scalars <= lanes ? CoherentTraversal::Frusta
+                                                       : CoherentTraversal::Alone;
 }
 /// Fewest rays of a packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;
 /// Work of a packet: 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the
-/// finer filter decides, and so much for a shape and group of rays. A unit is about 50
+/// finer filter decides, and `shape` for a shape and a group of rays. A unit is about 50
 /// instructions.
 struct PacketWork {
     std::uint32_t shape;
-    /// For each ray: from here on the rays are as fast one by one. A packet that took more counts
-    /// as a failure.
+    /// Work per ray from which on single rays are as fast. A packet with more counts as a failure.
     std::uint32_t fair;
-    std::uint32_t most;  ///< for each ray; then the packet gives up
+    std::uint32_t most;  ///< work per ray at which the packet is given up
 };
 inline constexpr PacketWork kClosestPacketWork = {6, 14, 20};
 /// A single ray that may end at any hit is soon done.
