@@ -18,12 +18,17 @@
 #include <vector>
 
 #include "alhazen/geometry/box.h"
+#include "alhazen/illumination/spherical_polygons.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/shading/optics/illuminant.h"
 #include "alhazen/shapes/patches/bezier_net.h"
 
 namespace alhazen {
+
+/// What is seen under a smaller solid angle is sampled by area: there both are alike, and the
+/// formulas of solid angles lose digits.
+inline constexpr double kLeastSolidAngle = 1e-4;
 
 struct EmittingPatch {
     BezierNet net;
@@ -50,6 +55,7 @@ struct Emitter {
     EmitterForm form = EmitterForm::Triangle;
     bool two_sided = false;
     bool right_angled = false;  ///< of a rectangle
+    RectangleSides sides;       ///< of one with right angles
     Affine world_from_own;
     double inner = 0;
     double area = 0;  ///< of one side; of what is curved by numerical integration

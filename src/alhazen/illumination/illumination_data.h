@@ -1,7 +1,7 @@
 #pragma once
 /// The lights of an `Illumination`, sorted by how they are chosen and sampled.
 ///
-/// Internal to illumination.cpp and illumination_emission.cpp.
+/// Internal to illumination.cpp, illumination_emission.cpp and light_draws.cpp.
 /// Conventions: near lights are numbered: the emitters of the scene, then those of lights that no
 /// ray sees (`hidden`), then `points`, indices into Scene::lights. Far ones: `parallel`, then the
 /// environment. Sources of `emit` are the near lights, then the far ones.
@@ -70,6 +70,19 @@ struct Illumination::Data {
         const std::size_t surfaces = emitters.size() + hidden.size();
         return near_light < surfaces ? nullptr : &scene->lights[points[near_light - surfaces]];
     }
+    /// Whether a near light is an emitter, of the scene or hidden.
+    [[nodiscard]] bool is_emitter(std::size_t near_light) const {
+        return near_light < emitters.size() + hidden.size();
+    }
+    /// `Illumination::draw` where its choice is a far light.
+    [[nodiscard]] LightDraw draw_far(const LitPoint& at, double choice, const Vec2& u,
+                                     const Wavelengths& waves) const;
+    /// The same of a near light that is chosen with that probability.
+    [[nodiscard]] LightDraw draw_near(std::size_t light, double probability, const LitPoint& at,
+                                      const Vec2& u, const Wavelengths& waves) const;
+    /// Of an emitter that is sampled.
+    [[nodiscard]] LightDraw draw_of_emitter(std::size_t light, double probability, const Vec3& at,
+                                            const EmitterSample& s, const Wavelengths& waves) const;
     [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const {
         return options.choice == LightChoice::Tree ? tree.choose(at, choice) : near.choose(choice);
     }

@@ -31,10 +31,18 @@ class SphericalTriangle {
     double triple_ = 0, solid_angle_ = 0;
 };
 
+/// Of a rectangle, whatever sees it.
+struct RectangleSides {
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< unit: along the edges and across
+    double width = 1, height = 1;
+
+    /// The edges are perpendicular.
+    [[nodiscard]] static RectangleSides of(const Vec3& edge_u, const Vec3& edge_v);
+};
+
 class SphericalRectangle {
   public:
-    /// The edges are perpendicular.
-    SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
+    SphericalRectangle(const Vec3& corner, const RectangleSides& sides);
 
     [[nodiscard]] double solid_angle() const { return solid_angle_; }
     /// The point for `u` in the unit square, relative to the point that sees it.

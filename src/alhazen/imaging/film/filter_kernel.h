@@ -51,6 +51,8 @@ class FilterKernel {
     /// Draws with a density in proportion to the kernel's magnitude, monotonically in both
     /// coordinates of `u` (in [0, 1)).
     [[nodiscard]] Drawn draw(const Vec2& u) const {
+        // The same numbers: all that is computed is exact then.
+        if (even_) return {{radius_ * (2.0 * u.x - 1.0), radius_ * (2.0 * u.y - 1.0)}, 1.0};
         const OneDrawn x = draw_one(u.x), y = draw_one(u.y);
         return {{x.offset, y.offset}, x.sign * y.sign};
     }
@@ -72,6 +74,7 @@ class FilterKernel {
     };
 
     double radius_;
+    bool even_ = false;        ///< the kernel is 1 everywhere
     std::vector<Node> nodes_;  ///< one more than cells
     /// [floor(u kCells)]: a cell at or before that of u (Chen and Asau, "On Generating Random
     /// Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974).

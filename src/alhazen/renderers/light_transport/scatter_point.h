@@ -35,7 +35,8 @@ struct Scattered {
 class ScatterPoint {
   public:
     /// `media`: around the path before the surface. `both_ways`: `reverse_density` will be asked.
-    /// `known`: BSDFs that many points share; null: there are none. `others`: faces that coincide
+    /// `known`: BSDFs that many points share, valid as long as the point where the cache keeps
+    /// them; null: there are none. `others`: faces that coincide
     /// with the surface and are crossed with it; null: none.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
              const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr,
@@ -51,11 +52,11 @@ class ScatterPoint {
     [[nodiscard]] Spectrum value(const Vec3& direction, Transport transport) const;
     /// Share of matt lobes in `value`.
     [[nodiscard]] Spectrum diffuse_share(const Vec3& direction) const {
-        return bsdf_.diffuse_share(local_view_, frame_.to_local(direction));
+        return bsdf().diffuse_share(local_view_, frame_.to_local(direction));
     }
     /// What happens to polarised light from `direction`: by singular lobes, or by the others.
     [[nodiscard]] PlaneMueller polarization(const Vec3& direction, bool singular) const {
-        return bsdf_.polarization(local_view_, frame_.to_local(direction), singular);
+        return bsdf().polarization(local_view_, frame_.to_local(direction), singular);
     }
     /// With which `sample` gives `direction`.
     [[nodiscard]] double density(const Vec3& direction) const;
@@ -64,8 +65,12 @@ class ScatterPoint {
     [[nodiscard]] double reverse_density(const Vec3& direction) const;
     [[nodiscard]] std::optional<Scattered> sample(double choice, const Vec2& u,
                                                   Transport transport) const;
+    /// Whether its BSDF is a single matt reflection.
+    [[nodiscard]] bool is_matt() const { return bsdf().is_only_matt(); }
+    /// `sample` where it is, for a direction of `cosine_direction`.
+    [[nodiscard]] std::optional<Scattered> sample_matt(const Vec3& local) const;
     /// Whether `sample` uses `choice`.
-    [[nodiscard]] bool chooses() const { return !null_ && bsdf_.chooses(); }
+    [[nodiscard]] bool chooses() const { return !null_ && bsdf().chooses(); }
 
     /// Both ways of a smooth boundary between clear media, reflection first, weighed without a
     /// choice; none where one of them is all, at other surfaces, and where it disperses.
@@ -74,20 +79,20 @@ class ScatterPoint {
     [[nodiscard]] bool is_null_boundary() const { return null_; }
     /// The share of light that goes straight on through a thin sheet or a null boundary.
     [[nodiscard]] Spectrum straight() const {
-        return null_ ? bsdf_.singular(local_view_, Transport::Radiance).transmitted
-                     : bsdf_.straight(local_view_);
+        return null_ ? bsdf().singular(local_view_, Transport::Radiance).transmitted
+                     : bsdf().straight(local_view_);
     }
     /// With which `sample` does that.
     [[nodiscard]] double straight_probability() const {
-        return thin_ ? bsdf_.straight_probability(local_view_) : 0.0;
+        return thin_ ? bsdf().straight_probability(local_view_) : 0.0;
     }
-    [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
-    [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf_.lambert(); }
-    [[nodiscard]] bool has_singular() const { return bsdf_.has_singular(); }
-    [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
+    [[nodiscard]] bool has_density() const { return bsdf().has_density(); }
+    [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf().lambert(); }
+    [[nodiscard]] bool has_singular() const { return bsdf().has_singular(); }
+    [[nodiscard]] bool transmits() const { return bsdf().transmits(); }
     /// What its singular lobes do with light that goes to the view.
     [[nodiscard]] SingularLight singular(Transport transport) const {
-        return bsdf_.singular(local_view_, transport);
+        return bsdf().singular(local_view_, transport);
     }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }
     [[nodiscard]] const Vec3& geometric() const { return geometric_; }
@@ -101,7 +106,7 @@ class ScatterPoint {
 
     /// Whether a volume lies on one of its sides.
     [[nodiscard]] bool bounds_volume() const {
-        return media_known_ || (bsdf_.lets_through() && !thin_);
+        return media_known_ || (bsdf().lets_through() && !thin_);
     }
     /// The media beyond the surface, for a path that is transmitted.
     void cross(MediumStack& media) const;
@@ -111,6 +116,11 @@ class ScatterPoint {
     }
 
   private:
+    [[nodiscard]] std::optional<Scattered> in_world(const BsdfSample& drawn) const;
+    [[nodiscard]] const Bsdf& bsdf() const { return shared_ != nullptr ? *shared_ : own_; }
+    /// Sets the BSDF at the point; of blended materials their weighted sum.
+    void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place,
+                  BsdfCache* known);
     /// The index on the side of the view over that behind, of each wavelength; 0 where the material
     /// says.
     [[nodiscard]] Spectrum etas(const Scene& scene, const ShadingPoint& point,
@@ -119,7 +129,8 @@ class ScatterPoint {
         return local.z * dot(direction, geometric_) > 0.0;
     }
 
-    Bsdf bsdf_;
+    Bsdf own_;
+    const Bsdf* shared_ = nullptr;     ///< of a cache that keeps it; null: `own_`
     std::optional<Bsdf> from_behind_;  ///< the same surface as seen from its other side
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;

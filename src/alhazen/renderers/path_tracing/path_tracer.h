@@ -1,11 +1,12 @@
 #pragma once
 /// The paths of a batch of samples, one bounce of all of them at a time.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "alhazen/illumination/illumination.h"
+#include "alhazen/illumination/light_draws.h"
 #include "alhazen/renderers/core/path_record.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
@@ -66,7 +67,18 @@ class PathTracer {
         Spectrum light;
     };
 
+    /// A surface where a path scatters.
+    struct Vertex {
+        EyePath* path = nullptr;
+        const ShadingPoint* point = nullptr;  ///< where vertices do not wait; else null
+        Vec3 place;
+        ScatterPoint scatter;
+        std::optional<LeavingRays> leaving;
+    };
+
     void bounce(bool first);
+    /// Goes on from the vertices that wait.
+    void scatter_all();
     /// The vertex of the path that is recorded (RenderJob::path); null of others.
     [[nodiscard]] RecordedVertex* recorded(const EyePath& path) {
         return path.sample == recorded_ ? &job_.path->vertices.back() : nullptr;
@@ -89,9 +101,10 @@ class PathTracer {
     void add_polarized(std::uint32_t sample, int scatterings, const FirstScattering& first,
                        const Spectrum& light, const StokesLight& to_eye);
     /// Where light from `direction` at the point at hand goes that a shadow ray may bring;
-    /// `direction` null: scattered inside a volume.
+    /// `scatter` null: scattered inside a volume.
     [[nodiscard]] Spectrum& place_of_joined(const EyePath& path, const FirstScattering& first,
-                                            const Vec3* direction, Spectrum& sum);
+                                            const ScatterPoint* scatter, const Vec3& direction,
+                                            Spectrum& sum);
     /// Light that may still be blocked.
     [[nodiscard]] Spectrum limited_joined(const Spectrum& light, int scatterings) const {
         return settings_.polarization ? light : limited(light, scatterings);
@@ -117,12 +130,15 @@ class PathTracer {
     [[nodiscard]] Vec2 choices(const EyePath& path, bool needed) {
         return needed ? chance_.draw(path.sample, path.drawn, PathChance::kChoices) : Vec2{};
     }
-    void add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
+    void add_direct_light(const Vertex& vertex, const LightDraw& drawn, Spectrum& sum);
     /// Light by way of mirrors and glass.
-    void add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
-    void scatter(EyePath& path, const ShadingPoint& point);
+    void add_chains(const Vertex& vertex, Spectrum& sum);
+    /// `drawn`: where the path goes; none: it is absorbed.
+    void scatter(const Vertex& vertex, const std::optional<Scattered>& drawn);
+    /// Where their paths go, matt ones together.
+    void draw_directions(std::span<const Vertex> vertices);
     /// What a scattering along `direction` does with light, where it is the first.
-    [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
+    [[nodiscard]] FirstScattering first_along(const Vertex& vertex, const Vec3& direction) const;
     [[nodiscard]] bool survives(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
         next_alive_.push_back(path.sample);
@@ -161,8 +177,12 @@ class PathTracer {
     VisibleBatch visible_;
     LightBatch shadows_;
     BsdfCache bsdfs_;
-    ScatterPoint scatter_;
-    std::optional<LeavingRays> leaving_;  ///< the surface at hand
+    ScatterPoint passed_;
+    /// Vertices wait for each other, for their lights are drawn together.
+    std::array<Vertex, LightDraws::kMost> vertices_;
+    std::size_t waiting_ = 0, most_waiting_;
+    LightDraws draws_;
+    std::array<std::optional<Scattered>, LightDraws::kMost> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
     ShadingPoint opaque_face_;  ///< of them, where it is met
     ScatteringMedia media_;

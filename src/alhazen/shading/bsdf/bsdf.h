@@ -66,6 +66,11 @@ class Bsdf {
                                                    Transport transport) const;
     /// Whether `sample` uses `choice`.
     [[nodiscard]] bool chooses() const { return !matt_.is; }
+    /// Whether it is a single matt reflection, whose directions are those of `cosine_direction`.
+    [[nodiscard]] bool is_only_matt() const { return matt_.is; }
+    /// `sample` where it is, for a direction that is drawn.
+    [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec3& view,
+                                                        const Vec3& direction) const;
     /// Share of the light from all directions that goes to `view`, or a close approximation.
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
     /// False: only singular lobes, or none: lights need not be sampled.
@@ -113,8 +118,6 @@ class Bsdf {
         bool is_chosen = false;  ///< else all is absorbed
         Spectrum value;  ///< into all directions above the surface; 0 where it is not usable
     };
-
-    [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec2& u) const;
 
     /// `value` of the lobes that are matt, or of all.
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction, Transport transport,
