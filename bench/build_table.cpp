@@ -2,7 +2,7 @@
 /// tree.
 /// Usage: alhazen_build_table SCENE... [--rounds N] [--threads N] [--only TEXT] [--markdown FILE]
 /// SCENE: see kernel_scenes.h; triangles only. Builders take turns; --threads is the larger of the
-/// two thread counts; --only leaves out builders without TEXT in their names.
+/// two thread counts; --only selects the builders with TEXT in their names.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ namespace {
 using namespace alhazen;
 using namespace alhazen::bench;
 
-// Block of triangles of wide_bvh and its cost, in which all trees are measured.
+// Width of the triangle blocks of wide_bvh and their cost, by which all trees are measured.
 constexpr std::size_t kBlockWidth = 8;
 constexpr double kBlockCost = 1.5;
 
@@ -48,7 +48,7 @@ PrimitiveTable table_of(const KernelScene& scene) {
     return table;
 }
 
-/// Everything that a build has to do, including the boxes of the primitives.
+/// The complete build, including the boxes of the primitives.
 WideBvhLayout build_layout(const PrimitiveTable& table, const BuildOptions& options) {
     const BoundedPrimitives bounded(table);
     return build_wide_bvh(table, bounded, options);

@@ -161,7 +161,7 @@ std::string as_markdown(const std::vector<CheckResult>& results) {
         unseen += r.planted_unseen;
     }
     return text + fmt::format(
-                      "\nBesides, {} answers of ours were judged though nobody disagreed "
+                      "\n{} further answers were judged without a disagreement "
                       "(those found wrong are in the table), and wrong answers put in "
                       "their place: {} of those were not seen.\n",
                       samples, unseen);

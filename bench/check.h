@@ -23,7 +23,7 @@ struct CheckResult {
     std::size_t ours_wrong = 0, peer_wrong = 0;
     std::size_t both_right = 0;     ///< the ray passes through an edge or is tangent
     std::size_t batch_differs = 0;  ///< rays whose batch hit differs from the single one in any bit
-    /// Rays judged without a disagreement; planted wrong answers that the judge missed.
+    /// Rays judged without a disagreement, and planted wrong answers that the judge did not detect.
     std::size_t samples = 0, planted_unseen = 0;
     std::vector<std::string> our_faults;  ///< the first few, for inspection
     std::vector<std::string> unseen;      ///< missed planted errors

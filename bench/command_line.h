@@ -47,7 +47,7 @@ class CommandLine {
         const auto place = values_.find(name);
         return place == values_.end() ? otherwise : place->second;
     }
-    /// A number of at least 1; 1e6 is accepted. Throws Error (Usage).
+    /// A number that is at least 1, possibly in the form 1e6. Throws Error (Usage).
     [[nodiscard]] std::size_t count(const std::string& name, std::size_t otherwise) const {
         const auto place = values_.find(name);
         if (place == values_.end()) return otherwise;

@@ -2,8 +2,8 @@
 
 Usage: blender -b --factory-startup -P bench/cycles.py -- render SCENE OUT.exr WIDTH HEIGHT SECONDS SAMPLES SEED FILTER
        blender -b --factory-startup -P bench/cycles.py -- compare A.exr B.exr
-SECONDS 0: SAMPLES samples. Path tracing alone: no denoising, no clamping, no adaptive sampling, no blurred caustics.
-`compare` prints the root of the mean squared difference, the same of what is cut off at 1, and the means.
+SECONDS 0: SAMPLES samples. Plain path tracing: no denoising, clamping, adaptive sampling or blurred caustics.
+`compare` prints the root mean squared difference, that of the values clamped to 1, and the means.
 """
 
 import json

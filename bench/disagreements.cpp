@@ -9,7 +9,7 @@ namespace {
 
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 Extended;
-constexpr double kZero = 0x1p-88;  ///< a sum below this share of its terms may be rounding error
+constexpr double kZero = 0x1p-88;  ///< a sum below this part of its terms may be a rounding error
 #else
 using Extended = long double;
 constexpr double kZero = 0x1p-44;
@@ -54,10 +54,10 @@ Extended root(Extended x) {
 /// A possible answer to a ray.
 struct Crossing {
     Extended t;
-    bool sure;  ///< else touched
+    bool sure;  ///< false: touched
 };
 
-/// -1, 0, 1; 0 also where x is rounding error relative to `scale`.
+/// The sign of x: -1, 0 or 1; also 0 if x is a rounding error relative to `scale`.
 int sign_of(Extended x, Extended scale, double noise = kZero) {
     if (magnitude(x) <= Extended(noise) * scale) return 0;
     return x > 0 ? 1 : -1;
@@ -69,7 +69,7 @@ Extended reach(const Vec& a) {
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
 
-/// Conservative test in double: false only where the ray passes far outside an edge.
+/// Conservative test in double: false only if the ray passes far outside an edge.
 bool may_hit(const Ray& ray, const std::array<Vec3, 3>& corner) {
     const Vec3 a = corner[0] - ray.origin, b = corner[1] - ray.origin, c = corner[2] - ray.origin;
     const Vec3& d = ray.direction;
@@ -130,7 +130,7 @@ void cross_cylinder(const Ray& ray, const Cylinder& cylinder, std::vector<Crossi
     const int sign = sign_of(discriminant, length2 * dot(d, d) * (r2 + dot(o, o)), kGrazing);
     // A line parallel to the side is outside.
     if (sign < 0 || sign_of(a, length2 * dot(d, d)) == 0) return;
-    // Roots of a t^2 + 2 b t + c; its discriminant is length2 times that above.
+    // The roots of a t^2 + 2 b t + c; its discriminant is length2 times that above.
     const Extended s = root(discriminant * length2);
     Extended lo = (-b - s) / a, hi = (-b + s) / a;
     if (dz != 0) {
@@ -156,7 +156,7 @@ std::vector<Crossing> all_crossings(const KernelScene& scene, const Ray& ray) {
     return crossings;
 }
 
-/// Returns whether an answer is one of the right ones, with t known to `tolerance`.
+/// True if an answer is one of the right ones, with t known to `tolerance`.
 bool is_right(const std::vector<Crossing>& crossings, const Ray& ray, bool any_hit, double answer,
               double tolerance) {
     const auto may_count = [&](const Crossing& c) {

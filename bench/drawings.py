@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Drawings without pixels against the ray-traced picture: SVG as Chromium draws it, PDF as pdftoppm and pdftocairo do.
+"""Compares vector drawings with the ray-traced picture: SVG drawn by Chromium, PDF by pdftoppm and pdftocairo.
 
 Usage: bench/drawings.py ALHAZEN [--scene FILE | --size BOXES] [--side N] [--factors K,...] [--rows N] [--keep FOLDER]
 The scene is a city of BOXES boxes (alhazen generate city; default 1667: 10 003 polygons), its side N (512) pixels.
-A pixel differs where a channel of its middle is more than 1 % from that of `whitted`. Programs that colour a pixel by its
-middle are asked for N x N pixels. pdftoppm colours each pixel that a region touches: it is asked for K times as many along
-both axes, K odd, and the one in the middle of each pixel counts. Its smoothed picture is compared with that of
-`--antialias exact`, by 10 %. What is not installed is left out (scripts/setup --peers, --browser). --rows: so many rows,
-evenly spread, in place of all.
+A pixel differs if a channel at its centre differs by more than 1 % from that of `whitted`. Programs that colour a pixel
+by its centre draw N x N pixels. pdftoppm colours each pixel that a region touches: it draws K times as many along both
+axes, K odd, of which the central one of each pixel is compared. Its antialiased picture is compared with that of
+`--antialias exact`, by 10 %. Programs that are not installed are skipped (scripts/setup --peers, --browser). --rows:
+the number of evenly spaced rows to compare; default: all.
 """
 
 import argparse
@@ -30,7 +30,7 @@ def processor_seconds(*command):
 
 
 def pixels_of(path):
-    """Width, height and bytes of a picture, by way of a portable pixmap."""
+    """Width, height and bytes of a picture, converted to a portable pixmap."""
     if path.suffix != ".ppm":
         run("convert", path, "-depth", "8", path.with_suffix(".ppm"))
     data = path.with_suffix(".ppm").read_bytes()
@@ -48,7 +48,7 @@ def pixels_of(path):
 
 
 def differing(a, b, bound):
-    """Of two rows of bytes: pixels with a channel farther apart."""
+    """Number of pixels of two rows of bytes with a channel that differs by more."""
     return sum(any(abs(a[k + c] - b[k + c]) > bound for c in range(3)) for k in range(0, len(a), 3))
 
 
@@ -59,7 +59,7 @@ def compare(path, rows, bound):
 
 
 def pdf_middles(pdf, rows, which, factor, work):
-    """Pixels of the rows `which` whose middles differ, drawn `factor` times as large by pdftoppm."""
+    """Number of pixels of the rows `which` whose centres differ, drawn `factor` times as large by pdftoppm."""
     side, wrong = len(rows), 0
     for j in which:
         run("pdftoppm", "-aaVector", "no", "-r", 72 * factor, "-x", 0, "-y", factor * j + factor // 2, "-W", side * factor,

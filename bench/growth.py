@@ -13,7 +13,7 @@ LEFT, TOP, WIDTH, HEIGHT, GAP = 70, 40, 400, 320, 90
 
 
 def read(path):
-    """{rays: {tracer: [(triangles, ns, lower, upper)]}}, in the order of the file."""
+    """The table as {rays: {tracer: [(triangles, ns, lower, upper)]}}, in the order of the file."""
     panels = {}
     with open(path, encoding="ascii", newline="") as file:
         for row in csv.DictReader(file):

@@ -1,6 +1,6 @@
 /// Growth of the time per ray with the number of triangles: one shape at increasing tessellation.
 /// Usage: alhazen_growth_bench [--from N] [--to N] [--side N] [--rounds N] [--csv FILE]
-/// Writes a line per size, ray set and tracer, which growth.py plots, and prints the slopes on
+/// Writes one line per size, ray set and tracer, which growth.py plots, and prints the slopes on
 /// logarithmic axes.
 
 #include <fmt/format.h>
@@ -119,7 +119,7 @@ int main(int argc, char** argv) try {
     settings.rounds = static_cast<int>(line.count("--rounds", 5));
     const std::string file = line.text("--csv", "");
     std::vector<Point> points;
-    // Steps of half a decade; the factor 1.01 includes the last size in spite of rounding.
+    // Steps of half a decade; the factor 1.01 includes the last size despite rounding.
     for (double n = settings.from; n < 1.01 * settings.to; n *= std::sqrt(10.0)) {
         for (Point& p : measure_size(n, settings)) points.push_back(std::move(p));
         if (!file.empty()) write_file_atomically(file, as_csv(points));

@@ -3,7 +3,7 @@
 ///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact] [--masks]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
 /// SCENE: see kernel_scenes.h. --check measures no times: it counts the rays on which the tracers
-/// disagree and resolves each by brute force in extended precision.
+/// disagree and resolves each disagreement by brute force in extended precision.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Ray sets as a renderer traces them, made once and traced by every kernel.
+/// The kinds of ray sets of a renderer, made once and traced by every kernel.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct RaySet {
     std::vector<Ray> rays;
 };
 
-/// eye: side x side rays in 8x8 tiles; shadow: from their hits to a point light; bounce:
+/// Ray sets. eye: side x side rays in 8x8 tiles; shadow: from their hits to a point light; bounce:
 /// cosine-distributed from their hits; ambient: as bounce, for any hit; shuffled: bounce in random
 /// order; lines: random lines through the bounds. All coordinates are rounded to float, so that a
 /// kernel in float traces the same rays.

@@ -21,9 +21,9 @@ struct Ball {
     bool is_root;
 };
 
-/// Visits a sphere and, around it, nine of a third of its radius: six around the equator, three
-/// above, `gap` times their radius away. Source: Haines, "A Proposal for Standard Graphics
-/// Environments", IEEE CG&A 7(11), 1987; the children's directions are different ones, the
+/// Visits a sphere and, around it, nine spheres of a third of its radius: six around the equator,
+/// three above, at a distance of `gap` times their radius. Source: Haines, "A Proposal for Standard
+/// Graphics Environments", IEEE CG&A 7(11), 1987; the directions of the children differ, the
 /// clustering is the same.
 void flake(const Ball& ball, const Vec3& axis, double gap, int depth,
            const std::function<void(const Ball&)>& visit) {
@@ -45,7 +45,7 @@ void flake(const Ball& ball, const Vec3& axis, double gap, int depth,
 
 const Ball kRoot{{0, 0, 0}, 0.5, {0, 0, 0}, true};
 
-/// A floor for the balls to stand on, and a view of them.
+/// A floor under the balls, and a view of them.
 KernelScene scene_of_balls(const std::string& name) {
     KernelScene scene;
     scene.name = name;

@@ -24,28 +24,28 @@ struct KernelScene {
     [[nodiscard]] std::size_t size() const {
         return mesh.triangles.size() + spheres.size() + cylinders.size();
     }
-    /// Returns, for example, "69 451 triangles, 820 spheres".
+    /// A text such as "69 451 triangles, 820 spheres".
     [[nodiscard]] std::string contents() const;
 };
 
-/// Scene names of the command line:
+/// Makes the scene of a name:
 ///   FILE                a mesh file seen from the front
 ///   FILE@N              the same, every triangle split into four N times
 ///   interior:FILE       seen from inside, along its longest side, with the light inside
 ///   balls:DEPTH:SPLITS  spheres around spheres (below) tessellated, 20 4^SPLITS triangles each
 ///   spheres:DEPTH       the same as exact spheres (and the floor, two triangles)
 ///   mixed:DEPTH         triangles, exact spheres and cylinders: every other ball is tessellated,
-///                       balls stand apart and cylinders join them
+///                       balls are apart and cylinders join them
 /// Throws Error (Usage, File).
 [[nodiscard]] KernelScene make_scene(const std::string& spec);
 
 inline constexpr const char* kSceneSpecs =
     "FILE, FILE@N, interior:FILE, balls:DEPTH:SPLITS, spheres:DEPTH, mixed:DEPTH";
 
-/// Mesh file seen from the front.
+/// A mesh file seen from the front.
 [[nodiscard]] KernelScene mesh_scene(const std::string& name, const std::filesystem::path& file);
 
-/// 820 spheres around spheres of about triangles / 820 triangles each: one shape at any
+/// 820 spheres around spheres of about triangles / 820 triangles each: the same shape at any
 /// tessellation.
 [[nodiscard]] KernelScene growing_balls(std::size_t triangles);
 

@@ -1,8 +1,8 @@
 /// Rays that leave closed meshes through vertices and edges: wide_bvh and Embree.
 /// Usage: alhazen_leak_bench MESH... [--rays N] [--embree-rays N] [--markdown FILE]
 /// MESH: a closed mesh file, or sphere:SPLITS. --rays is the total over all meshes (1e9 is
-/// accepted); --embree-rays limits the rays that Embree traces too (default: all). Uses all cores.
-/// --first-block N starts with other rays: a long run can be split into short ones.
+/// accepted); --embree-rays limits the rays that Embree also traces (default: all). Uses all cores.
+/// --first-block N starts with other rays, so that a long run can be split into short ones.
 
 #include <fmt/format.h>
 
@@ -84,7 +84,7 @@ void show_leaks(const Aggregate& aggregate, const RaySet& set) {
     }
 }
 
-/// Traces one block of rays by all tracers, or without `peers_too` by ours alone.
+/// Traces one block of rays by all tracers or, without `peers_too`, only by ours.
 void run_block(const LeakMesh& mesh, const Aggregate& aggregate, std::uint64_t block,
                bool peers_too, const std::vector<LeakContender>& tracers,
                std::vector<std::unique_ptr<LeakRow>>& rows) {
@@ -124,7 +124,7 @@ std::string cells(const LeakRow& row) {
     return text + "\n";
 }
 
-/// Rays per second of processor time of one thread; includes the making of Embree's packets.
+/// Rays per second of processor time of one thread, including the preparation of Embree's packets.
 std::string rates(const std::vector<LeakContender>& tracers,
                   const std::vector<std::unique_ptr<LeakRow>>& rows) {
     std::string text;

@@ -48,7 +48,8 @@ double snapped(double x, double step) {
     return std::nearbyint(x / step) * step;
 }
 
-/// Exact: all coordinates are multiples of the grid step, fewer than 2^24 of them.
+/// A ray from origin to aim. Exact: all coordinates are multiples of the grid step, fewer than 2^24
+/// of them.
 Ray aimed(const Vec3& origin, const Vec3& aim) {
     const Ray ray{to_float(origin), to_float(aim - origin)};
     if (ray.origin != origin || ray.direction != aim - origin) {
@@ -82,7 +83,7 @@ void LeakMesh::snap_to_grid() {
     for (Vec3& p : mesh_.positions) {
         for (int k = 0; k < 3; ++k) p[k] = snapped(p[k] - box.center()[k], 8 * grid_);
     }
-    // A triangle that rounding has collapsed to a line leaves its two neighbours adjacent.
+    // If rounding collapses a triangle to a line, its two neighbours become adjacent.
     std::erase_if(mesh_.triangles, [&](const std::array<std::uint32_t, 3>& t) {
         const Vec3 &a = mesh_.positions[t[0]], &b = mesh_.positions[t[1]],
                    &c = mesh_.positions[t[2]];

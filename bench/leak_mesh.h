@@ -7,7 +7,7 @@
 /// points are found without tracing: a point's winding number is a sum of solid angles.
 /// Limits: a leak is not detected if other parts of the mesh lie behind it, and a ray that touches
 /// a silhouette edge from inside need not hit there. Hence rays are infinite.
-/// Threads: rays may be made from many threads.
+/// Threads: several threads may make rays.
 /// Source: Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed.
 /// Eng. 30(2), 1983.
 
@@ -29,7 +29,7 @@ inline constexpr int kLeakKinds = 3;
 
 class LeakMesh {
   public:
-    /// Throws Error (Usage) when the mesh is not closed or no inside point is found.
+    /// Throws Error (Usage) if the mesh is not closed or no inside point is found.
     LeakMesh(std::string name, TriangleMesh mesh);
 
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -41,13 +41,14 @@ class LeakMesh {
     struct Ball {
         Vec3 center;
         double radius;
-        /// [axis] vertices whose other two coordinates are within half the radius of the center's.
+        /// [axis] vertices whose other two coordinates differ from the center's by less than half
+        /// the radius.
         std::array<std::vector<std::uint32_t>, 3> lines;
     };
 
     void snap_to_grid();
     void find_balls();
-    /// Returns a grid point in the ball, at most half the radius from the center along each axis.
+    /// A grid point in the ball, at most half the radius from the center along each axis.
     [[nodiscard]] Vec3 point_in(const Ball& ball, RandomStream& random) const;
     [[nodiscard]] Ray axis_ray(const Ball& ball, RandomStream& random) const;
 

@@ -3,10 +3,10 @@
 
 Usage: bench/light.py ALHAZEN DATA [--scenes NAME,...] [--seconds T] [--long N] [--size WxH] [--filter NAME] [--json FILE]
        [--keep DIR]
-Each renders for T seconds, and for N T seconds as the reference that its error is measured against; how far both
-references are apart is told. RMSE is of linear light, whole and cut off at 1 (what a picture shows). Neither denoises,
-clamps or adapts. Both have the same pixel filter: that of Cycles unless told otherwise (Blackman and Harris, of radius
-1.5), whose samples ours shares between pixels, or a box. Building the scene is in no time.
+Each renders for T seconds, and for N T seconds to make the reference of its error; prints the difference of both
+references. RMSE is of linear light, unlimited and clamped to 1 (as a picture shows it). Neither program denoises,
+clamps or samples adaptively. Both have the same pixel filter: by default that of Cycles (Blackman-Harris of radius
+1.5), for which Alhazen shares samples between pixels, or a box. Times exclude the building of the scene.
 """
 
 import argparse
@@ -21,12 +21,12 @@ from light_scenes import SCENES, write_alhazen, write_json
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MANY = 1 << 20
-# Ours by the name of that of Cycles.
+# Alhazen's filters, by their name in Cycles.
 FILTERS = {"blackman_harris": "blackman_harris:radius=1.5,shared=on", "box": "box"}
 
 
 def blender(*arguments):
-    """Its output. Blender takes the modules of the first Python in PATH: that of the system, which has numpy."""
+    """Output of Blender, which takes the modules of the first Python in PATH: that of the system, which has numpy."""
     done = subprocess.run(["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P",
                            os.path.join(HERE, "cycles.py"), "--", *map(str, arguments)],
                           capture_output=True, text=True, env={**os.environ, "PATH": os.defpath})
@@ -40,7 +40,7 @@ def compared(a, b):
 
 
 def write_sky(alhazen, path):
-    """The clear sky with its sun as a picture of all directions, its middle along x."""
+    """Writes the clear sky with its sun as a picture of all directions, whose centre is along x."""
     scene = os.path.splitext(path)[0] + "_source.alhazen"
     with open(scene, "w", encoding="ascii") as out:
         out.write("alhazen 1\nenvironment { kind = sky; up = (0, 0, 1); to_sun = (0.25, 0.3, 1) }\n"
@@ -72,7 +72,7 @@ def main():
     scenes = {name: SCENES[name](args.data) for name in args.scenes.split(",")}
     figures = {}
 
-    # Each renders the scene of a name; returns samples a pixel and seconds.
+    # Each renders the scene of a name; returns samples per pixel and seconds.
     def alhazen(name, out, seconds, seed):
         stats = at("stats.json")
         subprocess.run([args.alhazen, "render", at(name + ".alhazen"), "-o", at(out), "--full-float", "--size",

@@ -1,4 +1,4 @@
-"""The scenes of bench/light.py: triangles of matt, glossy and glowing materials, for Alhazen and for Cycles.
+"""The scenes of bench/light.py: triangles of matte, glossy and emissive materials, for Alhazen and for Cycles.
 
 Coordinates are in metres, z up. A mesh is (material, [vertex], [face]); a glossy surface reflects by GGX with
 alpha = roughness^2.
@@ -15,9 +15,9 @@ from peer_scenes import parse_obj
 
 class Scene:
     def __init__(self, eye, at, angle, depth=8):
-        self.eye, self.at, self.angle = eye, at, angle  # degrees of the height
-        self.depth = depth       # most bounces of a path
-        self.sky = None          # a picture of all directions, its middle along x; none: black
+        self.eye, self.at, self.angle = eye, at, angle  # vertical angle, degrees
+        self.depth = depth       # maximum number of bounces of a path
+        self.sky = None          # a picture of all directions, whose centre is along x; none: black
         self.materials = {}      # name -> {"diffuse" | "glossy" | "emission": colour, "roughness": number}
         self.meshes = []
 
@@ -45,12 +45,12 @@ class Scene:
 
 
 def upright(v):
-    """From y up to z up."""
+    """Converts a vector from y up to z up."""
     return (v[0], -v[2], v[1])
 
 
 def read_mtl(text):
-    """{material: (Kd, Ke)}."""
+    """The materials of an MTL text: {material: (Kd, Ke)}."""
     colors, name = {}, ""
     for line in text.splitlines():
         word, *rest = line.split("#")[0].split() or [""]
@@ -63,7 +63,7 @@ def read_mtl(text):
 
 
 def add_model(scene, archive, model):
-    """The matt and glowing surfaces of an OBJ of an archive, its pictures left out."""
+    """Adds the diffuse and emissive surfaces of an OBJ in an archive, without its textures."""
     with zipfile.ZipFile(archive) as files:
         read = lambda name: files.read(name).decode("utf-8", errors="replace")
         vertices, of_material = parse_obj(read(model + ".obj").splitlines())
@@ -98,7 +98,7 @@ def sponza(data):
 
 
 def split(vertices, faces):
-    """Four triangles of each; appends the midpoints of the edges, which neighbours share."""
+    """Splits each triangle into four; appends the midpoints of the edges, which neighbours share."""
     known = {}
 
     def middle(a, b):
@@ -116,7 +116,7 @@ def split(vertices, faces):
 
 
 def interior(data, splits=0):
-    """A room with a metal floor and bunny, lit by a window and a lamp. Each split makes four triangles of one."""
+    """A room with a metal floor and bunny, lit by a window and an area light. A split makes four triangles of one."""
     scene = Scene(eye=(0.2, -3.6, 1.3), at=(0, 0.2, 0.75), angle=45)
     white = scene.matt("white", (0.75, 0.74, 0.7))
     blue = scene.matt("blue", (0.2, 0.3, 0.6))
@@ -145,7 +145,7 @@ def interior(data, splits=0):
 
 
 def many_lights(data):
-    """10^4 small squares that glow, above blocks on a floor."""
+    """10^4 small emissive squares above blocks on a floor."""
     del data
     scene = Scene(eye=(0, -9, 5), at=(0, 0, 0.6), angle=40)
     chance = random.Random(10)
@@ -175,7 +175,7 @@ def many_lights(data):
 
 
 SCENES = {"cornell": cornell, "sponza": sponza, "interior": interior, "many_lights": many_lights}
-# Not beside Cycles: with a bunny of 1.1 million triangles.
+# Not rendered by Cycles: with a bunny of 1.1 million triangles.
 HEAVY = {"heavy_interior": lambda data: interior(data, splits=2)}
 
 
@@ -184,7 +184,7 @@ def tuple_text(values):
 
 
 def write_alhazen(scene, path):
-    """The scene, with its meshes beside it."""
+    """Writes the scene, with its meshes beside it."""
     base = os.path.splitext(path)[0]
     with open(path, "w", encoding="ascii") as out:
         out.write(f"alhazen 1\nperspective_camera {{ eye = {tuple_text(scene.eye)}; look_at = {tuple_text(scene.at)}; "

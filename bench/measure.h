@@ -7,14 +7,14 @@
 
 namespace alhazen::bench {
 
-/// Processor time of this thread in seconds; excludes time taken by other programs.
+/// Processor time of this thread, in seconds, which excludes time taken by other programs.
 [[nodiscard]] double processor_seconds();
 
 /// Minimum, quartiles and maximum.
 struct Spread {
     double min = 0, lower = 0, median = 0, upper = 0, max = 0;
 };
-/// Quantiles are interpolated; `values` is not empty.
+/// The quantiles, interpolated. Precondition: `values` is not empty.
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
 struct Contender {
@@ -22,8 +22,8 @@ struct Contender {
     std::string name;               ///< variant within the group
     std::function<void()> prepare;  ///< before each round, not timed; may be empty
     std::function<std::size_t()> trace;
-    /// Called after the last round, not timed: number of hits. If empty, the result of `trace`
-    /// counts.
+    /// The number of hits; called after the last round, not timed. If empty, the result of `trace`
+    /// is used.
     std::function<std::size_t()> count_hits;
 };
 
@@ -40,13 +40,13 @@ struct Measured {
 [[nodiscard]] std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays,
                                             int rounds);
 
-/// Returns the tracer of a group with the best median; null if there is none. Ignores tracers whose
-/// number of hits is more than 0.5 % off that of the first in the list: they trace something else.
+/// The tracer of a group with the best median; null if there is none. Ignores tracers whose number
+/// of hits differs by more than 0.5 % from that of the first in the list: they trace another scene.
 [[nodiscard]] const Measured* best_of(const std::vector<Measured>& list, const std::string& group);
 [[nodiscard]] const Measured* find(const std::vector<Measured>& list, const std::string& group,
                                    const std::string& name);
 
-/// Ratios a / b round by round; cancels noise that lasts longer than a round.
+/// The quotient a / b for each round, which cancels noise that lasts longer than a round.
 [[nodiscard]] Spread ratio_by_round(const Measured& a, const Measured& b);
 
 }  // namespace alhazen::bench

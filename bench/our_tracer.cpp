@@ -10,7 +10,7 @@ namespace alhazen::bench {
 
 namespace {
 
-/// Mask bit of no ray of the benchmark.
+/// A mask bit that no ray of the benchmark has.
 constexpr RayMask kUnseen = 2;
 
 template <class S>

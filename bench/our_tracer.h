@@ -9,14 +9,14 @@
 
 namespace alhazen::bench {
 
-/// Rays per batch call: those of a renderer's tile.
+/// Rays per batch call, as many as in a renderer's tile.
 inline constexpr std::size_t kBatch = 1024;
 
-/// Builds with quality High, as Embree's trees are built here.
+/// Builds the scene with quality High, as Embree's trees are built here.
 [[nodiscard]] std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene,
                                                           const BuildOptions& options = {
                                                               BuildQuality::High});
-/// The same scene, visible to rays of `kSeeing` only, with one small invisible triangle in a
+/// Builds the scene visible only to rays of `kSeeing`, with one small invisible triangle in a
 /// corner: every test checks masks, and the hits are the same.
 [[nodiscard]] std::shared_ptr<const Aggregate> build_masked(const KernelScene& scene,
                                                             const BuildOptions& options);
@@ -25,7 +25,7 @@ inline constexpr RayMask kSeeing = 1;
 /// Traces all rays of the set by `closest` or `occluded`; returns the number of hits.
 [[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set,
                                        RayMask mask = kAllRays);
-/// The same by `closest_batch` or `occluded_batch`, kBatch rays per call.
+/// Traces by `closest_batch` or `occluded_batch`, kBatch rays per call; returns the number of hits.
 [[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set,
                                         RayMask mask = kAllRays);
 

@@ -1,7 +1,8 @@
-/// Patches met exactly beside an Embree mesh of them: memory, preparation, rays per second.
+/// Patches traced exactly compared with an Embree mesh of them: memory, preparation, rays per
+/// second.
 /// Usage: alhazen_patch_bench FILE [--side N] [--rounds N] [--pixels X]
-/// FILE holds patches (.bpt). The mesh is within X of a pixel (default 0.1) of them, for a picture
-/// of side x side pixels (default 512) that they fill.
+/// FILE contains patches (.bpt). The mesh is within X of a pixel (default 0.1) of them, for a
+/// picture of side x side pixels (default 512) that they fill.
 
 #include <fmt/format.h>
 

@@ -1,9 +1,10 @@
-/// How much of path tracing is tracing rays: the very rays of a picture, eye, bounce and shadow, by
-/// the batch kernels alone beside the whole renderer.
-/// Usage: alhazen_path_bench SCENE... [--size WxH] [--spp N] [--depth N] [--rounds N] [--markdown
-/// FILE] A first picture records every batch. Then both take turns on one thread, round after
-/// round: the batches in their order, nothing but queries between the clocks, and the picture,
-/// lights made ready before the clock starts. Rates are medians, shares are of the two of a round.
+/// The part of path tracing that is ray queries: the rays of a picture (eye, bounce and shadow)
+/// traced by the batch kernels alone, compared with the whole renderer.
+/// Usage: alhazen_path_bench SCENE... [--size WxH] [--spp N] [--depth N] [--rounds N]
+///            [--markdown FILE]
+/// A first picture records every batch. Then both take turns on one thread, round after round: the
+/// batches in their order, with only queries timed, and the picture, whose lights are prepared
+/// before the clock starts. Rates are medians; shares are quotients of the two times of a round.
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ struct Plan {
     PathSettings paths;
 };
 
-/// Asks the queries of a stream again.
+/// Repeats the queries of a recorded stream.
 class BareKernels {
   public:
     BareKernels(const RayStream& stream, const Aggregate& asked) : stream_(stream), asked_(asked) {
@@ -44,7 +45,7 @@ class BareKernels {
         met_ = std::make_unique<bool[]>(most);
     }
 
-    /// Returns how many rays hit something.
+    /// Repeats the queries; returns the number of rays that hit.
     std::size_t ask() {
         std::size_t hits = 0;
         for (const RayBatch& batch : stream_.batches) {
@@ -70,7 +71,7 @@ class BareKernels {
     std::unique_ptr<bool[]> met_;
 };
 
-/// A picture of one thread; returns its rays.
+/// Renders a picture with one thread; returns its number of rays.
 std::size_t render_picture(const Scene& scene, const Illumination& lights, const Plan& plan) {
     const CameraDescription& camera = find_camera(scene, "");
     const double aspect = static_cast<double>(plan.width) / plan.height;

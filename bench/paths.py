@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""How much of path tracing is tracing rays: the rays of a picture by the kernels alone beside the whole renderer.
+"""Measures the part of path tracing that is ray queries: the rays of a picture by the kernels and by the renderer.
 
 Usage: bench/paths.py ALHAZEN PATH_BENCH DATA [--scenes NAME,...] [--keep DIR] [options of alhazen_path_bench]
-Writes the scenes of light_scenes.py and gives them to alhazen_path_bench (path_bench.cpp says what is measured).
+Writes the scenes of light_scenes.py and runs alhazen_path_bench on them (path_bench.cpp describes the measurement).
 """
 
 import argparse

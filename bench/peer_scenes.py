@@ -1,4 +1,4 @@
-"""Converts a scene to the languages of Alhazen's peers: spheres, triangles and polygons, point lights, mirrors.
+"""Converts scenes to the languages of Alhazen's peers: spheres, triangles and polygons, point lights, mirrors.
 
 Reads NFF (v b l f s p) and OBJ (v f); writes POV-Ray, Tachyon and Alhazen's native text.
 """

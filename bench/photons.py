@@ -3,14 +3,14 @@
 
 Usage: bench/photons.py ALHAZEN [--side N] [--rounds N] [--caustics N] [--noise X] [--shadows N] [--spp N]
                         [--photons N] [--keep DIR]
-Each program is measured against its own references, for the light of both differs: POV-Ray does not bounce light from
-wall to table here. A reference is the mean of pictures with more photons and samples, whose photons are others than
-those of the picture that is measured: of alhazen by the seed, of POV-Ray, which has none, by their number. Noise is the
-root of the mean squared difference from that mean, less the square of what is left of its own noise (by the spread of
-its pictures), 0 to 255 as shown; of all pixels, of those around the caustic and of those in the bowl. It has what is
-wrong in each picture with few photons, not what references have too. Deviation: between two pictures of the same
-settings and other photons, over the root of 2. But 1 %: the difference without the hundredth of the pixels where it is
-largest. Processor seconds, the least of the rounds.
+Each program is compared with its own references, because their light differs: POV-Ray does not bounce light from wall
+to table here. A reference is the mean of pictures with more photons and samples, whose photons differ from those of the
+measured picture: in alhazen by the seed, in POV-Ray, which has no seed, by their number. Noise: the root mean squared
+difference from that mean, less the remaining noise of the mean itself (estimated by the spread of its pictures; squares
+are subtracted), in display values from 0 to 255; over all pixels, those around the caustic and those in the bowl. It
+includes the bias of pictures with few photons, but no error that the references share. Deviation: the difference of two
+pictures with the same settings and different photons, divided by the root of 2. But 1 %: the difference without the 1 %
+of the pixels where it is largest. Times: processor seconds, the minimum over the rounds.
 """
 
 import argparse
@@ -33,7 +33,7 @@ GLASS = [("line", (0, 0.004), (0.8, 0.004)), ("curve", (0.8, 0.004), (0.85, 0.00
          ("curve", (0.68, 2.7), (0.8, 2.28), (1.15, 1.98), (1.15, 1.5)),
          ("curve", (1.15, 1.5), (1.15, 1.13), (0.92, 0.82), (0.43, 0.61)),
          ("curve", (0.43, 0.61), (0.3, 0.55), (0.15, 0.52), (0, 0.52))]
-# A little inside of the glass: POV-Ray forgets the colour of a body that overlaps another.
+# Slightly inside the glass: POV-Ray drops the colour of a body that overlaps another.
 COGNAC = [("curve", (0, 0.523), (0.15, 0.523), (0.3, 0.553), (0.428, 0.612)),
           ("curve", (0.428, 0.612), (0.918, 0.822), (1.147, 1.132), (1.147, 1.5)),
           ("line", (1.147, 1.5), (1.147, 1.8)), ("line", (1.147, 1.8), (0, 1.8))]
@@ -52,7 +52,7 @@ def lathe(profile):
 
 
 def body(index, color, distance):
-    """Clear, by Fresnel, absorbing by Beer's law: POV-Ray's light falls by exp(-(1 - fade_color) way / distance)."""
+    """A transparent material with Fresnel reflection and Beer's law: exp(-(1 - fade_color) path / distance)."""
     short = 0.1
     fade = ", ".join(f"{1 + short * math.log(c) / distance:.6g}" for c in color)
     return (f"pigment {{ rgbf <1, 1, 1, 1> }} finish {{ ambient 0 diffuse 0 specular 0 reflection {{ 0, 1 fresnel on }} "
@@ -96,7 +96,7 @@ def processor_seconds(command):
 
 
 def pixels(path, side):
-    """The bytes of a PNG picture of 8 bits, red, green and blue."""
+    """The bytes (red, green, blue) of an 8-bit PNG picture."""
     with open(path, "rb") as source:
         data = source.read()
     at, packed = 8, b""
@@ -130,13 +130,13 @@ def parts(side):
 
 
 def squared_difference(a, b, side, places):
-    """The mean over places and channels."""
+    """The mean squared difference over pixels and channels."""
     at = [3 * (y * side + x) + c for x, y in places for c in range(3)]
     return sum((a[i] - b[i]) ** 2 for i in at) / len(at)
 
 
 def noise(picture, references, side, places):
-    """Of a picture beside the mean of references, and the noise of that mean itself."""
+    """The noise of a picture compared with the mean of references, and the noise of that mean."""
     count = len(references)
     mean = [sum(values) / count for values in zip(*references)]
     own = sum(squared_difference(r, mean, side, places) for r in references) / (count - 1) / count
@@ -144,7 +144,7 @@ def noise(picture, references, side, places):
 
 
 def but_hundredth(picture, references, side, places):
-    """The difference from the mean of references without the hundredth of the pixels where it is largest."""
+    """The difference from the mean of references without the 1 % of the pixels where it is largest."""
     mean = [sum(values) / len(references) for values in zip(*references)]
     squares = sorted(squared_difference(picture, mean, side, [place]) for place in places)
     kept = squares[:int(0.99 * len(squares))]

@@ -22,7 +22,7 @@ std::string processor_name() {
     return "unknown processor";
 }
 
-/// Last component of a path, so that tables do not depend on the location of the data.
+/// The last component of a path, so that tables do not depend on the location of the data.
 std::string file_name(const std::string& argument) {
     const std::size_t slash = argument.rfind('/');
     return slash == std::string::npos ? argument : argument.substr(slash + 1);
@@ -56,7 +56,7 @@ std::string spread_row(const SetResult& set) {
     return row + fmt::format(" {} |", quartiles(ratio_by_round(*batch, *peer)));
 }
 
-/// Rates with masks, and their ratios to those without, round by round.
+/// The rates with masks, and their ratios to those without, round by round.
 std::string masks_row(const SetResult& set) {
     std::string row;
     for (const char* name : {"single", "batch"}) {
@@ -73,7 +73,7 @@ bool has_masks(const std::vector<SceneResult>& scenes) {
            find(scenes.front().sets.front().tracers, kOursMasked, "single") != nullptr;
 }
 
-/// Tracers whose number of hits differs from ours, with the difference.
+/// The tracers whose number of hits differs from ours, with the difference.
 std::string hit_differences(const SetResult& set) {
     std::string text;
     const std::size_t ours = set.tracers.front().hits;
@@ -85,7 +85,7 @@ std::string hit_differences(const SetResult& set) {
     return text;
 }
 
-/// One row per set; only the first row of a scene names it.
+/// One row per set; only the first row of a scene contains its name.
 template <class Cells>
 std::string rows(const std::vector<SceneResult>& scenes, Cells&& cells) {
     std::string text;
@@ -100,7 +100,7 @@ std::string rows(const std::vector<SceneResult>& scenes, Cells&& cells) {
     return text;
 }
 
-/// Best of Embree's robust single-ray tracers.
+/// The best of Embree's robust single-ray tracers.
 const Measured* best_single(const SetResult& set) {
     const Measured* best = nullptr;
     for (const Measured& m : set.tracers) {

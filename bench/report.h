@@ -35,12 +35,12 @@ struct RunFacts {
 };
 [[nodiscard]] RunFacts run_facts(int argc, char** argv, int rounds);
 
-/// One line of text per tracer of the set.
+/// One line of text for each tracer of the set.
 [[nodiscard]] std::string as_text(const SetResult& set);
 [[nodiscard]] nlohmann::ordered_json as_json(const RunFacts& facts,
                                              const std::vector<SceneResult>& scenes);
-/// Tables: medians and ratios, their spread, the cost of masks where measured, and the numbers of
-/// hits where they differ.
+/// Tables of medians and ratios, their spread, the cost of masks if measured, and the numbers of
+/// hits if they differ.
 [[nodiscard]] std::string as_markdown(const RunFacts& facts,
                                       const std::vector<SceneResult>& scenes);
 

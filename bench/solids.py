@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""CSG solids and curved surfaces compared with POV-Ray: same scene, same eye rays, flat colours, one thread, in turn, medians.
+"""Compares CSG solids and curved surfaces with POV-Ray: same scene, eye rays, flat colours; one thread, medians.
 
 Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--patch-type N] [--flatness X] [--json FILE] [--markdown FILE] [--keep FOLDER]
-A scene is KIND[=SIZE][@SIDE], of plate, menger, spheres (so many leaves) and torus, quartic, sextic, blob (one surface).
-teapot=N: the patches of ALHAZEN_TEST_DATA (default ../shared/data) patches/teapot.bpt, which POV-Ray divides up to 2^N times each way:
-with --patch-type 1 (the default) when it reads them, with 0 for every ray; until they are flat to --flatness X (default 0: always 2^N times).
---lit shades the colours by a point light without shadows in both programs, so that normals are computed too.
-Seconds are the processor time of tracing that each program reports (without reading the scene); pixels are compared by colour.
-"Whole" is the processor time of the program from start to end, with its most memory.
+A scene is KIND[=SIZE][@SIDE]: plate, menger, spheres (SIZE leaves), or torus, quartic, sextic, blob (one surface).
+teapot=N: the patches of ALHAZEN_TEST_DATA (default ../shared/data) patches/teapot.bpt, which POV-Ray divides up to 2^N
+times each way: with --patch-type 1 (the default) when it reads them, with 0 for every ray; until they are flat to
+--flatness X (default 0: always 2^N times).
+--lit shades with a point light without shadows in both programs, so that normals are computed too.
+Seconds are the processor time of tracing as each program reports it (without reading the scene); pixels are compared by
+colour. "Whole" is the processor time of the program from start to end, with its peak memory.
 """
 
 import argparse
@@ -24,7 +25,7 @@ import tempfile
 GENERATORS = {"plate": "perforated_plate", "menger": "menger_sponge", "spheres": "drilled_spheres"}
 ALL = "spheres=1000,plate=1000,plate=100000@16,menger=1000,menger=100000@16,torus,quartic,sextic,blob"
 COLORS = {"skin": (1, 0, 0), "cut": (0, 1, 0)}  # the background is blue
-GLOW = 0.2  # of a lit surface, so that its colour is recognizable at grazing light
+GLOW = 0.2  # emission of a lit surface, so that its colour is recognizable at grazing incidence
 NUMBER = r"[-+0-9.e]+"
 
 
@@ -63,7 +64,7 @@ def generate(alhazen, kind, size, path, lit):
     return text
 
 
-# One surface before a plain background: a polynomial of x, y and z, a torus, or a blob.
+# One surface in front of a plain background: a polynomial of x, y and z, a torus, or a blob.
 CAMERA = {"eye": (1.0, -6.0, 3.0), "look": (-1.0, 6.0, -3.0), "right": (3.6, 0.6, 0.0), "up": (-0.27, 1.62, 3.33)}
 POLYNOMIALS = {
     "quartic": ("x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.3*x*y*z + 0.9", 1.5),
@@ -86,7 +87,7 @@ def blob_parts():
 
 
 def teapot_patches():
-    """The sixteen points of each bicubic patch, moved before the camera."""
+    """The sixteen points of each bicubic patch, moved in front of the camera."""
     data = os.environ.get("ALHAZEN_TEST_DATA", os.path.join(os.path.dirname(__file__), "../../shared/data"))
     with open(os.path.join(data, "patches/teapot.bpt"), encoding="ascii") as file:
         numbers = list(map(float, file.read().split()))
@@ -105,7 +106,7 @@ def teapot(steps, patch_type, flatness):
 
 
 class Polynomial(dict):
-    """{(i, j, k): c} for c x^i y^j z^k; has the operators that Python's eval of an expression needs."""
+    """{(i, j, k): c} for the terms c x^i y^j z^k, with the operators that eval of an expression needs."""
 
     def __add__(self, other):
         other = other if isinstance(other, Polynomial) else Polynomial({(0, 0, 0): other})
@@ -226,7 +227,7 @@ def write_povray(text, path, lit):
 
 
 def measured(command):
-    """What the program writes to stderr; its processor seconds and its most memory in MB."""
+    """The output of the program to stderr, its processor seconds and its peak memory in MB."""
     with tempfile.TemporaryFile() as err:
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=err)
         _, status, usage = os.wait4(process.pid, 0)
@@ -252,7 +253,7 @@ def povray_seconds(command):
 
 
 def pixels(path):
-    """Colours of a binary PPM (POV-Ray) or PFM (Alhazen), from the top left on."""
+    """Colours of a binary PPM (POV-Ray) or PFM (Alhazen), top left first."""
     with open(path, "rb") as file:
         kind, size = file.readline().strip(), file.readline()
         while size.startswith(b"#"):
@@ -268,7 +269,7 @@ def pixels(path):
 
 
 def differences(a, b):
-    """In another process: a program's memory is at least what this one has when it starts it."""
+    """Counts in another process: the peak memory of a program is at least that of the process that starts it."""
     with concurrent.futures.ProcessPoolExecutor(1) as pool:
         return pool.submit(count_differences, a, b).result()
 

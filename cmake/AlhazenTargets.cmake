@@ -58,13 +58,13 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
-# Rooms whose structs are made number by number and copied at once (NARROW_COPIES): copies of two numbers in one register
-# wait until both have left the store buffer, some 15 cycles each (docs/design/build.md).
+# NARROW_COPIES: modules whose structs are written number by number and copied soon after. Copies of two numbers in one
+# register wait until both have left the store buffer, some 15 cycles each (docs/design/build.md).
 set(ALHAZEN_NARROW_OPTIONS)
 check_cxx_compiler_flag(-mtune-ctrl=^sse_unaligned_load_optimal ALHAZEN_HAS_NARROW_COPIES)
 if(ALHAZEN_HAS_NARROW_COPIES)
     set(ALHAZEN_NARROW_OPTIONS -mtune-ctrl=^sse_unaligned_load_optimal)
-    # Kernels of these rooms, whose options come later.
+    # For kernels of these modules; undoes the option above.
     set(ALHAZEN_WIDE_OPTIONS -mtune-ctrl=sse_unaligned_load_optimal)
 endif()
 
@@ -132,8 +132,9 @@ function(alhazen_set_units target temperature batch)
     target_compile_options(${target} PRIVATE ${ALHAZEN_${temperature}_OPTIONS})
 endfunction()
 
-# alhazen_library(NAME [COLD|FROZEN] [NARROW_COPIES] [BATCH number] [UNITS_OF room] SOURCES file... FROZEN_SOURCES file... KERNELS file...
-# SMALL_KERNELS file... DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...) defines the target alhazen_NAME
+# alhazen_library(NAME [COLD|FROZEN] [NARROW_COPIES] [BATCH number] [UNITS_OF room] SOURCES file...
+# FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file... DEPENDS room... LIBRARIES target...
+# PRIVATE_LIBRARIES target...) defines the target alhazen_NAME
 # of one room of src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build),
 # kernels one by one, small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of
 # the room. UNITS_OF: the sources are compiled with those of another room, in its library and with its options; the

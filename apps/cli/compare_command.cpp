@@ -32,7 +32,7 @@ struct CompareArguments {
     CompareOptions compare;
     int depth = -1;
     bool no_tuning = false, quiet = false, strict = false;
-    bool of_scenes = false;  ///< an option was given that --claim does not use
+    bool of_scenes = false;  ///< an option that --claim does not use was given
 };
 
 CompareOptions compare_options(const CompareArguments& args) {
@@ -69,10 +69,10 @@ std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args)
     return outputs;
 }
 
-/// Checks all scenes before long work on the first ones.
+/// Checks that a scene can be read, before long work on the first ones.
 void check_readable(const std::string& scene) {
     if (std::ifstream(scene).good() && std::filesystem::is_regular_file(scene)) return;
-    throw Error(ErrorKind::File, fmt::format("cannot read {}: no file that may be read", scene));
+    throw Error(ErrorKind::File, fmt::format("cannot read {}: not a readable regular file", scene));
 }
 
 SceneDescription read_scene(const CompareArguments& args, const std::string& scene,
@@ -103,7 +103,7 @@ PixelPlace parse_pixel(const std::string& text) {
     return pixel;
 }
 
-/// Refuses options without effect.
+/// Refuses options that have no effect.
 void check_effects(const CompareArguments& args) {
     const auto need = [](bool has_effect, const char* message) {
         if (!has_effect) throw Error(ErrorKind::Usage, message);
@@ -136,7 +136,7 @@ int run_claims(const CompareArguments& args) {
         progress.finish();
         reports.push_back(report);
         if (args.markdown != "-") print("{}", claims_table({&report, 1}));
-        // Writes the results so far even if the rest fails or is stopped.
+        // Writes the results so far, even if the rest fails or is stopped.
         if (!args.markdown.empty() && args.markdown != "-") {
             write_report(args.markdown, claims_markdown(reports));
         }
@@ -174,7 +174,7 @@ void write_reports(const CompareArguments& args, std::span<const Comparison> com
     if (!args.html.empty()) write_report(args.html, comparison_page(comparisons));
 }
 
-/// Writes the reports after every scene: results survive a later failure or stop.
+/// Writes the reports after every scene, so that results survive a later failure or stop.
 int run_scenes(const CompareArguments& args) {
     CompareOptions options = compare_options(args);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args);

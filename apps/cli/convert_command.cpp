@@ -24,14 +24,14 @@ struct ConvertArguments {
 };
 
 int run(const ConvertArguments& args) {
-    // Check the names before any work.
+    // Checks the names before any work.
     check_convert_target(args.scene.scene, args.output);
     Diagnostics diagnostics;
     SceneDescription description =
         load_description(args.scene.scene, args.scene.load_options(), diagnostics);
     if (!args.quiet) print_warnings(diagnostics);
     if (args.tolerance) {
-        // A native file holds shapes without triangles too; --meshes-only leaves them out.
+        // A native file can hold shapes without a tessellation; --meshes-only leaves them out.
         const bool keep_others = args.convert.meshes_only ||
                                  std::filesystem::path(args.output).extension() == ".alhazen";
         const TessellationReport report = tessellate(description, *args.tolerance, keep_others);
@@ -50,12 +50,12 @@ int run(const ConvertArguments& args) {
     }
     if (report.masked_parts > 0) {
         tell(
-            "warning: {} parts are not seen by all rays; in mesh files everything is (.alhazen "
-            "keeps 'visible_to')\n",
+            "warning: mesh files do not keep the visibility masks of {} parts (.alhazen keeps "
+            "'visible_to')\n",
             report.masked_parts);
     }
     for (const std::string& line : report.lost) {
-        tell("warning: the MTL file cannot say {}\n", line);
+        tell("warning: the MTL file cannot express {}\n", line);
     }
     const std::size_t beside = report.files.size() - 1;
     tell("{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,

@@ -36,7 +36,7 @@ void parse_explained_pixel(const std::string& text, ExplainOptions& options) {
     }
 }
 
-/// Whether the output is JSON; throws Error (Usage) for a suffix of neither kind.
+/// True if the output is JSON. Throws Error (Usage) for a suffix of neither kind.
 bool is_json(const std::string& output) {
     const std::string suffix = std::filesystem::path(output).extension().string();
     if (output == "-" || suffix == ".json") return true;

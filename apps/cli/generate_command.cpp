@@ -35,7 +35,7 @@ std::optional<std::uint64_t> size_of(const GenerateArguments& args) {
     return size;
 }
 
-/// Returns the bytes written.
+/// Writes the NFF file; returns the number of bytes.
 std::uint64_t write_nff(const GenerateArguments& args) {
     const std::string text =
         generate_nff(args.name, size_of(args), args.digits.value_or(NffText::kPublishedDigits));

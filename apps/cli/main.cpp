@@ -38,7 +38,7 @@ int exit_status_of(ErrorKind kind) {
     return kCheckFailed;
 }
 
-/// Adds the command that is named; all of them, for help and suggestions, when none is.
+/// Adds the command called `name`; if there is none, all commands, for help and suggestions.
 void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
     struct Row {
         std::string_view name;
@@ -84,8 +84,8 @@ int run(int argc, char** argv) {
     return exit_status;
 }
 
-/// Opens closed standard streams: otherwise the next file that is opened would get their number and
-/// receive messages.
+/// Opens closed standard streams: otherwise the next opened file would get their number and receive
+/// messages.
 void open_closed_streams() {
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
         if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", O_RDWR);

@@ -20,7 +20,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// More solids are measured only when named, or with --all.
+/// More solids are measured only if named, or with --all.
 constexpr std::size_t kMostSolids = 64;
 
 struct MeasureArguments {
@@ -65,10 +65,10 @@ SolidReport measure_solid(const SolidScene& scene, SolidId id, const MeasureArgu
 
 struct WantedPair {
     std::pair<SolidId, SolidId> solids;
-    bool overlap = false;  ///< else their clearance
+    bool overlap = false;  ///< true: measures the overlap; false: the clearance
 };
 
-/// Resolves all pairs before measuring: names may be wrong.
+/// Resolves all pairs before measuring, as names may be wrong.
 std::vector<WantedPair> find_pairs(const SolidScene& scene, const MeasureArguments& args) {
     std::vector<WantedPair> pairs;
     for (const std::string& text : args.overlaps) pairs.push_back({find_pair(scene, text), true});

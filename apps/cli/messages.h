@@ -1,9 +1,9 @@
 #pragma once
 /// Messages on standard error and standard output.
 ///
-/// Writing may fail (a full disk, a closed pipe): messages are then lost, and the work goes on.
-/// Losses on standard output are detected at the end of the program. Control characters, which file
-/// names may hold, are escaped; newlines are not.
+/// Writing may fail (a full disk, a closed pipe): messages are then lost, and the program
+/// continues. Losses on standard output are detected at the end of the program. Control characters,
+/// which file names may contain, are escaped; newlines are not.
 
 #include <fmt/format.h>
 
@@ -21,12 +21,12 @@ void print_to(std::FILE* stream, fmt::format_string<Args...> format, Args&&... a
         escape_controls(fmt::format(format, std::forward<Args>(args)...), Newlines::Keep);
     (void)std::fwrite(text.data(), 1, text.size(), stream);
 }
-/// To standard error.
+/// Prints to standard error.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
     print_to(stderr, format, std::forward<Args>(args)...);
 }
-/// To standard output.
+/// Prints to standard output.
 template <class... Args>
 void print(fmt::format_string<Args...> format, Args&&... args) {
     print_to(stdout, format, std::forward<Args>(args)...);

@@ -17,7 +17,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// More warnings would hide what follows.
+/// More warnings would hide later output.
 constexpr std::size_t kMaxShownWarnings = 20;
 
 /// Integers separated by `separator`; empty for any other text.
@@ -131,7 +131,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->type_name("N")
         ->capture_default_str();
     csg = kDefaultCsgEvaluator;
-    command.add_option("--csg", csg, "Who evaluates solids made of others; see `alhazen list csg`")
+    command.add_option("--csg", csg, "Evaluator of CSG solids; see `alhazen list csg`")
         ->type_name("NAME")
         ->capture_default_str();
     command.add_flag("--compact", compact,

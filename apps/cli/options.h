@@ -15,18 +15,18 @@ struct Size {
     int width = 0, height = 0;
 };
 
-/// "640x480". Throws Error (Usage).
+/// Parses "640x480". Throws Error (Usage).
 [[nodiscard]] Size parse_size(const std::string& text);
-/// "x0,y0,x1,y1" in pixels. Throws Error (Usage).
+/// Parses "x0,y0,x1,y1" in pixels. Throws Error (Usage).
 [[nodiscard]] PixelBox parse_crop(const std::string& text);
 
-/// A number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
+/// Accepts a number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
 [[nodiscard]] CLI::Validator number_in(double lo, double hi);
 
-/// The option --strict, whose meaning is that of `LoadOptions::strict`.
+/// Adds the option --strict (LoadOptions::strict).
 void add_strict(CLI::App& command, bool& strict);
 
-/// Size limits of pictures that are read.
+/// Size limits of pictures read from files.
 struct ImageLimitArguments {
     std::uint64_t max_pixels = ImageLimits{}.max_pixels;
     int max_side = ImageLimits{}.max_side;
@@ -46,10 +46,10 @@ struct SceneArguments {
     bool compact = false, strict = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
-    bool takes_time_limit = false;     ///< --time may be a limit, too
+    bool takes_time_limit = false;     ///< --time may also be a limit
     std::optional<double> time_limit;  ///< seconds
-    bool takes_shutter = false;   ///< there is an option --shutter
-    std::vector<double> shutter;  ///< opens and closes; empty: not given
+    bool takes_shutter = false;        ///< the command has the option --shutter
+    std::vector<double> shutter;       ///< opening and closing time; empty: not given
     std::string animation;
     std::vector<std::string> objects;
     std::string view_script;
@@ -58,9 +58,9 @@ struct SceneArguments {
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);
-    /// Throws Error (Usage).
+    /// The shutter, if given. Throws Error (Usage).
     [[nodiscard]] std::optional<Shutter> shutter_option() const;
-    /// Takes a value of --time: a moment, or with a unit a limit.
+    /// Parses a value of --time: a moment; with a unit, a time limit.
     void read_time(const std::string& text);
     /// Throws Error (Usage) for an unknown quality or width.
     [[nodiscard]] BuildOptions build_options() const;

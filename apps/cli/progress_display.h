@@ -1,5 +1,6 @@
 #pragma once
-/// Progress on stderr: a bar with the time left on a terminal, a line every ten seconds elsewhere.
+/// Progress on stderr: on a terminal a bar with the remaining time, otherwise a line every ten
+/// seconds.
 
 #include <chrono>
 #include <string>
@@ -10,14 +11,14 @@ namespace alhazen::cli {
 
 class ProgressDisplay final : public ProgressSink {
   public:
-    /// `quiet` shows nothing.
+    /// `quiet`: shows nothing.
     explicit ProgressDisplay(bool quiet);
     ~ProgressDisplay() override;
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void update(std::string_view phase, std::size_t done, std::size_t total) override;
-    /// Ends the bar's line before other messages.
+    /// Ends the line of the bar before other messages.
     void finish();
 
   private:

@@ -104,12 +104,12 @@ RenderOptions render_options(const RenderArguments& args) {
     return options;
 }
 
-/// AOVs go into the EXR; pictures of their own are written without an EXR or on request.
+/// True if layers are written as separate pictures: without an EXR file, or on request.
 bool writes_aov_pictures(const RenderArguments& args) {
     return args.aov_png || !holds_layers(args.output);
 }
 
-/// Refuses options without effect.
+/// Refuses options that have no effect.
 void check_effects(const RenderArguments& args) {
     const auto need = [](bool has_effect, const char* message) {
         if (!has_effect) throw Error(ErrorKind::Usage, message);
@@ -129,7 +129,7 @@ void check_effects(const RenderArguments& args) {
          "--encoding is for .png and .jpg: other pictures hold linear values");
 }
 
-/// Every output file, checked: all are writable, and no two are the same.
+/// All output files. Throws unless all are writable and different.
 std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
                                                    const RenderOptions& options) {
     check_image_suffix(args.output);
@@ -192,7 +192,7 @@ void write_pictures(const RenderArguments& args, const RenderOptions& options,
     }
 }
 
-/// Names objects that no ray of --antialias met.
+/// Prints the names of objects that no ray of --antialias met.
 void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
     constexpr std::size_t kNames = 4;
     if (report.below_depth == 0) return;
@@ -207,7 +207,7 @@ void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
          report.below_depth > kNames ? ", ..." : "");
 }
 
-/// What the stop rules came to.
+/// Prints the results of the stop rules.
 void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
     if (!options.sampling || !options.sampling->has_rounds()) return;
     const double mean = static_cast<double>(report.samples()) / static_cast<double>(report.pixels);
@@ -220,7 +220,7 @@ void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
 }
 
 int run(const RenderArguments& args) {
-    // Check the options before any work.
+    // Checks the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
@@ -332,16 +332,16 @@ void add_render(CLI::App& app, int& exit_status) {
         ->capture_default_str();
     command
         ->add_option("--spp", args->spp,
-                     "Samples per pixel; if not given 1, of renderers that distribute rays 16 or "
-                     "64; with --noise or a limit of --time the most of a pixel")
+                     "Samples per pixel; default: 1, or 16 or 64 for renderers that distribute "
+                     "rays; with --noise or a limit of --time the maximum of a pixel")
         ->type_name("N");
     command
         ->add_option("--sampler", args->sampling.sampler,
-                     "Where samples lie; see `alhazen list samplers`")
+                     "Sampler by name; see `alhazen list samplers`")
         ->type_name("NAME");
     command
         ->add_option("--filter", args->sampling.filter,
-                     "How they become a pixel; see `alhazen list filters`")
+                     "Reconstruction filter by name; see `alhazen list filters`")
         ->type_name("NAME[:radius=PIXELS,shared=on]");
     command
         ->add_option("--noise", args->sampling.noise,

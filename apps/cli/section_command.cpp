@@ -92,7 +92,7 @@ std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
     return cuts;
 }
 
-/// The text of the SVG; sets `unresolved` to the number of doubtful places.
+/// The text of the SVG; sets `unresolved` to the number of uncertain places.
 std::string outlines_of(const SolidScene& solids, const Scene& scene, const PlaneFrame& frame,
                         const Chosen& chosen, const std::vector<Cut>& cuts, SectionArguments& args,
                         std::uint64_t& unresolved) {
@@ -221,7 +221,7 @@ void run_section(SectionArguments& args, int& exit_status) {
         if (!args.svg.empty()) {
             svg = outlines_of(solids, loaded.scene, frame, chosen, cuts, args, unresolved);
         }
-        // Until here a signal ends the program, and nothing is written; from here all is written.
+        // Up to here a signal ends the program without output; from here all output is written.
         (void)stop_on_signals();
         if (picture) write_image(args.output, *picture);
         if (!args.svg.empty()) write_file_atomically(args.svg, svg);

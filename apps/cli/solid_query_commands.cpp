@@ -1,4 +1,4 @@
-/// `spans`, `inside`, `thickness`: queries about the solids of a scene, a line of JSON for each.
+/// `spans`, `inside`, `thickness`: queries about the solids of a scene, one line of JSON each.
 
 #include <fstream>
 #include <iostream>
@@ -18,7 +18,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Lines answered together, over all threads.
+/// Number of lines processed together, over all threads.
 constexpr std::size_t kBatch = 16384;
 
 struct SolidQueryArguments {
@@ -33,7 +33,7 @@ void print_line(const json& line) {
     (void)std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
-/// Calls answer(batch) for the given items, then for those of the file, a batch at a time.
+/// Calls answer(batch) for the given items, then for those of the file, batch by batch.
 template <class Question, class Parse, class Answer>
 void for_each_batch(const SolidQueryArguments& args, const Parse& parse, const Answer& answer) {
     std::vector<Question> batch;

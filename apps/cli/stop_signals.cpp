@@ -13,10 +13,10 @@ namespace alhazen::cli {
 namespace {
 
 StopFlag stop_flag;
-/// Work polls the stop flag.
+/// True while running work polls the stop flag.
 std::atomic<bool> work_stops{false};
 volatile std::sig_atomic_t first_signal_seconds = 0;
-/// A second signal within this time counts as the first one repeated (timeout(1) signals the
+/// A second signal within this time counts as a repetition of the first (timeout(1) signals the
 /// process and its group).
 constexpr long kSameWishSeconds = 1;
 

@@ -49,7 +49,7 @@ bool shows_hidden(const VectorArguments& args) {
     return true;
 }
 
-/// That of the command, or a five hundredth of the scene.
+/// The tolerance of the command; by default a five hundredth of the scene's size.
 double tolerance_of(const VectorArguments& args, const LoadedScene& loaded) {
     if (args.tolerance > 0) return args.tolerance;
     const Box3 box = loaded.scene.aggregate->box();
@@ -57,7 +57,7 @@ double tolerance_of(const VectorArguments& args, const LoadedScene& loaded) {
     throw Error(ErrorKind::Usage, "the scene is endless: --tolerance has to be given");
 }
 
-/// The writer for the suffix of a file.
+/// Selects the writer by the suffix of the file.
 using WriteDrawing = std::string (*)(const Drawing&);
 WriteDrawing writer_for(const std::string& output) {
     const std::string suffix = lower_suffix(output);

@@ -100,7 +100,7 @@ void print_disagreements(const std::vector<Disagreement>& reported) {
     }
 }
 
-/// "single 20000, stream 20000, coherent 4992"; with the disagreements of each where there are any.
+/// "single 20000, stream 20000, coherent 4992", with the number of disagreements if not 0.
 std::string text_of(const std::array<RoadCounts, kRoadCount>& roads) {
     std::string text;
     for (std::size_t i = 0; i < kRoadCount; ++i) {
@@ -110,7 +110,7 @@ std::string text_of(const std::array<RoadCounts, kRoadCount>& roads) {
     return text;
 }
 
-/// What the numbers do not cover, a line each.
+/// Prints what was not checked, one line each.
 void print_left_out(const VerifyReport& report) {
     if (report.rays_left_out > 0) {
         print("  not checked: {} of {} rays: the list tests every primitive\n",

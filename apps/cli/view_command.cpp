@@ -23,7 +23,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// For pages to show why there is no scene, before the server ends.
+/// Time for pages to show why there is no scene before the server ends.
 constexpr auto kLastWords = std::chrono::milliseconds(500);
 
 struct ViewArguments {
@@ -33,7 +33,7 @@ struct ViewArguments {
     bool allow_remote = false, no_open = false;
 };
 
-/// Opens a page in the user's browser; nothing happens where there is none.
+/// Opens a page in the user's browser, if there is one.
 void open_in_browser(const std::filesystem::path& page) {
     std::string program = "xdg-open", address = page.string();
     char* arguments[] = {program.data(), address.data(), nullptr};
@@ -50,7 +50,7 @@ int run_view(ViewArguments& args) {
     }
     check_accelerator(args.scene.accelerator);
     viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
-    // What is wrong is mostly found at once: then no page is opened.
+    // Most errors are found at once; then no page is opened.
     session.scenes().wait_for_first(std::chrono::milliseconds(300));
     std::optional<viewer::RedirectFile> redirect;
     viewer::HttpServer server({.address = args.address,
@@ -58,7 +58,7 @@ int run_view(ViewArguments& args) {
                                .assets = viewer::view_page(),
                                .handler =
                                    [&](const viewer::Request& request) {
-                                       if (redirect) redirect->remove();  // the page has its key
+                                       if (redirect) redirect->remove();  // the page has its token
                                        return session.answer(request);
                                    },
                                .close = [&] { session.close(); }});

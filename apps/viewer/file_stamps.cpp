@@ -12,10 +12,10 @@ namespace alhazen::viewer {
 
 namespace {
 
-/// Longer than the steps of file times.
+/// Longer than the resolution of file times.
 constexpr FileStamps::Time kFresh = 100'000'000;
 
-/// Of at most 64 MiB: who edits more takes longer than `kFresh`.
+/// Hash of at most 64 MiB: edits of larger files take longer than `kFresh`.
 std::uint64_t content_of(const std::filesystem::path& file) {
     constexpr std::size_t kMost = std::size_t{64} << 20;
     std::ifstream stream(file, std::ios::binary);
@@ -50,7 +50,7 @@ FileStamps::Time FileStamps::now() {
 FileStamps::Stamp FileStamps::stamp_of(const std::filesystem::path& file) {
     struct stat facts {};
     Stamp stamp;
-    // Nothing but files is opened: a FIFO would wait.
+    // Only regular files are opened: a FIFO would block.
     stamp.exists = stat(file.c_str(), &facts) == 0 && S_ISREG(facts.st_mode);
     if (!stamp.exists) return stamp;
     stamp.written = in_nanoseconds(facts.st_mtim);

@@ -1,10 +1,10 @@
 #pragma once
-/// What files were before they were read, to notice every change since.
+/// Detects changes of files since before they were read.
 ///
 /// Source: the stamps of Git's index and its remedy against edits within the resolution of file
 /// times ("racy git", Documentation/technical/racy-git.txt).
-/// Differs: contents are compared for as long as a change might not show in time and size, not
-/// later. Conventions: a file that is missing has a stamp too, and changes when it appears.
+/// Differs: contents are compared only as long as an edit may leave time and size unchanged.
+/// Conventions: a missing file has a stamp too, and changes when it appears.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,26 +19,26 @@ class FileStamps {
     using Time = std::int64_t;  ///< nanoseconds
 
     [[nodiscard]] static Time now();
-    /// To be called before the files are read.
+    /// Records the files. Call before reading them.
     void take(const std::set<std::filesystem::path>& files);
-    /// Of files that turned out to be read after `began`: one that may have changed since counts as
-    /// changed. Those that `take` knew are left as they are.
+    /// Adds files found to be read after `began`: those that may have changed since count as
+    /// changed. Files that `take` recorded are unchanged.
     void add(const std::set<std::filesystem::path>& files, Time began);
-    /// Whether a file is not what it was.
+    /// True if a file differs from its stamp.
     [[nodiscard]] bool changed();
-    /// All files.
+    /// All recorded files.
     [[nodiscard]] std::set<std::filesystem::path> files() const;
 
   private:
     struct Stamp {
         bool exists = false;
-        bool suspect = false;  ///< it counts as changed
-        Time written = 0;      ///< by the file system's clock
-        Time touched = 0;      ///< the same, which programs cannot set back
+        bool suspect = false;  ///< counts as changed
+        Time written = 0;      ///< modification time, by the file system's clock
+        Time touched = 0;      ///< status change time, which programs cannot set back
         std::int64_t size = 0;
-        std::uint64_t number = 0;  ///< another one where the file was replaced
-        std::optional<std::uint64_t>
-            content;  ///< where an edit may leave time and size as they are
+        std::uint64_t number = 0;  ///< inode; differs if the file was replaced
+        /// Hash, if an edit may leave time and size unchanged.
+        std::optional<std::uint64_t> content;
     };
     [[nodiscard]] static Stamp stamp_of(const std::filesystem::path& file);
 

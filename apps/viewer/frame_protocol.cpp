@@ -10,7 +10,7 @@ namespace alhazen::viewer {
 
 namespace {
 
-/// The largest number of brackets that are open at once.
+/// The largest number of nested brackets.
 int depth_of(std::string_view text) {
     int depth = 0, most = 0;
     bool in_string = false;

@@ -1,11 +1,11 @@
 #pragma once
-/// The messages of the WebSocket (frame_socket.h) as texts.
+/// The messages of the WebSocket (frame_socket.h) as text.
 ///
-/// Conventions: a message to the server is a JSON object: {"token": KEY} at first, then wishes (a
-/// body of /frame with `id`, and `moving` where the next of its kind is to be shown only after it),
-/// and {"shown": id} for each picture that has arrived. A message from the server is a state, JSON
-/// in a text message, or a picture in a binary one: four bytes, the length of a JSON text (least
-/// byte first), that text (`id`, `status`, `type`, `facts`), the body.
+/// Conventions: a message to the server is a JSON object: first {"token": KEY}; then requests (a
+/// body of /frame with `id`, and `moving` if the next picture must wait until this one is shown),
+/// and {"shown": id} for each picture that has arrived. A message from the server is a state, as
+/// JSON in a text message, or a picture in a binary message: the length of a JSON text (four bytes,
+/// least significant first), the text (`id`, `status`, `type`, `facts`), the body.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,8 @@
 
 namespace alhazen::viewer {
 
-/// JSON nested at most 64 deep. Throws nlohmann::json::exception, and Error (Usage) where deeper.
+/// Parses JSON nested at most 64 deep. Throws nlohmann::json::exception, and Error (Usage) if
+/// nested deeper.
 [[nodiscard]] nlohmann::ordered_json wish_json(std::string_view text);
 
 struct ClientMessage {
@@ -28,7 +29,7 @@ struct ClientMessage {
 };
 [[nodiscard]] ClientMessage client_message(std::string_view text);
 
-/// What comes before the body of a picture.
+/// The part of a picture's message before the body.
 [[nodiscard]] std::string picture_head(std::int64_t id, const Response& made);
 
 }  // namespace alhazen::viewer

@@ -1,16 +1,17 @@
 #pragma once
-/// Frames and states over a WebSocket (RFC 6455): the newest wish of a client, at most one picture
-/// on its way, and what changes from moment to moment.
+/// Serves frames and states over a WebSocket (RFC 6455): the newest request of a client, at most
+/// one picture in transit, and the current state.
 ///
 /// Conventions: messages are those of frame_protocol.h. The token comes first, within 5 s and 1
-/// KiB; a wrong one is closed by 1008. A wish takes the place of one that waits, and ends one in
-/// hand that is not `moving`. Once a picture has arrived ("shown") the next is sent; another may be
-/// made meanwhile, and gives its place to a newer one. States are sent when they change, looked at
-/// ten times a second while none waits, and each second as a sign of life. So what a client that
-/// does not read holds in memory is bounded: a state, and three pictures. Messages to the server
-/// have 1 MiB at most (1009), what is no message is closed by 1007; a client that answers no ping
-/// for 5 s is let go. Threads: all of it in the strand of the stream, the handler beside it.
-/// Included by http_server.cpp alone.
+/// KiB; a wrong one closes the connection with 1008. A request replaces a pending one, and ends a
+/// running one that is not `moving`. The next picture is sent after the previous one has arrived
+/// ("shown"); meanwhile another may be rendered, which a newer one replaces. States are polled ten
+/// times a second unless one waits to be sent; they are sent when they change, and each second as a
+/// sign of life. Memory for a client that does not read is therefore bounded: one state and three
+/// pictures. Messages to the server have at most 1 MiB (1009); invalid messages close the
+/// connection with 1007; a client that answers no ping for 5 s is disconnected.
+/// Threads: everything runs in the strand of the stream, except the handler.
+/// Included only by http_server.cpp.
 
 #include <array>
 #include <boost/asio/awaitable.hpp>
@@ -45,7 +46,7 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
           workers_(workers),
           handler_(handler) {}
 
-    /// Until the client is gone.
+    /// Serves until the client disconnects.
     boost::asio::awaitable<void> serve(const HttpRequest& request, const std::string& token) {
         namespace websocket = boost::beast::websocket;
         websocket::stream_base::timeout patience{std::chrono::seconds(5), std::chrono::seconds(5),
@@ -53,11 +54,12 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         socket_.set_option(patience);
         socket_.read_message_max(kMostFirst);
         socket_.auto_fragment(false);
-        // At once, which takes less to compile: an answer that the system has no room for ends it.
+        // Synchronous on a non-blocking socket, which takes less time to compile than async_accept:
+        // a full send buffer is an error and ends the connection.
         boost::beast::get_lowest_layer(socket_).socket().non_blocking(true);
         socket_.accept(request);
         if (!co_await knows(token)) co_return;
-        patience.keep_alive_pings = true;  // a quiet page stays
+        patience.keep_alive_pings = true;  // a silent page stays connected
         socket_.set_option(patience);
         socket_.read_message_max(kMostMessage);
         look();
@@ -90,7 +92,8 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         std::string head, body;
     };
 
-    /// Whether the first message has the token. A timer, as bytes that drip count as life.
+    /// True if the first message has the token. A timer limits the time: slow bytes count as
+    /// activity.
     boost::asio::awaitable<bool> knows(const std::string& token) {
         boost::asio::steady_timer timer(socket_.get_executor(), std::chrono::seconds(5));
         timer.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
@@ -122,7 +125,7 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
         step();
     }
 
-    /// Now, and again.
+    /// Polls the state now and periodically.
     void look() {
         if (gone_) return;
         if (!state_) say_state();
@@ -198,14 +201,14 @@ class FrameSocket : public std::enable_shared_from_this<FrameSocket> {
     boost::asio::steady_timer looks_;
     boost::asio::io_context& workers_;
     const Handler& handler_;
-    std::string text_;                  ///< of the last message
-    std::optional<Wish> pending_;       ///< the newest that nobody works at
-    Wish working_;                      ///< in hand while there is `stop_`
-    std::shared_ptr<StopFlag> stop_;    ///< of the work in hand
-    std::optional<Picture> ready_;      ///< made, and not sent
-    std::optional<std::string> state_;  ///< not sent
-    std::string last_state_, known_;    ///< the last, and what the client knows of it
-    Clock::time_point said_{};          ///< the last state
+    std::string text_;                  ///< last message
+    std::optional<Wish> pending_;       ///< newest request, not started
+    Wish working_;                      ///< running request, if there is `stop_`
+    std::shared_ptr<StopFlag> stop_;    ///< stop flag of the running request
+    std::optional<Picture> ready_;      ///< rendered, not yet sent
+    std::optional<std::string> state_;  ///< to be sent
+    std::string last_state_, known_;    ///< last state sent, and the tag that the client knows
+    Clock::time_point said_{};          ///< time of the last state
     Picture sent_;
     bool on_way_ = false, writing_ = false, gone_ = false;
 };

@@ -46,7 +46,7 @@ constexpr std::uint64_t kMostBody = 1024 * 1024;
 
 using HttpRequest = http::request<http::string_body>;
 
-/// Written as text: Beast's serializer was a quarter of what this file takes to compile.
+/// Written as text, because Beast's serializer takes long to compile.
 struct HttpResponse {
     int status = 200;
     std::string type, body;
@@ -107,14 +107,14 @@ struct HttpServer::State {
         };
         (void)acceptor.open(end.protocol(), error);
         check();
-        // A port that was given is free again as soon as the server before has ended.
+        // A given port can be used again as soon as the previous server has ended.
         (void)acceptor.set_option(tcp::acceptor::reuse_address(true), error);
         check();
         (void)acceptor.bind(end, error);
         check();
         (void)acceptor.listen(kMostClients, error);
         check();
-        // The browser that is started is not to hold the port.
+        // The browser that is started must not inherit the port.
         (void)fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
         port = acceptor.local_endpoint().port();
         const std::string name = address.is_v6() ? "[" + options.address + "]" : options.address;
@@ -131,7 +131,7 @@ struct HttpServer::State {
     asio::io_context io;
     tcp::acceptor acceptor;
     std::uint16_t port = 0;
-    std::vector<std::string> hosts;  ///< that this server is called by
+    std::vector<std::string> hosts;  ///< names of this server
     std::atomic<int> clients{0};
 
     [[nodiscard]] bool is_own_host(std::string_view host) const {
@@ -146,7 +146,7 @@ struct HttpServer::State {
         return beast::websocket::is_upgrade(request) && request.target() == "/frames";
     }
 
-    /// Of a request that is not for this server, or of another page.
+    /// The response to a request for another server or from another page.
     [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const {
         const std::string_view host = view_of(request[http::field::host]);
         if (!is_own_host(host) || request.count(http::field::host) != 1) {
@@ -165,7 +165,7 @@ struct HttpServer::State {
         return std::nullopt;
     }
 
-    /// The answer to a request that is not refused.
+    /// The response to a request that is not refused.
     [[nodiscard]] HttpResponse answer(const HttpRequest& request) const {
         const bool post = request.method() == http::verb::post;
         const std::string path(view_of(request.target()));
@@ -183,9 +183,9 @@ struct HttpServer::State {
         return plain(404, "there is no such file\n");
     }
 
-    /// `host`: by which the page calls this server; empty: it is refused.
+    /// `host`: name by which the page calls this server; empty: the request is refused.
     static std::string text_of(const HttpResponse& response, bool keep, const std::string& host) {
-        // Exact: 'self' would allow a WebSocket to any path.
+        // Exact addresses: 'self' would allow a WebSocket to any path.
         const std::string ways =
             host.empty() ? "'none'" : "http://" + host + " ws://" + host + "/frames";
         const beast::string_view reason =
@@ -245,14 +245,14 @@ struct HttpServer::State {
             keep = request.keep_alive();
             std::optional<HttpResponse> refused = refusal(request);
             if (!refused && is_upgrade(request)) {
-                // What comes before the answer is of nobody that speaks the protocol.
+                // A client that follows the protocol sends nothing before the response.
                 if (buffer.size() > 0) break;
                 const auto frames =
                     std::make_shared<FrameSocket>(std::move(stream), io, options.handler);
                 co_await frames->serve(request, token);
                 co_return;
             }
-            // Named: with a choice inside co_await every answer crashed, as GCC 12 builds it.
+            // A named variable: GCC 12 miscompiles a conditional expression inside co_await.
             std::string host;
             if (!refused) {
                 host = view_of(request[http::field::host]);
@@ -277,7 +277,7 @@ struct HttpServer::State {
                 co_await serve(std::move(stream));
             }
         } catch (const boost::system::system_error&) {
-            // The client is gone, or late.
+            // The client has disconnected or timed out.
         }
     }
 
@@ -289,7 +289,7 @@ struct HttpServer::State {
             co_await acceptor.async_accept(socket,
                                            asio::redirect_error(asio::use_awaitable, error));
             if (error == asio::error::operation_aborted) co_return;
-            if (error) {  // no more descriptors, say: others leave
+            if (error) {  // no free descriptors, for example: wait for others to leave
                 asio::steady_timer pause(io, std::chrono::milliseconds(50));
                 co_await pause.async_wait(asio::use_awaitable);
                 continue;
@@ -317,7 +317,7 @@ std::string HttpServer::url() const {
 void HttpServer::run(const std::function<bool()>& ended) {
     asio::co_spawn(state_->io, state_->accept(), asio::detached);
     std::vector<std::jthread> threads;
-    // One more than clients: while all of them work, somebody says so to the next.
+    // One thread more than clients, which refuses the next client while all of them work.
     for (int i = 0; i < kMostClients + 1; ++i) threads.emplace_back([this] { state_->io.run(); });
     while (!ended()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (state_->options.close) state_->options.close();

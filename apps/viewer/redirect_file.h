@@ -1,10 +1,11 @@
 #pragma once
-/// A page in a file of the user alone that leads the browser on to another address.
+/// A page in a file readable only by the user that redirects the browser to another address.
 ///
-/// Source: Jupyter's redirect file (jupyter_server, "use_redirect_file"): arguments of programs can
-/// be read by every user of the machine, so an address with a key in it is none.
-/// Conventions: the file lies in a new folder (mode 0700) of XDG_RUNTIME_DIR, or of the folder for
-/// temporary files, and has mode 0600. Threads: `remove` may be called from any.
+/// Source: Jupyter's redirect file (jupyter_server, "use_redirect_file"): every user of the machine
+/// can read arguments of programs, so an address that contains a key must not be one.
+/// Conventions: the file has mode 0600 and is in a new folder (mode 0700) in XDG_RUNTIME_DIR, or in
+/// the folder for temporary files.
+/// Threads: `remove` may be called from any thread.
 
 #include <filesystem>
 #include <mutex>
@@ -14,14 +15,14 @@ namespace alhazen::viewer {
 
 class RedirectFile {
   public:
-    /// Throws Error (File) where it cannot be written.
+    /// Writes the file. Throws Error (File) if it cannot be written.
     explicit RedirectFile(const std::string& url);
     ~RedirectFile();
     RedirectFile(const RedirectFile&) = delete;
     RedirectFile& operator=(const RedirectFile&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// Deletes file and folder; nothing happens the second time.
+    /// Deletes file and folder; has no effect the second time.
     void remove() noexcept;
 
   private:

@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(20);
 
-/// Resident memory of the process, in whole MiB: what changes less says nothing.
+/// Resident memory of the process, rounded to whole MiB.
 std::uint64_t resident_bytes() {
     std::ifstream file("/proc/self/statm");
     std::uint64_t size = 0, resident = 0;
@@ -39,7 +39,7 @@ SceneStore::~SceneStore() {
 }
 
 void SceneStore::watch(const std::stop_token& stop) {
-    constexpr int kLook = 5;  // pauses from look to look at the files
+    constexpr int kLook = 5;  // pauses between checks of the files
     for (int pause = 0; !stop.stop_requested(); ++pause) {
         std::optional<Reading> ended;
         bool wanted = false, in_hand = false;
@@ -50,7 +50,7 @@ void SceneStore::watch(const std::stop_token& stop) {
             in_hand = reading_.has_value();
         }
         if (ended) stamps_.add(ended->files, ended->began);
-        // While files are read, a change of those that are known ends it.
+        // A change of known files ends the current reading.
         const bool look = ended || pause % kLook == 0;
         if (wanted || (look && stamps_.changed())) {
             if (in_hand) end_reading();
@@ -81,7 +81,7 @@ void SceneStore::end_reading() {
     if (reader_.joinable()) reader_.join();
 }
 
-/// A reading from begin to end.
+/// Runs a reading from beginning to end.
 void SceneStore::read(const std::shared_ptr<StopFlag>& stop) {
     const Interruptible ends(stop.get());
     Reading reading;
@@ -129,7 +129,7 @@ void SceneStore::read_files(Reading& reading) {
     framing.aspect = free_aspect(scene.description.picture, {});
     (void)complete_view(scene.description, scene.scene, framing);
     Json menus = view_menus(scene);
-    // What was there until now is freed after the lock.
+    // The previous scene is freed after the lock.
     std::shared_ptr<const Loaded> last = std::move(next);
     Moved last_moved;
     const std::lock_guard lock(mutex_);
@@ -184,7 +184,7 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::built(const Loaded& source
     ThreadLimit(load_.threads).run([&] {
         build_aggregate(source.scene.description, options, next->scene.scene);
     });
-    // At last: a build that is ended has copied nothing, and nothing is to be freed.
+    // Last, so that an interrupted build has copied nothing that must be freed.
     next->scene.description = source.scene.description;
     return next;
 }
@@ -207,7 +207,7 @@ std::shared_ptr<const SceneStore::Loaded> SceneStore::moved(
     ThreadLimit(load_.threads).run([&] {
         next->scene = with_moved_surfaces(here->scene, surfaces, options);
     });
-    // The last one is freed after the lock.
+    // The previous result is freed after the lock.
     Moved last{here, surfaces, next};
     const std::lock_guard lock(mutex_);
     std::swap(moved_, last);

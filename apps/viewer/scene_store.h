@@ -1,11 +1,11 @@
 #pragma once
-/// The scene of the viewer: read beside whoever looks at it, again when its files change, with the
-/// accelerator that is wished for.
+/// The scene of the viewer: read in a thread of its own, again when its files change, and built
+/// with the requested accelerator.
 ///
-/// Conventions: while files have errors the last good scene is kept. Reading and building are work
-/// that can be given up (alhazen/base/interruption.h): a newer change of the files ends reading,
-/// `stop` does, and a build ends with the wish that it is for. Threads: all functions may be called
-/// from many.
+/// Conventions: while files have errors the last valid scene is kept. Reading and building can be
+/// interrupted (alhazen/base/interruption.h): a newer change of the files or `stop` ends reading,
+/// and a build ends with the request that it belongs to.
+/// Threads: all functions may be called from many threads.
 
 #include <chrono>
 #include <condition_variable>
@@ -28,46 +28,46 @@ namespace alhazen::viewer {
 class SceneStore {
   public:
     using Json = nlohmann::ordered_json;
-    /// A scene, never changed.
+    /// An immutable scene.
     struct Loaded {
         LoadedScene scene;
         std::string accelerator;
-        std::uint64_t version = 0;  ///< of the files, from 1 on
+        std::uint64_t version = 0;  ///< of the files, from 1
     };
 
-    /// Begins to read.
+    /// Starts to read.
     SceneStore(std::filesystem::path scene, LoadOptions options);
     ~SceneStore();
 
-    /// The scene with an accelerator; empty: the last one. Waits until there is a scene. Throws
-    /// Error, and Interrupted after a request of `stop`.
+    /// The scene with an accelerator; empty: the last one used. Waits until there is a scene.
+    /// Throws Error; Interrupted after a request of `stop`.
     [[nodiscard]] std::shared_ptr<const Loaded> with(const std::string& accelerator,
                                                      const StopFlag& stop);
-    /// That scene with the surfaces of its lights where these changes have them; itself where they
-    /// move none. The last one is kept. Throws as `with`.
+    /// The scene `here` with the surfaces of its lights changed; `here` itself if no surface
+    /// changes. The last result is cached. Throws as `with`.
     [[nodiscard]] std::shared_ptr<const Loaded> moved(const std::shared_ptr<const Loaded>& here,
                                                       const std::vector<LightChange>& changes,
                                                       const StopFlag& stop);
     /// Ends reading.
     void stop();
-    /// Reads again.
+    /// Starts to read again.
     void read_again();
-    /// Waits, at most so long, until the first reading has ended. Rethrows its error.
+    /// Waits, at most this long, until the first reading has ended. Rethrows its error.
     void wait_for_first(std::chrono::milliseconds most) const;
-    /// Why there never was a scene; null while there is hope.
+    /// The error of the last reading if there has never been a scene; otherwise null.
     [[nodiscard]] std::exception_ptr failure() const;
 
-    /// What a page shows: menus, unless it knows those of version `known`, and the moment.
+    /// The state for a page: menus, unless it knows those of version `known`, and current work.
     [[nodiscard]] Json state(std::uint64_t known) const;
 
   private:
     using Clock = std::chrono::steady_clock;
-    /// What a reading found out.
+    /// The result of a reading.
     struct Reading {
         std::set<std::filesystem::path> files;
         FileStamps::Time began = 0;
     };
-    /// Work that is in hand.
+    /// Running work.
     struct InHand {
         std::string what;
         Clock::time_point since;
@@ -85,25 +85,25 @@ class SceneStore {
 
     const std::filesystem::path path_;
     const LoadOptions load_;
-    FileStamps stamps_;         ///< of the watcher
-    mutable std::mutex mutex_;  ///< of what follows; held for moments only
+    FileStamps stamps_;         ///< used by the watcher only
+    mutable std::mutex mutex_;  ///< guards the following members; held briefly
     mutable std::condition_variable changed_;
     std::shared_ptr<const Loaded> loaded_;
     struct Moved {
         std::weak_ptr<const Loaded> from;
         std::vector<LightChange> changes;
         std::shared_ptr<const Loaded> scene;
-    } moved_;            ///< the last that was asked for
+    } moved_;            ///< last result of `moved`
     Json menus_;         ///< of `loaded_`
     std::string error_;  ///< of the last reading
     std::exception_ptr first_error_;
     std::optional<InHand> reading_, building_;
-    std::optional<Reading> read_;  ///< ended, and not seen by the watcher
-    bool stopped_ = false;         ///< the last reading, on request
-    bool wanted_ = true;           ///< reading is to begin
+    std::optional<Reading> read_;  ///< result of a reading, not yet seen by the watcher
+    bool stopped_ = false;         ///< the last reading was stopped on request
+    bool wanted_ = true;           ///< a reading is requested
 
-    std::jthread reader_;   ///< of the watcher
-    std::jthread watcher_;  ///< the last member: it ends first
+    std::jthread reader_;   ///< used by the watcher only
+    std::jthread watcher_;  ///< last member, so that it ends first
 };
 
 }  // namespace alhazen::viewer

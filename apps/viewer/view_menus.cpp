@@ -23,7 +23,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// The distance of what is in the middle: what the view turns around; 0 where nothing is.
+/// The distance of the surface in the middle, around which the view turns; 0 without a surface.
 double distance_in_middle(const Scene& scene, const Camera& camera) {
     const Ray ray = eye_ray(camera, 0.5, 0.5);
     Hit hit;
@@ -47,8 +47,8 @@ json camera_json(const Scene& scene, const CameraDescription& described) {
             {"distance", distance_in_middle(scene, described.camera)}};
 }
 
-/// Those that need no other geometry than is loaded. `depth`: where nothing is wished, unless it is
-/// that of the scene; counted as `with_depth` does.
+/// The renderers that need no other geometry than is loaded. `depth`: the default, unless it is
+/// that of the scene; counted as in `with_depth`.
 json renderer_menu() {
     json menu = json::array();
     for (const RendererEntry& entry : renderers()) {
@@ -64,7 +64,7 @@ json renderer_menu() {
     return menu;
 }
 
-/// The colours of a scale, from its low end on.
+/// The colours of a scale, from its low end.
 json scale_json(ColorScale::Colors colors) {
     constexpr int kSteps = 24;
     json list = json::array();

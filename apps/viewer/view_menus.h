@@ -1,5 +1,5 @@
 #pragma once
-/// What the page of the viewer can choose from, out of the tables of `alhazen list`.
+/// The choices of the viewer's page, from the tables of `alhazen list`.
 
 #include <nlohmann/json.hpp>
 
@@ -7,8 +7,7 @@
 
 namespace alhazen::viewer {
 
-/// The answer to /state, without what changes from moment to moment. The scene must have a camera
-/// and an aggregate.
+/// The response to /state without current work. The scene must have a camera and an aggregate.
 [[nodiscard]] nlohmann::ordered_json view_menus(const LoadedScene& loaded);
 
 }  // namespace alhazen::viewer

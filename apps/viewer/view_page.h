@@ -1,5 +1,5 @@
 #pragma once
-/// The files of the viewer's page, in the program.
+/// The files of the viewer's page, embedded in the program.
 
 #include <string_view>
 #include <vector>

@@ -37,7 +37,7 @@ Response overtaken() {
     return {204, "text/plain", "", "", ""};
 }
 
-/// Four bytes a pixel, as a canvas takes them.
+/// Four bytes per pixel, in the format of a canvas.
 std::string raw_pixels(const EncodedImage& image) {
     const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
     const std::size_t channels = image.channels;
@@ -51,9 +51,9 @@ std::string raw_pixels(const EncodedImage& image) {
     }
     return bytes;
 }
-/// The same of colours as they are, by all threads.
+/// Four bytes per pixel, encoded from a film by all threads.
 std::string raw_pixels(const Film& film, Encoding encoding, int threads) {
-    constexpr std::size_t kAtOnce = 16384;  // pixels of a part
+    constexpr std::size_t kAtOnce = 16384;  // pixels per task
     const std::size_t pixels = film.crop().area();
     std::string bytes(4 * pixels, '\0');
     const auto write = [&](std::size_t begin, std::size_t end) {
@@ -93,12 +93,12 @@ EncodedImage picture_of(const RenderResult& result, const FrameWish& wish,
 
 }  // namespace
 
-/// Ends the work that the client has in hand, and is in its place until it is destroyed.
+/// Registers the work of a client until destruction, and ends its previous work.
 class ViewSession::Turn final : public ProgressSink {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `flag` ends it, too; null: one of its own.
+    /// `flag` also ends the work; null: the turn has its own.
     Turn(ViewSession& session, const json& wish, std::string what, std::shared_ptr<StopFlag> flag)
         : session_(session),
           client_(wish.value("client", "")),
@@ -124,12 +124,12 @@ class ViewSession::Turn final : public ProgressSink {
 
     [[nodiscard]] const StopFlag& flag() const { return *flag_; }
     void stop() { flag_->request(); }
-    /// The answer of a turn that was ended.
+    /// The response of a turn that was ended.
     [[nodiscard]] Response ended() const {
         const std::lock_guard lock(session_.turns_mutex_);
         return session_.closing_ ? closed() : overtaken();
     }
-    /// As pages show it.
+    /// Its description for pages.
     [[nodiscard]] json work() const {
         const std::chrono::duration<double> spent = Clock::now() - since_;
         json work{{"what", what_}, {"seconds", spent.count()}, {"client", client_}};
@@ -142,7 +142,7 @@ class ViewSession::Turn final : public ProgressSink {
     std::string client_, what_;
     std::shared_ptr<StopFlag> flag_;
     const Clock::time_point since_ = Clock::now();
-    std::atomic<double> part_{0.0};  ///< that is done
+    std::atomic<double> part_{0.0};  ///< fraction done
 };
 
 ViewSession::ViewSession(std::filesystem::path scene, LoadOptions options, int threads)
@@ -216,7 +216,7 @@ Response ViewSession::explain(const json& request, Turn& turn) {
     options.y = whole_in(request, "y", {}, 0, *wish.options.height - 1);
     options.sample = whole_in(request, "sample", 0, 0, wish.options.samples_per_pixel - 1);
     options.accelerator = request.value("steps", options.accelerator);
-    const Interruptible ends(&turn.flag());  // accelerators are built beside that of the scene
+    const Interruptible ends(&turn.flag());  // further accelerators are built
     const Explanation explanation = explain_pixel(placed->scene, options);
     if (!explanation.complete) return turn.ended();
     return {200, "application/json", explanation_json(explanation, -1), "", ""};

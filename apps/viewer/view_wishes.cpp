@@ -53,7 +53,7 @@ ToneMapping tone_in(const json& wish) {
     return tone;
 }
 
-/// Of a renderer that knows the areas of what it shows many samples are all of each pixel.
+/// Replaces many samples by exact pixel areas for renderers that compute them.
 void use_exact_areas(RenderOptions& options) {
     if (options.samples_per_pixel == 1) return;
     if (!make_renderer(options.renderer)->gives_exact_areas()) return;
@@ -63,10 +63,10 @@ void use_exact_areas(RenderOptions& options) {
     options.antialias->exact = true;
 }
 
-/// Between whose shades the mean is shown while the view moves: reflections may be blurred then.
+/// Colour difference below which a mean is shown while the view moves; may blur reflections.
 constexpr double kMovingThreshold = 0.15;
 
-/// Rays for some pixels only, where the renderer can and nothing else is asked of the picture.
+/// Traces rays for some pixels only, if the renderer can and no other option needs all.
 void select_pixels(RenderOptions& options) {
     if (options.antialias || options.samples_per_pixel != 1 || !options.aovs.empty()) return;
     if (!make_renderer(options.renderer)->answers_single_rays()) return;
@@ -74,7 +74,7 @@ void select_pixels(RenderOptions& options) {
     options.antialias->threshold = kMovingThreshold;
 }
 
-/// Surroundings are for renderers that follow light; others go on to see those of the scene.
+/// Environments apply to physically based renderers; other renderers keep that of the scene.
 Lighting lighting_in(const json& wish, const std::string& renderer) {
     Lighting lighting;
     lighting.off = wish.value("lights_off", std::vector<std::string>());
@@ -124,7 +124,7 @@ std::vector<LightChange> light_changes(const json& wish) {
 int whole_in(const json& wish, const char* key, std::optional<int> fallback, int least, int most) {
     if (fallback && !wish.contains(key)) return *fallback;
     const json& found = wish.at(key);
-    // Compared before it becomes an int: 2^32 + 1 is not 1.
+    // Compared before the conversion to int: 2^32 + 1 must not become 1.
     const double value =
         found.is_number() ? found.get<double>() : std::numeric_limits<double>::quiet_NaN();
     if (!(value >= least && value <= most) || std::trunc(value) != value) {

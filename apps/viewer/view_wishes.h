@@ -1,7 +1,7 @@
 #pragma once
-/// What the page of the viewer asks for, read from JSON.
+/// Parses the requests of the viewer's page from JSON.
 ///
-/// Conventions: throws Error (Usage) or an exception of nlohmann::json for what is out of range.
+/// Conventions: throws Error (Usage) or an exception of nlohmann::json for values out of range.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,18 +18,18 @@ namespace alhazen::viewer {
 struct FrameWish {
     CameraDescription camera;
     RenderOptions options;  ///< without `view`, `threads` and `stop`
-    Lighting lighting;      ///< without its surroundings
+    Lighting lighting;      ///< without its environment
     ToneMapping tone;
-    const AovEntry* layer = nullptr;  ///< instead of the colours; null: none
+    const AovEntry* layer = nullptr;  ///< shown instead of the colours; null: none
     bool png = false;
     bool raw = false;  ///< red, green, blue, 255 of each pixel, unless `png`
 };
 
-/// A number of a request; without a fallback it must be there. 3.0 is whole, too.
+/// An integer of a request; required unless there is a fallback. 3.0 counts as an integer.
 [[nodiscard]] int whole_in(const nlohmann::ordered_json& wish, const char* key,
                            std::optional<int> fallback, int least, int most);
 
-/// What the lights of a request are changed to.
+/// The changes of lights of a request.
 [[nodiscard]] std::vector<LightChange> light_changes(const nlohmann::ordered_json& wish);
 
 [[nodiscard]] FrameWish frame_wish(const nlohmann::ordered_json& wish);

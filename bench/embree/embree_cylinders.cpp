@@ -9,13 +9,13 @@ namespace {
 
 using Entry = EmbreeCylinders::Entry;
 
-/// Nearest crossing in [tnear, tfar], or one beyond tfar.
+/// The nearest crossing in [tnear, tfar], or one beyond tfar.
 struct Crossing {
     float t;
     float normal[3];  ///< not normalized
 };
 
-/// Ray in lane `i` of a packet of `n`.
+/// The ray in lane `i` of a packet of `n`.
 struct LaneRay {
     float o[3], d[3];
     float tnear, tfar;

@@ -85,7 +85,7 @@ class Packets final : public EmbreePackets {
     explicit Packets(const RaySet& set)
         : set_(set), packets_((set.rays.size() + kWidth - 1) / kWidth) {
         for (std::size_t i = 0; i < packets_.size() * kWidth; ++i) {
-            // A free lane holds a copy of the last ray.
+            // An unused lane holds a copy of the last ray.
             const Ray& ray = set.rays[std::min(i, set.rays.size() - 1)];
             RTCRayN* p = rays(packets_[i / kWidth]);
             const unsigned lane = i % kWidth;

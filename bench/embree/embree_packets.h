@@ -1,8 +1,8 @@
 #pragma once
-/// A ray set in the form that rtcIntersect1/4/8/16 and rtcOccluded1/4/8/16 take, made before timing
-/// starts.
-/// Conventions: rays fill packets in their order; free lanes of the last packet are invalid.
-/// Denormal numbers are flushed to zero while Embree traces, as its manual recommends.
+/// A ray set in the form that rtcIntersect1/4/8/16 and rtcOccluded1/4/8/16 take, prepared before
+/// timing starts.
+/// Conventions: rays fill packets in order; unused lanes of the last packet are invalid. Denormal
+/// numbers are flushed to zero while Embree traces, as its manual recommends.
 
 #include <embree3/rtcore.h>
 
@@ -23,7 +23,7 @@ class EmbreePackets {
     virtual void reset() = 0;
     /// Traces all rays; `coherent` sets the context's flag.
     virtual void trace(RTCScene scene, bool coherent) = 0;
-    /// Results of the last trace for ray i: t is infinite for a miss and 0 for any hit.
+    /// Result of the last trace for ray i: t, infinite for a miss and 0 for any hit.
     static constexpr float kMiss = std::numeric_limits<float>::infinity();
     [[nodiscard]] virtual float t(std::size_t i) const = 0;
     [[nodiscard]] virtual std::size_t count_hits() const = 0;

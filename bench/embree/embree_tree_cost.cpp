@@ -10,7 +10,7 @@ namespace {
 constexpr unsigned kWidth = 8;
 
 struct Node {
-    std::size_t primitives = 0;  ///< in a leaf; 0: an inner node
+    std::size_t primitives = 0;  ///< in a leaf; 0: inner node
     unsigned children = 0;
     RTCBounds bounds[kWidth];
     Node* child[kWidth];

@@ -1,4 +1,4 @@
-"""A browser that a test steers: Chromium by its DevTools protocol, over a WebSocket (RFC 6455)."""
+"""A browser controlled by a test: Chromium by its DevTools protocol, over a WebSocket (RFC 6455)."""
 
 import base64
 import json
@@ -11,7 +11,7 @@ import subprocess
 import time
 import urllib.request
 
-# Processor time is shared with a sanitizer, say.
+# Factor of time limits, for example under a sanitizer.
 SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
 
 
@@ -23,7 +23,7 @@ def browser():
 
 
 class BrowserSession:
-    """One page. `console` has what it said, `requests` the addresses that it asked for."""
+    """One page. `console`: its messages; `requests`: the addresses that it requested."""
 
     def __init__(self, folder, window):
         self.process = subprocess.Popen(
@@ -94,7 +94,7 @@ class BrowserSession:
         return result["result"].get("value")
 
     def wait(self, expression, seconds=20):
-        """Until the expression is true; the seconds that took."""
+        """Waits until the expression is true; returns the seconds that took."""
         seconds *= SLOWDOWN
         begin = time.monotonic()
         while not self.value(expression):
@@ -106,7 +106,7 @@ class BrowserSession:
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=buttons, clickCount=1)
 
     def key(self, key, modifiers=0):
-        # What these do to a field that has the focus needs their texts.
+        # These keys act on a focused field only if the event has their text.
         text = {"Enter": {"text": "\r", "windowsVirtualKeyCode": 13}, " ": {"text": " ", "windowsVirtualKeyCode": 32},
                 "Tab": {"windowsVirtualKeyCode": 9}}.get(key, {})
         for kind in ("keyDown", "keyUp"):

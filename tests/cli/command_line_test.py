@@ -14,7 +14,7 @@ import unittest
 
 from command_line import ALHAZEN, CommandLineCase, run, SPHERES
 
-# Seconds for a command that should end soon; sanitizers make programs slower (tests/cli/CMakeLists.txt).
+# Limit in seconds for a short command; sanitizers make programs slower (tests/cli/CMakeLists.txt).
 PATIENCE = 60 * int(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
 
 

@@ -4,7 +4,7 @@
 Usage: compare_page_test.py ALHAZEN [SCREENSHOT_FOLDER]
 
 Without a browser (chromium, google-chrome) the tests of the page in a browser are skipped, with a message; the others run. With
-SCREENSHOT_FOLDER pictures of the page are left there to be looked at. `scripts/setup --browser` installs one.
+SCREENSHOT_FOLDER screenshots of the page are written there. `scripts/setup --browser` installs one.
 """
 
 import html.parser
@@ -102,7 +102,7 @@ class ComparePage(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
-        # A name that would break out of text and attributes.
+        # A name that would end text and attributes if it were not escaped.
         scene = cls.folder / 'a <b> & "c".alhazen'
         scene.write_text(SCENE, encoding="utf-8")
         cls.page = cls.folder / "page.html"

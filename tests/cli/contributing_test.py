@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The lists of files in CONTRIBUTING.md are true.
+"""The lists of files in CONTRIBUTING.md are complete and exact.
 
 Usage: contributing_test.py BUILD_FOLDER SOURCE_FOLDER
 
@@ -79,7 +79,7 @@ ShapeSurface Extra::surface(const Ray& ray, const ShapeHit& hit) const {
 
 }  // namespace alhazen
 """
-# Random maker, comparison, reader and writer follow from kFields.
+# Random maker, comparison, reader and writer are derived from kFields.
 SHAPE_TEST = """#include "alhazen/shapes/quadrics/extra.h"
 
 #include <gtest/gtest.h>

@@ -122,7 +122,7 @@ mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 
 """)
         result = run("convert", scene, self.path("out.obj"))
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("warning: the MTL file cannot say the mirrored repeat of a texture (material 'm'", result.stderr)
+        self.assertIn("warning: the MTL file cannot express the mirrored repeat of a texture (material 'm'", result.stderr)
 
     def test_convert_refuses_what_it_cannot_write(self):
         for arguments, status, message in (

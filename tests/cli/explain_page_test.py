@@ -4,7 +4,7 @@
 Usage: explain_page_test.py ALHAZEN [SCREENSHOT_FOLDER]
 
 Without a browser (chromium, google-chrome) the tests of the page in a browser are skipped, with a message; the others
-run. With SCREENSHOT_FOLDER pictures of the page are left there to be looked at. `scripts/setup --browser` installs one.
+run. With SCREENSHOT_FOLDER screenshots of the page are written there. `scripts/setup --browser` installs one.
 """
 
 import html
@@ -21,7 +21,7 @@ import unittest
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
 
-# A name that would break out of text and of a script.
+# A name that would end text and a script if it were not escaped.
 NAME = "</script><img src=x onerror=alert(1)>"
 SCENE = """alhazen 1
 picture { width = 60; height = 45 }
@@ -43,7 +43,7 @@ plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 BEFORE = """<script>window.seen = {errors: []};
 addEventListener("error", e => seen.errors.push(String(e.message)));
 addEventListener("securitypolicyviolation", e => seen.errors.push("policy: " + e.blockedURI));</script>"""
-# Uses the page as a reader would, and records what it says.
+# Uses the page as a reader would, and records its texts.
 AFTER = """<script type="module">
 const all = query => [...document.querySelectorAll(query)];
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -79,7 +79,7 @@ result.textContent = JSON.stringify(seen);
 document.body.append(result);
 </script>"""
 
-# What cones and beams take.
+# A scene that the cone and beam renderers accept.
 FLAT = """alhazen 1
 conventions { max_depth = 3 }
 perspective_camera { eye = (0, 1, 6); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }
@@ -182,7 +182,7 @@ class ExplainPage(unittest.TestCase):
         self.assertEqual([w["accelerator"] for w in data["traversal"]["work"]], ["kd_tree", "list", "wide_bvh"])
 
     def pixel_of(self, scene, renderer, x, y):
-        """The colour that the renderer gives a pixel."""
+        """The renderer's colour of a pixel."""
         picture = self.folder / "pixel.pfm"
         subprocess.run([ALHAZEN, "render", str(scene), "-o", str(picture), "--size", "60x45", "--renderer", renderer,
                         "--crop", f"{x},{y},{x + 1},{y + 1}", "-q"], check=True, timeout=60)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Scenes of a few megabytes whose textures would fill the memory: made here, then rendered with the default limits.
+"""Scenes of a few megabytes whose textures would fill the memory: generated, then rendered with the default limits.
 
-Each must end within 10 seconds and 1 GiB, with a picture where it fits and else with a message that names the limit and
+Each must end within 10 seconds and 1 GiB, with a picture if it fits, otherwise with a message that names the limit and
 the option to raise it.
 
 Usage: hostile_textures_test.py ALHAZEN

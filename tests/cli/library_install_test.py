@@ -4,8 +4,8 @@ Python, where the build has these.
 
 Usage: library_install_test.py BUILD_FOLDER SOURCE_FOLDER TRACE_RAYS CONFIG PREFIXES [CMAKE_OPTION...]
 
-Nothing of the library is built anew. TRACE_RAYS is the example as this build has it: the one against the
-installed library must print the same. PREFIXES is where this build found its packages; CMAKE_OPTIONs say
+The library is not rebuilt. TRACE_RAYS is the example of this build: the one built against the
+installed library must print the same. PREFIXES: where this build found its packages; CMAKE_OPTIONs:
 how it compiles.
 """
 

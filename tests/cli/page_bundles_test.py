@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The bundles of the pages are those that their sources make, and the sources have no errors of types.
+"""The bundles of the pages are those built from their sources, and the sources have no type errors.
 
 Usage: page_bundles_test.py SOURCE_FOLDER
 

@@ -1,8 +1,8 @@
-"""A page as a screen reader has it: Chromium's accessibility tree, and where the Tab key comes."""
+"""A page as a screen reader presents it: Chromium's accessibility tree, and the order of the Tab key."""
 
 import collections
 
-# What is worked with; the `summary` of a fold is a DisclosureTriangle.
+# Roles of interactive elements; the `summary` of a fold is a DisclosureTriangle.
 CONTROLS = {"button", "checkbox", "combobox", "spinbutton", "slider", "textbox", "link", "radio", "DisclosureTriangle",
             "application"}
 FIGURES = {"img", "image", "progressbar", "region", "form"}
@@ -27,7 +27,7 @@ class Node:
 
 
 class Reader:
-    """What the page is at the moment that it is made."""
+    """A snapshot of the page at construction."""
 
     def __init__(self, page):
         self.page = page
@@ -38,7 +38,7 @@ class Reader:
         self.nodes = [node for node in all_nodes if not node.ignored]
 
     def of(self, role, name=""):
-        """The nodes of a role whose names begin so."""
+        """The nodes of a role whose names begin with a prefix."""
         return [n for n in self.nodes if n.role == role and n.name.startswith(name)]
 
     def text(self, node):
@@ -63,7 +63,7 @@ class Reader:
         return focusable + [n for n in self.nodes if n.role in CONTROLS and n not in focusable]
 
     def faults(self):
-        """Controls without a role or a name, figures without words, names that stand for several fields at once."""
+        """Controls without a role or a name, figures without a text, names shared by several fields."""
         found = [f"no role: {n}" for n in self.controls() if n.role in NO_ROLE]
         found += [f"no name: {n}" for n in self.controls() if n.role not in NO_ROLE and not any(map(str.isalnum, n.name))]
         found += [f"no words: {n}" for n in self.nodes if n.role in FIGURES and not n.name]
@@ -77,7 +77,7 @@ class Reader:
                               returnByValue=True)["result"].get("value")
 
     def walk(self, most=900):
-        """Presses Tab until it has gone around the page; returns how often."""
+        """Presses Tab until the focus returns to its start; returns the number of presses."""
         page = self.page
         page.value("globalThis.tabbed = new Set(); document.body.tabIndex = -1; document.body.focus(); "
                    "document.body.removeAttribute('tabindex')")
@@ -88,14 +88,14 @@ class Reader:
         raise AssertionError(f"the Tab key has not come around after {most} times")
 
     def not_reached(self):
-        """Controls that the Tab key leaves out. Those that have no effect may be, and what only scripts give the focus."""
+        """Controls that Tab does not reach, except disabled ones and those focused by scripts only."""
         self.walk()
         controls = [n for n in self.controls() if not n.properties.get("disabled")]
         return [n for n in controls if not self.on(n.element, "function() { return tabbed.has(this); }") and
                 (n.role in CONTROLS or self.on(n.element, "function() { return this.tabIndex; }") >= 0)]
 
     def mouse_only(self):
-        """Elements that hear the mouse and cannot have the focus."""
+        """Elements with mouse listeners that cannot have the focus."""
         document = self.page.call("Runtime.evaluate", expression="document")["result"]["objectId"]
         heard = self.page.call("DOMDebugger.getEventListeners", objectId=document, depth=-1)["listeners"]
         named = {n.element for n in self.controls() if n.name}

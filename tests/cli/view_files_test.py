@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`alhazen view` and the files of its scene: read beside the page, again when they change, ended on request.
+"""`alhazen view` and the files of its scene: read while the page is served, reread when they change, stopped on request.
 
 Usage: view_files_test.py ALHAZEN
 """
@@ -29,7 +29,7 @@ class ViewFiles(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.scene = pathlib.Path(cls.temporary.name) / "scene.alhazen"
         cls.large = cls.scene.with_name("large.alhazen")
-        # Seconds of reading and building.
+        # A scene that takes seconds to read and build.
         cls.large.write_text(SCENE + many_spheres(400000), encoding="utf-8")
 
     @classmethod
@@ -48,7 +48,7 @@ class ViewFiles(unittest.TestCase):
             time.sleep(0.01)
         return time.monotonic() - begin
 
-    # ---- a first reading that takes long
+    # ---- a long first reading
     def test_the_server_is_there_while_a_scene_is_read_and_says_so(self):
         server = self.view(self.large)
         moment = server.moment()

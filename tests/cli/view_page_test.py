@@ -20,7 +20,7 @@ from view_server import LIGHTS, SCENE, Server
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
 READY = "globalThis.viewer?.frames > 0 && viewer.image.width > 0"
-# The last frame of the view is shown: all levels are done.
+# True if the last frame of the view is shown, after all levels.
 FINE = f"({READY}) && viewer.done() && viewer.shownGeneration === viewer.generation"
 MESSAGE = "(document.getElementById('message')?.textContent ?? '')"
 
@@ -50,7 +50,7 @@ class ViewPage(unittest.TestCase):
             self.page.screenshot(SCREENSHOTS / f"{name}.png")
 
     def picture(self):
-        """The colours of the picture, coarse."""
+        """The colours of the picture at a coarse resolution."""
         return self.page.value("""(() => {
             const c = document.createElement("canvas");
             c.width = 16; c.height = 12;
@@ -64,7 +64,7 @@ class ViewPage(unittest.TestCase):
         return box[0] + u * box[2], box[1] + v * box[3]
 
     def changes(self, act):
-        """The picture is another one after `act`."""
+        """Expects that `act` changes the picture."""
         before = self.picture()
         act()
         self.page.wait(FINE)
@@ -105,7 +105,7 @@ class ViewPage(unittest.TestCase):
         page.value("viewer.image.focus()")
         for key in ("ArrowLeft", "+", "w", "D"):
             self.changes(lambda: page.key(key))
-        # With shift arrows move, and do not turn.
+        # Shift and an arrow key translate instead of rotating.
         look = page.value("viewer.camera.look.join()")
         for key in ("ArrowLeft", "ArrowUp"):
             self.changes(lambda: page.key(key, modifiers=8))
@@ -114,14 +114,14 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: self.choose("camera", "1"))
         self.choose("accelerator", "octree")
         page.wait(FINE)
-        # A layer has its scale, in words too.
+        # A layer shows its scale, also as text.
         self.changes(lambda: self.choose("layer", "depth"))
         self.assertRegex(page.value("viewer.scale.textContent"), r"^depth\d")
         self.assertIn("linear-gradient", page.value("document.querySelector('.bar-of-scale').style.background"))
         self.shoot("view_layer")
         self.changes(lambda: self.choose("layer", ""))
         self.assertTrue(page.value("viewer.scale.hidden"))
-        # A click explains: the ball is in the middle.
+        # A click explains a pixel; the ball is in the middle.
         x, y = self.place(0.5, 0.5)
         page.mouse("mousePressed", x, y, 1)
         page.mouse("mouseReleased", x, y)
@@ -129,16 +129,16 @@ class ViewPage(unittest.TestCase):
         self.assertIn("ball", page.value("document.querySelector('#explanation summary').textContent"))
         self.assertIn("samples a pixel", page.value("document.getElementById('status').textContent"))
         self.shoot("view_explained")
-        # The block is a camera that shows the same.
+        # The text block is a camera with the same view.
         block = page.value("viewer.camera.block()")
         self.assertIn("perspective_camera \"view\"", block)
-        # The file: an error at its line, the last good picture, then the new one.
+        # After a change of the file: an error at its line with the last good picture, then the new one.
         shown = self.picture()
         self.scene.write_text(SCENE.replace("radius = 1;", "radius = = 1;"), encoding="utf-8")
         page.wait("" + MESSAGE + ".includes('scene.alhazen:9:')")
         self.assertEqual(self.picture(), shown)
         self.shoot("view_error")
-        # The menus follow, and what was chosen stays.
+        # The menus are updated, and the selection stays.
         better = SCENE.replace("radius = 1;", "radius = 0.5;").replace("point_light",
             'perspective_camera "top" { eye = (0, 7, 1); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }\npoint_light')
         self.changes(lambda: (self.scene.write_text(better, encoding="utf-8"),
@@ -146,7 +146,7 @@ class ViewPage(unittest.TestCase):
         self.assertEqual(page.value("viewer.controls.options('camera').join()"), "front,side,top")
         self.assertEqual(page.value("viewer.controls.get('camera') + viewer.controls.get('renderer')"), "1ray_casting")
         self.check_quiet()
-        # Without a server it says so, and keeps the picture.
+        # After the loss of the server the page reports it and keeps the picture.
         self.server.process.kill()
         page.wait(MESSAGE + ".includes('does not answer')")
         self.assertTrue(page.value(READY))
@@ -161,14 +161,14 @@ class ViewPage(unittest.TestCase):
             return page.value("viewer.wish(viewer.camera, 64).depth ?? null")
 
         self.assertEqual((page.value(depth), sent()), (4, None))
-        # A renderer that follows paths has a depth of its own, until one is chosen.
+        # A path tracing renderer has its own default depth until one is chosen.
         self.changes(lambda: self.choose("renderer", "path_tracing"))
         self.assertEqual((page.value(depth), sent()), (63, None))
         self.changes(lambda: self.choose("depth", "0"))
         self.assertEqual(sent(), 0)
         self.changes(lambda: self.choose("renderer", "whitted"))
         self.assertEqual((page.value(depth), sent()), (0, 0))
-        # An emptied field is as usual again; the scene's depth is followed.
+        # An emptied field restores the default, the scene's depth.
         self.changes(lambda: self.choose("depth", ""))
         self.assertEqual((page.value(depth), sent()), (4, None))
         self.changes(lambda: self.edit(SCENE.replace("max_depth = 4", "max_depth = 0")))
@@ -183,7 +183,7 @@ class ViewPage(unittest.TestCase):
         summary = "document.querySelector('#lights summary')"
         boxes = "[...document.querySelectorAll('#lights input')]"
         self.assertEqual(page.value(f"{summary}.textContent"), "lights: all of 4 on")
-        # By keys alone.
+        # By keyboard alone.
         page.value(f"{summary}.focus()")
         page.key("Enter")
         page.wait("document.getElementById('lights').open")
@@ -191,12 +191,12 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: page.key(" "))
         self.assertEqual(page.value(f"{summary}.textContent"), "lights: 3 of 4 on")
         self.shoot("view_lights")
-        # What is off stays off where the file changes, and so does the place of the keys.
+        # Switched-off lights and the focus survive a change of the file.
         self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
         self.assertEqual(page.value("viewer.controls.lights.off().join()"), "key")
         self.assertEqual(page.value("document.activeElement.name"), "key")
         self.changes(lambda: self.edit(LIGHTS))
-        # Surroundings are for renderers that follow light.
+        # Environments are offered for renderers of light transport.
         menu = "document.querySelector('[name=environment]')"
         why = f"document.getElementById({menu}.getAttribute('aria-describedby'))"
         self.assertTrue(page.value(f"{menu}.disabled"))
@@ -249,7 +249,7 @@ class ViewPage(unittest.TestCase):
             page.value(f"[...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{place}').focus()")
             self.edit(LIGHTS.replace("radius = 1;", f"radius = 0.{i + 2};"))
             self.assertEqual(page.value(key), place)
-        # Of a light that is gone the list's.
+        # After the removal of a light the focus moves to the list.
         page.value("document.querySelector('#lights [name=key]').focus()")
         self.edit(LIGHTS.replace('point_light "key"', 'point_light "other"'))
         self.assertEqual(page.value(key), "summary")
@@ -275,7 +275,7 @@ class ViewPage(unittest.TestCase):
 
         summary = "document.querySelector('#lights summary').textContent"
         page.value(f"{field('change key')}.click()")
-        # What is typed is seen at once; a field left as it is not.
+        # Typed values take effect at once; leaving a field unchanged does not.
         self.changes(lambda: type_in("key position 0", "-3"))
         moved = self.picture()
         self.assertEqual(page.value(summary), "lights: all of 4 on, 1 changed")
@@ -286,12 +286,12 @@ class ViewPage(unittest.TestCase):
             self.assertEqual(page.value(f"{field('key times')}.getAttribute('aria-invalid')"), "true")
         page.value("document.activeElement.blur()")
         self.assertEqual(page.value(f"{field('key times')}.value + {field('key times')}.getAttribute('aria-invalid')"), "2.5null")
-        # A spot light turns, a lamp and a material are dimmed.
+        # A spot light is rotated; a light and a material are dimmed.
         for name in ("spot light 1", "lamp", "ember"):
             page.value(f"{field(f'change {name}')}.click()")
         self.assertIsNone(page.value(f"{field('ember position 0')}?.value ?? null"))
         self.changes(lambda: type_in("spot light 1 direction 0", "1"))
-        # The lamp is a disc: its surface is built where it is then.
+        # The light is a disc: its surface is rebuilt at its new position.
         self.changes(lambda: type_in("lamp position 0", "-1.5"))
         self.changes(lambda: type_in("lamp direction 0", "1"))
         self.changes(lambda: type_in("lamp radius", "0.75"))
@@ -310,7 +310,7 @@ class ViewPage(unittest.TestCase):
                      'disc_light "lamp" { center = (-1.5, 2.4, 0); normal = (1, -1, 0); radius = 0.75; ', "radiance = (1, 1, 0.5)",
                      '// material "ember": emission = (0.2, 0.3, 0.05)'):
             self.assertIn(part, blocks)
-        # It stays where the file changes, and is undone step by step; a field counts once.
+        # Edits survive a change of the file and are undone step by step; a field counts once.
         self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
         self.changes(lambda: self.edit(LIGHTS))
         self.assertEqual(self.picture(), changed)
@@ -321,7 +321,7 @@ class ViewPage(unittest.TestCase):
         self.assertEqual(self.picture(), first)
         self.assertEqual(page.value(summary), "lights: all of 4 on")
         self.assertEqual(page.value("viewer.controls.lights.changes().length"), 0)
-        # Of another kind with as many sizes it has those of the file.
+        # A light of another kind with as many sizes has those of the file.
         self.changes(lambda: type_in("lamp radius", "0.75"))
         disc = next(line for line in LIGHTS.split("\n") if line.startswith("disc_light"))
         rectangle = ('rectangle_light "lamp" { corner = (0.8, 2.4, -0.6); edge_u = (1.5, 0, 0); edge_v = (0, 0, 1.25); '
@@ -333,7 +333,7 @@ class ViewPage(unittest.TestCase):
         self.changes(lambda: self.edit(LIGHTS))
         self.assertEqual(page.value(f"{field('lamp radius')}.value"), "0.75")
         self.changes(lambda: page.value("viewer.undo()"))
-        # The file with the blocks shows what was seen.
+        # The file with the blocks gives the same picture.
         kept = [line for line in LIGHTS.split("\n") if not line.startswith(("spot_light", "disc_light", "point_light"))]
         self.changes(lambda: self.edit("\n".join(kept).replace("emission = (0.9, 0.3, 0.05)", "emission = (0.2, 0.3, 0.05)") + blocks))
         self.assertEqual(self.picture(), changed)
@@ -356,12 +356,12 @@ class ViewPage(unittest.TestCase):
         page.wait("document.querySelectorAll('#explanation .ray').length > 0")
         page.value("viewer.controls.set('samples', '30')")
         page.wait(FINE)
-        # Ended by nobody that the page knows of.
+        # The server ends without a request of the page.
         begin_long()
         self.assertEqual(self.server.ask("/stop", {"client": page.value("viewer.client")})[0], 200)
         page.value("viewer.controls.set('samples', '20')")
         page.wait(FINE)
-        # Stop leaves it as it is; a change goes on.
+        # Stop keeps the picture; a change continues rendering.
         begin_long()
         page.wait("document.getElementById('work').textContent.startsWith('drawing')")
         self.shoot("view_work")
@@ -378,7 +378,7 @@ class ViewPage(unittest.TestCase):
         self.open("900,700")
         page = self.page
         shown = self.picture()
-        # Nothing comes over the way that is there.
+        # The open connection delivers nothing.
         self.server.process.send_signal(signal.SIGSTOP)
         page.wait(MESSAGE + ".includes('does not answer')")
         self.assertEqual(self.picture(), shown)
@@ -387,16 +387,16 @@ class ViewPage(unittest.TestCase):
         self.server.process.send_signal(signal.SIGCONT)
         page.wait(f"document.getElementById('message').hidden && {FINE}")
         self.assertNotEqual(self.picture(), shown)
-        # The way breaks.
+        # The connection breaks.
         page.value("viewer.link.socket.close()")
         page.wait(MESSAGE + ".includes('does not answer')")
         self.changes(lambda: (page.key("ArrowLeft"), page.wait("document.getElementById('message').hidden")))
-        # Another server in its place has another key.
+        # A new server at the same address has another key.
         self.server.process.kill()
         self.server.process.wait()
         again = Server(ALHAZEN, self.scene, "--port", str(self.server.port))
         self.addCleanup(again.close)
-        page.wait(MESSAGE + ".startsWith('Another server') && " + MESSAGE + ".includes('no key')")
+        page.wait(MESSAGE + ".startsWith('The server was replaced') && " + MESSAGE + ".includes('no key')")
 
     def test_the_policy_allows_this_server_alone(self):
         self.open("900,700")
@@ -471,7 +471,7 @@ class ViewPage(unittest.TestCase):
         self.open("1300,1000")
         page = self.page
         radiance = "[...document.querySelectorAll('.samples tbody tr')].map(r => [1, 2, 3].map(i => Number(r.cells[i].textContent)))"
-        # Where the ball hides the floor behind it.
+        # A pixel where the ball hides the floor.
         page.value("viewer.explainPixel(56, 46)")
         page.wait("document.querySelectorAll('.samples tbody tr').length === 4")
         page.value("document.getElementById('samples').scrollIntoView()")
@@ -486,7 +486,7 @@ class ViewPage(unittest.TestCase):
             page.wait(f"{shown} === {i}")
             self.assertEqual(page.value(radiance), samples)
             self.assertIn("radiance (" + ", ".join(f"{c:.4g}" for c in samples[i]) + ")", page.value(told))
-        # As many as are chosen.
+        # The chosen number of them.
         self.choose("samples", "9")
         page.value("viewer.explainPixel(56, 46)")
         page.wait("document.querySelectorAll('.samples tbody tr').length === 9")
@@ -522,7 +522,7 @@ class ViewPage(unittest.TestCase):
                 self.assertIn("cone to \u2018key\u2019 from \u2018", shadows[0])
                 self.assertEqual(len(set(shadows)), len(shadows))
             self.shoot(f"view_{renderer}")
-        # A refused scene is said, and stays said.
+        # The message about a refused scene stays.
         self.check_quiet()
 
     def test_it_fits_a_phone_and_is_named_for_readers(self):
@@ -546,7 +546,7 @@ class ViewPage(unittest.TestCase):
         self.scene.write_text(LIGHTS, encoding="utf-8")
         self.open("600,900")
         page = self.page
-        # Upright, with a keyboard on the screen, and across.
+        # Portrait, with an on-screen keyboard, and landscape.
         for width, height in ((390, 844), (390, 500), (844, 390)):
             page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2, mobile=True)
             page.value("scrollTo(0, 0)")

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The pages of `alhazen view` and `alhazen explain` for screen readers and for hands without a mouse.
+"""The pages of `alhazen view` and `alhazen explain` with screen readers and without a mouse.
 
 Usage: view_reader_test.py ALHAZEN
 
-Looks at Chromium's accessibility tree, which is what readers get. Skipped, with a message, without a browser:
+Tests Chromium's accessibility tree, the input of screen readers. Skipped, with a message, without a browser:
 `scripts/setup --browser` installs one.
 """
 
@@ -21,7 +21,7 @@ from view_server import LIGHTS, SCENE, Server
 ALHAZEN = sys.argv[1]
 FINE = "globalThis.viewer?.frames > 0 && viewer.done() && viewer.shownGeneration === viewer.generation"
 EXPLAINED = "document.querySelectorAll('#explanation .ray').length > 0"
-# What cones and beams take: no torus, no endless plane.
+# A scene that the cone and beam renderers accept: no torus, no endless plane.
 FLAT = "\n".join(line for line in SCENE.split("\n") if not line.startswith("plane")).replace("sphere", "// sphere") + \
     'rectangle "floor" { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "mirror" }\n'
 
@@ -63,7 +63,7 @@ class PageForReaders(unittest.TestCase):
         return reader
 
     def tab_to(self, name):
-        """Presses Tab until what has the focus has this name."""
+        """Presses Tab until an element with this name has the focus."""
         for _ in range(300):
             self.page.key("Tab")
             if any(n.name.startswith(name) for n in Reader(self.page).nodes if n.properties.get("focused")):
@@ -115,7 +115,7 @@ class PageForReaders(unittest.TestCase):
         self.page.value("document.querySelectorAll('#lights .light button').forEach(b => b.click())")
         self.explain()
         self.assertEqual(Reader(self.page).faults(), [])
-        # Names by attributes, by labels, by words; without each of them something is found.
+        # Names by attributes, by labels, by texts; removing each one must be detected.
         count = self.page.value("""(globalThis.names = [...document.querySelectorAll('[aria-label],[alt],label,button,summary')]
             .filter(e => e.checkVisibility() && !['UL', 'SECTION', 'FORM'].includes(e.tagName) && e.id !== 'explanation')).length""")
         self.assertGreater(count, 60)
@@ -142,14 +142,14 @@ class PageForReaders(unittest.TestCase):
             if not re.match(r'<button[^>]*aria-label="[^>]*>\w', what):  # a button that keeps a name, its words
                 self.assertNotEqual(faults, [], f"not missed: {what}")
         self.assertEqual(Reader(self.page).faults(), [])
-        # Without a place in the order of the Tab key, and with a mouse's click alone.
+        # An element outside the Tab order, and one that only a mouse can click.
         self.page.value("document.querySelector('[name=samples]').tabIndex = -1")
         self.assertEqual([n.name for n in Reader(self.page).not_reached()], ["samples"])
         self.page.value("document.getElementById('status').onclick = () => {}")
         self.assertEqual(Reader(self.page).mouse_only(), ["P"])
 
     def check_levels(self, reader, node, level):
-        """Each item of an outline says its level, and its fold whether it is open; returns the deepest level."""
+        """Checks that each item of an outline has its level and its fold its state; returns the deepest level."""
         items = reader.below(node, "listitem")
         self.assertTrue(items)
         deepest = level
@@ -197,7 +197,7 @@ class PageForReaders(unittest.TestCase):
         self.open(SCENE)
         self.assertRegex(Reader(self.page).said("polite"), r"The picture is done: 160 by 120, 4 samples a pixel, [\d.]+ m?s")
         self.assertEqual(Reader(self.page).said("assertive"), "")
-        # Moving does not chatter: each change of a live region would be read.
+        # Moving changes no live region more than needed: each change would be read aloud.
         said = self.page.value("""(async () => {
             let count = 0;
             const watch = new MutationObserver(list => {
@@ -225,7 +225,7 @@ class PageForReaders(unittest.TestCase):
         focused, = [n for n in reader.nodes if n.properties.get("focused") and n.role != "RootWebArea"]
         self.assertEqual((focused.role, focused.name), ("region", "Explanation of pixel 80,60"))
         self.assertIsNone(focused.properties.get("live"))
-        # An error at its line, and that it is gone.
+        # The message of an error at its line, and of its removal.
         self.scene.write_text(SCENE.replace("radius = 1;", "radius = = 1;"), encoding="utf-8")
         self.page.wait("document.getElementById('message').textContent.includes('scene.alhazen:9:')")
         self.assertIn("scene.alhazen:9:", Reader(self.page).said("assertive"))
@@ -257,7 +257,7 @@ class PageForReaders(unittest.TestCase):
         self.page.key("Enter")
         self.page.wait(EXPLAINED + " && document.activeElement.id === 'explanation'")
         self.assertTrue(Reader(self.page).of("heading", "Pixel 47,62 of scene.alhazen"))
-        # The rays in space are turned, moved and selected by keys, too.
+        # The rays in space are rotated, moved and selected by keys.
         self.tab_to("show shadow rays")
         self.page.key("Tab", modifiers=8)
         drawn = set()

@@ -15,7 +15,7 @@ import threading
 import time
 import unittest
 
-# Processor time is shared with a sanitizer, say.
+# Factor of time limits, for example under a sanitizer.
 SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
 
 SCENE = """alhazen 1
@@ -31,7 +31,7 @@ box "block" { lo = (-2, 0, 0); hi = (-1.2, 0.8, 0.8); material = "red" }
 plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 """
 
-# A light with a name, one without, one with extent that is seen, and a surface that shines.
+# A named light, an unnamed one, a visible area light, and an emitting surface.
 LIGHTS = SCENE.replace('point_light "key"', '''
 spot_light { position = (-3, 5, 4); direction = (3, -5, -4); color = (0.4, 0.4, 0.5) }
 disc_light "lamp" { center = (1.5, 2.4, 0); normal = (0, -1, 0); radius = 0.4; radiance = (2, 2, 1) }
@@ -49,7 +49,7 @@ material "glass" { transmissive = 0.9; reflective = 0.5; index = 1.3 }
 
 
 class Server:
-    """Starts the server of a scene, and asks it as a page would, or otherwise."""
+    """Starts the server of a scene, and sends it requests like a page's, or malformed ones."""
 
     def __init__(self, alhazen, scene, *options, open_page=False, environment=None):
         command = [alhazen, "view", str(scene), *([] if open_page else ["--no-open"]), *options]
@@ -62,7 +62,7 @@ class Server:
         self.host = f"{self.address}:{self.port}"
 
     def close(self):
-        """Ends it; fails where it had ended with a status or a signal that no test asks for, such as a sanitizer's."""
+        """Ends the server; fails if it ended before with an unexpected status or signal, such as a sanitizer's."""
         status = self.process.poll()
         self.process.terminate()
         self.process.wait(10 * SLOWDOWN)
@@ -76,7 +76,7 @@ class Server:
         return socket.create_connection((self.address.strip("[]"), self.port), timeout=20 * SLOWDOWN)
 
     def connect_slowly(self, count):
-        """Sockets whose requests begin and do not go on."""
+        """Sockets with incomplete requests."""
         sockets = []
         for _ in range(count):
             s = self.connect()
@@ -88,7 +88,7 @@ class Server:
         return sockets
 
     def raw(self, data):
-        """Sends bytes; returns all that comes back."""
+        """Sends bytes; returns the whole answer."""
         with self.connect() as s:
             try:
                 s.sendall(data)
@@ -104,7 +104,7 @@ class Server:
             return answer
 
     def ask(self, path, body=None, method="POST", **change):
-        """Status, headers and body of an answer; `change` replaces headers, None leaves one out."""
+        """Status, headers and body of an answer; `change` replaces headers, None omits one."""
         data = b"" if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
         headers = {"Host": self.host, "Origin": f"http://{self.host}", "Authorization": f"Bearer {self.token}",
                    "Content-Length": str(len(data)), "Connection": "close"}
@@ -125,7 +125,7 @@ class Server:
         return state
 
     def in_hand(self, path, wish):
-        """Asks beside this thread; returns a function that waits for the status."""
+        """Sends a request in another thread; returns a function that waits for the status."""
         results = []
         thread = threading.Thread(target=lambda: results.append(self.ask(path, wish)[0]))
         thread.start()
@@ -137,13 +137,13 @@ class Server:
         return status
 
     def moment(self):
-        """The state as it is, without a scene, too."""
+        """The current state, also without a scene."""
         status, _, body = self.ask("/state", {})
         assert status == 200, body
         return json.loads(body)
 
     def state(self):
-        """The state, once there is a scene."""
+        """The state after a scene is loaded."""
         begin = time.monotonic()
         while not (state := self.moment())["version"]:
             assert time.monotonic() - begin < 60 * SLOWDOWN, state
@@ -162,7 +162,7 @@ class Server:
 
 
 class FrameSocket:
-    """The WebSocket of a server, by hand, so that it can break the protocol. `status` is that of the upgrade."""
+    """A WebSocket client without a library, so that it can violate the protocol. `status` is that of the upgrade."""
 
     def __init__(self, server, change):
         headers = {"Host": server.host, "Origin": f"http://{server.host}", "Upgrade": "websocket", "Connection": "Upgrade",
@@ -190,7 +190,7 @@ class FrameSocket:
             pass  # refused before all was sent
 
     def receive(self):
-        """Opcode and body of a message; 8 and the code of a close, 0 of a connection that is gone."""
+        """Opcode and body of a message; 8 and the code of a close, 0 of a lost connection."""
         try:
             first, size = self.stream.read(2)
             if size >= 126:
@@ -207,7 +207,7 @@ class FrameSocket:
         return message
 
     def end(self):
-        """The code of the close that comes."""
+        """The code of the next close."""
         while (message := self.message())[0] != 8:
             pass
         return message[1]
@@ -227,7 +227,7 @@ class FrameSocket:
         return json.loads(data[4:4 + size]), data[4 + size:]
 
     def listen(self, seconds):
-        """Messages of so long a time; each second has one of the server's."""
+        """The messages within a duration; the server sends one each second."""
         begin, messages = time.monotonic(), []
         while time.monotonic() - begin < seconds and (not messages or messages[-1][0] != 8):
             messages.append(self.message())

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`alhazen view`: who may ask, what is refused, and what the answers are.
+"""`alhazen view`: authorisation, refused requests, and answers.
 
 Usage: view_server_test.py ALHAZEN
 """
@@ -23,7 +23,7 @@ class ViewServer(ServerTest):
     def status(self, path="/state", body=None, method="POST", **change):
         return self.server.ask(path, {} if body is None else body, method, **change)[0]
 
-    # ---- who may ask
+    # ---- authorisation
     def test_it_listens_on_the_loopback_alone_at_a_port_of_its_own(self):
         self.assertEqual(self.server.address, "127.0.0.1")
         other = Server(ALHAZEN, self.scene)
@@ -74,7 +74,7 @@ class ViewServer(ServerTest):
         self.assertEqual(self.status("/frame", WISH, Origin="http://evil.com", Authorization=None,
                                      Content_Type="text/plain"), 403)
 
-    # ---- what is refused
+    # ---- refused requests
     def test_only_files_of_the_page_are_served(self):
         for path in ("/..%2f", "/../../etc/passwd", "/%2e%2e/etc/passwd", "/scene.alhazen", "/view.js/", "//view.js",
                      f"/{self.scene}", "http://evil.com/", "*"):
@@ -131,7 +131,7 @@ class ViewServer(ServerTest):
             self.assertTrue(json.loads(answer)["error"])
         self.assertEqual(self.server.ask("/frame", WISH)[0], 200)
 
-    # ---- what the answers are
+    # ---- answers
     def test_frames_are_the_pictures_of_render(self):
         status, headers, body = self.server.ask("/frame", {**WISH, "png": True})
         self.assertEqual((status, headers["content-type"]), (200, "image/png"))
@@ -181,7 +181,7 @@ class ViewServer(ServerTest):
                         self.assertAlmostEqual(at[c], data["path"]["radiance"][c], delta=1e-12)
             self.assertLessEqual({"scattered", "mirrored", "escaped"}, steps)
             self.assertGreater(asked, 20)
-            # A depth of 0: the floor, and one ray that may come upon a light. Of other renderers there is none.
+            # Depth 0: the floor, and one ray that may hit a light. Other renderers have no such ray.
             one = {**WISH, "x": 40, "y": 55, "steps": "list", "renderer": "path_tracing"}
             self.assertLessEqual(len(json.loads(server.ask("/explain", {**one, "depth": 0})[2])["path"]["vertices"]), 2)
             for renderer in ("whitted", "bidirectional", "path_tracing:manifold=on", "path_tracing:polarization=on"):
@@ -253,7 +253,7 @@ class ViewServer(ServerTest):
             usual = png(renderer)
             self.assertNotEqual(png(renderer, depth=0), usual)
             self.assertEqual(png(renderer, depth=0), png(f"{renderer}:depth=1"))
-            # What the page shows where nothing is wished.
+            # The page's defaults.
             self.assertEqual(png(renderer, depth=followers[renderer]), usual)
 
     def test_lights_are_turned_off_and_surroundings_chosen(self):
@@ -272,7 +272,7 @@ class ViewServer(ServerTest):
             self.assertEqual([(light["name"], light["what"]) for light in state["lights"]],
                              [("spot light 1", "spot light"), ("lamp", "area light"), ("key", "point light"),
                               ("ember", "material that emits")])
-            # Each has an effect of its own, and on those that follow paths, too.
+            # Each has a separate effect, also on path tracing renderers.
             for renderer in ("whitted", "distributed", "path_tracing"):
                 pictures = {png(renderer)} | {png(renderer, lights_off=[name]) for name in names}
                 self.assertEqual(len(pictures), 5, renderer)
@@ -281,7 +281,7 @@ class ViewServer(ServerTest):
             dark = png("path_tracing", lights_off=names, environment="none")
             black = png("path_tracing", lights_off=names, environment="none", exposure=16)
             self.assertEqual(dark, black)
-            # Surroundings: of the table, and for those that follow light.
+            # Environments: those of the table, and for renderers of light transport.
             listed = subprocess.run([ALHAZEN, "list", "environments"], capture_output=True, text=True).stdout
             self.assertEqual([e["name"] for e in state["environments"]], ["none", "sky", "studio"])
             for entry in state["environments"]:
@@ -291,12 +291,12 @@ class ViewServer(ServerTest):
             follow = {r["name"] for r in state["renderers"] if r["follows_light"]}
             self.assertTrue({"path_tracing", "ambient_occlusion"} & follow)
             self.assertNotIn("whitted", follow)
-            # An explanation is of the picture that is shown.
+            # An explanation belongs to the shown picture.
             pixel = {**WISH, "x": 40, "y": 58, "steps": "list"}
             explained = json.loads(server.ask("/explain", {**pixel, "lights_off": names})[2])
             self.assertEqual((explained["pixel"], explained["rays"]["shadow"]), ([0, 0, 0], 0))
             self.assertGreater(json.loads(server.ask("/explain", pixel)[2])["pixel"][0], 0.1)
-            # What there is not is said.
+            # Missing items are reported.
             for change, text in (({"lights_off": ["moon"]}, "no light 'moon'; expected one of: spot light 1, lamp, key"),
                                  ({"environment": "sea"}, "no environment 'sea'; expected one of none, sky, studio"),
                                  ({"lights_off": 3}, "")):
@@ -331,7 +331,7 @@ class ViewServer(ServerTest):
                        {"name": "lamp", "direction": [1, -1, 1]}, {"name": "lamp", "sizes": [0.8, 0.4]}]
             for renderer in ("whitted", "path_tracing"):
                 self.assertEqual(len({png(renderer=renderer), *(png(c, renderer=renderer) for c in changes)}), 9)
-            # What the file says changes nothing; a file that says the same shows the same.
+            # The file's own values change nothing; a file with the same values gives the same picture.
             self.assertEqual(png({k: v for k, v in key.items() if k != "what"}, spot), png())
             as_it_is = {**lights["lamp"], "sizes": [size["value"] for size in lights["lamp"]["sizes"]]}
             self.assertEqual(png(as_it_is, renderer="path_tracing"), png(renderer="path_tracing"))
@@ -341,7 +341,7 @@ class ViewServer(ServerTest):
             scene.write_text(LIGHTS.replace("position = (3, 5, 4)", "position = (-3, 5, 4)"), encoding="utf-8")
             server.wait_for(lambda state: state["version"] == 2)
             self.assertEqual(png(), moved)
-            # A lamp is seen, hit and explained where it is drawn, and no longer where it was.
+            # A moved light is visible, hit and explained at its new position only.
             before, over = [0, 1, 3.5], {**WISH, "x": 40, "y": 30, "steps": "list"}
             there = {"name": "lamp", "position": before, "direction": [0, 0, 1], "sizes": [0.5, 0]}
 
@@ -460,7 +460,7 @@ class ViewServer(ServerTest):
         self.assertEqual(status, 400)
         self.assertIn("expected one of alpha, depth", json.loads(body)["error"])
 
-    # ---- how the browser is opened
+    # ---- opening the browser
     def test_the_key_is_not_in_the_arguments_of_the_browser(self):
         folder = pathlib.Path(self.temporary.name) / "bin"
         folder.mkdir()

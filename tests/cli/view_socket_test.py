@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The WebSocket of `alhazen view`: who may open it, what it refuses, and what comes over it when.
+"""The WebSocket of `alhazen view`: authorisation, refused messages, and the order of its messages.
 
 Usage: view_socket_test.py ALHAZEN
 """
@@ -17,12 +17,12 @@ import unittest
 from view_server import SCENE, SLOWDOWN, WISH, Server, ServerTest
 
 ALHAZEN = sys.argv[1]
-# Minutes of work.
+# A scene that takes minutes to render.
 LONG = {**WISH, "width": 2000, "height": 1500, "samples": 1024, "raw": True}
 
 
 def spoiled(data, chance):
-    """The bytes with some of them changed, left out, or there twice."""
+    """The bytes with some of them changed, removed or doubled."""
     data = bytearray(data)
     for _ in range(chance.choice((1, 1, 2, 8))):
         i = chance.randrange(len(data))
@@ -43,7 +43,7 @@ def spoiled(data, chance):
 
 
 class ViewSocket(ServerTest):
-    # ---- who may open it, and what it refuses
+    # ---- authorisation and refused messages
     def test_a_socket_is_for_the_page_of_this_server(self):
         for origin in (None, "null", "http://evil.com", f"https://{self.server.host}"):
             frames = self.socket_of(Origin=origin)
@@ -104,7 +104,7 @@ class ViewSocket(ServerTest):
         self.server.wait_for(lambda state: state["memory"] - memory < 32 << 20)
 
     def wait_for_a_place(self):
-        """Until a connection is taken again."""
+        """Waits until a connection is accepted again."""
         begin = time.monotonic()
         while self.server.ask("/state", {})[0] != 200:
             self.assertLess(time.monotonic() - begin, 9 * SLOWDOWN)
@@ -173,7 +173,7 @@ class ViewSocket(ServerTest):
     def test_a_frame_is_ended_within_100_ms_of_a_newer_wish(self):
         frames = self.open()
         alone, after, most = [], [], 0.1 * SLOWDOWN
-        # Other programs run beside this one: one of twenty is enough.
+        # On a busy machine one success of twenty suffices.
         for i in range(20):
             if after and min(after) - min(alone) < most:
                 break
@@ -186,7 +186,7 @@ class ViewSocket(ServerTest):
             time.sleep(0.3)
             begin = time.monotonic()
             frames.send({**WISH, "id": 2 * i + 1, "raw": True})
-            # The one that was ended says so, or its answer gave way to the newer one's.
+            # The cancelled request reports it, or the newer one's answer replaced its own.
             while (head := frames.picture()[0])["id"] == 1000:
                 self.assertEqual(head["status"], 204)
                 frames.send({"shown": 1000})
@@ -198,7 +198,7 @@ class ViewSocket(ServerTest):
     def test_who_does_not_read_holds_little_memory(self):
         frames = self.open()
         wish = {**WISH, "width": 640, "height": 480, "raw": True, "moving": True}  # 1.2 MB
-        # Every thread of the server has drawn: what the system's allocator keeps is there.
+        # Every thread of the server has rendered: the system's allocator has its caches.
         for i in range(50):
             frames.send({**wish, "id": i})
             frames.picture()
@@ -216,7 +216,7 @@ class ViewSocket(ServerTest):
         self.assertLess(len(ids), 50)
 
     def test_eight_clients_have_their_frames_and_a_ninth_is_refused(self):
-        # Connections of other tests may still be there for a moment.
+        # Connections of other tests may remain open briefly.
         clients, begin = [], time.monotonic()
         while len(clients) < 8:
             frames = self.server.frames()
@@ -249,7 +249,7 @@ class ViewSocket(ServerTest):
             self.assertLess(time.monotonic() - begin, 5)
             time.sleep(0.05)
 
-    # ---- states, and signs of life
+    # ---- states and heartbeats
     def test_menus_come_at_first_and_moments_as_they_change(self):
         scene = self.scene.with_name("changing.alhazen")
         scene.write_text(SCENE, encoding="utf-8")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How soon the page of `alhazen view` shows a picture, and how many a second while the view moves, in Chromium.
+"""The time to the first picture of `alhazen view`, and its pictures per second while the view moves, in Chromium.
 
 Usage: view_speed_test.py ALHAZEN SCENE [SCENE]... [--measure]
 
@@ -16,13 +16,13 @@ import time
 from browser_session import BrowserSession, browser
 from view_server import Server
 
-# Processor time is shared with a sanitizer, say.
+# Factor of time limits, for example under a sanitizer.
 SLOWDOWN = float(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
-# Seconds, pictures a second; the aims are 0.5 and 20. What a machine with other work still reaches.
+# Seconds, pictures per second: bounds for a busy machine; the aims are 0.5 and 20.
 FIRST, RATE = 2.0, 12.0
 SECONDS = 4
 
-# Turns to and fro, a little for each picture of the screen; counts what arrives after the first second.
+# Turns to and fro, a little per screen refresh; counts pictures after the first second.
 MOVE = """(async (seconds, fixed) => {
     const next = viewer.pace.next;
     if (fixed) viewer.pace.next = limits => ({width: Math.round(limits.full / 2), depth: fixed.depth ?? limits.depth});
@@ -68,7 +68,7 @@ PACE = """(costs => {
 
 
 def processor_ms(root):
-    """Of a process, the processes that it has started, and their threads, ended ones too."""
+    """The processor time of a process, of its children, and of their threads, including ended ones."""
     times, children = {}, {}
     for name in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -84,12 +84,12 @@ def processor_ms(root):
 
 
 class Visit:
-    """A server and a page of it, from nothing."""
+    """A new server and its page."""
 
     def __init__(self, alhazen, scene):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.page = BrowserSession(pathlib.Path(self.folder.name) / "profile", "1300,900")
-        # Else each picture is told to the test as well, in base64: two thirds of the browser's processor time.
+        # Otherwise the test receives each picture in base64: two thirds of the browser's processor time.
         self.page.call("Network.disable")
         begin = time.monotonic()
         self.server = Server(alhazen, scene)
@@ -134,7 +134,7 @@ def measure(alhazen, scenes):
 
 
 def test_pace(alhazen, scene):
-    """Generations are given up before pixels; a delay changes nothing."""
+    """Generations are reduced before pixels; a delay changes nothing."""
     wrong = 0
     with Visit(alhazen, scene) as visit:
         for costs, depth, least in (([10, 12, 14, 16], 3, 630), ([30, 35, 44, 60], 2, 630), ([27, 140, 205], 0, 590),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Clients that keep `alhazen view` waiting are let go after its 5 seconds. Little processor time, so other tests may run
-beside this one.
+"""Clients that keep `alhazen view` waiting are disconnected after 5 seconds. Little processor time, so other tests may run
+in parallel.
 
 Usage: view_waits_test.py ALHAZEN
 """
@@ -43,7 +43,7 @@ class ViewWaits(ServerTest):
 
     @staticmethod
     def until_closed(frames):
-        """Reads, and answers no ping."""
+        """Reads without answering pings until the server closes; returns the seconds."""
         begin = time.monotonic()
         while frames.receive()[0] != 8 and time.monotonic() - begin < 20 * SLOWDOWN:
             pass

@@ -61,7 +61,7 @@ struct Difference {
     int far = 0;        ///< pixels more than 1 off
 };
 
-/// Between the picture file that a scene in the view of a script becomes, and a reference.
+/// The difference between a reference and the picture file of a scene in the view of a script.
 Difference difference(const std::filesystem::path& model, const std::filesystem::path& view,
                       const std::filesystem::path& reference_path) {
     LoadOptions options;

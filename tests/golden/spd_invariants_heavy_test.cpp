@@ -17,8 +17,8 @@ TEST(SpdInvariants, HoldForEveryAcceleratorAtThePublishedSizes) {
     }
 }
 
-/// All rays of the protocol, as in Havran and Sixta; accelerators that test everything would take
-/// hours.
+/// All rays of the protocol, as in Havran and Sixta, without accelerators that test every primitive
+/// for every ray, which would take hours.
 TEST(SpdInvariants, HoldForAllRaysOfTheProtocol) {
     for (const char* name : {"balls", "gears", "teapot", "tetra"}) {
         const SceneDescription description = generate(name);

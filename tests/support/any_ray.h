@@ -20,7 +20,7 @@ inline bool same_bits(const ShapeHit& a, const ShapeHit& b) {
            a.part == b.part;
 }
 
-/// Every bit of the ray.
+/// The exact values of the ray as text.
 inline std::string to_text(const Ray& ray) {
     std::ostringstream out;
     out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
@@ -29,8 +29,8 @@ inline std::string to_text(const Ray& ray) {
     return out.str();
 }
 
-/// A ray of one of many kinds: from outside, inside, far away, grazing, along an axis with zeros of
-/// either sign, with any range, of any length.
+/// A random ray of one of many kinds: from outside, inside or far away, grazing, along an axis with
+/// zeros of either sign, with any range and length.
 inline Ray any_ray(const Box3& box, Random& random) {
     Vec3 target;
     for (int k = 0; k < 3; ++k) target[k] = random.uniform(box.lo[k], box.hi[k]);

@@ -1,5 +1,5 @@
 #pragma once
-/// What every BSDF must keep, and samples of each lobe.
+/// Checks for all BSDFs, and a BSDF of each lobe.
 
 #include <cmath>
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace alhazen::testing {
 
-/// A view at this cosine to the normal.
+/// A view direction with this cosine to the normal.
 inline Vec3 view_at(double cosine, double turn = 0.4) {
     const double s = std::sqrt(1.0 - cosine * cosine);
     return {s * std::cos(turn), s * std::sin(turn), cosine};
 }
 
-/// Light from white surroundings (of radiance 1 times the square of their index) to `view`, by
-/// `samples` points of a Kronecker lattice.
+/// White-furnace test: light to `view` from surroundings of radiance 1 times the square of their
+/// index, by `samples` points of a Kronecker lattice.
 inline Spectrum furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 15) {
     Spectrum sum;
     for (int i = 0; i < samples; ++i) {
@@ -28,20 +28,20 @@ inline Spectrum furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 1
             return scrambled_sobol(7, static_cast<std::uint32_t>(i), dimension);
         };
         const auto sample = bsdf.sample(view, u(0), {u(1), u(2)}, Transport::Radiance);
-        // Behind a boundary the radiance of the same light is the square of the index as much.
+        // Behind a boundary, radiance is larger by the square of the index.
         if (sample) sum += sample->eta * sample->eta * sample->weight;
     }
     return (1.0 / samples) * sum;
 }
 
-/// A direction anywhere on the sphere.
+/// A random direction, uniform on the sphere.
 inline Vec3 any_direction(RandomStream& random) {
     const double z = random.uniform(-1, 1), turn = random.uniform(0, 2.0 * kPi);
     const double s = std::sqrt(1.0 - z * z);
     return {s * std::cos(turn), s * std::sin(turn), z};
 }
 
-/// Chi-square probability of the directions that `bsdf` samples with a density.
+/// Chi-square probability that the sampled directions of `bsdf` follow its density.
 inline double sample_probability(const Bsdf& bsdf, const Vec3& view, std::uint64_t seed,
                                  std::size_t samples = 200000) {
     RandomStream random(seed);
@@ -66,7 +66,7 @@ inline double sample_probability(const Bsdf& bsdf, const Vec3& view, std::uint64
 struct NamedBsdf {
     std::string name;
     Bsdf bsdf;
-    double error = 1e-3;  ///< of its energy, relative: that of the tables
+    double error = 1e-3;  ///< relative error of its energy, from tables
 };
 
 inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Spectrum& weight = {1, 1, 1, 1}) {
@@ -75,7 +75,7 @@ inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Spectrum& weight = {1, 1, 1, 1}
     return bsdf;
 }
 
-/// Every lobe that has a density, at several roughnesses; all of albedo 1 but sheen.
+/// Every lobe with a density, at several roughnesses; all but sheen have albedo 1.
 inline std::vector<NamedBsdf> lobes_with_density(const std::vector<double>& roughnesses) {
     std::vector<NamedBsdf> list;
     const auto add = [&](std::string name, const Lobe& lobe, double error = 1e-3) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether samples of a density on the sphere are distributed by it.
+/// The chi-square test of samples of a density on the sphere.
 ///
 /// Source: Pearson, "On the Criterion that a Given System of Deviations...", Philosophical Magazine
 /// 50, 1900; Sidak, "Rectangular Confidence Regions for the Means of Multivariate Normal
@@ -17,7 +17,7 @@
 
 namespace alhazen::testing {
 
-/// P(chi-square of so many degrees of freedom >= x).
+/// P(chi-square >= x) for `degrees` degrees of freedom.
 inline double chi_square_tail(double x, int degrees) {
     const double a = 0.5 * degrees, y = 0.5 * x;
     if (!(y > 0.0)) return 1.0;
@@ -39,12 +39,12 @@ inline double chi_square_tail(double x, int degrees) {
     return scale * h;
 }
 
-/// Level of each of `tests` tests that together fail by chance with this probability.
+/// The level of each of `tests` tests for a probability `together` that any fails by chance.
 inline double sidak_level(double together, int tests) {
     return 1.0 - std::pow(1.0 - together, 1.0 / tests);
 }
 
-/// Cells of the sphere, even in the cosine to z and in the angle around it.
+/// Cells of the sphere, uniform in the cosine to z and in the angle around it.
 struct SphereCells {
     static constexpr int kHeights = 24, kTurns = 32, kCount = kHeights * kTurns;
 
@@ -107,9 +107,9 @@ std::vector<double> integrate_cells(const F& f) {
     return result;
 }
 
-/// Probability of counts that deviate as much as these or more, where `shares` are the expected
-/// ones of `samples`; cells in which fewer than five are expected are pooled. What misses to 1 is
-/// one more cell.
+/// Probability of counts that deviate at least as much as these from `shares` * `samples`. Cells
+/// with fewer than five expected samples are pooled; 1 minus the sum of the shares is one more
+/// cell.
 inline double chi_square_probability(const std::vector<double>& shares,
                                      const std::vector<std::size_t>& counts, std::size_t samples) {
     const double n = static_cast<double>(samples);
@@ -127,7 +127,7 @@ inline double chi_square_probability(const std::vector<double>& shares,
         const double difference = pooled_count - pooled_expected;
         return chi_square_tail(statistic + difference * difference / pooled_expected, degrees);
     }
-    // A pool that holds much more than it should is a failure of its own.
+    // A pool with far more samples than expected fails the test.
     if (pooled_count > pooled_expected + 30.0) return 0.0;
     return degrees > 1 ? chi_square_tail(statistic, degrees - 1) : 1.0;
 }

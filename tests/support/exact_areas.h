@@ -1,11 +1,11 @@
 #pragma once
-/// Areas of lattice regions as exact numbers: by the sweep's arrangement, and by an integral over
-/// pairs of edges that knows nothing of it.
+/// Exact areas of lattice regions: by the arrangement of the sweep, and independently by an
+/// integral over pairs of edges.
 ///
-/// A region is the sum over its edges of the (signed) part of the plane below each; the area of an
+/// A region is the signed sum over its edges of the part of the plane below each; the area of an
 /// intersection is the sum over pairs of edges of the integral of the lower of the two.
-/// Conventions: Number has + - * / and is made from an Int128. `Residue` has them modulo a prime:
-/// equal rationals have equal residues, different ones differ but for one in 2^60.
+/// Conventions: Number has + - * / and is constructible from an Int128. `Residue` is such a type
+/// modulo a prime: equal rationals have equal residues, different ones have with probability 2^-60.
 
 #include <algorithm>
 #include <cstdint>
@@ -51,7 +51,7 @@ class Residue {
     std::uint64_t value_ = 0;
 };
 
-/// Twice the area of the states s with inside[s].
+/// Twice the area of the faces whose state s has inside[s].
 template <class Number>
 Number arrangement_area(const Arrangement& arrangement, const bool (&inside)[4]) {
     Number sum(Int128{0});
@@ -69,7 +69,7 @@ Number arrangement_area(const Arrangement& arrangement, const bool (&inside)[4])
     return sum;
 }
 
-/// An edge from left to right; `sign` is 1 where the region is below.
+/// An edge from left to right; `sign` is 1 if the region is below it.
 struct SpanEdge {
     LatticePoint a;
     LatticePoint b;
@@ -127,7 +127,7 @@ Number lower_integral(const SpanEdge& e, const SpanEdge& f) {
            (middle + height(second, r)) * width * (Number(Int128{1}) - t);
 }
 
-/// Twice the area that two sets have in common.
+/// Twice the area of the intersection of two sets.
 template <class Number>
 Number common_area(const PolygonSet& a, const PolygonSet& b) {
     const std::vector<SpanEdge> edges_b = span_edges(b);

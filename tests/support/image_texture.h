@@ -1,6 +1,6 @@
 #pragma once
-/// The image texture of a description; throws std::bad_variant_access for a texture of another
-/// kind.
+/// Access to the image texture of a description. Throws std::bad_variant_access for another kind of
+/// texture.
 
 #include <variant>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of sampled lights against rays: what `draw` gives, chance hits find, with the same
+/// Checks of light sampling against rays: rays hit the lights that `draw` samples, with the same
 /// density.
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ inline double chi_square_tail(double sum, double freedom) {
     return scale * fraction;
 }
 
-/// Density with which `draw` gives a direction: the sum over all that a ray meets there, or only
-/// what it meets at `distance`.
+/// The density of `draw` for a direction: the sum over all hits of a ray, or, if `distance` is
+/// given, that of the hit there.
 inline double density_along(const Scene& scene, const Illumination& lights, const LitPoint& at,
                             const Vec3& direction, double distance = -1.0) {
     const Ray ray{at.point, direction};
@@ -52,7 +52,7 @@ inline double density_along(const Scene& scene, const Illumination& lights, cons
     return sum;
 }
 
-/// Directions of `draw` have the density that a ray along them finds, and reach what it hits.
+/// Expects that samples of `draw` have the density and the distance of the hit of a ray.
 inline void expect_equal_densities(const Scene& scene, const Illumination& lights,
                                    const LitPoint& at, double tolerance = 1e-7, int count = 2000) {
     RandomStream random(7);
@@ -66,7 +66,7 @@ inline void expect_equal_densities(const Scene& scene, const Illumination& light
         ASSERT_NEAR(length(draw.to_light), 1.0, 1e-9);
         ++drawn;
         const double found = density_along(scene, lights, at, draw.to_light, draw.distance);
-        // At its very edge a ray may miss it.
+        // A ray to the very edge of a light may miss it.
         if (found == 0.0) {
             ++missed;
             continue;
@@ -78,14 +78,14 @@ inline void expect_equal_densities(const Scene& scene, const Illumination& light
     EXPECT_LE(missed, drawn / 200);
 }
 
-/// Part of the directions: those around `axis` up to the angle with that cosine.
+/// The directions around `axis` up to the angle with that cosine.
 struct DirectionCone {
     Vec3 axis{0, 0, 1};
     double cosine = -1;
 };
 
-/// The chi-square test of `draw` in bins of equal solid angle: the probability of a sum as large by
-/// chance. Draws out of the cone, or none, are a bin too.
+/// The chi-square test of `draw` in bins of equal solid angle: the probability of a sum at least as
+/// large by chance. Draws outside the cone and empty draws are one more bin.
 inline double draw_p_value(const Scene& scene, const Illumination& lights, const LitPoint& at,
                            const DirectionCone& cone, std::uint64_t seed, int draws = 10000,
                            int rays = 10) {
@@ -97,7 +97,7 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
         return normalize(z * cone.axis + (r * std::cos(angle)) * x + (r * std::sin(angle)) * y);
     };
     std::vector<double> expected(kBins * kBins + 1, 0.0), found(kBins * kBins + 1, 0.0);
-    // By the middle of cells; where neighbours differ much, of smaller ones.
+    // Integrates by midpoints of cells; if neighbours differ much, of smaller cells.
     const int side = kBins * rays;
     std::vector<double> coarse(std::size_t(side * side));
     const auto at_cell = [&](double i, double j) {
@@ -149,7 +149,7 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
         }
         found[bin] += 1.0;
     }
-    // Bins that expect few are put together.
+    // Bins with few expected samples are pooled.
     double sum = 0.0, few_expected = 0.0, few_found = 0.0;
     int freedom = -1;
     const auto add = [&](double e, double f) {
@@ -172,12 +172,12 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
     return freedom > 0 ? chi_square_tail(sum, freedom) : 1.0;
 }
 
-/// Level of each of `tests` that together fail by chance once in a thousand (Sidak).
+/// The level of each of `tests` tests for a probability of 1e-3 that any fails by chance (Sidak).
 inline double sidak_level(int tests) {
     return 1.0 - std::pow(1.0 - 1e-3, 1.0 / tests);
 }
 
-/// Mean of radiance * cosine / density over draws that nothing blocks: the irradiance.
+/// The irradiance: mean of radiance * cosine / density over unoccluded draws.
 inline Spectrum mean_irradiance(const Scene& scene, const Illumination& lights, const LitPoint& at,
                                 int draws, std::uint64_t seed = 3) {
     RandomStream random(seed);
@@ -196,8 +196,8 @@ inline Spectrum mean_irradiance(const Scene& scene, const Illumination& lights, 
     return (1.0 / draws) * sum;
 }
 
-/// How far the irradiance by draws is from that of directions by the cosine, which find lights by
-/// chance: in standard deviations of both together.
+/// The difference between the irradiance by `draw` and that by cosine-distributed directions, in
+/// standard deviations of both together.
 inline double irradiance_z(const Scene& scene, const Illumination& lights, const LitPoint& at,
                            int count, std::uint64_t seed) {
     RandomStream random(seed);

@@ -1,5 +1,5 @@
 #pragma once
-/// Small scenes and their pictures, for tests of renderers that follow light.
+/// Small scenes and their pictures, for tests of light-transport renderers.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ inline Material shining(const Rgb& radiance, const Rgb& color = {}) {
     return m;
 }
 
-/// Clear glass as glTF has it.
+/// Clear glass of a glTF material.
 inline Material smooth_glass(double index = 1.5) {
     Material m;
     m.metallic_roughness.emplace();
@@ -37,9 +37,9 @@ inline Material smooth_glass(double index = 1.5) {
     m.index.value = index;
     return m;
 }
-/// An index that bends nothing which could be measured, and yet is a boundary.
+/// An index without measurable refraction whose boundary is no null boundary.
 inline constexpr double kNearlyOne = 1.0 + 1e-9;
-/// A volume whose boundary neither bends nor reflects; of index 1 it is passed straight.
+/// A volume whose boundary neither refracts nor reflects; with index 1 it is a null boundary.
 inline Material fog(const Rgb& absorption, const Rgb& scattering, double anisotropy = 0.0,
                     double index = 1.0) {
     Material m;
@@ -48,7 +48,7 @@ inline Material fog(const Rgb& absorption, const Rgb& scattering, double anisotr
     m.scattering = {scattering, anisotropy};
     return m;
 }
-/// Dispersing glass of the table.
+/// A dispersing glass of the table, by name.
 inline Material glass_named(const std::string& name) {
     const NamedGlass& glass = *find_glass(name);
     Material m;
@@ -58,7 +58,8 @@ inline Material glass_named(const std::string& name) {
     return m;
 }
 
-/// A prism along z, its refracting edge up: an isosceles triangle with this angle at the top.
+/// A prism along z with its refracting edge up, whose cross section is an isosceles triangle with
+/// this apex angle (radians).
 inline TriangleMesh prism(double apex) {
     const double half = std::tan(0.5 * apex);
     TriangleMesh mesh;
@@ -80,7 +81,7 @@ inline Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
     return r;
 }
 
-/// `renderer`: its name, or NAME --spectral.
+/// Renders a picture. `renderer`: NAME or "NAME --spectral".
 inline Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
                        std::uint64_t seed = 1, int threads = 1, int tile = 32) {
     const SamplingPlan plan;
@@ -99,7 +100,7 @@ inline Film picture_of(const Scene& scene, const std::string& renderer, int side
     return film;
 }
 
-/// Pictures of 12 by 12 pixels of 1, 2 and 3 threads, in tiles of three sizes.
+/// Expects equal pictures of 12 by 12 pixels with 1, 2 and 3 threads and three tile sizes.
 inline void expect_same_for_threads_and_tiles(const Scene& scene, const std::string& renderer,
                                               int samples) {
     const Film a = picture_of(scene, renderer, 12, samples, 7, 1, 32);
@@ -125,14 +126,14 @@ inline Sphere ball(const Vec3& center, double radius) {
     return s;
 }
 
-/// Looks along -z from (0, 0, 5) through a pinhole; all pixels see the same.
+/// A scene seen along -z from (0, 0, 5) by a pinhole camera; all pixels show the same.
 inline SceneMaker looking_down() {
     SceneMaker maker;
     maker.description().cameras[0].camera = look_along({0, 0, 5}, {0, 0, -1}, {0, 1, 0}, 1e-6, 1.0);
     return maker;
 }
 
-/// A white matt floor seen straight from above, in a picture `side` wide.
+/// A diffuse floor seen straight from above, in a picture `side` wide.
 inline SceneMaker floor_from_above(double side, const Rgb& color = {1, 1, 1}) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -141,7 +142,7 @@ inline SceneMaker floor_from_above(double side, const Rgb& color = {1, 1, 1}) {
     return maker;
 }
 
-/// Means over blocks of independent pictures, and their standard errors.
+/// Means over blocks of pixels in independent pictures, and their standard errors.
 struct Blocks {
     static constexpr int kSide = 2;
     std::vector<double> mean, error;
@@ -177,7 +178,7 @@ inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int sam
     return blocks;
 }
 
-/// Fails where the means of two renderers differ by more than `most` standard errors of a block.
+/// Fails if the means of two renderers differ by more than `most` standard errors in a block.
 inline void expect_same_light(const Scene& scene, const std::string& name,
                               const std::vector<std::string>& renderers, int samples, double most) {
     std::vector<Blocks> found;

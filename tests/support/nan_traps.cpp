@@ -1,6 +1,6 @@
-/// Trap at invalid floating-point operations (those that make a NaN, or order one) while a test
-/// runs, where the environment variable ALHAZEN_TRAP_NAN is set. Linked into the programs whose
-/// rooms promise none; tests that feed NaN on purpose are left out where CTest starts them.
+/// Traps invalid floating-point operations (those that create or order a NaN) while a test runs, if
+/// the environment variable ALHAZEN_TRAP_NAN is set. Linked into the test programs of modules that
+/// create no NaN; CTest excludes tests that use NaN on purpose.
 
 #include <gtest/gtest.h>
 

@@ -15,11 +15,11 @@ namespace alhazen {
 
 struct PolygonChecks {
     long operations = 0;
-    long general = 0;  ///< pairs that Weiler and Atherton's walk took
-    long rounded = 0;  ///< pairs that had to be rounded
+    long general = 0;  ///< pairs solved by Weiler and Atherton's walk
+    long rounded = 0;  ///< pairs whose results were rounded
 };
 
-/// Whether the set is what polygon_set makes of its own loops, without mending.
+/// True if polygon_set returns the set for its own loops, without mending.
 inline bool is_canonical(const PolygonSet& set) {
     Mending mending;
     const PolygonSet again = polygon_set(loops_of(set), &mending);
@@ -27,7 +27,7 @@ inline bool is_canonical(const PolygonSet& set) {
            mending.flat_loops == 0 && mending.repeated_points == 0;
 }
 
-/// What is wrong with the operations on a and b; empty where nothing is. Number: exact_areas.h.
+/// Describes the first error of the operations on a and b; empty: none. Number: exact_areas.h.
 template <class Number>
 std::string polygon_flaw(const PolygonSet& a, const PolygonSet& b, PolygonChecks& checks) {
     const Arrangement& exact = exact_arrangement(a, b);
@@ -78,7 +78,7 @@ std::string polygon_flaw(const PolygonSet& a, const PolygonSet& b, PolygonChecks
     return {};
 }
 
-/// Takes pieces away from a polygon and puts pieces on by turns; what went wrong, else nothing.
+/// Alternately subtracts pieces from a polygon and adds pieces. Describes an error; empty: none.
 inline std::string chain_flaw(int operations) {
     RandomPolygons random(24);
     PolygonSet set = lattice_rectangle({-1000000, -1000000}, {1000000, 1000000});

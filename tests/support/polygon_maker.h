@@ -25,7 +25,7 @@ inline std::vector<Vec2> star_polygon(std::size_t n, unsigned seed = 0) {
     return points;
 }
 
-/// A band wound up: outward along its inner side and back along its outer one.
+/// A spiral band: outward along its outer side and back along its inner side.
 inline std::vector<Vec2> spiral_polygon(std::size_t n, double turns) {
     std::vector<Vec2> points;
     const auto add = [&](std::size_t i, double offset) {
@@ -35,7 +35,7 @@ inline std::vector<Vec2> spiral_polygon(std::size_t n, double turns) {
     };
     for (std::size_t i = 0; i < n / 2; ++i) add(i, std::numbers::pi);
     for (std::size_t i = n / 2; i-- > 0;) add(i, 0.0);
-    // The outer side runs first: counter-clockwise.
+    // Counter-clockwise: the outer side comes first.
     return points;
 }
 
@@ -53,7 +53,7 @@ inline std::vector<Vec2> comb_polygon(std::size_t teeth) {
     return points;
 }
 
-/// Whether segments touch or cross, a shared end included.
+/// True if the segments touch or cross, including at a shared end.
 inline bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     const int abc = orientation(a, b, c), abd = orientation(a, b, d);
     const int cda = orientation(c, d, a), cdb = orientation(c, d, b);
@@ -65,8 +65,8 @@ inline bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     return abc * abd <= 0 && cda * cdb <= 0;
 }
 
-/// Random points on a lattice of this many steps (0: anywhere), joined in random order and then
-/// untangled by reversals (2-opt) until no two edges touch; empty where that fails.
+/// Random points on a lattice of this many steps (0: no lattice), connected in random order and
+/// untangled by reversals (2-opt) until no two edges touch; empty if that fails.
 inline std::vector<Vec2> untangled_polygon(std::size_t n, unsigned seed, int lattice) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

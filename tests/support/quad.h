@@ -1,5 +1,5 @@
 #pragma once
-/// Arithmetic with twice the digits, as a reference for double.
+/// Arithmetic with twice the digits of double, as a reference.
 
 #include <cmath>
 

@@ -33,14 +33,14 @@ class Random {
             if (squared > 0.01 && squared <= 1.0) return normalize(v);
         }
     }
-    /// A multiple of `step` in each coordinate, up to `half`.
+    /// A point whose coordinates are multiples of `step` in [-half, half].
     Vec3 on_lattice(double half, double step) {
         const int n = static_cast<int>(half / step);
         const double x = step * (below(2 * n + 1) - n);
         const double y = step * (below(2 * n + 1) - n);
         return {x, y, step * (below(2 * n + 1) - n)};
     }
-    /// Not zero; components from -1, -0.0, 0.0, 1, more often than not along one axis.
+    /// A nonzero direction with components -1, -0.0, 0.0 or 1, mostly along one axis.
     Vec3 lattice_direction() {
         constexpr double kChoices[] = {-1.0, -0.0, 0.0, 1.0};
         for (;;) {
@@ -55,7 +55,7 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-/// The whole line of a ray.
+/// A ray with an infinite range in both directions.
 inline Ray line(const Vec3& origin, const Vec3& direction) {
     const double inf = std::numeric_limits<double>::infinity();
     return {origin, direction, -inf, inf};

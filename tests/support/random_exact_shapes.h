@@ -63,7 +63,7 @@ template <>
 struct RandomShape<Tgc> {
     static Tgc make(const ShapeSource& from) {
         const Mat3 axes = random_axes(from);
-        // Ends without area have edges, where the normal is that of either side: tgc_test.cpp.
+        // No ends without area: they have edges with two normals (tgc_test.cpp).
         const auto scale = [&] {
             return from.lattice ? 0.5 * (1 + from.random.below(4))
                                 : from.random.log_uniform(0.3, 2);
@@ -133,7 +133,7 @@ struct RandomShape<TwoSheetHyperboloid> {
 
 template <>
 struct RandomShape<Quadric> {
-    /// Any signature, hence any kind; mostly clipped by a box, sometimes also by planes.
+    /// Any signature and thus any kind; mostly clipped by a box, sometimes also by planes.
     static Quadric make(const ShapeSource& from) {
         Random& random = from.random;
         const auto number = [&] {
@@ -178,8 +178,8 @@ struct RandomShape<Algebraic> {
 
 template <>
 struct RandomShape<Superellipsoid> {
-    /// Not the stars of exponents above 2, whose edges have the normal of either side, nor near
-    /// boxes, whose edges bend within the steps of the tests.
+    /// No exponents above 2, whose shapes have edges with two normals, and none close to a box,
+    /// whose rounded edges are smaller than the steps of the tests.
     static Superellipsoid make(const ShapeSource& from) {
         const Mat3 axes = random_axes(from);
         const auto exponent = [&] {

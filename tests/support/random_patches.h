@@ -1,6 +1,6 @@
 #pragma once
-/// Random patches: wavy, flat, folded, with edges that are one point, rational or not; patch meshes
-/// that are open sheets or closed boxes.
+/// Random patches: wavy, flat, folded, with degenerate edges, rational or not; patch meshes that
+/// are open sheets or closed boxes.
 
 #include <array>
 #include <map>
@@ -13,7 +13,7 @@ inline int random_patch_degree(Random& random) {
     return random.coin() ? 3 : 1 + random.below(kMaxPatchDegree);
 }
 
-/// Empty, or one for each point.
+/// Random weights: empty, or one for each point.
 inline std::vector<double> random_patch_weights(const ShapeSource& from, std::size_t count) {
     std::vector<double> weights;
     if (from.random.coin()) return weights;
@@ -24,8 +24,8 @@ inline std::vector<double> random_patch_weights(const ShapeSource& from, std::si
     return weights;
 }
 
-/// rows * columns points of a sheet, u-major: a parallelogram with waves. Two of its sides are axes
-/// of the grid, or at least a twentieth of their lengths apart.
+/// rows * columns points of a sheet, u-major: a parallelogram with waves. The sine of the angle
+/// between its sides is above 0.05.
 inline std::vector<Vec3> random_sheet(const ShapeSource& from, int rows, int columns) {
     Random& random = from.random;
     const Vec3 corner = from.point();
@@ -47,7 +47,7 @@ inline std::vector<Vec3> random_sheet(const ShapeSource& from, int rows, int col
             points.push_back(pole && i == 0 ? corner : flat + noise);
         }
     }
-    // Sometimes a control point is its neighbour too.
+    // Sometimes two neighbouring control points coincide.
     if (random.below(4) == 0) points[1] = points[0];
     return points;
 }
@@ -176,7 +176,7 @@ struct RandomShape<NurbsSurface> {
             }
             knots.push_back(at);
         }
-        // The end of the domain is above its beginning.
+        // The end of the domain must be above its beginning.
         return knots;
     }
 };

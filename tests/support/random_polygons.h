@@ -14,7 +14,7 @@ class RandomPolygons {
   public:
     explicit RandomPolygons(std::uint64_t seed) : random_(seed) {}
 
-    /// Two operands of one of several kinds, of up to `vertices` vertices a loop.
+    /// Two operands of one of several kinds, with up to `vertices` vertices per loop.
     std::pair<PolygonSet, PolygonSet> pair(int vertices) {
         const std::int32_t sizes[]{3, 20, 1000, 1 << 20, kLatticeLimit};
         const std::int32_t size = sizes[below(5)];
@@ -47,7 +47,7 @@ class RandomPolygons {
         }
         return loop;
     }
-    /// Around its centre, without crossings.
+    /// A star-shaped loop around a centre, without crossings.
     LatticeLoop star(std::int32_t size, int vertices) {
         LatticeLoop loop(static_cast<std::size_t>(3 + below(vertices - 2)));
         const LatticePoint center = point(size / 2);
@@ -60,7 +60,7 @@ class RandomPolygons {
         }
         return loop;
     }
-    /// Horizontal and vertical edges on few coordinates.
+    /// A loop of horizontal and vertical edges with few different coordinates.
     LatticeLoop steps(std::int32_t size, int vertices) {
         LatticeLoop loop;
         const int corners = 2 + below(vertices / 2);
@@ -77,7 +77,7 @@ class RandomPolygons {
         loop.push_back({loop.front().x, p.y});
         return loop;
     }
-    /// Points within two units of a line.
+    /// A loop of points within two units of a line.
     LatticeLoop sliver(std::int32_t size, int vertices) {
         LatticeLoop loop(static_cast<std::size_t>(3 + below(vertices - 2)));
         const double slope = below(2001) / 1000.0 - 1;
@@ -88,7 +88,7 @@ class RandomPolygons {
         }
         return loop;
     }
-    /// Some points left out, some moved by one.
+    /// A copy of the loop with some points left out and some moved by one unit.
     LatticeLoop disturbed(const LatticeLoop& loop, std::int32_t size) {
         LatticeLoop result;
         for (LatticePoint p : loop) {

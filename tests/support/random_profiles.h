@@ -1,12 +1,12 @@
 #pragma once
-/// Random solids whose descriptions are lists: for random_shapes.h.
+/// Random solids that are described by lists, for random_shapes.h.
 
 #include "support/random_shapes.h"
 
 namespace alhazen::testing {
 
-/// A loop around `middle`. Its points stay between 0.4 and 1 times `size` from it in each
-/// direction; lines and curves alternate at random.
+/// Adds a loop around `middle` with radii between 0.4 and 1 times `size`; segments are lines and
+/// curves at random.
 inline void add_random_loop(Profile& profile, Random& random, Vec2 middle, double size) {
     const int n = 3 + random.below(5);
     const auto at = [&](double turn, double r) {
@@ -46,7 +46,7 @@ struct RandomShape<Prism> {
         prism.h1 = middle.z + from.length();
         const double sizes[] = {1, 0, 0.5, 1.5};
         prism.top_scale = sizes[random.below(4)];
-        // Tapered sides lean the more the farther they are from the axis.
+        // The slope of tapered sides grows with the distance from the axis.
         const double lean = prism.top_scale == 1 ? 1.0 : 0.05;
         const Vec2 m = from.lattice ? Vec2{middle.x, middle.y} : lean * Vec2{middle.x, middle.y};
         if (from.lattice) {
@@ -84,7 +84,7 @@ struct RandomShape<Lathe> {
             add_random_loop(lathe.profile, random, {random.uniform(1, 3) * size, z}, size);
             return lathe;
         }
-        // From the axis to the axis, or a shell whose ends are off it.
+        // From axis to axis, or a shell with ends off the axis.
         Vec2 last{random.below(4) == 0 ? 0.3 * size : 0.0, z};
         const int n = 2 + random.below(4);
         const auto beside = [&](double part) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Random shapes of each type for the conformance tests. A shape without a specialisation here is
-/// made by the units of its fields (shape_source.h).
+/// Random shapes of each type for the conformance tests. Shapes without a specialisation here are
+/// made by the units of their fields (shape_source.h).
 
 #include <string>
 
@@ -94,7 +94,7 @@ struct RandomShape<Polygon> {
         for (int loop = 0; loop < loops; ++loop) {
             for (int i = 0; i < count; ++i) {
                 const double angle = 2 * 3.14159265358979 * i / count;
-                // With three corners only the inner circle of radius 1/2 is certainly inside.
+                // With three corners only the inscribed circle of radius 1/2 is certainly inside.
                 const double r = loop == 0 ? size * from.random.uniform(0.9, 1.5) : 0.2 * size;
                 star.vertices.push_back(middle + r * std::cos(angle) * x + r * std::sin(angle) * y);
             }

@@ -11,8 +11,8 @@
 
 namespace alhazen::testing {
 
-/// Signed measure of a point against a leaf, negative inside: a function that is zero on its
-/// surface, in the units of the leaf's frame.
+/// A function of the point that is negative inside the leaf and 0 on its surface, in the units of
+/// the leaf's frame.
 inline double side_of(const AnyShape& shape, const Vec3& p) {
     if (const auto* s = std::get_if<Sphere>(&shape)) return length(p - s->center) - s->radius;
     if (const auto* b = std::get_if<BoxShape>(&shape)) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Comparison of two scene descriptions, bit for bit. Each function takes its structs apart into
-/// all their members: a new member does not compile until it is compared here (and written by the
-/// native writer). Shapes are compared by their kFields.
+/// Comparison of two scene descriptions, bit for bit. Each function decomposes its structs into all
+/// members: a new member does not compile until it is compared here (and written by the native
+/// writer). Shapes are compared by their kFields.
 ///
 /// Not compared: file locations, derived fields of shapes, and what native_writer.h lists.
 
@@ -33,7 +33,7 @@ inline bool same(const std::string& a, const std::string& b) {
     return a == b;
 }
 
-/// a1, b1, a2, b2, ...: compares each pair.
+/// True if all pairs are the same; arguments are a1, b1, a2, b2, ...
 template <class A, class B, class... Rest>
 bool all_same(const A& a, const B& b, const Rest&... rest);
 inline bool all_same() {
@@ -55,7 +55,7 @@ bool same(const std::array<T, N>& a, const std::array<T, N>& b) {
     return true;
 }
 
-// Members of `a` are a1, a2, ... and those of `b` b1, b2, ...
+// Members of `a` are named a1, a2, ..., those of `b` b1, b2, ...
 
 inline bool same(const Vec2& a, const Vec2& b) {
     return same(a.x, b.x) && same(a.y, b.y);
@@ -202,7 +202,7 @@ inline bool same(const StoredImage& a, const StoredImage& b) {
 inline bool same(const ImageTexture& a, const ImageTexture& b) {
     const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9] = a;
     const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = b;
-    (void)a9, (void)b9;  // the pyramid is made by `compile`
+    (void)a9, (void)b9;  // the mipmaps are made by `compile`
     return same(*a1, *b1) && all_same(a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
 }
 inline bool same(const SolidTexture& a, const SolidTexture& b) {
@@ -320,7 +320,7 @@ inline bool same(const LightDescription& a, const LightDescription& b) {
     return all_same(a1, b1, a2, b2);
 }
 
-// Parts. Of shapes the fields that files give.
+// Parts. Shapes are compared by the fields that files give.
 
 inline bool same(const Box3& a, const Box3& b) {
     return same(a.lo, b.lo) && same(a.hi, b.hi);
@@ -353,7 +353,7 @@ inline bool same(const TrimCurve& a, const TrimCurve& b) {
     const auto& [b1, b2, b3, b4] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
 }
-/// Shapes: all their fields.
+/// Compares all fields of a shape.
 template <Shape S>
 bool same(const S& a, const S& b) {
     bool all = true;
@@ -452,7 +452,6 @@ bool all_same(const A& a, const B& b, const Rest&... rest) {
     return same(a, b) && all_same(rest...);
 }
 
-/// Fails the test if the lists differ, with the index of the first difference.
 inline bool same(const EnvironmentSettings& a, const EnvironmentSettings& b) {
     const auto& [kind_a, color_a, file_a, picture_a, scale_a, rotation_a, up_a, turbidity_a,
                  to_sun_a, ground_a] = a;
@@ -473,6 +472,7 @@ inline bool same(const EnvironmentSettings& a, const EnvironmentSettings& b) {
            same(ground_a, ground_b);
 }
 
+/// Fails the test if the lists differ, with the index of the first difference.
 template <class T>
 void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
     EXPECT_EQ(a.size(), b.size()) << what;

@@ -1,5 +1,5 @@
 #pragma once
-/// Small scene descriptions for tests, put together in a few lines.
+/// Builder of small scene descriptions for tests.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ class SceneMaker {
         return MeshIndex{static_cast<std::uint32_t>(description_.meshes.size() - 1)};
     }
 
-    /// Validates and compiles; a finding fails the test.
+    /// Validates and compiles the scene; a finding fails the test.
     [[nodiscard]] Scene compile(const std::string& accelerator = "list") {
         if (description_.materials.empty()) material({});
         Diagnostics diagnostics;

@@ -1,5 +1,5 @@
 #pragma once
-/// A folder of files that is removed at the end of a test.
+/// A temporary folder that is removed at the end of a test.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

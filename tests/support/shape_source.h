@@ -1,12 +1,12 @@
 #pragma once
-/// Random values for fields of shapes, and the random maker of any shape.
+/// Random values for fields of shapes, and the generic maker of random shapes.
 
 #include "alhazen/shapes/shape_list.h"
 #include "support/random.h"
 
 namespace alhazen::testing {
 
-/// Source of random values: of any size and direction, or from a coarse grid and along the axes.
+/// Source of random values: of any size and direction, or on a coarse grid and along the axes.
 struct ShapeSource {
     Random& random;
     bool lattice = false;
@@ -23,7 +23,7 @@ struct ShapeSource {
     }
 };
 
-/// A value of a field, by its unit. Fields of Unit::Text, Count and Compound have none.
+/// Sets the value of a field by its unit. Not for fields of Unit::Text, Count and Compound.
 inline void make_field(const ShapeSource& from, Unit unit, Vec3& value) {
     const auto number = [&] { return from.random.uniform(-1, 1); };
     value = unit == Unit::Point    ? from.point()
@@ -37,8 +37,8 @@ inline void make_field(const ShapeSource& from, Unit, bool& value) {
     value = from.random.below(4) != 0;
 }
 
-/// Makes random shapes of the type S: fields by their units, in order, until the shape is valid. A
-/// shape whose fields depend on each other, or have other types, has a specialisation in
+/// Makes random shapes of type S: sets the fields in order by their units until the shape is valid.
+/// Shapes whose fields depend on each other or have other types have a specialisation in
 /// random_shapes.h.
 template <class S>
 struct RandomShape {

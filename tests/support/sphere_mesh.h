@@ -1,5 +1,5 @@
 #pragma once
-/// A closed mesh like a sphere, for tests of leaks: every corner and edge is shared, bit for bit.
+/// A closed sphere-like mesh for watertightness tests: corners and edges are shared, bit for bit.
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@ struct SphereMesh {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
-    /// An octahedron with triangles split in four `levels` times, oriented outward: 8 * 4^levels
-    /// triangles. With `on_sphere` the corners are moved to the unit sphere, else they stay on the
-    /// octahedron, at multiples of 2^-levels.
+    /// An octahedron whose triangles are split in four `levels` times, oriented outward: 8 *
+    /// 4^levels triangles. With `on_sphere`, corners are moved to the unit sphere; else they are
+    /// multiples of 2^-levels on the octahedron.
     explicit SphereMesh(int levels, bool on_sphere = true)
         : positions{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}} {
         for (std::uint32_t x : {0u, 1u}) {

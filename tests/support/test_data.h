@@ -1,5 +1,5 @@
 #pragma once
-/// Paths of test files: the real scenes and reference images, and this checkout.
+/// Paths of test files: scenes, reference images and this checkout.
 
 #include <gtest/gtest.h>
 
@@ -13,12 +13,12 @@ namespace alhazen::testing {
 /// The root of the checkout.
 [[nodiscard]] std::filesystem::path source_folder();
 
-/// Whether this is continuous integration (CI in the environment), where missing data is an error.
+/// True in continuous integration (CI is set in the environment), where missing data is an error.
 [[nodiscard]] bool data_is_required();
 
 }  // namespace alhazen::testing
 
-/// Skips the test when `path` (below the test data folder) does not exist; fails it in CI.
+/// Skips the test if `path` (below the test data folder) does not exist; fails it in CI.
 #define ALHAZEN_NEEDS_DATA(path)                                                      \
     if (!std::filesystem::exists(alhazen::testing::test_data() / (path))) {           \
         if (alhazen::testing::data_is_required()) {                                   \

@@ -1,6 +1,6 @@
 #pragma once
-/// Whole scenes as triangles in world space, and their comparison with another program's reading of
-/// the same file, independent of the order of triangles and vertices and of the last digits.
+/// Whole scenes as triangles in world space, and their comparison with the result of another
+/// program for the same file, independent of the order of triangles and vertices and of rounding.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace alhazen::testing {
 
-/// Polygons as read by another program.
+/// Polygons of another program.
 struct PolygonSoup {
     std::vector<Vec3> corners;
     std::vector<std::size_t> ends;  ///< [polygon] one past its last corner
@@ -44,7 +44,7 @@ inline void add_triangles(const SceneDescription& scene, const ObjectDescription
     }
 }
 
-/// Numbers positions: equal positions have equal numbers.
+/// Numbers of positions; equal positions have equal numbers.
 class Places {
   public:
     explicit Places(const TriangleMesh& mesh) {
@@ -79,8 +79,8 @@ class Places {
 
 using Triple = std::array<std::uint32_t, 3>;
 
-/// Rotates each triple to begin with its least number; removes triples without three different
-/// numbers.
+/// Rotates each triple to begin with its smallest number and sorts the triples; removes those
+/// without three different numbers.
 inline std::vector<Triple> sorted_set(std::vector<Triple> triples) {
     std::erase_if(triples,
                   [](const Triple& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
@@ -89,8 +89,8 @@ inline std::vector<Triple> sorted_set(std::vector<Triple> triples) {
     return triples;
 }
 
-/// Empty when `theirs`, triangulated, has the same triangles as `ours`; else a description of the
-/// difference.
+/// Describes the difference between the triangles of `ours` and of `theirs`, triangulated; empty:
+/// none.
 inline std::string difference(const TriangleMesh& ours, const PolygonSoup& theirs,
                               double relative_distance = 1e-5) {
     Box3 box;
@@ -131,7 +131,7 @@ inline std::string difference(const TriangleMesh& ours, const PolygonSoup& their
     free_diagonals(places.positions(), polygons, freed);
     mine = sorted_set(std::move(mine));
     other = sorted_set(std::move(other));
-    // Models of several meshes are freed in each mesh alone.
+    // Importers free diagonals within each mesh, not over the whole model.
     if (lost == 0 && (mine == other || mine == sorted_set(std::move(freed)))) return {};
     std::vector<Triple> only_mine, only_other;
     std::set_difference(mine.begin(), mine.end(), other.begin(), other.end(),

@@ -1,4 +1,4 @@
-// The camera: where it is, the frame it looks along, and what it turns around.
+// The camera: its position, its frame, and the point it turns around.
 
 import {add, cross, dot, norm, scaled, sub, unit} from "../../../src/alhazen/explain/page/basics";
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
@@ -18,13 +18,13 @@ export class ViewCamera {
     ({eye: this.eye, look: this.look, right: this.right, up: this.up, parallel: this.parallel} = given);
     this.aspect = norm(given.right) / norm(given.up);
     this.world = up === "z" ? [0, 0, 1] : [0, 1, 0];
-    // Where nothing is in the middle: something that the eye can move around.
+    // Without a surface in the middle: a point that the eye can orbit.
     this.distance = given.distance || 0.5 * norm(this.eye) + 1;
   }
   copy(): ViewCamera {
     return Object.assign(Object.create(ViewCamera.prototype), this);
   }
-  /** Whether it is where the camera of the scene is. */
+  /** True if it is where the camera of the scene is. */
   isAt(given: CameraData) {
     const keys = ["eye", "look", "right", "up"] as const;
     return keys.every(key => norm(sub(this[key], given[key])) === 0);
@@ -34,7 +34,7 @@ export class ViewCamera {
     const by = (v: Vec3) => add(add(scaled(c, v), scaled(s, cross(k, v))), scaled((1 - c) * dot(k, v), k));
     for (const key of ["look", "right", "up"] as const) this[key] = by(this[key]);
   }
-  // Around the point at `distance`; the pole is not crossed.
+  // Turns around the point at `distance`; the pole is not crossed.
   orbit(dx: number, dy: number) {
     const center = add(this.eye, scaled(this.distance, unit(this.look)));
     this.turn(this.world, -dx);

@@ -1,4 +1,4 @@
-// What can be chosen: menus of what the program says that there is, and numbers.
+// The controls: menus of the choices that the program offers, and numbers.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 import {LightList} from "./lights";
@@ -15,10 +15,10 @@ const NUMBERS = ["samples", "depth", "exposure"] as const;
 
 export type MenuKey = typeof MENUS[number];
 export type NumberKey = typeof NUMBERS[number];
-/** "lights": which are on; "light": how one is. */
+/** "lights": a light was switched; "light": a light was changed. */
 export type Key = MenuKey | NumberKey | "lights" | "light";
 type FieldKey = MenuKey | NumberKey;
-/** All that is chosen, to come back to. */
+/** All choices, for undo. */
 export interface Settings {
   values: Map<FieldKey, string>;
   wishes: Set<NumberKey>;
@@ -30,11 +30,11 @@ export class Controls {
   readonly lights: LightList;
   private readonly fields = new Map<FieldKey, HTMLSelectElement | HTMLInputElement>();
   private readonly usual = new Map<NumberKey, number>();
-  private readonly wishes = new Set<NumberKey>();  // numbers that were chosen; others are the usual ones
+  private readonly wishes = new Set<NumberKey>();  // chosen numbers; others have their defaults
   private readonly reasons = new Map<MenuKey, HTMLElement>();  // why menus have no effect
   private last: Settings | undefined;
 
-  /** `changed` has what was chosen before, too, unless it goes on with the change before. */
+  /** `changed` gets the previous choices, unless it continues the previous change. */
   constructor(private readonly changed: (key: Key, before: Settings | undefined) => void,
               blocks: (changes: LightChange[]) => Promise<string>) {
     this.lights = new LightList({changed: (which, mark) => this.tell(which, mark), blocks});
@@ -46,11 +46,11 @@ export class Controls {
   number(key: NumberKey) {
     return Number(this.fields.get(key)?.value);
   }
-  /** Undefined where nothing was chosen. */
+  /** Undefined if nothing was chosen. */
   wished(key: NumberKey) {
     return this.wishes.has(key) ? this.number(key) : undefined;
   }
-  /** What it is where nothing is chosen. */
+  /** The value if nothing is chosen. */
   setUsual(key: NumberKey, value: number) {
     this.usual.set(key, value);
     if (!this.wishes.has(key)) this.set(key, String(value));
@@ -60,13 +60,13 @@ export class Controls {
     if (field) field.value = value;
     this.last = this.settings();
   }
-  /** As a person would. */
+  /** As a user would. */
   choose(key: FieldKey, value: string) {
     const field = this.fields.get(key);
     if (field) field.value = value;
     field?.dispatchEvent(new Event("change"));
   }
-  /** A menu that has no effect. */
+  /** A menu without effect. */
   disable(key: MenuKey, off: boolean, why: string) {
     const field = this.fields.get(key);
     if (!field) return;
@@ -84,7 +84,7 @@ export class Controls {
     const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
     return {values, wishes: new Set(this.wishes), lights: this.lights.state()};
   }
-  /** What the scene no longer has stays as it is. */
+  /** Keeps choices that the scene does not have. */
   restore({values, wishes, lights}: Settings) {
     for (const [key, field] of this.fields) {
       const now = field.value;
@@ -106,7 +106,7 @@ export class Controls {
     return field instanceof HTMLSelectElement ? [...field.options].map(o => o.text) : [];
   }
 
-  // A field that was emptied is as usual again.
+  // An emptied field gets its default again.
   private typed(key: NumberKey) {
     const field = this.fields.get(key);
     if (!field) return;
@@ -117,7 +117,7 @@ export class Controls {
     }
     this.tell(key);
   }
-  /** What was chosen stays where it still is. */
+  /** Keeps choices that still exist. */
   fill(scene: Scene) {
     const focus = [...this.fields].find(([, field]) => field === document.activeElement)?.[0];
     const place = this.lights.place();

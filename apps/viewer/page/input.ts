@@ -4,7 +4,7 @@ import type {Pair} from "../../../src/alhazen/explain/page/basics";
 import type {ViewCamera} from "./camera";
 
 export interface InputTarget {
-  /** Moves the view, if there is one; `mark`: undo comes back to where it was before. */
+  /** Moves the view, if there is one; `mark`: undo returns to the view before. */
   move(change: (camera: ViewCamera) => void, mark: boolean): void;
   undo(): void;
   explain(u: number, v: number): void;
@@ -18,7 +18,7 @@ const KEYS: Record<string, (camera: ViewCamera) => void> = {
 const WITH_SHIFT: Record<string, (camera: ViewCamera) => void> = {
   ArrowLeft: c => c.walk(-0.07, 0, 0), ArrowRight: c => c.walk(0.07, 0, 0), ArrowUp: c => c.walk(0, 0.07, 0),
   ArrowDown: c => c.walk(0, -0.07, 0)};
-const CLICK = 4;  // pixels that a click may move
+const CLICK = 4;  // largest movement of a click, pixels
 
 export function listen(image: HTMLElement, target: InputTarget) {
   const touches = new Map<number, Pair>();
@@ -60,7 +60,7 @@ export function listen(image: HTMLElement, target: InputTarget) {
     if (e.key === "Escape") return target.stop();
     const held = e.ctrlKey || e.metaKey;
     if (e.key === "z" && held) return target.undo();
-    const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;  // of letters, whatever Caps Lock says
+    const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;  // letters regardless of Caps Lock
     const change = (e.shiftKey ? WITH_SHIFT[key] : undefined) ?? KEYS[key];
     if (!change || held || e.altKey) return;
     e.preventDefault();

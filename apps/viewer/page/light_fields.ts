@@ -1,11 +1,11 @@
-// The numbers of a light: where it is, where it shines, its colour, its sizes.
+// The fields of a light: position, direction, colour, sizes.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
 import type {LightEntry} from "./state";
 
 type LightSize = NonNullable<LightEntry["sizes"]>[number];
-/** What a light has instead of what the file says; its colour is `times` `color`. */
+/** Changed fields of a light; its colour is `times` `color`. */
 export interface LightValues {
   position?: Vec3;
   direction?: Vec3;
@@ -19,7 +19,7 @@ const AXES: Record<VectorKey, string[]> = {
 const LABELS: Record<VectorKey, string> = {position: "position", direction: "direction", color: "colour"};
 const MOST = 1e15;
 
-/** The sizes among what was chosen; undefined where the light now has others: the file may have given it another kind. */
+/** The chosen sizes; undefined if the light has other sizes now, as its kind in the file changed. */
 export function chosenSizes(light: LightEntry, values: LightValues | undefined) {
   const own = light.sizes ?? [], chosen = values?.sizes;
   return chosen?.length === own.length && chosen.every((s, i) => s.name === own[i].name) ? chosen : undefined;
@@ -37,7 +37,7 @@ export class LightFields {
   private readonly reset: HTMLButtonElement;
   private marked = false;  // since a field got the focus
 
-  /** `changed` has no values where they are those of the file. */
+  /** `changed` has no values if they are those of the file. */
   constructor(readonly light: LightEntry, id: string,
               private readonly changed: (values: LightValues | undefined, mark: boolean) => void) {
     this.values = this.ofFile();
@@ -61,7 +61,7 @@ export class LightFields {
   /** Undefined: those of the file. */
   show(values: LightValues | undefined) {
     const file = this.ofFile();
-    // The file may have given the light another kind meanwhile.
+    // The light in the file may have another kind by now.
     this.values = {position: values?.position ?? file.position, direction: values?.direction ?? file.direction,
                    color: values?.color ?? file.color, times: values?.times ?? 1,
                    sizes: chosenSizes(this.light, values) ?? file.sizes};
@@ -79,7 +79,7 @@ export class LightFields {
   }
   private set(field: HTMLInputElement, x: number) {
     field.removeAttribute("aria-invalid");
-    // What is being typed stays as it is.
+    // Text being typed is not changed.
     if (field === document.activeElement && Number(field.value) === x && field.value) return;
     field.value = String(Number(x.toPrecision(7)));
   }
@@ -89,7 +89,7 @@ export class LightFields {
       focus: () => this.marked = false, input: () => this.typed(field),
       change: () => {
         this.marked = false;
-        // What is no such number is as before.
+        // Invalid input is reset.
         this.show(this.isOfFile() ? undefined : this.values);
       }});
     return field;
@@ -123,7 +123,7 @@ export class LightFields {
     this.marked = true;
     this.changed(this.isOfFile() ? undefined : values, mark);
   }
-  // Above 0, and a hole smaller than what is around it.
+  // Positive, and a hole smaller than its surroundings.
   private areSizes(sizes: LightSize[]) {
     const radius = sizes.find(s => s.name === "radius")?.value ?? 0;
     return sizes.every(({name, value}) => name === "inner radius" ? value >= 0 && value < radius : value > 0);

@@ -1,4 +1,4 @@
-// The lights of the scene, each of which can be turned off, moved and given another colour.
+// The lights of the scene, which can be turned off, moved and given another colour.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
@@ -6,13 +6,13 @@ import {chosenSizes, LightFields} from "./light_fields";
 import type {LightValues} from "./light_fields";
 import type {LightChange, LightEntry} from "./state";
 
-/** All that is other than in the file, of lights that the scene no longer has, too. */
+/** All changes relative to the file, including those of lights that the scene no longer has. */
 export interface LightState {
   dark: Set<string>;
   values: Map<string, LightValues>;
 }
 export interface LightListener {
-  /** `mark`: undo comes back to what was before; `which` are on, or how they are. */
+  /** `mark`: undo returns to the state before; `which`: lights switched or changed. */
   changed(which: "lights" | "light", mark: boolean): void;
   /** The blocks of these lights for the scene file. */
   blocks(changes: LightChange[]): Promise<string>;
@@ -27,20 +27,20 @@ export class LightList {
                                                     "data-key": "blocks", click: () => this.toggleBlocks()}, "Light blocks");
   private readonly buttons = element("div", {class: "row"}, this.all("All on", true), this.all("All off", false), this.blockButton);
   readonly element = element("details", {id: "lights"}, this.summary, this.list, this.buttons, this.block);
-  private dark = new Set<string>();  // names
+  private dark = new Set<string>();  // names of lights that are off
   private values = new Map<string, LightValues>();
-  private readonly open = new Set<string>();  // whose fields are shown
+  private readonly open = new Set<string>();  // names of lights whose fields are shown
   private lights: LightEntry[] = [];
   private boxes: HTMLInputElement[] = [];
-  private readonly fields = new Map<string, LightFields>();  // of those that are open: there may be very many lights
+  private readonly fields = new Map<string, LightFields>();  // of the open lights only: there may be many
 
   constructor(private readonly listener: LightListener) {}
 
-  /** Names of those that are off. */
+  /** Names of the lights that are off. */
   off() {
     return this.boxes.filter(b => !b.checked).map(b => b.name);
   }
-  /** Those that are other than in the file. */
+  /** The lights that differ from the file. */
   changes(): LightChange[] {
     return this.lights.flatMap(light => {
       const values = this.values.get(light.name);
@@ -62,7 +62,7 @@ export class LightList {
     for (const [name, fields] of this.fields) fields.show(this.values.get(name));
     this.tell();
   }
-  /** What has the focus, and how far the list is scrolled, to come back to. */
+  /** The focus and the scroll position of the list, to restore them. */
   place() {
     const active = document.activeElement;
     const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset.key : undefined;
@@ -74,7 +74,7 @@ export class LightList {
     const all = [...this.element.querySelectorAll<HTMLElement>("[data-key]")];
     (all.find(e => e.dataset.key === key) ?? this.summary).focus({preventScroll: true});
   }
-  /** What was chosen stays where it still is. */
+  /** Keeps choices that still exist. */
   fill(lights: LightEntry[]) {
     this.lights = lights;
     this.boxes = lights.map(light => element("input", {type: "checkbox", name: light.name, checked: !this.dark.has(light.name),
@@ -134,7 +134,7 @@ export class LightList {
     this.blockButton.setAttribute("aria-expanded", String(!this.block.hidden));
     this.tell();
   }
-  // In the summary, and in the blocks where they are shown.
+  // Updates the summary, and the blocks if they are shown.
   private tell() {
     const on = this.boxes.filter(b => b.checked).length, changes = this.changes();
     const changed = changes.length ? `, ${changes.length} changed` : "";
@@ -142,7 +142,7 @@ export class LightList {
     this.buttons.children[0].toggleAttribute("hidden", this.boxes.length < 2);
     this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
     if (this.block.hidden) return;
-    if (!changes.length) this.block.value = "// No light is other than in the file.\n";
+    if (!changes.length) this.block.value = "// No light differs from the file.\n";
     else void this.listener.blocks(changes).then(text => this.block.value = text);
   }
 }

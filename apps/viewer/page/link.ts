@@ -1,32 +1,32 @@
-// The way to the server: a WebSocket (frame_socket.h) that brings states and pictures, and comes back when it was lost.
+// The connection to the server: a WebSocket (frame_socket.h) for states and pictures that reconnects.
 
 import type {FrameHead, State} from "./state";
 
 export interface LinkEvents {
-  /** The server is there, and nothing was asked of it on this way. */
+  /** The server is connected, and nothing has been requested on this connection. */
   opened(): void;
   state(state: State): void;
   picture(head: FrameHead, body: Uint8Array): void;
   lost(): void;
-  /** The key is not that of the server. */
+  /** The server refused the key. */
   refused(): void;
 }
 
-// The server says something each second.
+// The server sends a message each second.
 const SILENCE = 4000, PAUSE = 500;
 const POLICY_VIOLATION = 1008;
 
 export class FrameLink {
   private socket: WebSocket | undefined;
   private open = false;
-  private since = 0;  // the last sign of life
+  private since = 0;  // time of the last message
 
   constructor(private readonly token: string, private readonly events: LinkEvents) {
     this.connect();
     setInterval(() => this.watch(), PAUSE);
   }
 
-  /** False where the server is not there. */
+  /** False if the server is not connected. */
   send(message: object) {
     if (!this.open) return false;
     this.socket?.send(JSON.stringify(message));

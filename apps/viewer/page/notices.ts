@@ -1,11 +1,11 @@
-// What the page says in words: messages, work in hand, the numbers below the picture, the scale of a layer.
+// The texts of the page: messages, running work, the numbers below the picture, the scale of a layer.
 
 import {element, number} from "../../../src/alhazen/explain/page/basics";
 import type {CameraData, FrameFacts, LayerFacts, Scene, Work} from "./state";
 
 export type Topic = "server" | "file" | "frame" | "explain";
 
-/** One message of each topic; an empty one takes it back. */
+/** One message per topic; an empty one removes it. */
 export class Messages {
   private readonly texts = new Map<Topic, string>();
 
@@ -20,7 +20,7 @@ export class Messages {
   }
 }
 
-/** Work that takes more than a moment. Readers hear what it is, not each second of it. */
+/** Work that takes longer. Screen readers announce its name, not each second of it. */
 export class WorkLine {
   private readonly what = element("span");
   private readonly time = element("span", {"aria-hidden": "true"});
@@ -41,7 +41,7 @@ export interface Shown {
   samples: number;
   selected: boolean;
   moving: {depth: number; rate: number} | null;
-  way: number;  // milliseconds since it was asked for
+  way: number;  // milliseconds since the request
 }
 export function statusText(shown: Shown, full: number, depth: number, memory: number) {
   const {facts, samples, moving} = shown;
@@ -57,12 +57,12 @@ export function statusText(shown: Shown, full: number, depth: number, memory: nu
   return parts.join(" \u00b7 ");
 }
 
-/** The picture in words; `there`: whether the view is still the camera's. */
+/** The picture in words; `there`: true if the view is still that of the camera. */
 export function pictureName(scene: string, camera: CameraData, there: boolean, renderer: string, layer: string) {
   const from = `from ${there ? "" : "a view that began at "}camera ${camera.name || "without a name"}`;
   return `Picture of ${scene}, ${layer ? `layer ${layer}, ` : ""}${from}, by ${renderer}`;
 }
-/** Said once, when nothing finer follows. */
+/** Announced once, when no finer picture follows. */
 export function doneText({width, height, seconds}: FrameFacts, samples: number) {
   return `The picture is done: ${width} by ${height}, ${samples} sample${samples > 1 ? "s" : ""} a pixel, ${timeText(1000 * seconds)}`;
 }
@@ -71,7 +71,7 @@ function timeText(ms: number) {
   return ms < 1000 ? `${ms.toFixed(ms < 100 ? 1 : 0)} ms` : `${(ms / 1000).toFixed(ms < 10000 ? 2 : 1)} s`;
 }
 
-/** What the colours of a layer mean. */
+/** The meaning of the colours of a layer. */
 export function drawScale(place: HTMLElement, layer: LayerFacts | undefined, scales: Scene["scales"]) {
   place.hidden = !layer;
   if (!layer) return;

@@ -1,4 +1,4 @@
-// The pixel that is explained, as numbers: the way to any pixel without a mouse.
+// The explained pixel as numbers, to choose any pixel without a mouse.
 
 import {element} from "../../../src/alhazen/explain/page/basics";
 
@@ -15,7 +15,7 @@ export class PixelChoice {
       explain(this.column.valueAsNumber, this.row.valueAsNumber);
     }}, element("span", {"aria-hidden": "true"}, "pixel"), this.column, this.row, element("button", {}, "Explain"));
   }
-  /** Of a picture of another size it is the one in the middle. */
+  /** For a picture of another size, chooses the pixel in the middle. */
   fit(width: number, height: number) {
     if (width === this.width && height === this.height) return;
     [this.width, this.height] = [width, height];

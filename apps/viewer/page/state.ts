@@ -1,4 +1,4 @@
-// What the server says (view_menus.cpp, scene_store.cpp), as types.
+// The messages of the server (view_menus.cpp, scene_store.cpp) as types.
 
 import type {Vec3} from "../../../src/alhazen/explain/page/basics";
 
@@ -20,16 +20,16 @@ export interface Choice {
 export interface RendererChoice extends Choice {
   selects: boolean;
   follows_light: boolean;
-  depth?: number;  // where nothing is wished; undefined: that of the scene
+  depth?: number;  // default; undefined: that of the scene
 }
-/** A light; what it has not is left out. */
+/** A light; absent fields are left out. */
 export interface LightEntry extends Choice {
   position?: Vec3;
   direction?: Vec3;  // into the scene
   color: Vec3;       // or radiance, ambient term, emission
   sizes?: {name: string, value: number}[];  // of a light with extent
 }
-/** What a light is to be instead of what the file says. */
+/** Changes of a light relative to the file. */
 export interface LightChange {
   name: string;
   position?: Vec3;
@@ -37,7 +37,7 @@ export interface LightChange {
   color: Vec3;
   sizes?: number[];
 }
-/** What changes with the file only. */
+/** State that changes only with the file. */
 export interface Menus {
   scene: string;
   width: number;
@@ -54,20 +54,20 @@ export interface Menus {
   curves: string[];
   steps: string;
 }
-/** What is in hand; `client` where it is of one page, `part` (0 to 1) where that is known. */
+/** Running work; `client` if it belongs to one page, `part` (0 to 1) if it is known. */
 export interface Work {
   what: string;
   seconds: number;
   client?: string;
   part?: number;
 }
-/** What changes from moment to moment. */
+/** State that changes continually. */
 export interface Moment {
   version: number;
   accelerator: string;
   error: string;
   memory: number;
-  stopped: boolean;  // reading was ended, and begins again when it is asked for
+  stopped: boolean;  // reading was stopped; it restarts on request
   work: Work[];
 }
 export type State = Moment & Partial<Menus>;
@@ -103,7 +103,7 @@ export interface Wish {
   renderer: string;
   accelerator: string;
   layer: string;
-  depth?: number;  // undefined: as scene and renderer have it
+  depth?: number;  // undefined: that of scene and renderer
   exposure: number;
   curve: string;
   environment: string;  // empty: that of the scene

@@ -1,4 +1,4 @@
-// The viewer: a picture that follows the view at once and refines while nothing moves.
+// The viewer: a picture that follows the view at once and is refined when nothing moves.
 
 import {element, scrollBehavior} from "../../../src/alhazen/explain/page/basics";
 import type {Explanation} from "../../../src/alhazen/explain/page/explanation_data";
@@ -13,11 +13,11 @@ import {Pace} from "./pace";
 import {PixelChoice} from "./pixel_choice";
 import type {CameraData, FrameFacts, FrameHead, LightChange, Scene, State, Wish} from "./state";
 
-const WIDEST = 4096;          // that the server draws
-const MOST_RAW = 1.5e6;       // pixels that come as they are; more as JPEG
+const WIDEST = 4096;          // widest picture of the server
+const MOST_RAW = 1.5e6;       // most pixels sent uncompressed; larger pictures are JPEG
 const STOPPED = "Reading the file was ended.";
 const NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
-const OTHER_SERVER = "Another server has come in place of this page\u2019s, and the page has no key to it: open the address that " +
+const OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that " +
   "`alhazen view` printed.";
 const NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 
@@ -30,7 +30,7 @@ interface Asked {
 }
 
 export class Viewer {
-  // What tests look at, too.
+  // Tests read these, too.
   readonly client = Math.random().toString(36).slice(2);
   readonly image = element("canvas", {class: "picture", tabindex: "0", role: "application", "aria-label": "No picture yet",
                                       "aria-describedby": "help"});
@@ -39,16 +39,16 @@ export class Viewer {
   scene: Scene | undefined;
   camera: ViewCamera | undefined;
   frames = 0;
-  level = 0;       // of `levels`, that is asked for
+  level = 0;       // index of the requested level
   generation = 0;  // of the view
   shownGeneration = 0;
-  firstPicture: number | undefined;  // milliseconds since the page was asked for
+  firstPicture: number | undefined;  // milliseconds from the request of the page
 
   private readonly token: string;
   private readonly messages = new Messages(document.getElementById("message")!);
   private readonly work = new WorkLine();
   private readonly status = element("p", {id: "status"});
-  // What readers hear; the numbers of each picture would be too much.
+  // Announced by screen readers; the numbers of each picture would be too much.
   private readonly spoken = element("p", {id: "spoken", class: "unseen", role: "status"});
   private readonly pixel = new PixelChoice((x, y) => this.explainPixel(x, y));
   private readonly block = element("textarea", {id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true});
@@ -59,10 +59,10 @@ export class Viewer {
   private readonly undone: {camera: ViewCamera, settings: Settings}[] = [];
   private readonly asked = new Map<number, Asked>();
   private lastId = 0;
-  private held: object | undefined;       // nothing is asked for while this work lasts
+  private held: object | undefined;       // work during which nothing is requested
   private explaining: object | undefined;
   private halted = false;                 // by Stop, until something changes
-  private described = "";                 // of the picture that is shown
+  private described = "";                 // of the displayed picture
   private shownAt = 0;
   private movingShown: number[] = [];     // times
 
@@ -106,7 +106,7 @@ export class Viewer {
       element("section", {"aria-label": "Settings and actions"}, this.controls.form, buttons, block, this.pixel.element));
     listen(this.image, this);
   }
-  // Null where the server does not answer, which the link says.
+  // Null if the server does not respond, which the link reports.
   private ask(path: string, wish: object = {}) {
     return fetch(path, {method: "POST", body: JSON.stringify({...wish, client: this.client}),
                         headers: {Authorization: `Bearer ${this.token}`}}).catch(() => null);
@@ -119,7 +119,7 @@ export class Viewer {
     return text ?? `// ${error}\n`;
   }
 
-  // ---- the scene
+  // ---- The scene.
   private take(state: State) {
     const known = this.scene;
     this.messages.say("file", state.error || (state.stopped ? STOPPED : ""));
@@ -137,7 +137,7 @@ export class Viewer {
       this.changed();
     }
   }
-  // The file has changed: the chosen camera by its name, and the view where it still was that camera's.
+  // The file has changed: finds the chosen camera by name, and moves a view that was still that camera's.
   private refill(before: Scene, scene: Scene) {
     const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
     const same = scene.cameras.findIndex(c => c.name === old.name);
@@ -150,8 +150,8 @@ export class Viewer {
     this.controls.fill(scene);
     this.fitRenderer(scene);
   }
-  // Renderers that follow paths have a depth of their own where nothing is chosen; others than those that follow light see
-  // no environment but the background.
+  // Renderers that trace paths have their own default depth; renderers that are not physically based show only the
+  // background of an environment.
   private fitRenderer(scene: Scene) {
     const renderer = this.renders(this.controls.get("renderer"));
     this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
@@ -169,7 +169,7 @@ export class Viewer {
     else if (key !== "steps") this.changed();
   }
 
-  // ---- what is asked for
+  // ---- Requests.
   private full() {
     return Math.max(64, Math.min(this.scene?.width ?? 0, WIDEST));
   }
@@ -183,7 +183,7 @@ export class Viewer {
             depth: controls.wished("depth"), exposure: controls.number("exposure"), curve: controls.get("curve"), samples: 1,
             environment: controls.get("environment"), lights_off: controls.lights.off(), lights: controls.lights.changes()};
   }
-  // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
+  // Only renderers that compute single rays can select pixels; layers need rays for each pixel.
   private selects() {
     return this.controls.get("moving") === "steady" && !this.controls.get("layer") &&
       !!this.renders(this.controls.get("renderer"))?.selects;
@@ -197,7 +197,7 @@ export class Viewer {
     if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
     return {...wish, renderer: "ray_casting"};
   }
-  // [width as a part of the whole, samples] of what follows the moving picture
+  // [width relative to the whole, samples] of the levels after the moving picture
   levels(): [number, number][] {
     const samples = this.controls.number("samples");
     return [[0, 1], [1 / 4, 1], [1 / 2, 1], [1, 1], ...(samples > 1 ? [[1, samples] as [number, number]] : [])];
@@ -205,7 +205,7 @@ export class Viewer {
   done() {
     return this.level >= this.levels().length;
   }
-  // The view is another one: coarse at first, and finer with each picture.
+  // The view has changed: requests a coarse picture, then finer ones.
   changed() {
     if (!this.camera || !this.scene) return;
     if (!this.block.hidden) this.block.value = this.camera.block();
@@ -220,7 +220,7 @@ export class Viewer {
     }
     this.request();
   }
-  // The picture in words.
+  // The description of the picture.
   private name() {
     const scene = this.scene!, camera = scene.cameras[Number(this.controls.get("camera"))], width = this.full();
     const name = pictureName(scene.scene, camera, !!this.camera?.isAt(camera), this.controls.get("renderer"), this.controls.get("layer"));
@@ -239,13 +239,13 @@ export class Viewer {
     this.link.send({...wish, id, moving, client: this.client, raw: wish.width * wish.height <= MOST_RAW});
   }
 
-  // ---- what comes
+  // ---- Responses.
   private async received(head: FrameHead, body: Uint8Array) {
     const asked = this.asked.get(head.id);
     for (const id of this.asked.keys()) if (id <= head.id) this.asked.delete(id);
     if (!asked) return;
     const newest = asked.id === this.lastId;
-    if (head.status === 204) {  // ended, by an explanation, say: once more
+    if (head.status === 204) {  // ended, by an explanation for example: repeat
       setTimeout(() => { if (newest && asked.id === this.lastId) this.request(); }, 50);
       return;
     }
@@ -260,13 +260,13 @@ export class Viewer {
     await this.draw(head, head.facts, body);
     this.describe(asked, head.facts);
     if (!newest || asked.id !== this.lastId) return;
-    // What would not be larger than what is there is left out, but for one of that size with all generations.
+    // Skips levels that would not be larger than the displayed picture, except one of its size with full depth.
     const deepest = this.controls.number("depth"), least = head.facts.width + (this.isLess(asked.wish, deepest) ? 0 : 1);
     do ++this.level; while (this.level < 3 && Math.round(this.levels()[this.level][0] * this.full()) < least);
     if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
   }
-  // Whether a picture has fewer generations than are chosen, or another renderer.
+  // True if a picture has less than the chosen depth, or another renderer.
   private isLess(wish: Wish, deepest: number) {
     return (wish.depth ?? deepest) < deepest || wish.renderer !== this.controls.get("renderer");
   }
@@ -286,7 +286,7 @@ export class Viewer {
   private describe(asked: Asked, facts: FrameFacts) {
     const now = performance.now(), scene = this.scene!, moving = asked.level === 0, deepest = this.controls.number("depth");
     if (moving) {
-      // Where the server was never idle: from picture to picture.
+      // If the server was never idle: from picture to picture.
       const busy = asked.begin < this.shownAt;
       this.pace.learn(now - (busy ? this.shownAt : asked.begin), facts, asked.wish.depth ?? deepest, this.limits());
       this.movingShown = [...this.movingShown.filter(t => t > now - 1000), now];
@@ -299,7 +299,7 @@ export class Viewer {
        moving: moving ? {depth: asked.wish.depth ?? deepest, rate} : null}, this.full(), deepest, scene.memory);
   }
 
-  // ---- what is done with it
+  // ---- Actions.
   move(change: (camera: ViewCamera) => void, mark: boolean) {
     if (!this.camera) return;
     if (mark) this.remember();
@@ -326,7 +326,7 @@ export class Viewer {
     this.pace.forget();
     this.changed();
   }
-  // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.
+  // Ends the running frame, explanation, reading or building; the displayed picture stays.
   stop() {
     this.explaining = this.held = undefined;
     this.halted = true;
@@ -337,7 +337,7 @@ export class Viewer {
     this.messages.say("explain", "");
     this.status.textContent = this.described;
   }
-  // Nothing is asked for until the work is done.
+  // Requests nothing until the work is done.
   private async hold(work: () => Promise<void>) {
     const own = this.held = {};
     try {
@@ -360,7 +360,7 @@ export class Viewer {
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     });
   }
-  /** `u`, `v`: parts of the width and the height. */
+  /** `u`, `v`: position relative to width and height. */
   explain(u: number, v: number) {
     if (!this.camera) return;
     const width = this.full(), at = (w: number, n: number) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
@@ -370,14 +370,14 @@ export class Viewer {
     if (!this.camera) return;
     this.explainSample({...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), x, y}, 0);
   }
-  /** `picture`: where the explained picture is not the one in sight. */
+  /** `picture`: set if the explained picture is not the displayed one. */
   private explainSample(wish: Wish & {samples: number; x: number; y: number}, sample: number, picture?: string) {
     const {x, y} = wish, own = this.explaining = {};
     this.pixel.show(x, y);
     this.status.textContent = this.spoken.textContent = "Explaining \u2026 (Escape ends it)";
     void this.hold(async () => {
       let answer: Response | null = null;
-      // A frame that was asked for before may come after it, and end it.
+      // A frame requested earlier may arrive after it and end it.
       for (let tries = 0; tries < 3 && this.explaining === own && (answer?.status ?? 204) === 204; ++tries) {
         answer = await this.ask("/explain", {...wish, sample, steps: this.controls.get("steps")});
       }

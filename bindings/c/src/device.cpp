@@ -50,7 +50,7 @@ std::pair<AlhazenError, std::string> current_error() {
     }
 }
 
-/// One "key=value" of a configuration.
+/// Applies one "key=value" of a configuration.
 void configure(Device& device, std::string_view key, std::string_view value) {
     constexpr std::string_view kIgnored[] = {
         "verbose",      "isa",       "max_isa",         "set_affinity", "start_threads",
@@ -85,12 +85,12 @@ void note_error(Device* device) noexcept {
         if (known == errors.first.end()) errors.first.emplace_back(number, code);
         errors.text = text;
         if (device == nullptr || device->error_function == nullptr || errors.telling) return;
-        // Calls of the function may fail too: they are not told, and leave this text.
+        // The function may call the library; such errors are not reported and leave this text.
         errors.telling = true;
         try {
             device->error_function(device->error_pointer, code, text.c_str());
         } catch (...) {
-            // Of a function in C++.
+            // Exceptions of an error function in C++ are ignored.
         }
         errors.telling = false;
         errors.text = std::move(text);
@@ -114,7 +114,7 @@ Device::Device(const char* config) {
         need_argument(equals != std::string_view::npos, "config: expected key=value,...");
         configure(*this, trimmed.substr(0, equals), trimmed.substr(equals + 1));
     }
-    // An unknown accelerator is an error now, not when a scene is built.
+    // Reports an unknown accelerator now, not when a scene is built.
     (void)Tracer(TracerScene(), options);
 }
 

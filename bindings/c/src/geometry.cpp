@@ -59,7 +59,7 @@ Affine affine_of(AlhazenFormat format, const float* m) {
     return {{column(0), column(1), column(2)}, column(3)};
 }
 
-/// The matrix, in the format.
+/// Writes the matrix in the format.
 void write_affine(const Affine& transform, AlhazenFormat format, float* m) {
     const Vec3 columns[] = {transform.linear.x_axis, transform.linear.y_axis,
                             transform.linear.z_axis, transform.translation};
@@ -203,7 +203,7 @@ void* alhazenGetGeometryBufferData(AlhazenGeometry geometry, AlhazenBufferType t
 }
 void alhazenUpdateGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
                                  unsigned int slot) {
-    // A commit reads every buffer anew.
+    // Only checks the arguments: a commit reads every buffer again.
     with_geometry(geometry, [&](Geometry& g) { (void)g.buffer(type, slot); });
 }
 void alhazenSetGeometryMask(AlhazenGeometry geometry, unsigned int mask) {
@@ -230,7 +230,7 @@ void alhazenSetGeometryInstancedScene(AlhazenGeometry geometry, AlhazenScene sce
         need(g.type == ALHAZEN_GEOMETRY_TYPE_INSTANCE, ALHAZEN_ERROR_INVALID_OPERATION,
              "only an instance has a scene");
         need_argument(scene != nullptr, "the scene is NULL");
-        Reference<Scene> next(object(scene));  // keeps the one before until the mutex is free
+        Reference<Scene> next(object(scene));  // releases the previous one after the mutex
         const std::lock_guard lock(structure_mutex());
         for (const Scene* holder : g.holders) {
             need(!next->reaches(holder), ALHAZEN_ERROR_INVALID_OPERATION,

@@ -1,5 +1,5 @@
 #pragma once
-/// The objects behind the handles of alhazen.h, and the border that no exception crosses.
+/// The objects behind the handles of alhazen.h, and the boundary that no exception crosses.
 
 #include <array>
 #include <atomic>
@@ -22,7 +22,7 @@
 
 namespace alhazen::capi {
 
-/// Counts references; deletes itself with the last.
+/// An object with a reference count, which deletes itself with its last reference.
 class Counted {
   public:
     virtual ~Counted() = default;
@@ -52,7 +52,7 @@ class Reference {
     ~Reference() {
         if (object_ != nullptr) object_->release();
     }
-    /// Takes the reference that `object` begins with.
+    /// Adopts the initial reference of `object`.
     static Reference adopt(T* object) {
         Reference reference;
         reference.object_ = object;
@@ -66,7 +66,7 @@ class Reference {
     T* object_ = nullptr;
 };
 
-/// An error that has its code already.
+/// An error with an AlhazenError code.
 class CodedError : public std::runtime_error {
   public:
     CodedError(AlhazenError code, const std::string& text)
@@ -85,11 +85,10 @@ inline void need_argument(bool holds, const char* text) {
 }
 
 class Device;
-/// Notes the exception that is being handled for this thread, and tells the device's error
-/// function.
+/// Records the current exception as an error of this thread, and calls the device's error function.
 void note_error(Device* device) noexcept;
 
-/// Runs `work`; an exception becomes an error of the device, and the result is `otherwise`.
+/// Runs `work`. An exception becomes an error of the device, and `otherwise` is returned.
 template <class Result, class Work>
 Result guarded(Device* device, Result otherwise, const Work& work) noexcept {
     try {
@@ -113,7 +112,7 @@ class Device final : public Counted {
     /// Throws CodedError for an unknown key or value.
     explicit Device(const char* config);
 
-    /// Tells the monitor; false when it forbids.
+    /// Calls the memory monitor; false if it refuses.
     bool tell_memory(std::int64_t bytes, bool post) const;
 
     std::uint64_t number = 0;  ///< unique in the process
@@ -125,10 +124,10 @@ class Device final : public Counted {
     void* memory_pointer = nullptr;
 };
 
-/// Memory behind an AlhazenBuffer: its own, or the caller's.
+/// Memory behind an AlhazenBuffer: allocated, or the caller's.
 class Memory final : public Counted {
   public:
-    /// Throws CodedError when there is not as much.
+    /// Throws CodedError if there is not enough memory.
     Memory(Device* owner, std::size_t size);
     Memory(Device* owner, void* shared, std::size_t size)
         : device(owner), begin(static_cast<std::byte*>(shared)), bytes(size) {}
@@ -141,14 +140,14 @@ class Memory final : public Counted {
     std::vector<std::byte> own_;
 };
 
-/// Items of one buffer of a geometry.
+/// The items of one buffer of a geometry.
 struct Buffer {
     AlhazenFormat format = ALHAZEN_FORMAT_FLOAT3;
     const std::byte* begin = nullptr;
     std::size_t stride = 0, count = 0;
     Reference<Memory> memory;  ///< null: the caller's (alhazenSetSharedGeometryBuffer)
 
-    /// Number `k` of item `i`, of a format of floats or doubles.
+    /// Component `k` of item `i`, for formats of floats or doubles.
     [[nodiscard]] double real(std::size_t i, std::size_t k) const;
     [[nodiscard]] std::uint32_t whole(std::size_t i, std::size_t k) const;
 };
@@ -159,7 +158,7 @@ class Geometry final : public Counted {
   public:
     Geometry(Device* owner, AlhazenGeometryType kind) : device(owner), type(kind) {}
 
-    /// The buffer of a type; throws CodedError for one that the geometry does not have.
+    /// The buffer of a type. Throws CodedError if the geometry has none of the type.
     Buffer& buffer(AlhazenBufferType wanted, unsigned slot);
 
     Reference<Device> device;
@@ -173,12 +172,12 @@ class Geometry final : public Counted {
     bool enabled = true, committed = false;
 };
 
-/// What a commit built.
+/// The result of a commit.
 struct Built {
     struct Origin {
         unsigned geometry = ALHAZEN_INVALID_ID;  ///< id in the scene
-        unsigned primitive = 0;                  ///< number of a sphere
-        std::shared_ptr<const Built> instanced;  ///< of an instance
+        unsigned primitive = 0;                  ///< number of the sphere
+        std::shared_ptr<const Built> instanced;  ///< for an instance
     };
     std::optional<Tracer> tracer;
     std::vector<Origin> origins;  ///< [GeometryId]
@@ -186,9 +185,9 @@ struct Built {
     std::int64_t bytes = 0;
 };
 
-/// Guards which geometry is in which scene, of all scenes: `Scene::geometries`,
-/// `Geometry::instanced`, `Geometry::holders`. Nothing is released, and no function of the caller
-/// runs, while it is held.
+/// Guards the links between geometries and scenes of all devices: `Scene::geometries`,
+/// `Geometry::instanced`, `Geometry::holders`. While it is held, nothing is released, and no
+/// function of the caller runs.
 std::mutex& structure_mutex();
 
 class Scene final : public Counted {
@@ -196,15 +195,16 @@ class Scene final : public Counted {
     explicit Scene(Device* owner) : device(owner) {}
     ~Scene() override;
 
-    /// Throws CodedError for an id in use, and for an instance of a scene that holds this one.
+    /// Throws CodedError for an id in use, and for an instance of a scene that contains this one.
     void attach(unsigned id, Geometry& geometry);
-    /// The smallest free id.
+    /// Attaches with the smallest free id, which it returns.
     unsigned attach(Geometry& geometry);
     void detach(unsigned id);
-    /// Whether it is `other`, or has instances, at any depth, of it. Under structure_mutex().
+    /// True if the scene is `other` or contains instances of it at any depth. Requires
+    /// structure_mutex().
     [[nodiscard]] bool reaches(const Scene* other) const;
 
-    /// `join`: waits for the commit of another thread, which is an error otherwise.
+    /// `join`: waits for a commit of another thread, which is otherwise an error.
     void commit(bool join);
 
     Reference<Device> device;
@@ -220,8 +220,8 @@ class Scene final : public Counted {
     void build();
     void tell(double done) const;
 
-    unsigned first_free_ = 0;         ///< no id below is free
-    std::size_t instance_count_ = 0;  ///< of `geometries`
+    unsigned first_free_ = 0;         ///< all lower ids are in use
+    std::size_t instance_count_ = 0;  ///< number of instances in `geometries`
     std::mutex commit_mutex_;
     std::condition_variable commit_ended_;
     std::optional<std::thread::id> committing_;
@@ -239,7 +239,7 @@ inline Scene* object(AlhazenScene handle) {
 inline Memory* object(AlhazenBuffer handle) {
     return reinterpret_cast<Memory*>(handle);
 }
-/// The device of an object that may be null.
+/// The device of an object, which may be null.
 template <class Object>
 Device* device_of(const Object* object) {
     return object != nullptr ? object->device.get() : nullptr;

@@ -8,7 +8,7 @@ namespace alhazen::capi {
 
 namespace {
 
-/// What a context says.
+/// The settings of a context.
 struct Wishes {
     Coherence coherence = Coherence::Any;
     bool normals = true;
@@ -50,7 +50,7 @@ Answer answer_of(const Built& built, const Ray& ray, const Hit& hit, bool normal
     return answer;
 }
 
-/// Memory of one thread.
+/// Scratch memory of a thread.
 struct Scratch {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -65,8 +65,8 @@ Scratch& scratch_of_thread() {
     return scratch;
 }
 
-/// Calls trace(mask) for each set of consecutive active rays [begin, end) of one mask, which lie in
-/// scratch.rays, their numbers in scratch.which.
+/// Calls trace(mask) for each set of consecutive active rays in [begin, end) with one mask. The
+/// rays are in scratch.rays, their numbers in scratch.which.
 template <class Rays, class Trace>
 void for_each_mask(const Rays& rays, std::size_t begin, std::size_t end, Scratch& scratch,
                    const Trace& trace) {
@@ -85,10 +85,10 @@ void for_each_mask(const Rays& rays, std::size_t begin, std::size_t end, Scratch
     }
 }
 
-/// Rays of a call are taken so many at a time.
+/// Number of rays of a call that are processed at a time.
 constexpr std::size_t kBlock = 1024;
 
-/// One ray, without the lists of many.
+/// Traces one ray without the lists for many.
 void intersect_one(const Built& built, const Wishes& wishes, const RayLayout auto& rays) {
     const Ray ray = rays.ray(0);
     Hit hit;
@@ -137,8 +137,7 @@ void occlude_all(const Built& built, const Wishes& wishes, std::size_t count, co
     }
 }
 
-/// Runs query(built, wishes) for a committed scene and `count` rays; without rays there is nothing
-/// to do.
+/// Runs query(built, wishes) for a committed scene and `count` rays; does nothing without rays.
 template <class Query>
 void ask_for(std::size_t count, AlhazenScene handle, const AlhazenIntersectContext* context,
              const void* rays, const Query& query) {
@@ -158,7 +157,7 @@ void ask(AlhazenScene scene, const AlhazenIntersectContext* context, const void*
     ask_for(1, scene, context, rays, query);
 }
 
-/// A packet of n rays with their hits.
+/// Traces a packet of n rays.
 void intersect_packet(const int* valid, AlhazenScene scene, const AlhazenIntersectContext* context,
                       void* rayhit, std::size_t n) {
     ask(scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the rays of a call lie, and where their answers go.
+/// Memory layouts of the rays of a call and of their results.
 
 #include <concepts>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace alhazen::capi {
 
-/// The answer of one ray.
+/// The result of one ray.
 struct Answer {
     bool found = false;
     double t = 0, u = 0, v = 0;
@@ -18,7 +18,7 @@ struct Answer {
              instance = ALHAZEN_INVALID_ID;
 };
 
-/// The rays of a call: [i] its ray, its mask, and where the answer goes.
+/// The rays of a call: [i] ray, mask, and where the result is stored.
 template <class Rays>
 concept RayLayout = requires(const Rays& rays, std::size_t i, const Answer& answer) {
     { rays.ray(i) } -> std::same_as<Ray>;
@@ -30,7 +30,7 @@ concept RayLayout = requires(const Rays& rays, std::size_t i, const Answer& answ
 
 inline constexpr float kMinusInfinity = -std::numeric_limits<float>::infinity();
 
-/// Structs of rays: AlhazenRayHit, or for occlusion AlhazenRay, whose address is place(i).
+/// Structs of rays: AlhazenRayHit, or AlhazenRay for occlusion; the address is place(i).
 template <class Place>
 class StructRays {
   public:
@@ -65,19 +65,19 @@ class StructRays {
     Place place_;
 };
 
-/// A stride apart.
+/// Structs that are a stride apart.
 inline auto structs_apart(void* begin, std::size_t stride) {
     return StructRays([begin, stride](std::size_t i) -> void* {
         return static_cast<std::byte*>(begin) + i * stride;
     });
 }
-/// Wherever the pointers say.
+/// Structs at the addresses of a list.
 template <class Struct>
 auto structs_at(Struct* const* pointers) {
     return StructRays([pointers](std::size_t i) -> void* { return pointers[i]; });
 }
 
-/// Rays in double, a stride apart.
+/// Rays in double precision that are a stride apart.
 class DoubleRays {
   public:
     DoubleRays(void* begin, std::size_t stride)
@@ -110,7 +110,7 @@ class DoubleRays {
     std::size_t stride_;
 };
 
-/// An array for each member. Without `valid` all rays are active.
+/// One array per member. Without `valid` all rays are active.
 class ArrayRays {
   public:
     ArrayRays(const AlhazenRayNp& rays, const AlhazenHitNp& hits, const int* valid)
@@ -144,7 +144,7 @@ class ArrayRays {
     const int* valid_;
 };
 
-/// The arrays of a packet: members of one length, one after another.
+/// The arrays of a packet: members of equal length, one after another.
 inline AlhazenRayNp arrays_of_rays(void* packet, std::size_t n) {
     auto* const f = static_cast<float*>(packet);
     auto* const u = static_cast<unsigned*>(packet);
@@ -156,7 +156,7 @@ inline AlhazenHitNp arrays_of_hits(void* packet, std::size_t n) {
     auto* const u = static_cast<unsigned*>(packet);
     return {f, f + n, f + 2 * n, f + 3 * n, f + 4 * n, u + 5 * n, u + 6 * n, {u + 7 * n}};
 }
-/// Words of a ray: the hits of a packet of n rays follow after n times as many.
+/// Number of words of a ray: in a packet of n rays the hits follow after n times as many.
 inline constexpr std::size_t kRayWords = sizeof(AlhazenRay) / 4;
 
 }  // namespace alhazen::capi

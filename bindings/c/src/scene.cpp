@@ -12,7 +12,7 @@ namespace alhazen::capi {
 
 namespace {
 
-/// Adds committed geometry to a scene of the tracer.
+/// Adds committed geometries to a TracerScene.
 class Gatherer {
   public:
     explicit Gatherer(Built& built) : built_(built) {}
@@ -74,7 +74,7 @@ class Gatherer {
     TracerScene scene_;
 };
 
-/// Bytes that the copy of a geometry takes.
+/// Bytes of the copy of a geometry.
 std::int64_t bytes_of(const Geometry& geometry) {
     const bool spheres = geometry.type == ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT;
     const std::size_t bytes = geometry.vertex.count * (spheres ? sizeof(Sphere) : sizeof(Vec3)) +
@@ -82,7 +82,7 @@ std::int64_t bytes_of(const Geometry& geometry) {
     return static_cast<std::int64_t>(bytes);
 }
 
-/// Memory that the monitor knows of, given back unless it is kept.
+/// Memory reported to the monitor; reported as freed on destruction unless it is kept.
 class ToldMemory {
   public:
     explicit ToldMemory(const Device& device) : device_(device) {}
@@ -92,7 +92,7 @@ class ToldMemory {
     ToldMemory(const ToldMemory&) = delete;
     ToldMemory& operator=(const ToldMemory&) = delete;
 
-    /// Throws CodedError when the monitor forbids.
+    /// Throws CodedError if the monitor refuses.
     void add(std::int64_t bytes, bool post) {
         need(device_.tell_memory(bytes, post), ALHAZEN_ERROR_OUT_OF_MEMORY,
              "the memory monitor forbids to build");
@@ -115,7 +115,7 @@ void with_scene(AlhazenScene handle, const Work& work) {
     });
 }
 
-/// The nearest floats outside.
+/// The nearest floats, rounded outward.
 float below(double x) {
     const auto f = static_cast<float>(x);
     return double(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
@@ -184,7 +184,7 @@ unsigned Scene::attach(Geometry& geometry) {
 }
 
 void Scene::detach(unsigned id) {
-    Reference<Geometry> geometry;  // released without the mutex
+    Reference<Geometry> geometry;  // released after the mutex
     const std::lock_guard lock(structure_mutex());
     const auto found = geometries.find(id);
     need_argument(found != geometries.end(), "no geometry has this id");
@@ -203,7 +203,7 @@ void Scene::tell(double done) const {
 }
 
 void Scene::commit(bool join) {
-    const Reference<Scene> alive(this);  // a monitor may release the caller's
+    const Reference<Scene> alive(this);  // a monitor may release the caller's reference
     {
         std::unique_lock lock(commit_mutex_);
         if (committing_) {
@@ -244,7 +244,7 @@ void Scene::build() {
     tell(0.0);
     ToldMemory memory(*device.get());
     memory.add(bytes, false);
-    // Gathering counts as a tenth of the work.
+    // Copying the geometry counts as a tenth of the work.
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         gatherer.add(wanted[i].first, *wanted[i].second.get());
         tell(0.1 * static_cast<double>(i + 1) / static_cast<double>(wanted.size()));

@@ -1,4 +1,4 @@
-/* The C interface by itself: every kind of call, buffers with strides, errors, monitors. Prints what fails. */
+/* Tests the C interface: every kind of call, buffers with strides, errors, monitors. Prints failures. */
 #include <alhazen/alhazen.h>
 
 #include <math.h>
@@ -51,7 +51,7 @@ static struct AlhazenRay ray_at(float x, float y) {
     return ray;
 }
 
-/* Position i of a 4 x 4 lattice of which two in each direction lie on the square. */
+/* Position i of a 4 x 4 lattice; two positions in each direction lie on the square. */
 static float place(int i) { return 0.25f + 0.55f * (float)(i - 1); }
 static bool is_hit(int i) { return i % 4 >= 1 && i % 4 <= 2 && i / 4 >= 1 && i / 4 <= 2; }
 
@@ -237,7 +237,7 @@ static void test_errors(void) {
     mesh = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_TRIANGLE);
     alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_UINT3, bad, 0, 12, 3);
     EXPECT(last == ALHAZEN_ERROR_INVALID_ARGUMENT && told == 2);
-    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_OPERATION); /* the first one is kept */
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_OPERATION); /* the first error is kept */
     alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_FLOAT3, bad, 0, 12, 3);
     alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_INDEX, 0, ALHAZEN_FORMAT_UINT3, face, 0, 12, 1);
     EXPECT(alhazenSetNewGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_INDEX, 0, ALHAZEN_FORMAT_UINT3, 12, SIZE_MAX / 12) ==

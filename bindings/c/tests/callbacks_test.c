@@ -1,4 +1,4 @@
-/* Functions of the caller that call the library, scenes within themselves, streams without rays. Prints what fails. */
+/* Tests callbacks that call the library, scenes that contain themselves, streams without rays. Prints failures. */
 #include <alhazen/alhazen.h>
 
 #include <math.h>
@@ -29,7 +29,7 @@ static AlhazenGeometry new_triangle(void) {
     return mesh;
 }
 
-/* Every call that takes a scene's locks. */
+/* All calls that lock a scene. */
 static void ask_the_scene(void) {
     AlhazenGeometry mesh;
     unsigned id;
@@ -105,7 +105,7 @@ static void test_a_scene_is_no_instance_in_itself(void) {
     alhazenSetGeometryInstancedScene(empty, a);
     EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_OPERATION);
     alhazenDetachGeometry(a, 0);
-    alhazenSetGeometryInstancedScene(empty, a); /* a holds nothing now */
+    alhazenSetGeometryInstancedScene(empty, a); /* a is empty */
     EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_NONE);
     alhazenReleaseGeometry(of_a);
     alhazenReleaseGeometry(of_b);

@@ -1,5 +1,5 @@
-/* Two triangles, a hole between them and an instance of both, by the basic calls of Embree 3. Compiled as it is, and
- * with rtc renamed to alhazen. */
+/* Two triangles, a hole between them and an instance of both, by the basic calls of Embree 3. Compiled
+ * unchanged, and with rtc renamed to alhazen. */
 #include <embree3/rtcore.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* A bumpy ball, copies of it and a floor that moves, by streams of rays: Embree 3 beyond embree_program.c. Compiled as it
- * is, and with rtc renamed to alhazen. */
+/* A bumpy ball, copies of it and a floor that moves, by streams of rays: more of Embree 3 than embree_program.c.
+ * Compiled unchanged, and with rtc renamed to alhazen. */
 #include <embree3/rtcore.h>
 
 #include <math.h>
@@ -96,7 +96,7 @@ static void differ(const char* what, int i, const struct RTCHit* hit, float t) {
         printf("%s differs at %d\n", what, i);
 }
 
-/* The same rays by every stream. */
+/* Traces the same rays by every stream. */
 static void trace(RTCScene scene, const char* name) {
     struct RTCIntersectContext context;
     struct RTCRayHit* pointers[RAYS];

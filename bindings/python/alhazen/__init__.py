@@ -6,8 +6,8 @@
     hits = scene.intersect(rays)                        # (..., 6) -> dict of arrays
     picture = scene.render(640, 480)                    # (480, 640, 3), linear
 
-``Scene`` answers rays, measures solids and renders; functions named as the blocks of the scene format (``sphere``,
-``difference``, ``material`` ...) make what it holds. ``alhazen.trimesh`` and ``alhazen.raycasting`` have the interfaces
+``Scene`` traces rays, measures solids and renders. Functions named as the blocks of the scene format (``sphere``,
+``difference``, ``material`` ...) make its contents. ``alhazen.trimesh`` and ``alhazen.raycasting`` have the interfaces
 of trimesh and Open3D. Errors are ``alhazen.Error``. The guide is docs/guide/python.md.
 """
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ._scene import INVALID_ID, Scene, load
 from . import blocks
 from .blocks import *  # noqa: F403
 
-# Where a program knows them from: in messages, and in help().
+# The public module name, for messages and help().
 for _public in (Error, FileError, Picture, RenderError, ResourceError, Scene, SceneError, SceneWarning, UsageError,
                 blocks.Block, blocks.Call, blocks.Word, load):
     _public.__module__ = "alhazen"
@@ -52,13 +52,13 @@ def hit_fields() -> "list[str]":
 
 
 def traced_in_place(rays: object) -> bool:
-    """Whether ``intersect`` and ``occluded`` read these rays where they lie: a contiguous float64 array (..., 8) that
-    begins at a multiple of 64 bytes. ``aligned_rays`` makes one. Other rays are converted some at a time."""
+    """True if ``intersect`` and ``occluded`` read these rays in place: a contiguous float64 array (..., 8) that starts
+    at a multiple of 64 bytes, as ``aligned_rays`` makes. Other rays are converted block by block."""
     return _alhazen.traced_in_place(rays)
 
 
 def aligned_rays(*shape: int) -> _numpy.ndarray:
-    """A float64 array (*shape, 8) for rays that are traced in place: t_min is 0, t_max infinite, the rest 0."""
+    """A float64 array (*shape, 8) for rays that are traced in place: t_min is 0, t_max infinite, all else 0."""
     count = 8
     for n in shape:
         count *= n

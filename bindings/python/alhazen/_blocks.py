@@ -1,6 +1,6 @@
 """Blocks of the native scene format as Python objects, and their text.
 
-The text is what docs/reference/formats/native.md describes; names and keys of blocks come from the reader itself.
+The text format is described in docs/reference/formats/native.md; the reader supplies names and keys of blocks.
 """
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Word(str):
 
 
 def _caller() -> Origin:
-    """The statement outside of this package that is being executed."""
+    """The current statement outside this package."""
     frame = sys._getframe(1)
     while frame.f_back is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == _FOLDER:
         frame = frame.f_back
@@ -87,8 +87,8 @@ def _checked(word: str) -> str:
 class Block:
     """A block of a scene: ``Block("sphere", "ball", radius=2)`` is ``sphere "ball" { radius = 2 }``.
 
-    The functions of this module (``alhazen.sphere`` and so on) make them. ``items`` are the blocks inside of it;
-    ``repr`` is its text. Values are numbers, texts, lists or arrays, dicts, other blocks and calls
+    The functions of this module (``alhazen.sphere`` and so on) make blocks. ``items`` are the nested blocks;
+    ``repr`` is the text of the block. Values are numbers, texts, lists or arrays, dicts, other blocks and calls
     (``alhazen.translate``); a ``transform`` may be an array (3, 4) or (4, 4).
     """
 
@@ -114,7 +114,7 @@ class Block:
         return self._head() + " " + self._body()
 
     def _lines(self) -> Iterator[Tuple[str, Origin]]:
-        """Its text in lines, each with the place of the statement that made it."""
+        """The lines of its text, each with the location of the statement that made it."""
         if not self.items:
             yield self._text(), self.origin
             return
@@ -137,7 +137,7 @@ def _transform(value: Any) -> Any:
 
 
 def _prepared(type: str, key: str, value: Any) -> Any:
-    """The value of a key: keywords lose their quotes, arrays of transforms become matrices."""
+    """The value of a key: keywords without quotes, transform arrays as matrices."""
     if key == "transform":
         return _transform(value)
     if key == "motion" and isinstance(value, Sequence):

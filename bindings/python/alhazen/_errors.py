@@ -7,8 +7,8 @@ from typing import Optional
 class Error(Exception):
     """Base of all errors of alhazen.
 
-    ``file``, ``line`` and ``column`` are the place in a scene file or a program that the error is about, from 1;
-    None where it is not known. The message lists all findings, one a line.
+    ``file``, ``line`` and ``column`` (from 1) locate the error in a scene file or program; None if unknown. The
+    message lists all findings, one per line.
     """
 
     def __init__(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
@@ -20,15 +20,15 @@ class Error(Exception):
 
 
 class RenderError(Error, RuntimeError):
-    """A check did not hold, or the render failed."""
+    """A check or a render failed."""
 
 
 class UsageError(Error, ValueError):
-    """The call is wrong: an unknown name, a bad option, an array of another shape."""
+    """Invalid call: an unknown name, an invalid option, an array of the wrong shape."""
 
 
 class SceneError(Error, ValueError):
-    """The scene or its data is bad."""
+    """The scene or its data is invalid."""
 
 
 class FileError(Error, OSError):
@@ -47,4 +47,4 @@ class ResourceError(Error, MemoryError):
 
 
 class SceneWarning(UserWarning):
-    """Something in a scene was read otherwise than it is written."""
+    """Part of a scene was not read literally."""

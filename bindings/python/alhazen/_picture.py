@@ -1,4 +1,4 @@
-"""Pictures as numpy arrays that notebooks show."""
+"""Pictures as numpy arrays that notebooks display."""
 from __future__ import annotations
 
 import copy
@@ -13,9 +13,9 @@ from . import _alhazen
 class Picture(np.ndarray):
     """A picture: a float32 array (height, width, 3) of linear radiance; row 0 is the top.
 
-    ``layers`` has the arrays of the other channels (height, width), by names such as ``depth.Z``; ``notes`` says what
-    was added to the scene (a camera, a light); ``complete``, ``seconds`` and ``rays`` (traced in all) are of the render.
-    Parts of it, and results of arithmetic, are pictures without layers.
+    ``layers``: arrays of the other channels (height, width), by names such as ``depth.Z``; ``notes``: additions to the
+    scene (a camera, a light); ``complete``, ``seconds`` and ``rays`` (total traced): figures of the render. Slices and
+    results of arithmetic are pictures without layers.
     """
 
     layers: Dict[str, np.ndarray]
@@ -33,7 +33,7 @@ class Picture(np.ndarray):
 
     @classmethod
     def of(cls, result: Dict[str, Any]) -> "Picture":
-        """From the dict of the compiled part."""
+        """Creates a picture from the dict of the extension module."""
         picture = result["image"].view(cls)
         picture._keep(result)
         return picture

@@ -16,7 +16,7 @@ from ._blocks import Block, Origin, _caller
 from ._errors import SceneWarning, UsageError
 from ._picture import Picture
 
-#: Id of no geometry, primitive or material: what a ray hits that hits nothing.
+#: Id of geometry, primitive and material of a ray without a hit.
 INVALID_ID = 0xFFFFFFFF
 
 _DEFAULT_FIELDS = ("t_hit", "geometry_ids", "primitive_ids", "uvs", "normals")
@@ -25,34 +25,34 @@ Progress = Callable[[str, int, int], Any]
 
 
 class Scene:
-    """Geometry, materials, lights and cameras: answers rays, measures solids, renders pictures.
+    """Geometry, materials, lights and cameras: traces rays, measures solids, renders pictures.
 
     ``Scene(vertices, faces)`` is a scene of one triangle mesh; ``Scene()`` is empty; ``alhazen.load(path)`` reads a
-    file. ``add`` and ``add_mesh`` extend it. The first question builds the acceleration structure; what is added
-    later builds it again.
+    file. ``add`` and ``add_mesh`` extend a scene. The first query builds the acceleration structure, as does the first
+    query after an addition.
 
     Parameters
     ----------
     vertices : array (n, 3), float32 or float64, scene units
-    faces : array (m, 3), of any type of integers; counterclockwise from outside
+    faces : array (m, 3) of integers; counterclockwise from outside
     accelerator : a name of ``alhazen.accelerators()``, or "NAME:SETTING=VALUE,..."
-    quality : of the tree: "fast", "default" or "high"
-    csg : the evaluator of solids made of others
-    threads : at most so many; 0 takes all cores
-    folder : where names of files in blocks begin; the current one if not given
-    allowed_folders : others that such files may lie in
-    strict : warnings are errors
+    quality : quality of the tree: "fast", "default" or "high"
+    csg : the evaluator of CSG solids
+    threads : largest number of threads; 0: all cores
+    folder : that file names in blocks are relative to; default: the current one
+    allowed_folders : further folders that may contain such files
+    strict : True: warnings are errors
 
-    Copies (``copy.copy``, ``copy.deepcopy``) share what is built. A pickle holds the scene itself, files that it was
-    loaded from too; what it is loaded into builds it again.
+    Copies (``copy.copy``, ``copy.deepcopy``) share built structures. A pickle contains the scene and the files that it
+    was loaded from; the unpickled scene is built again.
 
     Conventions
     -----------
-    Rays are arrays (..., 6) of origin x, y, z and direction x, y, z, or (..., 8) with t_min and t_max too (0 and
-    infinity otherwise). Directions need not be unit: t counts in their lengths. Results have the shape (...), and are
-    float32 for float32 rays, else float64; inside, all is computed in float64. Contiguous float32 and float64 arrays
-    are not copied; aligned float64 arrays (..., 8) are traced where they lie. Queries release the interpreter's
-    lock, use all cores, and end on Ctrl-C. A scene may be asked by several threads at once.
+    Rays are arrays (..., 6) of origin x, y, z and direction x, y, z, or (..., 8) with t_min and t_max (default: 0 and
+    infinity). Directions need not be unit: t is in units of their length. Results have the shape (...), and are
+    float32 for float32 rays, else float64; all computations are in float64. Contiguous float32 and float64 arrays
+    are not copied; aligned float64 arrays (..., 8) are traced in place. Queries release the interpreter's
+    lock, use all cores, and end on Ctrl-C. Several threads may query a scene.
 
     >>> import alhazen, numpy as np
     >>> scene = alhazen.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
@@ -78,13 +78,13 @@ class Scene:
         if vertices is not None:
             self.add_mesh(vertices, faces)
 
-    # ---- what is in it
+    # ---- Contents.
 
     def add(self, *blocks: Block) -> "Scene":
-        """Adds blocks (``alhazen.sphere(...)`` and so on) after what is there, and returns the scene.
+        """Appends blocks (``alhazen.sphere(...)`` and so on), and returns the scene.
 
-        Materials, textures and objects must be added before the blocks that name them. What is wrong is reported by
-        the first question, at the place in the program where the block was made.
+        Materials, textures and objects must be added before the blocks that name them. The first query reports
+        errors, with the location in the program where the block was made.
         """
         for block in blocks:
             if not isinstance(block, Block):
@@ -97,8 +97,8 @@ class Scene:
                  **keys: Any) -> "Scene":
         """Adds a triangle mesh, copied, and returns the scene.
 
-        ``vertices`` (n, 3), real, scene units; ``faces`` (m, 3), whole numbers. ``normals`` (n, 3)
-        and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``, ``transform``,
+        ``vertices`` (n, 3), real, scene units; ``faces`` (m, 3), integers. ``normals`` (n, 3)
+        and ``uvs`` (n, 2) belong to the vertices; ``keys`` are those of a part: ``material``, ``transform``,
         ``visible_to``, ``motion``.
         """
         taken = {mesh.name for mesh in self._meshes}
@@ -115,7 +115,7 @@ class Scene:
         return self
 
     def _only(self, parts: Sequence[int]) -> "Scene":
-        """A scene of some of the meshes, where ``add_mesh`` added all there is; the meshes are shared."""
+        """A scene of some of the meshes, for a scene made only by ``add_mesh``; the meshes are shared."""
         scene = Scene()
         scene._settings, scene._threads, scene._folder = self._settings, self._threads, self._folder
         scene._meshes = [self._meshes[i] for i in parts]
@@ -137,43 +137,43 @@ class Scene:
             return self._built
 
     def build(self) -> "Scene":
-        """Builds the scene now, instead of with the first question."""
+        """Builds the scene now, instead of with the first query."""
         self._scene()
         return self
 
     def save(self, path: "str | os.PathLike[str]") -> List[str]:
-        """Writes the scene: .alhazen keeps all of it (large meshes and pictures in files beside it), .ply, .obj and
+        """Writes the scene: .alhazen the whole scene (large meshes and pictures in files beside it), .ply, .obj and
         .stl its meshes. Returns the names of the files written."""
         return self._scene().save(os.fspath(path))
 
     @property
     def geometry_names(self) -> List[str]:
-        """[geometry id] the name of the part, or what it is."""
+        """[geometry id] the name of the part, or its kind."""
         return self._scene().geometry_names()
 
     @property
     def material_names(self) -> List[str]:
-        """[material id] its name."""
+        """[material id] the name of the material."""
         return self._scene().material_names()
 
     @property
     def camera_names(self) -> List[str]:
-        """The cameras of the scene; ``render`` takes a name or a position."""
+        """The names of the cameras; ``render`` takes a name or a position."""
         return self._scene().camera_names()
 
     @property
     def solid_names(self) -> List[str]:
-        """[solid id] the name of the solid: a closed shape or mesh, or a solid made of others."""
+        """[solid id] the name of the solid: a closed shape or mesh, or a CSG solid."""
         return self._scene().solid_names()
 
     @property
     def bounds(self) -> np.ndarray:
-        """The corners (2, 3) of the box of all geometry, scene units; infinite where a part is."""
+        """The corners (2, 3) of the box of all geometry, scene units; infinite if any part is unbounded."""
         return np.array(self._scene().bounds())
 
     @property
     def info(self) -> Dict[str, Any]:
-        """Counts of shapes, triangles and instances, bytes, seconds of building."""
+        """Counts of shapes, triangles and instances, bytes, and seconds of the build."""
         return self._scene().counts()
 
     def __repr__(self) -> str:
@@ -188,7 +188,7 @@ class Scene:
 
     def __deepcopy__(self, memo: Dict[int, Any]) -> "Scene":
         other = copy.copy(self)
-        shared = ("_base", "_built", "_lock", "_meshes")  # they never change
+        shared = ("_base", "_built", "_lock", "_meshes")  # immutable
         vars(other).update({k: copy.deepcopy(v, memo) for k, v in vars(self).items() if k not in shared})
         return other
 
@@ -203,37 +203,37 @@ class Scene:
             self._base = _unpacked(state["_base"], self._settings)
             self._built = None if self._blocks else self._base
 
-    # ---- rays
+    # ---- Rays.
 
     def intersect(self, rays: Any, *, fields: Union[str, Sequence[str]] = _DEFAULT_FIELDS, mask: int = 0xFFFFFFFF,
                   coherent: bool = False, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
         """The nearest hit of each ray (..., 6) or (..., 8): a dict of arrays shaped like the rays.
 
         ===================  ==============  ==============================================================
-        t_hit                (...) real      in lengths of the direction; infinite without a hit
-        geometry_ids         (...) uint32    the part: 0, 1, ... in the order they were added, parts in objects after
+        t_hit                (...) real      in units of the direction's length; infinite without a hit
+        geometry_ids         (...) uint32    the part: 0, 1, ... in the order of addition, parts in objects after
                                              those of the scene; ``geometry_names``
         primitive_ids        (...) uint32    the triangle of a mesh; 0 for a shape
         uvs                  (..., 2) real   weights of a triangle's second and third vertex, or a shape's parameters
         normals              (..., 3) real   unit, geometric, outward of closed shapes
-        points               (..., 3) real   where it is
+        points               (..., 3) real   the point hit
         shading_normals      (..., 3) real   unit, interpolated
-        instance_ids         (...) uint32    the outermost part that holds it
-        material_ids         (...) uint32    ``material_names``
+        instance_ids         (...) uint32    the outermost part that contains it
+        material_ids         (...) uint32    the material; ``material_names``
         ===================  ==============  ==============================================================
 
-        Without a hit ids are INVALID_ID and the others 0. ``fields`` chooses the arrays, by one name or several; the
-        first four cost least.
-        ``mask``: the kinds of rays that these are (``visible_to``): 1 eye, 2 shadow, 4 reflection, 8 refraction.
-        ``coherent`` says that neighbours go nearly the same way and begin or end near a common point, which is
-        faster for rays of a camera; it never changes a hit.
+        Without a hit ids are INVALID_ID and the others 0. ``fields`` selects the arrays, by one or more names; the
+        first four are the fastest.
+        ``mask``: the kinds of the rays (``visible_to``): 1 eye, 2 shadow, 4 reflection, 8 refraction.
+        ``coherent``: True if neighbours have similar directions and start or end near a common point. Camera rays are
+        then traced faster; hits never change.
         """
         names = [fields] if isinstance(fields, str) else list(fields)
         return self._scene().intersect(rays, names, _checked_mask(mask), coherent, self._at_most(threads))
 
     def occluded(self, rays: Any, *, mask: int = 0xFFFFFFFF, coherent: bool = False,
                  threads: Optional[int] = None) -> np.ndarray:
-        """Whether each ray (..., 6) or (..., 8) hits anything: bool, shaped like the rays. Cheaper than
+        """Tests whether each ray (..., 6) or (..., 8) hits anything: bool, shaped like the rays. Faster than
         ``intersect``."""
         return self._scene().occluded(rays, _checked_mask(mask), coherent, self._at_most(threads))
 
@@ -246,10 +246,10 @@ class Scene:
     list_intersections = all_hits
 
     def count_intersections(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> np.ndarray:
-        """How many hits each ray (..., 6) or (..., 8) has: int64, shaped like the rays."""
+        """The number of hits of each ray (..., 6) or (..., 8): int64, shaped like the rays."""
         return self._scene().count_intersections(rays, _checked_mask(mask), self._at_most(threads))
 
-    # ---- the nearest points
+    # ---- Nearest points.
 
     def closest_points(self, points: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
         """The point of the scene's surfaces that is nearest to each point (..., 3): a dict of arrays shaped (...).
@@ -258,25 +258,25 @@ class Scene:
         distance             (...) real      scene units
         points               (..., 3) real   the nearest point
         geometry_ids         (...) uint32    the part, as in ``intersect``
-        primitive_ids        (...) uint32    the triangle; of several that are as near the first; of a shape 0
-        uvs                  (..., 2) real   weights of the triangle's second and third vertex; of a shape 0
+        primitive_ids        (...) uint32    the triangle, the first of several equally near ones; 0 for a shape
+        uvs                  (..., 2) real   weights of the triangle's second and third vertex; 0 for a shape
         normals              (..., 3) real   unit, outward of closed shapes and where a triangle turns counterclockwise
         ===================  ==============  ==============================================================
 
-        Real is float32 for float32 points, else float64; all is computed in float64, and the distance to triangles is
-        exact within 4e-15 of the largest coordinate. Of shapes it is that of planes, discs, rectangles, polygons, boxes,
-        polyhedra, spheres, cylinders, cones, all quadrics, tori, and lathes of straight lines, however they are placed
-        (tori: without stretching). Other shapes, and solids made of others, are an error that names the first. Without
-        surfaces distances are infinite, of points that are not finite NaN; ids are then INVALID_ID. Instances count at
-        each of their places, with at most 5.5 GB in all: 2^25 triangles, fewer shapes.
+        Real is float32 for float32 points, else float64; all computations are in float64, and the distance to triangles
+        is exact within 4e-15 of the largest coordinate. Supported shapes: planes, discs, rectangles, polygons, boxes,
+        polyhedra, spheres, cylinders, cones, all quadrics, tori, and lathes of straight lines, in any placement (tori:
+        without stretching). Other shapes, and CSG solids, are an error that names the first one. Without surfaces
+        distances are infinite, for points that are not finite NaN; ids are then INVALID_ID. Instances are expanded, up
+        to 5.5 GB in total: 2^25 triangles, fewer shapes.
         """
         return self._scene().closest_points(points, self._at_most(threads))
 
-    # ---- solids
+    # ---- Solids.
 
     def spans(self, rays: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
         """The parts of each ray (..., 6) or (..., 8) inside solids, by entry: flat arrays solid_ids (uint64), t_enter,
-        t_exit, ray_ids, and ray_splits as in ``all_hits``. A span that holds an end of the ray is cut there."""
+        t_exit, ray_ids, and ray_splits as in ``all_hits``. A span that contains an end of the ray is clipped there."""
         return self._scene().spans(rays, self._at_most(threads))
 
     def thickness(self, rays: Any, *, threads: Optional[int] = None) -> np.ndarray:
@@ -285,11 +285,11 @@ class Scene:
         return self._scene().thickness(rays, self._at_most(threads))
 
     def inside(self, points: Any, *, threads: Optional[int] = None) -> np.ndarray:
-        """Whether each point (..., 3) lies in a solid or on its surface: bool, shaped (...)."""
+        """Tests whether each point (..., 3) is in a solid or on its surface: bool, shaped (...)."""
         return self._scene().inside(points, self._at_most(threads))
 
     def solids_at(self, points: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
-        """The solids that hold each point (..., 3), scene units: flat arrays solid_ids, on_surface (bool),
+        """The solids that contain each point (..., 3), scene units: flat arrays solid_ids, on_surface (bool),
         point_ids, and point_splits."""
         return self._scene().solids_at(points, self._at_most(threads))
 
@@ -306,16 +306,16 @@ class Scene:
 
     def section(self, normal: Sequence[float] = (0, 0, 1), offset: float = 0.0, *solids: Union[str, int],
                 tolerance: float = 1e-4, cells: int = 256, threads: Optional[int] = None) -> List[Dict[str, Any]]:
-        """The outlines in which the plane dot(normal, p) = offset cuts solids: a dict for each that it cuts.
+        """The outlines in which the plane dot(normal, p) = offset cuts solids: a dict for each solid that it cuts.
 
-        "loops" are closed polylines (k, 2) in the plane, the solid on their left; "points" the same in space (k, 3);
-        "area" what they enclose; "unresolved" counts cells where the outline may be wrong. ``tolerance`` (scene
+        "loops": closed polylines (k, 2) in the plane, with the solid on their left; "points": the same in space (k, 3);
+        "area": the enclosed area; "unresolved": number of cells where the outline may be wrong. ``tolerance`` (scene
         units) is the largest distance of polyline and curve, ``cells`` the grid along the longer side.
         """
         return self._scene().section([float(x) for x in normal], float(offset), [str(s) for s in solids], tolerance,
                                      cells, self._at_most(threads))
 
-    # ---- pictures
+    # ---- Pictures.
 
     def render(self, width: Optional[int] = None, height: Optional[int] = None, *, spp: Optional[int] = None,
                renderer: str = "whitted", camera: Union[str, int] = "", view: Union[str, Sequence[float]] = "",
@@ -328,21 +328,21 @@ class Scene:
 
         Parameters
         ----------
-        width, height : pixels; one given: the other follows; none: the scene's
-        spp : samples per pixel; the renderer's usual number if not given
+        width, height : pixels; if one is given, the other follows; default: the scene's
+        spp : samples per pixel; default: the renderer's
         renderer : a name of ``alhazen.renderers()``
-        camera : name or position; the first if not given
-        view : (azimuth, elevation), degrees: a camera that frames all, instead
-        layers : names of ``alhazen.layers()``, or "all"; they come as ``picture.layers``
-        depth : of reflections and refractions; what follows paths scatters once more at most
+        camera : name or position; default: the first
+        view : (azimuth, elevation), degrees, of a camera that frames the scene, instead of ``camera``
+        layers : names of ``alhazen.layers()``, or "all"; returned as ``picture.layers``
+        depth : of reflections and refractions; path tracers scatter at most once more
         crop : (x0, y0, x1, y1), pixels from the top left
-        environment : "sky", "studio", "none" or a picture file, for renderers that follow light
-        antialias : "whitted" or "exact", with settings as of ``alhazen render --antialias``
-        sampler, filter : by name, as of ``alhazen list``
-        noise, seconds : stop rules; pixels above the noise get more samples
-        progress : called as progress(phase, done, total); an exception of it ends the render
+        environment : "sky", "studio", "none" or a picture file, for physically based renderers
+        antialias : "whitted" or "exact", with settings as in ``alhazen render --antialias``
+        sampler, filter : names as in ``alhazen list``
+        noise, seconds : stop rules; pixels with more noise get more samples
+        progress : called as progress(phase, done, total); an exception raised by it ends the render
 
-        A scene without a camera or lights gets some; ``picture.notes`` says so.
+        A scene without a camera or lights gets default ones; ``picture.notes`` lists them.
         """
         if not isinstance(view, str):
             view = ",".join(repr(float(a)) for a in view)
@@ -355,7 +355,7 @@ class Scene:
         return Picture.of(self._scene().render(wishes, progress))
 
     def _repr_png_(self) -> bytes:
-        """What a notebook shows: the scene at 320 pixels of width."""
+        """The display in a notebook: a picture 320 pixels wide."""
         return self.render(width=320)._repr_png_()  # type: ignore[return-value]
 
     def _at_most(self, threads: Optional[int]) -> int:
@@ -369,7 +369,7 @@ def _checked_mask(mask: int) -> int:
 
 
 def _packed(built: _alhazen.BuiltScene) -> Tuple[str, Dict[str, bytes]]:
-    """Its path, and the files of the native format by name."""
+    """The path of the native file, and the contents of its files by name."""
     files = {}
     with tempfile.TemporaryDirectory() as top:
         built.save(os.path.join(top, "scene.alhazen"))
@@ -399,8 +399,8 @@ def _warn(built: _alhazen.BuiltScene) -> None:
 def load(path: "str | os.PathLike[str]", *, accelerator: str = "wide_bvh", quality: str = "default",
          csg: str = "event_heap", threads: int = 0, allowed_folders: Sequence[str] = (), strict: bool = False,
          time: Optional[float] = None) -> Scene:
-    """Reads a scene file of any format that ``alhazen list formats`` names. ``time``: seconds, of its animations; the
-    other parameters are those of ``Scene``. Blocks that are added see its materials, textures and objects by name."""
+    """Reads a scene file of any format of ``alhazen list formats``. ``time``: moment of its animations, seconds; the
+    other parameters are those of ``Scene``. Added blocks can name its materials, textures and objects."""
     scene = Scene(accelerator=accelerator, quality=quality, csg=csg, threads=threads,
                   folder=os.path.dirname(os.path.abspath(os.fspath(path))), allowed_folders=allowed_folders,
                   strict=strict)

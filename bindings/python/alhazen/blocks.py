@@ -1,7 +1,7 @@
-"""All blocks of the native scene format, a function each, and the values that only this format has.
+"""All blocks of the native scene format, one function each, and the values specific to the format.
 
-``alhazen.sphere("ball", center=(0, 0, 1), radius=0.5)`` makes a block for ``Scene.add``. The functions are made from
-the tables of the reader of the format; docs/reference/formats/native.md says what each key means.
+``alhazen.sphere("ball", center=(0, 0, 1), radius=0.5)`` makes a block for ``Scene.add``. The functions are generated
+from the tables of the reader of the format; docs/reference/formats/native.md describes the keys.
 """
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def matrix(rows: Any) -> Call:
 
 
 def texture_input(name: str, factor: Any = 1.0, channel: str = "") -> Call:
-    """A colour or number input of a material: the texture of that name, times a factor; ``channel`` is one of mean,
-    red, green, blue, alpha for numbers."""
+    """A colour or number input of a material: a texture by name, times a factor; ``channel``, for numbers, is one of
+    mean, red, green, blue, alpha."""
     return Call("texture", name, factor, *([Word(channel)] if channel else []))
 
 

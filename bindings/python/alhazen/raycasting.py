@@ -5,15 +5,15 @@ Source: the documentation of Open3D, ``open3d.t.geometry.RaycastingScene``; comp
 
 Differs:
 
-- Results are numpy arrays. Arguments may be tensors of Open3D, arrays of any type of numbers, or lists; one ray (6,) or
-  point (3,) will do. All is computed in float64, and t_hit, uvs, points and distances are float32 for float32 rays or
-  points, else float64.
-- Wrong calls are ``UsageError`` (a ``ValueError``) and wrong meshes ``SceneError``, not ``RuntimeError``. Cameras
-  whose rays Open3D makes NaN are errors.
-- ``list_intersections`` sorts the hits of a ray. Triangles in the same place are hits of their own.
-- On an edge or corner a ray hits one of the triangles there, and passes the rim on one side: crossings of a closed mesh
-  are even. Of triangles that are as near to a point the first is named.
-- A point on the surface of a closed mesh is inside. Without triangles distances are infinite; of points that are not
+- Results are numpy arrays. Arguments may be tensors of Open3D, arrays of numbers of any type, or lists; a single ray
+  (6,) or point (3,) is accepted. Computations are in float64; t_hit, uvs, points and distances are float32 for float32
+  rays or points, else float64.
+- Invalid calls raise ``UsageError`` (a ``ValueError``) and invalid meshes ``SceneError``, not ``RuntimeError``. Cameras
+  for which Open3D returns NaN rays are errors.
+- ``list_intersections`` sorts the hits of a ray. Coincident triangles are separate hits.
+- On an edge or corner a ray hits exactly one of the triangles there: the number of crossings of a closed mesh is even.
+  Of several triangles equally near to a point the first is returned.
+- A point on the surface of a closed mesh is inside. Without triangles distances are infinite; for points that are not
   finite they are NaN.
 """
 from __future__ import annotations
@@ -30,7 +30,7 @@ __all__ = ["RaycastingScene"]
 
 
 class RaycastingScene:
-    """Triangle meshes that rays are cast at.
+    """Triangle meshes for ray casting.
 
     >>> scene = RaycastingScene()
     >>> scene.add_triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
@@ -45,7 +45,7 @@ class RaycastingScene:
     def __init__(self, nthreads: int = 0) -> None:
         self._scene = Scene(threads=nthreads)
         self._count = 0
-        # Of how many meshes: the number of those that are closed, and a scene of the others.
+        # Number of meshes it is valid for, number of closed ones, and a scene of the open ones.
         self._sorted: Optional[Tuple[int, int, Optional[Scene]]] = None
 
     @overload
@@ -59,7 +59,7 @@ class RaycastingScene:
 
     def add_triangles(self, vertex_positions: Any = None, triangle_indices: Any = None, *, mesh: Any = None) -> int:
         """Adds a mesh and returns its geometry id: vertices (n, 3), scene units, and triangles (m, 3), or one mesh: of
-        Open3D, with tensors or without, or an object with ``vertices`` and ``triangles`` or ``faces``."""
+        Open3D, tensor-based or legacy, or an object with ``vertices`` and ``triangles`` or ``faces``."""
         if mesh is None and triangle_indices is None:
             vertex_positions, mesh = None, vertex_positions
         if (mesh is None) == (vertex_positions is None) or (vertex_positions is None) != (triangle_indices is None):
@@ -79,7 +79,7 @@ class RaycastingScene:
         return hits
 
     def test_occlusions(self, rays: Any, tnear: float = 0.0, tfar: float = np.inf, nthreads: int = 0) -> np.ndarray:
-        """Whether rays (..., 6) hit anything from tnear to tfar: bool (...)."""
+        """Tests whether rays (..., 6) hit anything from tnear to tfar: bool (...)."""
         rays = _rows(rays, 6, "rays")
         if tnear == 0.0 and tfar == np.inf:
             return self._scene.occluded(rays, threads=nthreads)
@@ -94,7 +94,7 @@ class RaycastingScene:
         return self._scene.count_intersections(_rows(rays, 6, "rays"), threads=nthreads).astype(np.int32)
 
     def list_intersections(self, rays: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
-        """All hits of rays (..., 6), those of a ray from near to far: ray_splits (rays + 1), ray_ids (h,),
+        """All hits of rays (..., 6), those of each ray sorted by t: ray_splits (rays + 1), ray_ids (h,),
         geometry_ids, primitive_ids (all uint32), t_hit (h,) and primitive_uvs (h, 2). Hits of ray i are
         [ray_splits[i], ray_splits[i + 1])."""
         hits = self._scene.all_hits(_rows(rays, 6, "rays"), threads=nthreads)
@@ -104,10 +104,9 @@ class RaycastingScene:
         return hits
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
-        """1 for points (..., 3) inside of an odd number of meshes, else 0: float32 (...). Each mesh that is closed is
-        asked whether it holds the point; ``nsamples`` (odd) rays vote on those that are open, inside where they cross
-        an odd number of their triangles. The directions of these rays are those of Open3D 0.17 and later. Points on the
-        surface of a closed mesh are inside."""
+        """1 for points (..., 3) inside an odd number of meshes, else 0: float32 (...). Closed meshes are tested
+        exactly. For open ones ``nsamples`` (odd) rays vote: inside if they cross an odd number of triangles. The
+        directions of these rays are those of Open3D 0.17 and later. Points on the surface of a closed mesh are inside."""
         return self._inside(query_points, nthreads, nsamples).astype(np.float32)
 
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> Dict[str, np.ndarray]:
@@ -124,7 +123,7 @@ class RaycastingScene:
         return self._scene.closest_points(_rows(query_points, 3, "query_points"), threads=nthreads)["distance"]
 
     def compute_signed_distance(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> np.ndarray:
-        """The distance of points (..., 3), negative for those inside, as ``compute_occupancy`` has it: real (...)."""
+        """The distance of points (..., 3), negative inside as in ``compute_occupancy``: real (...)."""
         distance = self.compute_distance(query_points, nthreads)
         inside = self._inside(query_points, nthreads, nsamples)
         return np.negative(distance, out=distance, where=inside & (distance > 0))
@@ -169,10 +168,10 @@ class RaycastingScene:
 
         Either ``fov_deg, center, eye, up, width_px, height_px``: from ``eye`` to ``center``, scene units; ``fov_deg``
         is the horizontal field of view. Rows count towards ``up`` and columns to the left, as in Open3D: pass -up for
-        a picture whose row 0 is the top. Along the view directions have length 1.
+        a picture whose row 0 is the top. The component of directions along the view is 1.
 
-        Or ``intrinsic_matrix, extrinsic_matrix, width_px, height_px``: a matrix (3, 3) that takes points of the camera
-        to pixels, and one (4, 4) that takes points of the world to the camera, which looks along its z axis.
+        Or ``intrinsic_matrix, extrinsic_matrix, width_px, height_px``: a matrix (3, 3) from camera space to pixels,
+        and a matrix (4, 4) from world to camera space; the camera looks along its z axis.
         """
         names = next((names for names in _PINHOLE_ARGUMENTS if len(arguments) <= len(names)
                       and set(names[len(arguments):]) == set(named)), None)
@@ -203,12 +202,12 @@ class RaycastingScene:
 
 
 def _array(values: Any) -> Any:
-    """Tensors of Open3D, which numpy does not know, as arrays; others as they are."""
+    """Converts tensors of Open3D, which numpy does not accept, to arrays; returns other values unchanged."""
     return values.numpy() if hasattr(values, "numpy") and not hasattr(values, "__array__") else values
 
 
 def _rows(values: Any, columns: int, name: str) -> np.ndarray:
-    """The array (..., columns)."""
+    """The values as an array (..., columns)."""
     try:
         array = np.asarray(_array(values))
     except ValueError:
@@ -228,7 +227,7 @@ def _triangles_of(mesh: Any) -> Tuple[Any, Any]:
 
 
 def _votes(scene: Scene, points: np.ndarray, nthreads: int, nsamples: int) -> np.ndarray:
-    """Whether most of ``nsamples`` rays from each point (..., 3) cross an odd number of triangles: bool (...)."""
+    """Tests whether most of ``nsamples`` rays from each point (..., 3) cross an odd number of triangles: bool (...)."""
     points = points.astype(np.float64, copy=False)
     votes = np.zeros(points.shape[:-1], dtype=np.int64)
     for direction in _vote_directions(nsamples):
@@ -238,8 +237,8 @@ def _votes(scene: Scene, points: np.ndarray, nthreads: int, nsamples: int) -> np
 
 
 def _vote_directions(count: int) -> np.ndarray:
-    """Directions (count, 3), float32, about (1, 1, 1), the same for each call. They are those of Open3D where its C++
-    library is GNU's: std::mt19937 of seed 42, and std::uniform_real_distribution<float> from -0.001 to 0.001."""
+    """Directions (count, 3), float32, near (1, 1, 1), the same for each call. They are those of Open3D with GNU's C++
+    library: std::mt19937 of seed 42, and std::uniform_real_distribution<float> from -0.001 to 0.001."""
     drawn = np.random.RandomState(42).randint(0, 2**32, (count, 3), dtype=np.uint32)
     lo, hi, one = np.array([-0.001, 0.001, 1], dtype=np.float32)
     return one + (drawn.astype(np.float32) / np.float32(2**32) * (hi - lo) + lo)
@@ -281,7 +280,7 @@ def _camera_at(fov_deg: float, center: Any, eye: Any, up: Any, width: int, heigh
     if not np.linalg.norm(x) > 0:
         raise UsageError("create_rays_pinhole: up is parallel to the view")
     x /= np.linalg.norm(x)
-    with np.errstate(divide="ignore"):  # an angle of 0: all rays go along the view
+    with np.errstate(divide="ignore"):  # an angle of 0: all rays are parallel to the view
         focal = 0.5 * width / np.tan(0.5 * np.radians(fov_deg))
     extrinsic = np.eye(4)
     extrinsic[:3, :3] = x, np.cross(z, x), z

@@ -2,12 +2,12 @@
 results.
 
 Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector`` and
-``trimesh.proximity.ProximityQuery``. Differs: hits and distances are computed in float64, hits come in the order of the
-rays, the nearest first; ``contains_points`` takes points on the surface as inside; ``ProximityQuery.signed_distance`` has
-the sign of ``contains_points`` in closed meshes, whichever way their triangles are turned; ``ProximityQuery.vertex`` is
-not there.
-trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``. Queries follow the mesh: arrays that
-have a hash, as trimesh's have, are known by it; others are compared with a copy, which takes their size in memory.
+``trimesh.proximity.ProximityQuery``.
+Differs: hits and distances are computed in float64; hits are in the order of the rays, the nearest first; points on the
+surface are inside for ``contains_points``; in closed meshes ``ProximityQuery.signed_distance`` has the sign of
+``contains_points`` whatever the orientation of the triangles; there is no ``ProximityQuery.vertex``.
+trimesh itself is not needed: a mesh is any object with ``vertices`` and ``faces``. Queries follow changes of the mesh:
+arrays with a hash, such as trimesh's, are compared by it; others are compared with a copy, which takes their memory.
 
     mesh.ray = alhazen.trimesh.RayMeshIntersector(mesh)
     mesh.nearest = alhazen.trimesh.ProximityQuery(mesh)
@@ -33,7 +33,7 @@ def _rays(origins: Any, directions: Any) -> np.ndarray:
 
 
 def _known_by(array: Any) -> Union[int, np.ndarray]:
-    """What tells whether an array has changed."""
+    """A value that differs when the array has changed."""
     hashed = isinstance(array, np.ndarray) and type(array).__hash__ is not None
     return hash(array) if hashed else np.array(array)
 
@@ -52,7 +52,7 @@ class _MeshQueries:
 
     @property
     def _scene(self) -> Scene:
-        """The scene of the mesh as it is now."""
+        """The scene of the current mesh."""
         known, scene = self._built
         if not all(np.array_equal(old, _known_by(new) if isinstance(old, int) else np.asarray(new))
                    for old, new in zip(known, (self.mesh.vertices, self.mesh.faces))):
@@ -61,7 +61,7 @@ class _MeshQueries:
         return scene
 
     def contains_points(self, points: Any) -> np.ndarray:
-        """Whether each point (n, 3) is inside of the mesh: (n,) bool. In a mesh with open edges, whether a line
+        """Tests whether each point (n, 3) is inside the mesh: (n,) bool. For a mesh with open edges, whether a line
         through the point crosses it an odd number of times on both sides."""
         points = np.asarray(points, dtype=np.float64)
         scene = self._scene
@@ -89,7 +89,7 @@ class RayMeshIntersector(_MeshQueries):
                       multiple_hits: bool = True, **kwargs: Any
                       ) -> Union[Tuple[np.ndarray, np.ndarray], Tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """The triangles that rays hit: index_tri (h,) and index_ray (h,), int64, and with ``return_locations``
-        locations (h, 3). ``multiple_hits`` False: the first of each ray."""
+        locations (h, 3). ``multiple_hits`` False: only the first hit of each ray."""
         rays = _rays(ray_origins, ray_directions)
         if multiple_hits:
             hits = self._scene.all_hits(rays)
@@ -107,18 +107,18 @@ class RayMeshIntersector(_MeshQueries):
 
     def intersects_location(self, ray_origins: Any, ray_directions: Any, multiple_hits: bool = True,
                             **kwargs: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Where rays hit the mesh: locations (h, 3), index_ray (h,), index_tri (h,)."""
+        """The hits of rays on the mesh: locations (h, 3), index_ray (h,), index_tri (h,)."""
         index_tri, index_ray, locations = self.intersects_id(  # type: ignore[misc]
             ray_origins, ray_directions, return_locations=True, multiple_hits=multiple_hits)
         return locations, index_ray, index_tri
 
     def intersects_first(self, ray_origins: Any, ray_directions: Any, **kwargs: Any) -> np.ndarray:
-        """The first triangle that each ray hits: (n,) int64, -1 for none."""
+        """The first triangle that each ray hits: (n,) int64; -1 without a hit."""
         first = self._scene.intersect(_rays(ray_origins, ray_directions), fields=("t_hit", "primitive_ids"))
         return np.where(np.isfinite(first["t_hit"]), first["primitive_ids"].astype(np.int64), -1)
 
     def intersects_any(self, ray_origins: Any, ray_directions: Any, **kwargs: Any) -> np.ndarray:
-        """Whether each ray hits the mesh: (n,) bool."""
+        """Tests whether each ray hits the mesh: (n,) bool."""
         return self._scene.occluded(_rays(ray_origins, ray_directions))
 
 
@@ -133,16 +133,16 @@ class ProximityQuery(_MeshQueries):
     """
 
     def on_surface(self, points: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The nearest points of the mesh to points (n, 3): closest (n, 3), distance (n,) and triangle_id (n,), int64, -1
-        where the mesh has no triangle."""
+        """The nearest points of the mesh to points (n, 3): closest (n, 3), distance (n,) and triangle_id (n,), int64;
+        -1 if the mesh has no triangle."""
         found = self._scene.closest_points(np.asarray(points, dtype=np.float64))
         triangle = found["primitive_ids"]
         return found["points"], found["distance"], np.where(triangle == INVALID_ID, -1, triangle.astype(np.int64))
 
     def signed_distance(self, points: Any) -> np.ndarray:
         """The distance of points (n, 3) from the mesh, positive inside, negative outside: (n,). In a mesh with open
-        edges, points straight above their nearest triangle are outside where its normal points to them; others are
-        inside where ``contains_points`` says so."""
+        edges, points that project onto their nearest triangle are outside if its normal points towards them; for others
+        ``contains_points`` decides."""
         points = np.asarray(points, dtype=np.float64)
         found = self._scene.closest_points(points)
         distance = found["distance"]
@@ -158,14 +158,14 @@ class ProximityQuery(_MeshQueries):
         return np.negative(distance, out=distance, where=(distance > 0) & outside)
 
     def _is_above(self, points: np.ndarray, offset: np.ndarray, found: Dict[str, np.ndarray]) -> np.ndarray:
-        """Whether each point lies above or below its nearest triangle, within a part in 10^8 of the triangle's size:
-        (n,) bool. ``offset`` (n, 3) is that from the nearest point."""
+        """Tests whether each point lies above or below its nearest triangle, within 1e-8 of the triangle's size:
+        (n,) bool. ``offset`` (n, 3): difference from the nearest point."""
         known = found["primitive_ids"] != INVALID_ID
         result = np.zeros(len(points), dtype=bool)
         corners = np.asarray(self.mesh.vertices, dtype=np.float64)[
             np.asarray(self.mesh.faces)[found["primitive_ids"][known]]]
         size = np.ptp(corners, axis=1).max(axis=1)
-        # Differences are rounded by parts of the coordinates.
+        # Rounding error of the differences, relative to the coordinates.
         rounding = 1e-15 * np.maximum(np.abs(points[known]).max(axis=1), np.abs(corners).max(axis=(1, 2)))
         normals = found["normals"][known]
         aside = np.linalg.norm(np.cross(offset[known], normals), axis=1)

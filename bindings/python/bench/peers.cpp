@@ -1,5 +1,5 @@
-/// The extension module alhazen_peers: the C++ call without Python around it, and Embree through
-/// the route that numpy arrays take in alhazen. For numpy_bench.py.
+/// The extension module alhazen_peers for numpy_bench.py: the C++ call without Python around it,
+/// and Embree by the route that numpy arrays take in alhazen.
 #include <embree3/rtcore.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -25,13 +25,13 @@ using Faces = py::array_t<std::uint32_t, py::array::c_style>;
 
 constexpr std::size_t kGrain = 1024;
 
-/// Calls work(begin, end) for all of [0, count), in ranges, from `threads` threads.
+/// Calls work(begin, end) for ranges that cover [0, count), from `threads` threads.
 template <class Work>
 void in_ranges(std::size_t count, int threads, const Work& work) {
     alhazen::ThreadLimit(threads).run([&] { alhazen::parallel_for(count, kGrain, work); });
 }
 
-/// Seconds of the clock, or of processor time of all threads.
+/// Wall-clock seconds, or processor seconds of all threads.
 double now(bool processor) {
     if (processor) return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -42,8 +42,8 @@ class Direct {
   public:
     Direct(const Doubles& vertices, const Faces& faces) : tracer_(scene_of(vertices, faces)) {}
 
-    /// Seconds, or seconds of processor time, of Tracer::intersect over all rays, which lie ready,
-    /// as do the hits; with `normals`, also of the normal of each hit.
+    /// Seconds, or processor seconds, of Tracer::intersect over all rays, with rays and hits
+    /// already in memory; with `normals`, also of the normal of each hit.
     double seconds(const Doubles& numbers, int threads, bool normals, bool processor) {
         const auto count = static_cast<std::size_t>(numbers.shape(0));
         if (rays_.size() != count) {

@@ -1,5 +1,5 @@
 #pragma once
-/// New numpy arrays of a given shape, and access to their numbers.
+/// New numpy arrays of a given shape, and access to their elements.
 
 #include <pybind11/numpy.h>
 
@@ -16,7 +16,7 @@ using Shape = std::vector<pybind11::ssize_t>;
 class RealArray {
   public:
     RealArray() = default;
-    /// `columns` 0: one number each, of the given shape; else a last dimension of so many.
+    /// `columns`: size of an additional last dimension; 0: none.
     RealArray(bool single, Shape shape, pybind11::ssize_t columns) : single_(single) {
         if (columns > 0) shape.push_back(columns);
         if (single) {

@@ -16,7 +16,7 @@ namespace {
     throw Error(ErrorKind::Scene, message, where);
 }
 
-/// The corners of triangle i, each from 0 to `vertices` - 1.
+/// Sets the corners of all triangles, each from 0 to `vertices` - 1.
 template <class Index>
 void set_faces(const py::array& faces, std::size_t vertices, const FileLocation& where,
                TriangleMesh& mesh) {
@@ -48,7 +48,7 @@ NumberArray per_vertex(const py::object& numbers, py::ssize_t columns, std::size
     return array;
 }
 
-/// The numbers of `values`, so many in each row.
+/// An array with one row of numbers per element of `values`.
 template <class Number, class Value>
 py::array_t<Number> array_of(const std::vector<Value>& values) {
     constexpr std::size_t kColumns = sizeof(Value) / sizeof(Number);

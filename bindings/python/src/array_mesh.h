@@ -1,5 +1,5 @@
 #pragma once
-/// Triangle meshes of numpy arrays.
+/// Triangle meshes from numpy arrays.
 
 #include <pybind11/numpy.h>
 
@@ -11,14 +11,14 @@
 
 namespace alhazen::python {
 
-/// A mesh of arrays; a `mesh` block of the text places it by its name.
+/// A mesh from arrays; a `mesh` block of the text places it by its name.
 struct ArrayMesh {
     std::string name;
     std::shared_ptr<TriangleMesh> mesh;
     FileLocation location;
 };
 
-/// A place (file, line) of a program.
+/// A location (file, line) in a program.
 [[nodiscard]] FileLocation location_of(const pybind11::tuple& origin);
 
 /// The mesh of vertices (n, 3) and faces (m, 3), with normals (n, 3) and uvs (n, 2) or None,
@@ -27,7 +27,7 @@ struct ArrayMesh {
                                   const pybind11::object& faces, const pybind11::object& normals,
                                   const pybind11::object& uvs, const pybind11::tuple& origin);
 
-/// For pickle: the arguments of `make_mesh`, and the mesh of them, bit for bit.
+/// For pickle: the arguments of `make_mesh`, and the mesh made from them, bit for bit.
 [[nodiscard]] pybind11::tuple state_of_mesh(const ArrayMesh& mesh);
 [[nodiscard]] ArrayMesh mesh_of_state(const pybind11::tuple& state);
 

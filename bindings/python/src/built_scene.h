@@ -1,5 +1,5 @@
 #pragma once
-/// A scene that is loaded, validated and compiled: what the Python class alhazen.Scene asks.
+/// A loaded, validated and compiled scene: the implementation of the Python class alhazen.Scene.
 ///
 /// Threads: const functions may be called from many threads.
 
@@ -22,7 +22,7 @@
 
 namespace alhazen::python {
 
-/// How a scene is built.
+/// Settings of the build of a scene.
 struct BuildSettings {
     std::string accelerator = kDefaultAccelerator;
     std::string csg = "event_heap";
@@ -37,28 +37,28 @@ class BuiltScene {
   public:
     BuiltScene(SceneDescription source, LoadedScene loaded);
 
-    /// Builds what `base` has (null: nothing), the meshes, and the blocks of the text, whose lines
-    /// come from `origins`. File names are relative to `folder`. Throws Error.
+    /// Builds the contents of `base` (null: none), the meshes, and the blocks of the text, whose
+    /// lines come from `origins`. File names are relative to `folder`. Throws Error.
     [[nodiscard]] static std::shared_ptr<BuiltScene> build(
         const BuiltScene* base, const std::vector<ArrayMesh>& meshes, const std::string& text,
         const Origins& origins, const std::string& folder, const BuildSettings& settings);
-    /// Loads a file of any format. Files that are named later lie relative to the path `called`; ""
-    /// for its own. Throws Error.
+    /// Loads a file of any format. File names in later blocks are relative to the path `called`;
+    /// "": to the file's own. Throws Error.
     [[nodiscard]] static std::shared_ptr<BuiltScene> load(const std::string& path,
                                                           const BuildSettings& settings,
                                                           const std::string& called);
 
-    /// As it was given, without what rendering adds.
+    /// The scene as given, without additions for rendering.
     [[nodiscard]] const SceneDescription& source() const { return source_; }
     [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
     [[nodiscard]] const Tracer& tracer() const { return tracer_; }
-    /// Made on first use: finds which geometry is closed.
+    /// The solids; created on first use, which finds the closed geometry.
     [[nodiscard]] const SolidScene& solids() const;
-    /// The same where they are found, else null.
+    /// The solids if they have been created, else null.
     [[nodiscard]] const SolidScene* found_solids() const { return found_solids_; }
-    /// Its triangles, made on first use; throws what PlacedSurfaces does.
+    /// The nearest-point structure; created on first use. Throws as PlacedSurfaces.
     [[nodiscard]] const PlacedSurfaces& nearest() const;
-    /// The same where they are made, else null.
+    /// The nearest-point structure if it has been created, else null.
     [[nodiscard]] const PlacedSurfaces* made_nearest() const { return made_nearest_; }
 
   private:

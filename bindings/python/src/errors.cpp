@@ -6,7 +6,7 @@ namespace alhazen::python {
 
 namespace {
 
-/// In the order of ErrorKind.
+/// Classes in the order of ErrorKind.
 constexpr const char* kClasses[] = {"RenderError", "UsageError", "SceneError", "FileError",
                                     "ResourceError"};
 

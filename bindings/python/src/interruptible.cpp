@@ -36,7 +36,7 @@ class LatestProgress final : public ProgressSink {
         total_ = total;
         changed_ = true;
     }
-    /// Calls callback(phase, done, total) where there is news.
+    /// Calls callback(phase, done, total) if there is a new report.
     void tell(const py::object& callback) {
         std::string phase;
         std::size_t done = 0, total = 0;
@@ -100,7 +100,7 @@ void run_watched(StopFlag& stop, const py::object& progress,
         done = true;
         ended.notify_one();
     });
-    std::exception_ptr wish;  // of the user, or of the callback
+    std::exception_ptr wish;  // from a signal or the callback
     {
         const py::gil_scoped_release released;
         std::unique_lock lock(mutex);

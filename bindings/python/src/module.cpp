@@ -1,4 +1,4 @@
-/// The extension module alhazen._alhazen: what the Python files of the package call.
+/// The extension module alhazen._alhazen, which the Python files of the package call.
 #include <pybind11/pybind11.h>
 
 #include "alhazen/aggregates/accelerator_table.h"
@@ -119,7 +119,7 @@ py::tuple bounds(const BuiltScene& scene) {
                           py::make_tuple(box.hi.x, box.hi.y, box.hi.z));
 }
 
-/// The value of a key. Throws Error (Usage) where it has another type.
+/// The value of a key. Throws Error (Usage) if it has another type.
 template <class T>
 T value_of(const py::dict& given, const char* key) {
     try {

@@ -16,16 +16,16 @@ namespace alhazen::python {
 
 namespace {
 
-/// Of an aggregate with what its instances hold.
+/// Sums over an aggregate, instances expanded.
 struct Census {
-    double bytes = 0;         ///< of instances nested in each other there may be many
-    std::string first_solid;  ///< its name
+    double bytes = 0;         ///< double, as nested instances may expand to very many
+    std::string first_solid;  ///< name of the first solid
     bool has_instances = false;
 };
 
 class CensusTaker {
   public:
-    /// Nothing is weighed without instances: all is there once.
+    /// Without instances nothing is counted, as everything is stored once.
     CensusTaker(const SceneDescription& description, const Aggregate& scene)
         : description_(description), weighs_(!scene.primitives().instances.empty()) {}
 
@@ -63,7 +63,7 @@ class CensusTaker {
         return census;
     }
 
-    /// Of shapes that an instance may stretch.
+    /// Bytes of shapes that an instance may stretch.
     template <class S>
     static double bytes_of(const ShapeColumn<S>& column) {
         const Affine stretch = Affine::scale({1, 2, 3});
@@ -72,14 +72,14 @@ class CensusTaker {
         for (const S& shape : column.shapes) {
             interruption_point();
             const AnyShape any(shape);
-            // Those whose nearest points are not known are an error soon.
+            // Shapes without nearest points cause an error later.
             if (!nearest_refusal(any, {}).empty()) continue;
             sum += static_cast<double>(ExactSurface(any, stretched).bytes() + kTreeBytes);
         }
         return sum;
     }
 
-    /// Of a shape: its id, its box and its part of the tree.
+    /// Bytes of a shape: its id, its box and its part of the tree.
     static constexpr std::size_t kTreeBytes = 128;
     const SceneDescription& description_;
     const bool weighs_;
@@ -102,7 +102,7 @@ void check(const Census& census) {
     }
 }
 
-/// The box of what the transform makes of a box.
+/// The box of a transformed box.
 Box3 box_of(const Box3& box, const Affine& outer_from_inner) {
     if (outer_from_inner == Affine{} || !box.bounded()) return box;
     Box3 result;
@@ -118,7 +118,7 @@ Box3 box_of(const Box3& box, const Affine& outer_from_inner) {
 
 }  // namespace
 
-/// Visits all meshes and shapes at all places.
+/// Visits all meshes and shapes in all places.
 class PlacedSurfaces::Collector {
   public:
     Collector(const Tracer& tracer, const SceneDescription& description)
@@ -150,7 +150,7 @@ class PlacedSurfaces::Collector {
             path_.pop_back();
         }
     }
-    /// Of a primitive of the table that is visited.
+    /// The geometry id of a primitive of the current table.
     [[nodiscard]] std::uint32_t geometry_of(std::uint32_t primitive) const {
         Hit hit;
         hit.primitive = PrimitiveId{primitive};

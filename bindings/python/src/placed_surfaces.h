@@ -1,9 +1,8 @@
 #pragma once
-/// All triangles and shapes of a scene where they are placed, for questions about the nearest
-/// point.
+/// All placed triangles and shapes of a scene, for nearest-point queries.
 ///
-/// Conventions: those of nearest_triangles.h and exact_surface.h, in world space. What instances
-/// hold is copied once for each place. Ids are those of the hits of a Tracer.
+/// Conventions: those of nearest_triangles.h and exact_surface.h, in world space. The contents of
+/// instances are copied for each placement. Ids are those of the hits of a Tracer.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,28 +19,27 @@ namespace alhazen::python {
 
 class PlacedSurfaces {
   public:
-    /// More are refused where there are instances. A triangle takes `kTriangleBytes` with its part
-    /// of the tree; a shape what it keeps where it is stretched (ExactSurface::bytes).
+    /// Limit for scenes with instances. A triangle takes `kTriangleBytes` including its part of the
+    /// tree; a shape takes its data if it is stretched (ExactSurface::bytes).
     static constexpr double kTriangleBytes = 164;
     static constexpr double kMostBytes = kTriangleBytes * (1 << 25);
 
-    /// Throws Error: Usage where there are solids made of others, or shapes whose nearest points
-    /// are not known (exact_surface.h), naming the first; Resource for too many of them. Can be
-    /// interrupted.
+    /// Throws Error: Usage if there are CSG solids, or shapes without nearest-point queries
+    /// (exact_surface.h), naming the first one; Resource beyond the limit. Can be interrupted.
     PlacedSurfaces(const Tracer& tracer, const SceneDescription& description);
 
     struct Found : NearestTriangle {
-        std::uint32_t geometry = kNone, primitive = kNone;  ///< of a shape the primitive is 0
-        Vec3 normal;  ///< unit, as a hit has it; 0 where there is none
+        std::uint32_t geometry = kNone, primitive = kNone;  ///< primitive 0 for a shape
+        Vec3 normal;                                        ///< unit, as for a hit; 0 if undefined
     };
     [[nodiscard]] Found nearest(const Vec3& point) const;
 
   private:
-    /// A mesh at one place; its triangles follow each other.
+    /// A mesh in one place; its triangles are consecutive.
     struct Run {
         std::uint32_t first = 0, geometry = 0;
         const PlacedMesh* mesh = nullptr;
-        bool placed = false;  ///< by instances
+        bool placed = false;  ///< inside an instance
         Placement world;
     };
     struct PlacedShape {
@@ -51,11 +49,11 @@ class PlacedSurfaces {
     class Collector;
 
     explicit PlacedSurfaces(Collector collector);
-    /// Ids and normal of a triangle that was found.
+    /// Sets ids and normal of a triangle that was found.
     void name(Found& found) const;
     void take_nearer_shape(const Vec3& point, Found& found) const;
 
-    std::vector<Run> runs_;  ///< by `first`
+    std::vector<Run> runs_;  ///< sorted by `first`
     std::vector<PlacedShape> shapes_;
     NearestTriangles tree_;
     NearestBoxes shape_tree_;

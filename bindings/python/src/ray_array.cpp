@@ -15,7 +15,7 @@ namespace {
 template <class Real>
 using Plain = py::array_t<Real, py::array::c_style>;
 
-/// A copy, of any layout and byte order.
+/// A copy of an array of any layout and byte order.
 template <class Real>
 py::array copy_of(const py::object& numbers, const char* what) {
     try {
@@ -29,7 +29,7 @@ py::array copy_of(const py::object& numbers, const char* what) {
     }
 }
 
-/// The array itself where it is contiguous and float32 or float64, else a copy as float64.
+/// The array itself if it is contiguous and float32 or float64, else a copy as float64.
 py::array as_plain(const py::object& numbers, const char* what) {
     if (py::isinstance<py::array>(numbers)) {
         const auto array = py::reinterpret_borrow<py::array>(numbers);

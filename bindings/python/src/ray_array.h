@@ -1,6 +1,6 @@
 #pragma once
-/// Rays and points of numpy arrays, converted block by block: an array is never copied as a whole
-/// where its numbers are float32 or float64 and contiguous.
+/// Rays and points from numpy arrays, converted block by block: arrays that are contiguous and
+/// float32 or float64 are never copied as a whole.
 ///
 /// Conventions: rays (..., 6) are origin x, y, z and direction x, y, z; (..., 8) also t_min, t_max.
 /// Results have the shape (...) and the precision of the rays: float32 for float32, else float64.
@@ -17,7 +17,7 @@ namespace alhazen::python {
 
 class NumberArray {
   public:
-    /// Arrays of other types and layouts are converted, once. Throws Error (Usage) unless the last
+    /// Converts arrays of other types and layouts once. Throws Error (Usage) unless the last
     /// dimension is one of `columns`.
     NumberArray(const pybind11::object& numbers, std::initializer_list<pybind11::ssize_t> columns,
                 const char* what);
@@ -38,7 +38,7 @@ class NumberArray {
     [[nodiscard]] const void* data() const { return data_; }
 
   private:
-    pybind11::array array_;  ///< keeps the numbers
+    pybind11::array array_;  ///< owns the numbers
     const void* data_ = nullptr;
     std::size_t count_ = 1, columns_ = 0;
     bool single_ = false;
@@ -52,10 +52,10 @@ class RayArray {
     [[nodiscard]] std::size_t count() const { return numbers_.count(); }
     [[nodiscard]] bool single() const { return numbers_.single(); }
     [[nodiscard]] const std::vector<pybind11::ssize_t>& shape() const { return numbers_.shape(); }
-    /// The numbers lie as `Ray` has them: float64, (..., 8), aligned. They are then traced in
-    /// place.
+    /// True if the array has the layout of `Ray` (float64, (..., 8), aligned). The rays are then
+    /// traced in place.
     [[nodiscard]] bool in_place() const;
-    /// Rays of the range: those of the array itself, or made in `scratch`.
+    /// The rays of a range: those of the array itself, or converted into `scratch`.
     [[nodiscard]] std::span<const Ray> rays(std::size_t begin, std::size_t end,
                                             std::vector<Ray>& scratch) const;
 

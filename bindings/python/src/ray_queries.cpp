@@ -28,14 +28,14 @@ Coherence coherence_of(const BatchOptions& options) {
     return options.coherent ? Coherence::Coherent : Coherence::Any;
 }
 
-/// The arrays of hits that a caller wants; others are empty.
+/// The arrays of hits that the caller requests; others are empty.
 class HitArrays {
   public:
     HitArrays(const std::vector<std::string>& fields, bool single, const Shape& shape) {
         for (const std::string& field : fields) add(field, single, shape);
     }
 
-    /// Writes hit `i` of the arrays.
+    /// Writes hit `i` into the arrays.
     void set(const Tracer& tracer, const Ray& ray, const Hit& hit, std::size_t i,
              Surface& scratch) const {
         const bool found = hit.found();
@@ -109,10 +109,10 @@ class HitArrays {
     PlainArray<std::uint32_t> geometry_, primitive_, instance_, material_;
     std::vector<std::pair<std::string, py::array>> named_;
     bool wants_ids_ = false;
-    bool wants_surface_ = false;  ///< more than the normal
+    bool wants_surface_ = false;  ///< anything but the normal
 };
 
-/// Memory of one thread for its ranges of rays.
+/// Scratch memory of a thread for its ranges of rays.
 struct RangeScratch {
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -200,7 +200,7 @@ py::dict all_hits(const BuiltScene& scene, const py::object& rays_object,
         scene.tracer().all_hits(range, scratch.lists, options.mask);
         for (std::size_t i = 0; i < range.size(); ++i) {
             auto at = static_cast<std::size_t>(splits[begin + i]);
-            // The caller's array is read again: another thread may write to it.
+            // The caller's array is read twice: another thread may have written to it.
             if (scratch.lists.of(i).size() !=
                 static_cast<std::size_t>(splits[begin + i + 1]) - at) {
                 throw Error(ErrorKind::Usage, "the rays were changed while they were traced");

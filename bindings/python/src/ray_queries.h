@@ -1,8 +1,8 @@
 #pragma once
 /// Batches of rays from numpy arrays (docs/guide/python.md).
 ///
-/// Conventions: results are dicts of arrays shaped like the rays. No hit: t_hit is infinite, ids
-/// are 0xFFFFFFFF, all else is 0.
+/// Conventions: results are dicts of arrays in the shape of the rays. Without a hit t_hit is
+/// infinite, ids are 0xFFFFFFFF, and all other values are 0.
 
 #include <pybind11/pybind11.h>
 
@@ -19,11 +19,11 @@ struct BatchOptions {
     int threads = 0;
 };
 
-/// The nearest hits; `fields` chooses the arrays. Throws Error (Usage) for an unknown field.
+/// The nearest hits; `fields` selects the arrays. Throws Error (Usage) for an unknown field.
 [[nodiscard]] pybind11::dict intersect(const BuiltScene& scene, const pybind11::object& rays,
                                        const std::vector<std::string>& fields,
                                        const BatchOptions& options);
-/// All fields that `intersect` knows, in order.
+/// All fields of `intersect`, in order.
 [[nodiscard]] std::vector<std::string> hit_fields();
 [[nodiscard]] pybind11::object occluded(const BuiltScene& scene, const pybind11::object& rays,
                                         const BatchOptions& options);
@@ -33,7 +33,7 @@ struct BatchOptions {
 [[nodiscard]] pybind11::object count_intersections(const BuiltScene& scene,
                                                    const pybind11::object& rays,
                                                    const BatchOptions& options);
-/// Whether `intersect` and `occluded` read the rays where the array has them.
+/// True if `intersect` and `occluded` read the rays in place.
 [[nodiscard]] bool traced_in_place(const pybind11::object& rays);
 
 }  // namespace alhazen::python

@@ -28,7 +28,7 @@ py::object array_of(const LayerChannel& channel, int width, int height) {
     return array.array();
 }
 
-/// Channels of one layer become one array (h, w, n) by the name of the layer.
+/// The channels of the layers by name, one array (h, w) each.
 py::dict layers_of(const RenderResult& result) {
     py::dict layers;
     for (const LayerChannel& channel : result.layers.channels()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of a scene as numpy arrays.
+/// Rendered pictures as numpy arrays.
 
 #include <pybind11/numpy.h>
 
@@ -21,13 +21,13 @@ struct PictureWishes {
     std::optional<int> spp;
 };
 
-/// Dict of image (h, w, 3) float32, layers (dict of channels (h, w)), notes, complete, seconds,
-/// rays. Throws Error.
+/// Renders a dict of image (h, w, 3) float32, layers (dict of channels (h, w)), notes, complete,
+/// seconds, rays. Throws Error.
 [[nodiscard]] pybind11::dict render_picture(const BuiltScene& scene, PictureWishes wishes,
                                             const pybind11::object& progress);
 
-/// The bytes of a file with this suffix for an array (h, w), (h, w, 1) or (h, w, 3) of linear
-/// values.
+/// The bytes of a picture file with this suffix from an array (h, w), (h, w, 1) or (h, w, 3) of
+/// linear values.
 [[nodiscard]] pybind11::bytes encode_picture(const std::string& suffix,
                                              const pybind11::array_t<float>& pixels);
 

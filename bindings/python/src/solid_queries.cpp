@@ -19,17 +19,17 @@ namespace alhazen::python {
 
 namespace {
 
-/// More solids are measured only when named.
+/// More solids are measured only if named.
 constexpr std::uint64_t kMostSolids = 64;
 
-/// Finds the solids on first use; Ctrl-C ends it.
+/// Finds the solids on first use; Ctrl-C ends the search.
 const SolidScene& found_solids(const BuiltScene& scene) {
     if (const SolidScene* found = scene.found_solids()) return *found;
     run_interruptible([&] { static_cast<void>(scene.solids()); });
     return scene.solids();
 }
 
-/// Lists of several items for each of `count` things, one after another.
+/// A list of items for each of `count` rays or points, concatenated.
 template <class Item>
 class Lists {
   public:
@@ -37,7 +37,7 @@ class Lists {
 
     std::vector<Item>& operator[](std::size_t i) { return items_[i]; }
 
-    /// The ends of all lists, from 0; `ids` has the number of its thing for each item.
+    /// The ends of all lists, starting with 0; `ids`: for each item the number of its list.
     [[nodiscard]] std::pair<py::array, py::array> splits_and_ids() const {
         const PlainArray<std::int64_t> splits(length(items_.size() + 1));
         splits[0] = 0;

@@ -12,7 +12,7 @@ namespace alhazen::python {
 
 namespace {
 
-/// Builds on first use; Ctrl-C ends it.
+/// Builds the structure on first use; Ctrl-C ends the build.
 const PlacedSurfaces& built(const BuiltScene& scene) {
     if (const PlacedSurfaces* made = scene.made_nearest()) return *made;
     run_interruptible([&] { static_cast<void>(scene.nearest()); });
@@ -33,7 +33,7 @@ py::dict closest_points(const BuiltScene& scene, const py::object& points_object
         for (std::size_t i = begin; i < end; ++i) {
             const Vec3 from = points.vector(i, 0);
             const PlacedSurfaces::Found found = triangles.nearest(from);
-            // Of what is no point nothing is known.
+            // The distance of a non-finite point is NaN.
             distance.set(i, is_finite(from) ? std::sqrt(found.squared)
                                             : std::numeric_limits<double>::quiet_NaN());
             nearest.set(i, found.point);

@@ -1,5 +1,5 @@
 #pragma once
-/// Questions about points and the surfaces near them.
+/// Nearest-point queries.
 
 #include <pybind11/numpy.h>
 
@@ -7,8 +7,8 @@
 
 namespace alhazen::python {
 
-/// The nearest points of the triangles to points (..., 3): distance, points, geometry_ids,
-/// primitive_ids, uvs, normals. Throws Error (Usage) where the scene has other things than meshes.
+/// The nearest points of meshes and shapes to points (..., 3): distance, points, geometry_ids,
+/// primitive_ids, uvs, normals. Throws Error as PlacedSurfaces.
 [[nodiscard]] pybind11::dict closest_points(const BuiltScene& scene, const pybind11::object& points,
                                             int threads);
 

@@ -1,6 +1,6 @@
-// Debian's Open3D 0.16.1 leaves the masks of its rays 0. The Embree that Open3D itself ships has no
-// masks; Debian's has, and skips all geometry. Loaded before Open3D (RTLD_GLOBAL), these calls take
-// the place of Embree's and set all masks.
+// Debian's Open3D 0.16.1 sets the masks of its rays to 0. The Embree that Open3D ships ignores
+// masks; Debian's honours them and skips all geometry. Loaded before Open3D (RTLD_GLOBAL), these
+// functions replace Embree's calls and set all masks.
 #include <dlfcn.h>
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace {
 
 using Call = void (*)(void* scene, void* context, void* rays, unsigned count, std::size_t stride);
 
-/// Embree's own call; it has been loaded by who calls.
+/// Embree's own function; the library has already been loaded by the caller.
 Call embree(const char* name) {
     void* library = dlopen("libembree3.so.3", RTLD_NOW | RTLD_NOLOAD);
     void* symbol = library != nullptr ? dlsym(library, name) : nullptr;

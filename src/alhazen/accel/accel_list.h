@@ -20,7 +20,7 @@
 
 namespace alhazen {
 
-// Each list is compiled in a file of its own (aggregates/accelerators_of_*.cpp).
+// Each list is compiled in its own file (aggregates/accelerators_of_*.cpp).
 
 /// Bounds around primitives.
 using BoundAccelerators = std::tuple<List, BoundingVolumes, Hierarchy, KayKajiya, GoldsmithSalmon>;

@@ -1,6 +1,6 @@
 #pragma once
-/// The accelerators by name, with their settings: everything that can be checked and listed without
-/// a scene. The accelerators themselves: accel_list.h and the wide BVH.
+/// The accelerators by name, with their settings, for checks and listings without a scene. The
+/// accelerators themselves are in accel_list.h and wide_bvh/.
 
 #include <span>
 #include <string>
@@ -23,7 +23,7 @@ inline constexpr const char* kDefaultAccelerator = "wide_bvh";
 /// In the order of accel_list.h, preceded by the default.
 [[nodiscard]] std::span<const AcceleratorInfo> accelerator_names();
 
-/// Throws Error (Usage) with the valid choices when `accelerator` ("NAME" or
+/// Throws Error (Usage) with the valid choices if `accelerator` ("NAME" or
 /// "NAME:SETTING=VALUE,...") is invalid.
 void check_accelerator(const std::string& accelerator);
 

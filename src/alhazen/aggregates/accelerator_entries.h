@@ -1,6 +1,6 @@
 #pragma once
-/// Makes aggregates of the accelerators of accel/accel_list.h. Each list of accelerators has a file
-/// of its own, because every traversal is compiled for every query.
+/// Factories of aggregates for the accelerators of accel/accel_list.h. Each list of accelerators
+/// has its own source file, because every traversal is compiled for every query.
 
 #include <memory>
 #include <tuple>
@@ -27,7 +27,7 @@ std::vector<MakeAggregate> makers_of(std::tuple<A...>*) {
     return {&make_aggregate_of<A>...};
 }
 
-/// In the order of accel/accel_list.h.
+/// The factories of each list, in the order of accel/accel_list.h.
 [[nodiscard]] std::vector<MakeAggregate> bound_accelerators();
 [[nodiscard]] std::vector<MakeAggregate> cell_accelerators();
 [[nodiscard]] std::vector<MakeAggregate> direction_accelerators();

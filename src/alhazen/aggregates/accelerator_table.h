@@ -1,5 +1,5 @@
 #pragma once
-/// Builds any accelerator by its name: accel/accelerator_names.h with a factory for each.
+/// Accelerators by name: the table of accel/accelerator_names.h with a factory for each.
 
 #include <memory>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace alhazen {
 
-/// Throws Error (Usage) for unknown settings of the accelerator.
+/// Builds an aggregate. Throws Error (Usage) for unknown settings of the accelerator.
 using MakeAggregate = std::shared_ptr<const Aggregate> (*)(PrimitiveTable table,
                                                            const AcceleratorSettings& settings,
                                                            const BuildOptions& options);
@@ -22,7 +22,7 @@ struct AcceleratorEntry : AcceleratorInfo {
     MakeAggregate make;
 };
 
-/// In the order of `accelerator_names`.
+/// All accelerators, in the order of `accelerator_names`.
 [[nodiscard]] std::span<const AcceleratorEntry> accelerator_table();
 
 /// Builds the accelerator ("NAME" or "NAME:SETTING=VALUE,...") over a finished table. Throws as

@@ -1,11 +1,10 @@
 #pragma once
-/// Makes an aggregate of a primitive table and any accelerator that visits primitives one at a
-/// time.
+/// An aggregate of a primitive table and any accelerator that visits primitives one at a time.
 ///
 /// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
 /// the accelerator.
-/// Complexity and threads: one virtual call per ray; the traversal is instantiated for each query
-/// with the visitor in it. Const functions may be called from many threads.
+/// Complexity: one virtual call per ray; the traversal is instantiated with the visitor of each
+/// query. Threads: const functions may be called from many.
 
 #include <algorithm>
 #include <type_traits>
@@ -70,11 +69,11 @@ class AggregateOf final : public Aggregate {
     }
 
   private:
-    /// For accelerators with primitives in several cells: drops the crossings of repeated visits.
+    /// Drops the crossings of repeated visits, for accelerators with primitives in several cells.
     class OnlyOnce {
       public:
         explicit OnlyOnce(std::vector<Hit>* hits) : hits_(hits) {}
-        /// The crossings beyond `known` belong to `id`.
+        /// Drops the crossings of `id`, which are those from `known` on, if it was visited before.
         void keep(PrimitiveId id, std::size_t known) {
             if constexpr (visits_repeatedly<A>()) {
                 if (hits_->size() == known) return;
@@ -91,9 +90,9 @@ class AggregateOf final : public Aggregate {
         ReentrantStack<PrimitiveId> seen_;
     };
 
-    /// All queries that count, or those that collect crossings and do not: one traversal for each
-    /// of the two, as each takes its part of the time to compile. `nearest` or `hits`: for the
-    /// result.
+    /// Answers all queries with counting, or those that collect crossings without. Each of the two
+    /// has one traversal for all kinds of query, to limit compile time. `nearest` or `hits`
+    /// receives the result.
     template <class Stats>
     bool any_query(AsksFor asked, Ray ray, [[maybe_unused]] Hit* nearest, std::vector<Hit>* hits,
                    RayMask mask, Stats stats) const {
@@ -127,8 +126,8 @@ class AggregateOf final : public Aggregate {
         return opaque;
     }
 
-    /// The reciprocal of a smaller component may be infinite, and so may be t of a hit: the ray is
-    /// tested against every primitive.
+    /// Rays with no component of at least this are tested against every primitive: the reciprocals
+    /// of components and t of hits may be infinite.
     static constexpr double kLeastDirection = 0x1p-960;
 
     A build(const typename A::Config& config) {
@@ -144,7 +143,7 @@ class AggregateOf final : public Aggregate {
     template <AsksFor kAsked>
     using Always = std::integral_constant<AsksFor, kAsked>;
 
-    /// `Asked`: an AsksFor, or one that is known when the traversal is compiled.
+    /// `Asked`: AsksFor, or Always<> for a kind of query known at compile time.
     template <class Asked, class Test>
     struct Visitor {
         [[no_unique_address]] Asked asked;
@@ -160,8 +159,8 @@ class AggregateOf final : public Aggregate {
         }
     };
 
-    /// Calls `test(id)` for every primitive that the ray may intersect until it returns true;
-    /// returns whether it did.
+    /// Calls `test(id)` for every primitive that the ray may intersect, until it returns true. True
+    /// if it did.
     template <class Asked, class Stats, class Test>
     bool each(Asked asked, const Ray& ray, Stats stats, Test&& test) const {
         for (const PrimitiveId id : unbounded_) {
@@ -180,7 +179,7 @@ class AggregateOf final : public Aggregate {
     }
 
     PrimitiveTable table_;
-    // Set by `build`: declared before the accelerator.
+    // Set by `build`, therefore declared before the accelerator.
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
     std::vector<std::uint32_t> bounded_;

@@ -1,9 +1,9 @@
 #pragma once
-/// Escapes control characters in text from files: a terminal interprets them, and a NUL ends a
-/// message.
+/// Escapes control characters in text from files, which a terminal would interpret; a NUL would end
+/// a message.
 ///
-/// Conventions: escapes the control characters of ASCII and those of UTF-8 beyond it (U+0080 to
-/// U+009F), each byte as \x1b. All other bytes stay, well-formed UTF-8 or not.
+/// Conventions: escapes the control characters of ASCII and those of UTF-8 beyond ASCII (U+0080 to
+/// U+009F), each byte as \x1b. All other bytes are kept, well-formed UTF-8 or not.
 
 #include <string>
 #include <string_view>

@@ -27,8 +27,8 @@ struct Diagnostic {
 
 class Diagnostics {
   public:
-    /// Findings of one severity beyond this count are only counted, so that hostile input cannot
-    /// fill memory; a flood of warnings does not hide an error.
+    /// The number of findings of one severity that are kept; further ones are only counted. Hostile
+    /// input cannot fill memory, and many warnings do not hide an error.
     static constexpr std::size_t kMaxKept = 1000;
 
     void warning(FileLocation location, std::string message);
@@ -38,13 +38,13 @@ class Diagnostics {
     [[nodiscard]] std::size_t error_count() const { return error_count_; }
     [[nodiscard]] std::size_t warning_count() const { return warning_count_; }
 
-    /// Notes a file that is about to be read, so that no output replaces it.
+    /// Records a file that is about to be read, so that no output replaces it.
     void note_file(const std::filesystem::path& path) { files_.insert(path); }
     [[nodiscard]] const std::set<std::filesystem::path>& files() const { return files_; }
 
-    /// Throws `Error` (kind Scene) whose message lists all errors, one a line, when there is any.
+    /// Throws `Error` (Scene) if there is any error; its message lists all errors, one per line.
     void throw_if_errors() const;
-    /// The same for warnings, which are then listed as errors.
+    /// Throws `Error` (Scene) if there is any warning; its message lists the warnings as errors.
     void throw_if_warnings() const;
 
   private:

@@ -16,7 +16,7 @@ std::string to_string(const FileLocation& location) {
 namespace {
 std::string with_location(const std::string& message, const FileLocation& location) {
     const std::string place = to_string(location);
-    // what() ends at a NUL, and names from files must not control a terminal.
+    // what() ends at a NUL; control characters in names from files would control a terminal.
     return escape_controls(place.empty() ? message : place + ": " + message, Newlines::Keep);
 }
 }  // namespace

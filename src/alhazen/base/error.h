@@ -20,10 +20,10 @@ struct FileLocation {
     friend bool operator==(const FileLocation&, const FileLocation&) = default;
 };
 
-/// `file:line:column`, without the parts that are not known; empty for an empty location.
+/// `file:line:column` without the parts that are unknown; empty for an empty location.
 [[nodiscard]] std::string to_string(const FileLocation& location);
 
-/// What went wrong, by what the user can do about it.
+/// The class of an error, by what the user can do about it.
 enum class ErrorKind {
     Render,    ///< a check did not hold or the render failed
     Usage,     ///< the call or the command line is wrong (unknown name, bad option)

@@ -36,7 +36,8 @@ class FileDescriptor {
     FileDescriptor& operator=(const FileDescriptor&) = delete;
 
     [[nodiscard]] int get() const { return fd_; }
-    /// Closes now; the result of close(2), which may report a write that failed late.
+    /// Closes the file; returns the result of close(2), which may report the failure of an earlier
+    /// write.
     [[nodiscard]] int close() { return ::close(std::exchange(fd_, -1)); }
 
   private:
@@ -63,12 +64,11 @@ class TemporaryName {
 
 void check_path(const fs::path& path) {
     if (path.empty()) fail(path, "the name of the file is empty");
-    // The system reads the name up to the NUL and opens another file.
-    if (path.native().find('\0') != std::string::npos)
-        fail(path, "the name of the file holds a NUL");
+    // The system would read the name up to the NUL and open another file.
+    if (path.native().find('\0') != std::string::npos) fail(path, "the file name contains a NUL");
 }
 
-/// The target of `path`: a link is followed, so that it stays a link.
+/// The file that `path` names, through symbolic links, so that a link stays a link.
 fs::path target_of(const fs::path& path) {
     std::error_code error;
     if (!fs::is_symlink(path, error)) return path;
@@ -77,8 +77,8 @@ fs::path target_of(const fs::path& path) {
     return target;
 }
 
-/// A new file with the mode a plain open would give. The name is short, whatever the target's
-/// length is.
+/// Creates a file with the mode that a plain open would give. The name is short, whatever the
+/// length of the target's name.
 int create_temporary(const fs::path& folder, fs::path& name) {
     static std::atomic<unsigned> counter{0};
     int fd = -1;
@@ -102,7 +102,7 @@ void write_all(int fd, std::span<const std::byte> bytes, const fs::path& path) {
     }
 }
 
-/// Syncs. File systems that cannot (EINVAL, ENOTSUP) count as synced.
+/// Syncs a file; true if that succeeds or the file system does not support it (EINVAL, ENOTSUP).
 bool synced(int fd) {
     int result = 0;
     do {
@@ -113,7 +113,7 @@ bool synced(int fd) {
 
 void sync_folder(const fs::path& folder) {
     const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    // The rename is done and both names hold whole files, so a failure here needs no undoing.
+    // The rename is done and both names refer to whole files: a failure here needs no undoing.
     if (fd.get() >= 0) (void)synced(fd.get());
 }
 
@@ -136,7 +136,7 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
                     {path.string(), 0, 0});
     };
     check_size(std::uint64_t(status.st_size));
-    // The size is only a hint: files may grow while they are read, and some report 0.
+    // The size is only a hint: a file may grow while it is read, and some report 0.
     std::string bytes(std::size_t(status.st_size) + 1, '\0');
     std::size_t size = 0;
     while (true) {
@@ -163,14 +163,14 @@ void write_file_atomically(const fs::path& path,
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     struct stat old {};
     const bool exists = ::stat(target.c_str(), &old) == 0;
-    // Renaming over a device would take the device away.
+    // A rename would replace a device.
     if (exists && !S_ISREG(old.st_mode)) fail(path, "exists and is not a regular file");
 
     fs::path temporary_path;
     FileDescriptor fd(create_temporary(folder, temporary_path));
     if (fd.get() < 0) fail(path, "cannot write into the folder " + folder.string(), errno);
     TemporaryName temporary(std::move(temporary_path));
-    // Keep the permissions of the old file where that is allowed.
+    // Keeps the permissions of the old file where that is allowed.
     if (exists) (void)!::fchmod(fd.get(), old.st_mode & 07777);
     for (const std::span<const std::byte> bytes : pieces) write_all(fd.get(), bytes, path);
     if (!synced(fd.get())) fail(path, "cannot write the file", errno);
@@ -203,7 +203,7 @@ fs::path resolve_inside(std::span<const fs::path> roots, const fs::path& folder,
         throw Error(ErrorKind::Scene, "the file name \"" + name + "\" " + why);
     };
     if (name.empty()) refuse("is empty");
-    if (name.find('\0') != std::string::npos) refuse("holds a NUL");
+    if (name.find('\0') != std::string::npos) refuse("contains a NUL");
     const auto whole = [](const fs::path& path) {
         return fs::absolute(path.empty() ? fs::path(".") : path).lexically_normal();
     };
@@ -214,7 +214,7 @@ fs::path resolve_inside(std::span<const fs::path> roots, const fs::path& folder,
     const fs::path place = (folder / name).lexically_normal();
     std::error_code failed;
     const fs::path real = fs::weakly_canonical(whole(place), failed);
-    bool led_out = false;  // the name as written lies in a root
+    bool led_out = false;  // the name as written lies in a root, but leads out of it through a link
     for (const fs::path& root : roots) {
         if (failed) break;
         const fs::path real_root = fs::weakly_canonical(whole(root), failed);

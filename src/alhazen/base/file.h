@@ -1,5 +1,5 @@
 #pragma once
-/// Reading and writing whole files, safely.
+/// Safe reading and writing of whole files.
 ///
 /// Reads accept regular files only (no FIFO or device can hang or flood a loader) and stop at a
 /// byte limit. Writes go to a temporary name in the target's folder, are synced and renamed: a
@@ -13,35 +13,35 @@
 
 namespace alhazen {
 
-/// Default limit of a file read whole: 4 GiB.
+/// Default limit of `read_file`: 4 GiB.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 
-/// The bytes of `path`. Throws Error: File when it cannot be opened, is not a regular file or fails
-/// while read; Resource when it is larger than `max_bytes`.
+/// Returns the bytes of `path`. Throws Error (File) if it cannot be opened, is not a regular file
+/// or fails while it is read; Error (Resource) when it is larger than `max_bytes`.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path,
                                     std::uint64_t max_bytes = kMaxFileBytes);
 
-/// Replaces `path` by `bytes` as one step (temporary file, fsync, rename, fsync of the folder).
-/// Throws Error (File) and leaves the old file as it was when anything fails.
+/// Replaces `path` by `bytes` in one step (temporary file, fsync, rename, fsync of the folder).
+/// Throws Error (File) and leaves the old file unchanged when anything fails.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// The same for the bytes of several pieces, in this order.
+/// Writes the bytes of several pieces, in this order.
 void write_file_atomically(const std::filesystem::path& path,
                            std::span<const std::span<const std::byte>> pieces);
-/// The same for text.
+/// Writes a text.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 
-/// Throws Error (File) when `path` is known not to be writable: its folder is missing or may not be
-/// written to, or it is a folder itself. For callers with long work before the write.
+/// Throws Error (File) if `path` is known not to be writable: its folder is missing or not
+/// writable, or it is a folder itself. For callers with long work before the write.
 void check_writable(const std::filesystem::path& path);
 
-/// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) when it is
+/// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) if it is
 /// empty, holds a NUL, or does not lie in one of the folders `roots` after all symbolic links are
-/// followed; absolute names are held to the same.
+/// followed; the same holds for absolute names.
 [[nodiscard]] std::filesystem::path resolve_inside(std::span<const std::filesystem::path> roots,
                                                    const std::filesystem::path& folder,
                                                    const std::string& name);
-/// The same for one folder.
+/// Resolves `name` with a single root.
 [[nodiscard]] std::filesystem::path resolve_inside(const std::filesystem::path& root,
                                                    const std::filesystem::path& folder,
                                                    const std::string& name);

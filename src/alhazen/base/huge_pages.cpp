@@ -10,7 +10,7 @@ namespace alhazen {
 namespace {
 
 #ifdef __linux__
-/// Gives `advice` for the whole large pages in a range. A refusal by the system is ignored.
+/// Calls madvise for the whole large pages in a range; ignores a refusal by the system.
 void advise(const void* memory, std::size_t bytes, int advice) {
     const auto begin = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t first = (begin + kHugePageBytes - 1) & ~(kHugePageBytes - 1);

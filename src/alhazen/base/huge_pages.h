@@ -1,8 +1,6 @@
 #pragma once
-/// Memory in large pages where the system provides them: data read at random, as a tree by its
-/// rays, save a page walk at almost every step.
-///
-/// Elsewhere everything here is ordinary memory.
+/// Memory in large pages where the system provides them; ordinary memory elsewhere. Data read at
+/// random, such as a tree traversed by rays, then avoids a page walk at almost every step.
 
 #include <cstddef>
 #include <cstdlib>
@@ -14,9 +12,9 @@ namespace alhazen {
 
 inline constexpr std::size_t kHugePageBytes = std::size_t{2} << 20;
 
-/// Requests large pages for memory that is not touched yet.
+/// Requests large pages for memory that has not been touched.
 void prefer_huge_pages(void* memory, std::size_t bytes);
-/// Moves memory in use to large pages, where whole ones lie inside of it.
+/// Moves memory in use to large pages, where whole large pages lie inside it.
 void collapse_to_huge_pages(const void* memory, std::size_t bytes);
 template <class T>
 void collapse_to_huge_pages(std::span<T> values) {

@@ -1,5 +1,6 @@
 #pragma once
-/// std::sort that can be given up (interruption.h). The items are then in any order.
+/// An interruptible std::sort (interruption.h). After an interruption the order of the items is
+/// unspecified.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,10 +1,10 @@
 #pragma once
-/// Long work that can be given up: loading a scene, building an accelerator.
+/// Interruption of long work: loading a scene, building an accelerator.
 ///
-/// Conventions: whoever may lose interest makes an `Interruptible` around the work; the work calls
-/// `interruption_point` wherever a moment has passed, and cleans up by its destructors alone.
-/// Without an Interruptible nothing is ever thrown. Threads: the flag belongs to the thread; those
-/// that help in parallel calls inherit it (parallel.h).
+/// Conventions: a caller that may interrupt the work makes an `Interruptible` around it; the work
+/// calls `interruption_point` at short intervals and relies on destructors for cleaning up. Without
+/// an Interruptible nothing is thrown. Threads: the flag belongs to the thread; threads that help
+/// in parallel calls inherit it (parallel.h).
 
 #include <exception>
 
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// Thrown out of work that was given up. No Error: it is nobody's fault, and no message.
+/// Thrown out of interrupted work. It is not an Error: there is no fault to report.
 class Interrupted final : public std::exception {
   public:
     [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
@@ -20,13 +20,14 @@ class Interrupted final : public std::exception {
 
 class Interruptible {
   public:
-    /// Until it is destroyed, work of this thread ends soon after a request. Null: it never does.
+    /// Makes the work of this thread end soon after `flag` is set, until the object is destroyed.
+    /// Null: the work is not interruptible.
     explicit Interruptible(const StopFlag* flag) : before_(current_) { current_ = flag; }
     ~Interruptible() { current_ = before_; }
     Interruptible(const Interruptible&) = delete;
     Interruptible& operator=(const Interruptible&) = delete;
 
-    /// The flag of this thread; null: none.
+    /// The flag of this thread, or null.
     [[nodiscard]] static const StopFlag* current() { return current_; }
 
   private:
@@ -34,7 +35,7 @@ class Interruptible {
     static inline constinit thread_local const StopFlag* current_ = nullptr;
 };
 
-/// Throws Interrupted where the work of this thread was given up. Costs some nanoseconds.
+/// Throws Interrupted if the work of this thread has been interrupted. Costs some nanoseconds.
 inline void interruption_point() {
     const StopFlag* const flag = Interruptible::current();
     if (flag != nullptr && flag->requested()) throw Interrupted();

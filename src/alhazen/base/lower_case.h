@@ -1,7 +1,7 @@
 #pragma once
-/// Lower case for names that programs compare: suffixes of files, keywords of formats.
+/// Lower case for names that are compared: suffixes of files, keywords of formats.
 ///
-/// Conventions: A to Z only, in every locale; bytes of other characters stay as they are.
+/// Conventions: changes A to Z only, in every locale; all other bytes are kept.
 
 #include <filesystem>
 #include <string>
@@ -15,7 +15,8 @@ namespace alhazen {
     return text;
 }
 
-/// The suffix of a file's name with its dot, ".png" of "Picture.PNG"; empty without one.
+/// The suffix of a file name in lower case with its dot, such as ".png" for "Picture.PNG"; empty if
+/// there is none.
 [[nodiscard]] inline std::string lower_suffix(const std::filesystem::path& path) {
     return lower_case(path.extension().string());
 }

@@ -1,9 +1,9 @@
 #pragma once
 /// A vector that owns its values, in large pages, or refers to memory of another owner, such as a
-/// mapped file. Reading costs the same either way.
+/// mapped file. Reading costs the same in both cases.
 ///
-/// Conventions: every operation that may change the values copies them to own memory first. So does
-/// a reference that is not const: read through const references.
+/// Conventions: every operation that may change the values first copies them to owned memory, and
+/// so does forming a non-const reference: read through const references.
 
 #include <cstddef>
 #include <memory>
@@ -47,7 +47,7 @@ class MappableVector {
     [[nodiscard]] const T& operator[](std::size_t i) const { return values_.data()[i]; }
     [[nodiscard]] const T* begin() const { return values_.data(); }
     [[nodiscard]] const T* end() const { return values_.data() + values_.size(); }
-    /// Capacity of own memory; the size where the values are mapped.
+    /// Capacity of owned memory; the size where the values are mapped.
     [[nodiscard]] std::size_t capacity() const { return is_mapped() ? size() : own_.capacity(); }
 
     // ---- changing
@@ -91,7 +91,7 @@ class MappableVector {
     }
 
     HugeVector<T> own_;
-    std::span<const T> values_;  ///< the values of `own_`, or of the owner
+    std::span<const T> values_;  ///< the values of `own_` or of the other owner
     std::shared_ptr<const void> owner_;
 };
 

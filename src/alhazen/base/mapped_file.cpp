@@ -18,9 +18,9 @@ std::shared_ptr<const MappedFile> MappedFile::open(const std::filesystem::path& 
         throw Error(ErrorKind::File, what, {path.string(), 0, 0});
     };
     if (path.empty() || path.native().find('\0') != std::string::npos) {
-        fail("the name of the file is empty or holds a NUL");
+        fail("the file name is empty or contains a NUL");
     }
-    // O_NONBLOCK: opening a FIFO without a writer would otherwise block.
+    // O_NONBLOCK: opening a FIFO without a writer would block.
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (fd < 0) fail(std::string("cannot open the file: ") + std::strerror(errno));
     struct stat status {};

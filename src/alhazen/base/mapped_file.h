@@ -15,14 +15,14 @@ namespace alhazen {
 
 class MappedFile {
   public:
-    /// Throws Error (File) when the file cannot be opened, is not a regular file or cannot be
+    /// Throws Error (File) if the file cannot be opened, is not a regular file or cannot be
     /// mapped.
     [[nodiscard]] static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path);
     ~MappedFile();
     MappedFile(const MappedFile&) = delete;
     MappedFile& operator=(const MappedFile&) = delete;
 
-    /// Starts at a page boundary.
+    /// The bytes of the file; the first lies at a page boundary.
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
   private:

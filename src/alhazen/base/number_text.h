@@ -2,8 +2,7 @@
 /// Formats numbers for messages.
 ///
 /// Source: std::to_chars.
-/// Conventions: the shortest text that reads back as the number: 1e+150, not 150 digits; 1e-75, not
-/// 0.000000.
+/// Conventions: the shortest text that reads back as the same number, such as 1e+150 or 1e-75.
 
 #include <array>
 #include <charconv>

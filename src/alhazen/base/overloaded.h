@@ -1,6 +1,6 @@
 #pragma once
-/// One function object of several lambdas, for std::visit. A lambda per alternative makes a visit
-/// exhaustive: a new alternative of the variant does not compile until it has one.
+/// A function object made of several lambdas, for std::visit. One lambda per alternative makes a
+/// visit exhaustive: it does not compile without one for a new alternative of the variant.
 
 namespace alhazen {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Progress reports of long computations, and a flag that stops them.
+/// Progress reports of long computations, and a flag that stops computations.
 
 #include <atomic>
 #include <cstddef>
@@ -11,11 +11,12 @@ namespace alhazen {
 class ProgressSink {
   public:
     virtual ~ProgressSink() = default;
-    /// `done` of `total` units of the phase ("load", "build", "render", "write") are finished.
+    /// Reports that `done` of `total` units of the phase ("load", "build", "render", "write") are
+    /// finished.
     virtual void update(std::string_view phase, std::size_t done, std::size_t total) = 0;
 };
 
-/// May be set from anywhere (a signal handler included); work checks it between units.
+/// A flag that may be set from anywhere (a signal handler included); work checks it between units.
 class StopFlag {
   public:
     void request() noexcept { requested_.store(true, std::memory_order_relaxed); }

@@ -1,6 +1,6 @@
 #pragma once
-/// Room for a value that is made when it is assigned: an InlineVector of these costs the values in
-/// use alone, where a default T costs time.
+/// Storage for a value that is constructed on assignment. An InlineVector of these constructs only
+/// the values in use.
 
 #include <type_traits>
 

@@ -14,7 +14,7 @@ namespace {
 
 Vec3 any_perpendicular_up(const Vec3& forward, const Vec3& up) {
     const Vec3 side = cross(forward, up);
-    // An up vector along the view direction leaves the roll open: choose one rather than fail.
+    // An up vector along the view direction leaves the roll undefined: choose one.
     return length_squared(side) > 0.0 ? normalize(cross(side, forward)) : perpendicular(forward);
 }
 

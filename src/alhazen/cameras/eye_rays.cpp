@@ -22,8 +22,8 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && std::is_trivially_copyable_v
 static_assert(offsetof(Ray, direction) == 3 * sizeof(double) &&
               offsetof(Ray, t_min) == 6 * sizeof(double));
 
-/// Rays from the eye along vectors, a register of lanes at a time, with the bits of `normalize`.
-/// Returns their number; the rest of the vectors, fewer than the lanes, is left.
+/// Writes rays from the eye along vectors, a register of lanes at a time, with the bits of
+/// `normalize`. Returns their number; leaves the remaining vectors, fewer than the lanes.
 std::size_t rays_along(const Vec3& eye, std::span<const Vec3> vectors, Ray* rays) {
     const LaneTag<double> d;
     constexpr std::size_t kLanes = hn::MaxLanes(LaneTag<double>());

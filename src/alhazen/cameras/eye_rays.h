@@ -1,8 +1,8 @@
 #pragma once
-/// `eye_ray` for many rays of one camera: the terms of x and of y are computed once for whole
+/// Eye rays of one camera in large numbers: the terms of x and of y are computed once for whole
 /// columns and rows of an image.
 ///
-/// Conventions: those of the cameras; the bits are those of `eye_ray`.
+/// Conventions: those of camera.h; the rays have the bits of `eye_ray`.
 
 #include <optional>
 #include <span>
@@ -27,22 +27,22 @@ class EyeRays {
                               [this](const WideCamera& c) {
                                   from_eye_ = false;
                                   wide_.emplace(c);
-                                  // Sums are film coordinates.
+                                  // The sums of columns and rows are film coordinates.
                                   set(c.eye, {0.5, 0.5, 0}, {1, 0, 0}, {0, 1, 0});
                               }},
                    camera);
     }
 
-    /// The term that the rays of one x share.
+    /// The term of film coordinate x.
     [[nodiscard]] Vec3 column(double x) const { return middle_ + (x - 0.5) * right_; }
-    /// The term that the rays of one y share.
+    /// The term of film coordinate y.
     [[nodiscard]] Vec3 row(double y) const { return (y - 0.5) * up_; }
-    /// `sum`: column plus row, in this order.
+    /// The ray for `sum`, a column plus a row, in this order.
     [[nodiscard]] Ray ray(const Vec3& sum) const {
         if (from_eye_) return {fixed_, normalize(sum)};
         return wide_ ? Ray{fixed_, wide_->direction(sum.x, sum.y)} : Ray{sum, fixed_};
     }
-    /// One ray for each sum.
+    /// Writes one ray for each sum.
     void rays(std::span<const Vec3> sums, Ray* out) const;
 
   private:
@@ -53,30 +53,30 @@ class EyeRays {
         up_ = up;
     }
 
-    bool from_eye_ = true;  ///< rays run from the eye along sums; false: they are parallel, or wide
+    bool from_eye_ = true;  ///< true: rays run from the eye; false: parallel, or those of `wide_`
     Vec3 fixed_;            ///< the eye, or the direction of all rays
     Vec3 middle_, right_, up_;
     std::optional<WideView> wide_;
 };
 
-/// Rays through points of the lens of a camera.
+/// Rays through points of a camera's lens.
 ///
 /// Source: Cook, Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, section 4.4.
-/// Conventions: all rays of one place of the film meet in the plane of focus, which is parallel to
+/// Conventions: all rays of one point of the film meet in the plane of focus, which is parallel to
 /// the picture.
 class LensRays {
   public:
     explicit LensRays(const Camera& camera);
 
-    /// False: a pinhole, `through` changes nothing.
+    /// False for a pinhole, whose rays `through` leaves unchanged.
     [[nodiscard]] bool open() const { return lens_.radius > 0.0; }
-    /// The ray of unit direction through the point of the lens that `u` in the unit square selects,
-    /// for the ray through its centre.
+    /// The unit ray through the point of the lens that `u` in the unit square selects, for the ray
+    /// through the centre of the lens.
     [[nodiscard]] Ray through(const Ray& ray, const Vec2& u) const;
 
   private:
     Lens lens_;
-    Vec3 normal_, across_, along_;  ///< unit: of the picture, and in it
+    Vec3 normal_, across_, along_;  ///< unit: the picture's normal, two in its plane
 };
 
 }  // namespace alhazen

@@ -48,7 +48,7 @@ ConeRay PixelCones::at(const Vec2& film) const {
         return {ray.origin, ray.direction, 0.0, std::sqrt(solid_angle / std::numbers::pi)};
     }
     if (!from_eye_) return {ray.origin, ray.direction, parallel_radius_, 0.0};
-    // The pixel, seen along the ray at the distance of the picture.
+    // The area of the pixel seen along the ray, at the distance of the picture.
     const double area = std::abs(dot(pixel_, ray.direction)) / length_squared(sum);
     return {ray.origin, ray.direction, 0.0, std::sqrt(area / std::numbers::pi)};
 }

@@ -10,7 +10,7 @@ namespace {
 
 struct Named {
     const char* name;
-    double usual, most;  ///< degrees
+    double usual, most;  ///< default and largest angle, in degrees
     bool excludes_most;
 };
 constexpr std::array<Named, 4> kProjections{{{"fisheye", 180, 360, false},

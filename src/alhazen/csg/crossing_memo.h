@@ -1,9 +1,9 @@
 #pragma once
-/// The last crossings of lines with leaves of solids of several media. Such a solid is
-/// asked twice for most hits: for the hit, and for the media on both sides of it.
+/// A cache of the crossings of recent lines with leaves of solids of several media. Most hits of
+/// such a solid query it twice: for the hit, and for the media on both sides of it.
 ///
-/// Conventions: a table of fixed size; lines evict each other. What is found has the bits of a new
-/// test. Threads: each has its own.
+/// Conventions: a table of fixed size, whose entries lines evict. Cached crossings are
+/// bit-identical to those of a new test. Threads: each thread has its own cache.
 
 #include <array>
 #include <bit>
@@ -22,7 +22,7 @@ class CrossingMemo {
         thread_local CrossingMemo memo;
         return memo;
     }
-    /// A number that no other solid of the program has.
+    /// A number that is unique in the process.
     [[nodiscard]] static std::uint64_t number_of_solid();
 
     struct Key {
@@ -40,7 +40,7 @@ class CrossingMemo {
         static std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
     };
 
-    /// The crossings of the line, where they are known; until the next call.
+    /// Cached crossings of a line; valid until the next call.
     struct Found {
         bool known = false;
         std::span<const ShapeHit> hits;
@@ -51,13 +51,13 @@ class CrossingMemo {
         if (place.key != key) return {};
         return {true, std::span(place.hits).first(place.count)};
     }
-    /// Remembers them, unless they are too many.
+    /// Stores the crossings unless there are too many.
     void keep(const Key& key, std::span<const ShapeHit> hits);
 
   private:
     static constexpr std::size_t kPlaces = 2048, kMostHits = 8;
     struct Place {
-        Key key{0, 0, {}};  // solids are numbered from 1 on
+        Key key{0, 0, {}};  // no solid: numbers start at 1
         std::size_t count = 0;
         std::array<ShapeHit, kMostHits> hits;
     };
@@ -69,7 +69,7 @@ class CrossingMemo {
         return static_cast<std::size_t>(mixed >> 32) % kPlaces;
     }
 
-    std::vector<Place> places_;  ///< empty until the first is kept
+    std::vector<Place> places_;  ///< empty until the first crossings are stored
 };
 
 }  // namespace alhazen

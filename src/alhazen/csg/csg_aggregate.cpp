@@ -17,7 +17,7 @@ const PrimitiveTable& table_of(const PrimitiveTable& outer, const Hit& hit) {
     return *table;
 }
 
-/// Whether a closed mesh is wound so that its normals point inward.
+/// True if a closed mesh is wound so that its normals point inward.
 bool wound_inward(const Aggregate& meshes) {
     double volume = 0.0;
     for (const PlacedMesh& placed : meshes.primitives().meshes) {
@@ -55,7 +55,7 @@ CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
 }
 
 Box3 CsgAggregate::box() const {
-    // Crossings with leaves that coincide with the bound may lie slightly outside of it.
+    // Crossings with leaves that coincide with the bound may lie slightly outside it.
     return padded(solid_.tree().box(), 1e-15);
 }
 
@@ -102,7 +102,7 @@ bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuer
             case Opacity::Opaque:
                 return true;
             case Opacity::OpaqueFromFront:
-                // The front of a solid is its outside, independent of the winding of its parts.
+                // The front of a solid is its outside, regardless of the winding of its parts.
                 if (leaves) return true;
                 break;
             case Opacity::Transparent:
@@ -136,7 +136,7 @@ CsgAggregate::Look CsgAggregate::look(const CsgRay& ray, double t, PrimitiveId p
     if (of_minuend) {
         look.material = look.media.after ? look.media.after : look.media.before;
     } else if (is_wall && solid_.medium(sides.after) != CsgSolid::kMixture) {
-        // Shows the entered medium, except when leaving an opaque one.
+        // The entered medium is visible, except when a ray leaves an opaque one.
         const bool opaque_before = solid_.medium(sides.before) == CsgSolid::kOpaque;
         look.material = opaque_before ? look.media.before : look.media.after;
     }

@@ -1,9 +1,10 @@
 #pragma once
-/// A solid of constructive solid geometry as an aggregate: its hits are where a ray enters and
-/// leaves the solid, alternately.
+/// A CSG solid as an aggregate: its hits are the points at which a ray alternately enters and
+/// leaves the solid.
 ///
-/// Conventions: those of `Aggregate`; a hit has the primitive whose surface is visible; the surface
-/// of a subtracted primitive is reversed (`complete`). All evaluators (csg_evaluator.h) give the
+/// Conventions: those of `Aggregate`; the primitive of a hit is the one whose surface is visible;
+/// the surface of a subtracted primitive is reversed (`complete`). All evaluators (csg_evaluator.h)
+/// give the same hits.
 /// same hits.
 /// Threads: const functions may be called from many threads.
 
@@ -36,8 +37,7 @@ class CsgAggregate final : public SolidAggregate {
     }
 
   private:
-    /// The media on both sides of a hit, and the visible material where it is not the primitive's
-    /// own.
+    /// The media on both sides of a hit, and the visible material if it is not the primitive's own.
     struct Look {
         SurfaceMedia media;
         std::optional<MaterialId> material;
@@ -51,7 +51,7 @@ class CsgAggregate final : public SolidAggregate {
     BoundingSphere sphere_;
     std::unique_ptr<const CsgEvaluator> evaluator_;
     std::vector<bool> shows_minuend_;  ///< [primitive]; empty: false for all
-    std::vector<bool> turned_;         ///< [primitive] its normal points into the solid
+    std::vector<bool> turned_;         ///< [primitive] true if its normal points into the solid
 };
 
 }  // namespace alhazen

@@ -9,11 +9,11 @@ namespace alhazen {
 
 namespace {
 
-/// Lower bound of a direction's components relative to the largest one: no quotient is infinite,
-/// and the displacement of the ray is far below the pad.
+/// Lower bound of a direction's components relative to the largest one: quotients stay finite, and
+/// the displacement of the ray is far below the pad.
 constexpr double kLeastDirection = 0x1p-100;
 
-/// The children of a wide node: the root's grandchildren, the largest opened first.
+/// The children of a wide node: descendants of the root, found by opening the largest first.
 std::vector<std::uint32_t> opened(const BinaryBvh& binary, std::uint32_t root) {
     const auto area = [&](std::uint32_t n) {
         const FloatBox& b = binary.nodes[n].box;

@@ -25,7 +25,7 @@ HWY_INLINE Doubles as_doubles(const float* values) {
     return r;
 }
 
-/// Every operation is correctly rounded, none is fused.
+/// Every operation is correctly rounded; none is fused.
 std::uint32_t ranges(const CsgBvh::Node& node, const CsgBvh::RaySlabs& ray,
                      CsgBvh::Ranges& ranges) {
     static_assert(CsgBvh::kWidth == kLaneCount);

@@ -10,12 +10,12 @@ namespace alhazen {
 
 namespace {
 
-/// Marks a change of a leaf without a crossing: at the ends of its S-bound.
+/// Marks a change of a leaf without a crossing, at an end of its S-bound.
 constexpr std::uint32_t kSilent = 1u << 31;
-/// The root, in place of a child of the tree of boxes.
+/// Stands for the root in place of a child of the tree of boxes.
 constexpr std::uint32_t kRoot = 0;
 
-/// A box that the ray passes and that is not opened yet.
+/// A box that the ray meets and that is not yet opened.
 struct Bound {
     double enter, exit;
     std::uint32_t child;
@@ -31,8 +31,8 @@ struct LaterCrossing {
     }
 };
 
-/// Intervals of a ray on which one operand alone determines the value of the solid: the current and
-/// the next one. Other operands change nothing there.
+/// The current and the next interval of a ray on which one operand alone determines the value of
+/// the solid. Other operands change nothing there.
 class DecidedParts {
   public:
     /// Points within `margin` of the ends are excluded.
@@ -49,7 +49,7 @@ class DecidedParts {
         }
         if (!next_.empty() && now_.joins(next_.begin, next_.end)) next_ = {};
     }
-    /// Returns false where the whole bound is irrelevant; otherwise moves its start to the first
+    /// Returns false if the whole bound is irrelevant; otherwise moves its start to the first
     /// relevant point.
     bool shorten(Bound& bound) {
         if (bound.enter >= now_.end - margin_ && !next_.empty()) {
@@ -68,7 +68,7 @@ class DecidedParts {
         double begin = kInfinity, end = -kInfinity;
 
         [[nodiscard]] bool empty() const { return !(begin < end); }
-        /// Merges with an overlapping interval; false when they are disjoint.
+        /// Merges with an overlapping interval; returns false if they are disjoint.
         bool joins(double other_begin, double other_end) {
             if (!(other_begin <= end && other_end >= begin)) return false;
             begin = std::min(begin, other_begin);
@@ -116,7 +116,7 @@ class Walk {
 
     [[nodiscard]] bool begins_inside() const { return begins_inside_; }
 
-    /// Advances to the next transition; false when there is none. `found` is valid until the next
+    /// Advances to the next transition; false if there is none. `found` is valid until the next
     /// call.
     bool next(CsgCrossing& found) {
         CsgState& state = s_.state;
@@ -142,7 +142,7 @@ class Walk {
         }
     }
 
-    /// Whether the last transition is a wall between two media.
+    /// True if the last transition is a boundary between two media.
     [[nodiscard]] bool is_wall() const { return is_wall_; }
     /// The leaf that fills the current point, or none.
     [[nodiscard]] std::uint32_t filling_leaf() const { return s_.state.filling_leaf(); }
@@ -153,7 +153,7 @@ class Walk {
     }
 
   private:
-    /// The state that a transition changes: the medium, or just inside and outside for one medium.
+    /// The state that a transition changes: the medium; inside or outside if there is one medium.
     [[nodiscard]] std::uint32_t place() const {
         if (!s_.state.value()) return CsgSolid::kNoMedium;
         return solid_.has_media() ? solid_.medium(s_.state.filling_leaf()) : CsgSolid::kOpaque;
@@ -192,7 +192,7 @@ class Walk {
         });
     }
 
-    /// Crossings before the bound or the ray only determine the leaf's state at the start.
+    /// Opens a leaf. Crossings before the bound or the ray only determine its state at the start.
     void open_leaf(std::uint32_t leaf, double enter, double exit) {
         const double begin = std::max(enter, ray_.t_min);
         s_.crossings.clear();
@@ -211,7 +211,8 @@ class Walk {
         if (decides && inside) decided_.add(since, exit);
         if (inside && exit <= last_t_) push(CsgCrossing{exit, 0, 0, 0, leaf | kSilent});
     }
-    /// Walls between media are transitions too, even inside of a union.
+    /// True if a point inside the leaf has a fixed value. Boundaries between media are transitions,
+    /// even inside a union.
     [[nodiscard]] bool decides_alone(std::uint32_t leaf) const {
         const CsgTree::Leaf& l = solid_.tree().leaves()[leaf];
         return l.decides && (l.complement || !solid_.has_media());
@@ -237,7 +238,7 @@ class Walk {
     void open_to(double t) {
         while (!s_.bounds.empty() && s_.bounds.front().enter <= t) open_nearest();
     }
-    /// Opens all bounds that begin up to the first event. False when there is no event.
+    /// Opens all bounds that begin up to the first event. False if there is no event.
     bool open_to_first_event() {
         while (!s_.bounds.empty() &&
                (s_.events.empty() || s_.bounds.front().enter <= s_.events.front().t)) {
@@ -261,7 +262,7 @@ class Walk {
         }
     }
 
-    /// Finds the crossing that makes the change of the cluster.
+    /// Finds the crossing of the cluster that is reported for the change of the solid.
     bool responsible(CsgCrossing& found) const {
         bool any = false;
         for (const CsgCrossing& crossing : s_.cluster) {

@@ -1,18 +1,18 @@
 #pragma once
-/// The evaluator for solids of any size: opens only the leaves whose S-bounds the ray passes, in
-/// the order of the ray, and stops at the first requested transition.
+/// The evaluator for solids of any size: tests only leaves whose S-bounds the ray meets, front to
+/// back, and stops at the first requested transition.
 ///
 /// Source: Cameron, "Efficient Bounds in Constructive Solid Geometry", IEEE CG&A 11(3), 1991
 /// (S-bounds); Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982 (classification along a ray);
 /// Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (heap of bounds).
-/// Differs: one tree of boxes over the S-bounds of all leaves, for all operators; crossings wait in
-/// a second heap until every bound in front of them is opened; the state of the solid is stored as
+/// Differs: one tree of boxes over the S-bounds of all leaves, for all operators. Crossings wait in
+/// a second heap until every bound in front of them is opened. The state of the solid is stored as
 /// counts of true operands and updated from the leaf upward, only as far as it changes. Where one
-/// operand alone determines the value (a ray within a hole), bounds that begin and end there stay
+/// operand alone determines the value (a ray inside a hole), bounds that begin and end there stay
 /// unopened, and others are opened where it ends: active zones of Rossignac and Voelcker, "Active
 /// Zones in CSG for Accelerating Boundary Evaluation", ACM TOG 8(1), 1989, found along the ray.
-/// Outside its S-bound a leaf counts as outside; docs/design/csg.md shows that this does not
-/// change the solid, and tests compare it with the evaluation of every leaf.
+/// Outside its S-bound a leaf counts as outside; docs/design/csg.md shows that this does not change
+/// the solid, and tests compare it with the evaluation of every leaf.
 /// Complexity and threads: O(k log k) for k leaves pierced before the transition, and the paths to
 /// them in the tree of boxes. No allocation per ray in a steady state. Const functions may be
 /// called from many threads.
@@ -29,7 +29,7 @@ class CsgEventHeap final : public CsgEvaluator {
         "S-bounds in a tree of boxes, heap of crossings (table for a few leaves): for any size";
 
     explicit CsgEventHeap(const CsgSolid& solid) : CsgEventHeap(solid, solid.tree().bounds()) {}
-    /// Uses other bounds than the S-bounds: at least as large.
+    /// Uses the given bounds, which must contain the S-bounds.
     CsgEventHeap(const CsgSolid& solid, std::span<const Box3> bounds)
         : solid_(solid), bvh_(bounds) {}
 

@@ -1,9 +1,8 @@
 #pragma once
-/// A solid as described in the scene: operators over operands, with primitives of a table as
-/// leaves.
+/// A solid as described in the scene: a tree of operators with primitives of a table as leaves.
 ///
 /// Conventions: leaves are numbered in the order of the description; where surfaces of several
-/// leaves coincide, that of the leaf with the lowest number is visible.
+/// leaves coincide, that of the lowest-numbered leaf is visible.
 
 #include <cstdint>
 #include <vector>
@@ -33,8 +32,8 @@ struct CsgExpression {
         std::vector<CsgOperand> operands;
     };
     std::vector<Node> nodes;  ///< [0] is the root; operands come after their node
-    /// [leaf] its surface shows the material of the solid it is subtracted from; empty: false for
-    /// all.
+    /// [leaf] true: its surface shows the material of the solid it is subtracted from; empty: false
+    /// for all.
     std::vector<bool> shows_minuend;
     std::vector<PrimitiveId> leaves;  ///< [leaf] primitive of the table
 };

@@ -24,7 +24,7 @@ HWY_INLINE Doubles largest(const Doubles& x, const Doubles& y, const Doubles& z)
     return max_lanes(max_lanes(abs(x), abs(y)), abs(z));
 }
 
-/// The minimum distance between crossings: along an axis, in which rays move by `speed`.
+/// The minimum distance between crossings along the dominant axis, on which rays move by `speed`.
 struct Apart {
     Doubles length, speed;
 
@@ -34,7 +34,7 @@ struct Apart {
         length = Doubles(solid.apart) * (Doubles(solid.size) + largest(away.x, away.y, away.z));
         speed = largest(d.x, d.y, d.z);
     }
-    /// As a difference of the rays' parameters.
+    /// The distance as a difference of the rays' parameters.
     [[nodiscard]] HWY_INLINE Doubles parameter() const { return length / speed; }
 };
 
@@ -53,8 +53,9 @@ HWY_INLINE LaneMask<double> far_outside(const CsgLanesSolid::Leaf& leaf, const V
     return margin < margin;
 }
 
-/// Whether for each ray that crosses the first leaf only its entry matters: that leaf is the only
-/// needed one, and the others are far from the entry. Then `hit` are the rays that enter the solid.
+/// True if only the entry of the first leaf matters for each ray that crosses it: that leaf is the
+/// only needed one, and the others are far from the entry. `hit` then receives the rays that enter
+/// the solid.
 HWY_INLINE bool settled_by_first(const CsgLanesSolid& solid, const RayLanes& rays,
                                  const LaneSpans& first, std::uint32_t& hit) {
     const Apart apart(solid, rays);
@@ -77,18 +78,18 @@ HWY_INLINE bool settled_by_first(const CsgLanesSolid& solid, const RayLanes& ray
     return (hit & ~bits_of(settled)) == 0;
 }
 
-/// The spans of the leaves that some ray intersects.
+/// The spans of the leaves that any ray intersects.
 struct Spans {
     std::uint32_t count = 0;
-    std::uint32_t place[kMaxLeaves];  ///< among the leaves of the solid
-    LaneSpans of[kMaxLeaves];         ///< an empty span where the ray misses
+    std::uint32_t place[kMaxLeaves];  ///< indices among the leaves of the solid
+    LaneSpans of[kMaxLeaves];         ///< empty if the ray misses the leaf
 
-    /// Provides the spans for the next leaf.
+    /// Returns storage for the spans of the next leaf.
     HWY_INLINE LaneSpans& begin() {
-        of[count].met = of[count].unsure = 0;  // the rest is written where the leaf is hit
+        of[count].met = of[count].unsure = 0;  // the rest is written if the leaf is hit
         return of[count];
     }
-    /// Keeps the provided spans, for the rays that intersect the leaf.
+    /// Keeps these spans, for the rays that intersect the leaf.
     HWY_INLINE void keep(std::uint32_t leaf) {
         LaneSpans& spans = of[count];
         const LaneMask<double> mask = lanes_of_bits<double>(spans.met);

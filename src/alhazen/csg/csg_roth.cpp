@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Whether the line passes within `pad` of the box.
+/// True if the line passes within `pad` of the box.
 bool passes(const Ray& line, const Box3& box, double pad) {
     if (box.empty()) return false;
     double enter = line.t_min, exit = line.t_max;
@@ -32,13 +32,13 @@ bool passes(const Ray& line, const Box3& box, double pad) {
 /// The changes of an operand's value: a range of the common list.
 struct SpanList {
     std::size_t begin = 0, end = 0;
-    bool inside = false;  ///< where the ray starts
+    bool inside = false;  ///< at the start of the ray
 
     [[nodiscard]] bool empty() const { return begin == end && !inside; }
 };
 
 struct RothScratch {
-    std::vector<double> changes;    ///< of all operands, list after list
+    std::vector<double> changes;    ///< of all operands, one list after another
     std::vector<SpanList> nodes;    ///< [node]
     std::vector<SpanList> leaves;   ///< [leaf]
     std::vector<SpanList> crossed;  ///< [leaf] range of `crossings`
@@ -75,7 +75,7 @@ class Merge {
 
     [[nodiscard]] bool begins_inside() const { return root_.inside; }
 
-    /// Advances to the next transition; false when there is none.
+    /// Advances to the next transition; false if there is none.
     bool next(CsgCrossing& found) {
         while (next_ < root_.end) {
             const double t = s_.changes[next_];
@@ -161,7 +161,7 @@ class Merge {
         return (std::upper_bound(first, end, window.hi) - first) % 2 != 0;
     }
 
-    /// Descends to the leaves that changed together with all nodes above them.
+    /// Finds the reported crossing: descends to the leaves that changed with all nodes above them.
     void responsible(CsgOperand o, const Interval& window, CsgCrossing& found, bool& any) const {
         if (!o.is_leaf()) {
             if (!changes_within(s_.nodes[o.index()], window)) return;

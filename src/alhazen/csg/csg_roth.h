@@ -7,10 +7,10 @@
 /// difference skips the right one; a node whose box the ray misses is empty.
 /// Differs: (1) an operator of many operands is applied pairwise; (2) crossings at the same t are
 /// classified together, so that faces that coincide exactly leave nothing between them; (3) a ray
-/// may start inside: each list stores whether it does; (4) a query for any transition is no shorter
-/// than one for the first, because a ray that starts inside may leave nothing behind; (5) walls
+/// may start inside: each list stores whether it does; (4) a query for any transition takes as long
+/// as one for the first, because nothing may follow the start of a ray inside; (5) boundaries
 /// between media in one solid, which span lists do not represent, are found by the event heap
-/// without any bounds; (6) transitions closer than tau are one, as csg_solid.h defines them.
+/// without bounds; (6) transitions closer than tau are one, as csg_solid.h defines them.
 /// Complexity and threads: O(sum of the crossings of all leaves x depth) per ray. Const functions
 /// may be called from many threads.
 
@@ -36,7 +36,7 @@ class CsgRoth final : public CsgEvaluator {
 
   private:
     const CsgSolid& solid_;
-    std::vector<Box3> boxes_;       ///< [node] of the operator's result
+    std::vector<Box3> boxes_;       ///< [node] box of the operator's result
     std::vector<Box3> leaf_boxes_;  ///< [leaf]
     CsgEventHeap sweep_;            ///< tests every leaf for every ray
 };

@@ -1,8 +1,8 @@
 #pragma once
-/// Working memory of queries, kept by each thread: queries do not allocate once the first few have
-/// grown it. Nested solids use one each.
+/// Scratch memory of queries, kept per thread, so that queries do not allocate in a steady state.
+/// Nested solids use one each.
 ///
-/// Conventions: a query finds the data of the previous one; each clears what it needs cleared.
+/// Conventions: a query finds the data of the previous one and clears what must be empty.
 
 #include <cstddef>
 #include <deque>
@@ -24,7 +24,7 @@ class CsgScratchLease {
 
   private:
     struct Pool {
-        std::deque<Scratch> all;  ///< a deque: addresses stay valid while it grows
+        std::deque<Scratch> all;  ///< a deque keeps addresses valid while it grows
         std::size_t used = 0;
     };
     static Pool& pool() {

@@ -13,8 +13,8 @@ namespace alhazen {
 
 namespace {
 
-/// The share of the distance from the origin in the tolerance: coordinates are rounded relative to
-/// themselves.
+/// Share of the distance from the origin in the tolerance: coordinates are rounded relative to
+/// their size.
 constexpr double kOffsetShare = 0x1p-8;
 
 }  // namespace
@@ -79,7 +79,7 @@ void CsgSolid::find_media() {
     }
 }
 
-/// Those that may have more than two crossings, where hits are asked for their media.
+/// Marks the leaves that may have more than two crossings, if hits need their media.
 void CsgSolid::find_remembered() {
     remembered_.resize(leaf_count(), false);
     if (!has_media_) return;

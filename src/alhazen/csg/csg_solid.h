@@ -1,17 +1,17 @@
 #pragma once
-/// The common data of all evaluators of a solid: its leaves as primitives of a table, its
+/// The data of a solid that all evaluators share: its leaves as primitives of a table, its
 /// expression in both forms, and all crossings of a line with one leaf.
 ///
 /// Conventions: a leaf's crossings come from the ray test of `PrimitiveTable` on the whole line,
-/// independent of the range of the ray, so their t have the same bits in every evaluator. Between
+/// independent of the range of the ray, so their t are bit-identical in every evaluator. Between
 /// successive crossings a line is alternately inside and outside.
 ///
-/// Crossings of several leaves closer than `tau` count as one: the solid has the states before the
-/// first and after the last of them. So coincident faces leave neither slivers nor inner walls, and
-/// parts thinner than tau along the ray vanish (regularised sets; Requicha and Voelcker, "Boolean
-/// Operations in Solid Modeling", Proc. IEEE 73(1), 1985). The reported crossing is that of the
-/// leaf with the lowest number whose own change, together with that of all nodes above it, makes
-/// the change of the solid.
+/// Crossings of several leaves closer than `tau` count as one transition: from the state before the
+/// first to the state after the last of them. Coincident faces therefore leave neither slivers nor
+/// inner surfaces, and parts thinner than tau along the ray vanish (regularised sets; Requicha and
+/// Voelcker, "Boolean Operations in Solid Modeling", Proc. IEEE 73(1), 1985). The reported crossing
+/// is that of the lowest-numbered leaf whose own change, with that of all nodes above it, makes the
+/// change of the solid.
 
 #include <cstdint>
 #include <limits>
@@ -27,7 +27,7 @@ namespace alhazen {
 /// A crossing of a line with a leaf.
 struct CsgCrossing {
     double t, u, v;
-    /// As in ShapeHit; for an instance, the index of its hit in the list of hits.
+    /// ShapeHit::part; for an instance, the index of its hit in the list of hits.
     std::uint32_t part;
     std::uint32_t leaf;
 };
@@ -35,10 +35,10 @@ struct CsgCrossing {
 /// A ray prepared for evaluators.
 struct CsgRay {
     Ray line;             ///< t unbounded
-    double t_min, t_max;  ///< of the ray
+    double t_min, t_max;  ///< limits of the ray
     double pad;           ///< bound of the distance of a computed crossing from the line
     double tau;           ///< crossings closer than this count as one
-    RayMask mask;         ///< leaves it does not see count as empty
+    RayMask mask;         ///< leaves that it does not see count as empty
 };
 
 class CsgSolid {
@@ -56,21 +56,21 @@ class CsgSolid {
         return table_.box(static_cast<std::size_t>(expression_.leaves[leaf]));
     }
     [[nodiscard]] CsgRay prepare(const Ray& ray, RayMask mask = kAllRays) const;
-    // ---- tau of `prepare`: kTolerance (size + distance of the origin from the center) Error bound
-    // of the primitives' tests, relative to the distances involved.
+    /// tau is kTolerance (size + distance of the origin from the center). kTolerance is the error
+    /// bound of the primitives' tests relative to the distances involved.
     static constexpr double kTolerance = 0x1p-38;
     [[nodiscard]] const Vec3& center() const { return center_; }
     [[nodiscard]] double size() const { return half_ + offset_; }
-    /// Distance within which surfaces count as coincident, seen from a distance of the solid's
+    /// Distance within which surfaces count as coincident for origins at a distance of the solid's
     /// size.
     [[nodiscard]] double tolerance() const { return kTolerance * (2.0 * half_ + offset_); }
 
-    /// The medium of a leaf: the number of a transparent material, or one of these.
+    /// The medium of a leaf: the number of a transparent material, or one of these constants.
     static constexpr std::uint32_t kNoMedium = 0xFFFFFFFFu;
     static constexpr std::uint32_t kOpaque = 0xFFFFFFFEu;
-    static constexpr std::uint32_t kMixture = 0xFFFFFFFDu;  ///< a shared solid of several media
-    /// True when operands have different media, some of them transparent: then the wall between two
-    /// media is a transition too, out of one and into the other.
+    static constexpr std::uint32_t kMixture = 0xFFFFFFFDu;  ///< an instanced solid of several media
+    /// True if operands have different media, some of them transparent. A boundary between two
+    /// media is then also a transition, out of one and into the other.
     [[nodiscard]] bool has_media() const { return has_media_; }
     /// The medium of a leaf; kNoMedium for CsgTree::kNone.
     [[nodiscard]] std::uint32_t medium(std::uint32_t leaf) const {
@@ -78,11 +78,11 @@ class CsgSolid {
     }
     /// The only medium of the solid, or kMixture.
     [[nodiscard]] std::uint32_t only_medium() const { return only_medium_; }
-    /// The material of a leaf; of a shared solid that of its first leaf.
+    /// The material of a leaf; for an instanced solid that of its first leaf.
     [[nodiscard]] MaterialId material(std::uint32_t leaf) const { return materials_[leaf]; }
 
     /// Appends all crossings of the line with the leaf, ascending; those of instances also to
-    /// `hits`. Returns true when the line starts inside.
+    /// `hits`. Returns true if the line starts inside.
     bool cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
                std::vector<Hit>& hits, TraversalStats* stats) const;
     /// Converts a crossing to a hit.
@@ -91,14 +91,14 @@ class CsgSolid {
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
-    /// The pad exceeds tau: points within tau of a bound are inside of the padded bound.
+    /// The pad is this multiple of tau: points within tau of a bound are inside the padded bound.
     static constexpr double kPadPerTolerance = 4.0;
 
     void find_media();
     void find_remembered();
     /// All crossings of the line with a shape.
     void intersect(std::uint32_t leaf, const Ray& line, ShapeHits& found) const;
-    /// max_component without a call. Precondition: no NaN.
+    /// max_component, inline. Precondition: no NaN.
     [[nodiscard]] static double largest(const Vec3& v) {
         const double xy = v.x > v.y ? v.x : v.y;
         return xy > v.z ? xy : v.z;
@@ -109,15 +109,15 @@ class CsgSolid {
     CsgTree tree_;
     std::vector<MaterialId> materials_;  ///< [leaf]
     std::vector<std::uint32_t> media_;   ///< [leaf]
-    std::vector<bool> remembered_;       ///< [leaf] whether CrossingMemo keeps its crossings
-    std::uint64_t number_;               ///< CrossingMemo::number_of_solid
+    std::vector<bool> remembered_;       ///< [leaf] true if CrossingMemo keeps its crossings
+    std::uint64_t number_;               ///< from CrossingMemo::number_of_solid
     std::uint32_t only_medium_ = kOpaque;
     bool has_media_ = false;
     bool unbounded_ = false;                     ///< some leaf is unbounded
     std::vector<const SolidAggregate*> solids_;  ///< [instance of the table] null for a mesh
     Vec3 center_;
     double half_ = 1.0;    ///< half the size of the solid
-    double offset_ = 0.0;  ///< term for the distance of its center from the origin
+    double offset_ = 0.0;  ///< term for the distance of the center from the origin
 };
 
 inline CsgRay CsgSolid::prepare(const Ray& ray, RayMask mask) const {

@@ -1,9 +1,9 @@
 #pragma once
-/// The value of a solid at a point that moves along a ray: which leaves contain it, and the values
-/// of the nodes above them, as differences from the state outside of all leaves.
+/// The state of a solid at a point that moves along a ray: which leaves contain it, and the values
+/// of the nodes above them, relative to the state outside all leaves.
 ///
-/// Conventions: `fit` allocates for a tree; `clear` at the end of a query undoes its changes, so no
-/// work proportional to the tree is done per ray.
+/// Conventions: `fit` allocates for a tree; `clear` at the end of a query undoes its changes, so
+/// that no work per ray is proportional to the tree.
 
 #include <cstdint>
 #include <vector>
@@ -21,10 +21,10 @@ class CsgState {
             node_changed_.resize(tree.nodes().size(), 0);
         }
         if (leaf_.size() < tree.leaves().size()) leaf_.resize(tree.leaves().size(), 0);
-        // The root is false outside of all leaves: complements occur only below a difference.
+        // The root is false outside all leaves: complements occur only below a difference.
         value_ = tree.nodes().front().need <= 0;
     }
-    /// Undoes everything since `fit`.
+    /// Undoes all changes since `fit`.
     void clear() {
         forget_changes();
         for (const std::uint32_t leaf : touched_) {
@@ -38,7 +38,7 @@ class CsgState {
     [[nodiscard]] bool value() const { return value_; }
     [[nodiscard]] bool inside(std::uint32_t leaf) const { return (leaf_[leaf] & kInside) != 0; }
 
-    /// The point crosses the leaf's surface.
+    /// Moves the point across the leaf's surface.
     void toggle(std::uint32_t leaf) {
         if (leaf_[leaf] == 0) touched_.push_back(leaf);
         leaf_[leaf] ^= kInside;
@@ -62,8 +62,8 @@ class CsgState {
         value_ = !value_;
     }
 
-    /// Of the leaves that make the point solid, the one with the lowest number; kNone outside.
-    /// O(intersected leaves times depth).
+    /// The lowest-numbered of the leaves that make the point solid; kNone outside. O(leaves that
+    /// contain the point times depth).
     [[nodiscard]] std::uint32_t filling_leaf() const {
         std::uint32_t lowest = CsgTree::kNone;
         for (const std::uint32_t leaf : touched_) {
@@ -78,7 +78,7 @@ class CsgState {
     }
     [[nodiscard]] bool changed(std::uint32_t leaf) const { return (leaf_[leaf] & kChanged) != 0; }
 
-    /// Changes are recorded from here on.
+    /// Clears the record of changes.
     void forget_changes() {
         for (const std::uint32_t leaf : changed_leaves_) {
             leaf_[leaf] = static_cast<std::uint8_t>(leaf_[leaf] & ~kChanged);
@@ -87,7 +87,7 @@ class CsgState {
         changed_leaves_.clear();
         changed_nodes_.clear();
     }
-    /// Whether the leaf and all nodes above it have changed since `forget_changes`.
+    /// True if the leaf and all nodes above it have changed since `forget_changes`.
     [[nodiscard]] bool changed_all_the_way(std::uint32_t leaf) const {
         if ((leaf_[leaf] & kChanged) == 0) return false;
         std::uint32_t node = tree_->leaves()[leaf].parent;
@@ -102,8 +102,8 @@ class CsgState {
 
     const CsgTree* tree_ = nullptr;
     bool value_ = false;
-    std::vector<std::int32_t>
-        surplus_;  ///< [node] true operands, minus the number outside of all leaves
+    /// [node] number of true operands minus that number outside all leaves.
+    std::vector<std::int32_t> surplus_;
     std::vector<std::uint8_t> node_changed_;  ///< [node]
     std::vector<std::uint8_t> leaf_;          ///< [leaf] bits
     std::vector<std::uint32_t> touched_, changed_leaves_, changed_nodes_;

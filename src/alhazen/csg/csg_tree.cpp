@@ -33,7 +33,7 @@ void CsgTree::flatten(const CsgExpression& expression, Draft& draft) {
     leaves_.resize(expression.leaves.size());
     struct Open {
         std::uint32_t node;    ///< in the expression
-        std::uint32_t parent;  ///< in this tree
+        std::uint32_t parent;  ///< in the positive form
         bool complement;
     };
     const auto is_union = [&](std::uint32_t node, bool complement) {
@@ -85,7 +85,7 @@ void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes) {
     std::vector<Box3> from_below(nodes_.size());
     bounds_.assign(boxes.begin(), boxes.end());
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-        // Up: a union is bounded by the hull of its operands, an intersection by each of them.
+        // Up: the hull of its operands bounds a union; each operand bounds an intersection.
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             from_below[i] = draft.is_union[i] ? Box3{} : kAllSpace;
         }

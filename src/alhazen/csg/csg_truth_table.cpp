@@ -19,7 +19,7 @@ constexpr auto kMaxHitsOfKind = []<class... S>(std::type_identity<ShapeTypes<S..
 
 }  // namespace
 
-/// The sorted crossings of a ray with the leaves, and the position of a query in them.
+/// The sorted crossings of a ray with the leaves, and the position of a query among them.
 class CsgTruthTable::Events {
   public:
     void add(const CsgCrossing& crossing) {
@@ -30,7 +30,7 @@ class CsgTruthTable::Events {
     }
     [[nodiscard]] bool at_end() const { return at_ == size_; }
     [[nodiscard]] const CsgCrossing& front() { return data()[at_]; }
-    /// Whether no other crossing follows the front one up to `t`.
+    /// True if no other crossing follows the front one up to `t`.
     [[nodiscard]] bool is_alone(double t) { return at_ + 1 == size_ || data()[at_ + 1].t > t; }
     /// Takes the next crossing.
     const CsgCrossing& pass() {
@@ -63,7 +63,7 @@ CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
     const std::vector<CsgTree::Node>& nodes = solid.tree().nodes();
     const std::vector<CsgTree::Leaf>& leaves = solid.tree().leaves();
     const auto leaf_count = static_cast<std::uint32_t>(leaves.size());
-    // Numbers of true operands per node, for a point inside of these leaves.
+    // Number of true operands of each node for a point inside these leaves.
     std::array<std::int32_t, kMaxNodes> usual{};
     for (LeafSet inside = 0; inside < LeafSet{1} << leaf_count; ++inside) {
         std::array<std::int32_t, kMaxNodes> count{};
@@ -128,8 +128,8 @@ void CsgTruthTable::prepare_lanes() {
     first_in_lanes_ = csg_lanes_kernel().first;
 }
 
-/// Whether a leaf is so much larger than the solid that the rounding of its crossings, at most
-/// 2^-48 of its size, is not small compared to the minimum distance of crossings.
+/// True if a leaf is so much larger than the solid that the rounding of its crossings, at most
+/// 2^-48 of its size, is not small relative to the minimum distance of crossings.
 bool CsgTruthTable::has_huge_leaf() const {
     constexpr double kHuge = 0x1p10;
     const std::vector<PrimitiveId>& leaves = solid_.expression().leaves;
@@ -139,7 +139,7 @@ bool CsgTruthTable::has_huge_leaf() const {
     });
 }
 
-/// Sets shapes in the frame of the solid; others stay unset.
+/// Sets the shape of a supported leaf in the frame of the solid; others stay unset.
 void CsgTruthTable::set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const {
     with_column(solid_.table().columns, place.kind, [&](const auto& column) {
         using S = typename ShapeOfColumn<decltype(column)>::Type;
@@ -159,7 +159,7 @@ void CsgTruthTable::set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) con
     });
 }
 
-/// Crossings in ascending order; `hits` has space for kMaxShapeHits.
+/// Writes the crossings in ascending order; `hits` has space for kMaxShapeHits.
 CsgTruthTable::Crossings CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
                                               TraversalStats* stats) const {
     const PrimitiveTable& table = solid_.table();
@@ -185,7 +185,7 @@ CsgTruthTable::Crossings CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& 
     return found;
 }
 
-/// Collects the crossings in the ray's range; false when the ray cannot hit the solid.
+/// Collects the crossings in the ray's range; false if the ray cannot hit the solid.
 bool CsgTruthTable::gather(const CsgRay& ray, Events& events, TraversalStats* stats) const {
     const double last = ray.t_max + ray.tau;
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
@@ -217,7 +217,7 @@ bool CsgTruthTable::next(const CsgRay& ray, Events& events, CsgCrossing& found) 
         if (t > ray.t_max) return false;
         const LeafSet before = events.inside;
         if (events.is_alone(t + ray.tau)) {
-            // A change of one leaf that changes the solid changes all nodes in between.
+            // A single leaf that changes the solid changes all nodes in between.
             const CsgCrossing& crossing = events.pass();
             if (is_solid(events.inside) == is_solid(before)) continue;
             found = crossing;

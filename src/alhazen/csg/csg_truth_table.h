@@ -1,15 +1,15 @@
 #pragma once
-/// The evaluator for solids of a few leaves, such as a sphere with a hole: no tree of boxes and no
-/// heap. The event heap delegates these solids to it.
+/// The evaluator for solids of a few leaves, such as a sphere with a hole, without a tree of boxes
+/// or a heap. The event heap delegates these solids to it.
 ///
 /// Source: Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982 (classification along a ray).
 /// Differs: the set of leaves that contain a point is a bit set, and the value of a node of the
-/// expression is looked up in a table with a bit for each set. All crossings are in one sorted
-/// list; a ray that misses a needed leaf (the minuend of a difference, an operand of an
-/// intersection) is done.
-/// Conventions: the transitions of csg_solid.h, with the bits of the event heap. Leaves must be
-/// analytic shapes with at most kMaxShapeHits crossings per line, and there is one medium. Eight
-/// rays at a time are passed to csg_lanes.h where it supports all leaves (convex shapes).
+/// expression is looked up in a table with one bit per set. All crossings are in one sorted list; a
+/// ray that misses a needed leaf (the minuend of a difference, an operand of an intersection) is
+/// finished at once.
+/// Conventions: the transitions of csg_solid.h, bit-identical to those of the event heap. Leaves
+/// must be analytic shapes with at most kMaxShapeHits crossings per line, and there is one medium.
+/// Rays are passed to csg_lanes.h, eight at a time, if it supports all leaves (convex shapes).
 /// Threads: const functions may be called from many threads.
 
 #include <array>
@@ -39,7 +39,7 @@ class CsgTruthTable final : public LaneSolid, public CsgEvaluator {
     [[nodiscard]] std::size_t memory_bytes() const override { return sizeof(*this); }
 
   private:
-    /// A bit for each leaf that contains a point.
+    /// One bit for each leaf that contains a point.
     using LeafSet = std::uint32_t;
     class Events;
 
@@ -55,11 +55,11 @@ class CsgTruthTable final : public LaneSolid, public CsgEvaluator {
         bool inside = false;  ///< where the line starts
     };
 
-    /// Sets up the lanes where they support all leaves, in the frame of the solid.
+    /// Sets up the data of the lanes, in the frame of the solid, if they support all leaves.
     void prepare_lanes();
     [[nodiscard]] bool has_huge_leaf() const;
     void set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const;
-    /// As `closest_of_lanes`, one ray after another.
+    /// `closest_of_lanes` ray by ray.
     std::uint32_t closest_of_each(const RayLanes& rays, std::uint32_t wanted, LaneHits& hits,
                                   RayQuery query) const;
     Crossings cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
@@ -70,14 +70,14 @@ class CsgTruthTable final : public LaneSolid, public CsgEvaluator {
     [[nodiscard]] std::uint32_t filling_leaf(LeafSet inside) const;
     void fill(const CsgCrossing& crossing, Hit& hit) const;
 
-    // The data of the lanes comes first, together.
-    decltype(CsgLanesKernel::first) first_in_lanes_ =
-        nullptr;  ///< null where lanes do not support all leaves
+    // The data of the lanes is first and contiguous.
+    /// Null if lanes do not support all leaves.
+    decltype(CsgLanesKernel::first) first_in_lanes_ = nullptr;
     CsgLanesSolid lanes_;
     const CsgSolid& solid_;
     std::array<Place, kMaxLeaves> places_{};
     std::array<std::uint64_t, kMaxNodes> tables_{};  ///< [node] bit i: its value for LeafSet i
-    /// The needed leaves (without which the solid is empty) first.
+    /// The leaves in the order of tests: needed leaves (without which the solid is empty) first.
     std::array<std::uint32_t, kMaxLeaves> order_{};
     LeafSet needed_ = 0;  ///< the needed leaves
 };

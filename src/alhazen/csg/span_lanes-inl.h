@@ -1,12 +1,12 @@
-/// Finds where eight lines, in lanes, enter and leave a closed convex shape.
+/// Finds where eight lines in lanes enter and leave a closed convex shape.
 ///
-/// Source: sphere_roots.h, frustum.cpp, box_shape.cpp, the same operations in the same order.
+/// Source: sphere_roots.h, frustum.cpp, box_shape.cpp; the same operations in the same order.
 /// Differs: rare cases (a cone steeper than the line, a line along an axis, numbers out of range)
 /// are left to the scalar version.
 /// Conventions: included once per target (see simd/lanes-inl.h); ignores the limits of the rays;
 /// frustums have their caps. `unsure` lanes need the scalar version; for the other wanted lanes
-/// entry and exit have the bits of the two crossings that `intersect` writes for the whole line, or
-/// there are none.
+/// entry and exit are bit-identical to the two crossings that `intersect` writes for the whole
+/// line, or there are none.
 
 #if defined(ALHAZEN_CSG_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_CSG_SPAN_LANES_INL_H_
@@ -50,8 +50,8 @@ HWY_INLINE Doubles dot(const Vec3& a, const Vec3Lanes& b) {
     return Doubles(a.x) * b.x + Doubles(a.y) * b.y + Doubles(a.z) * b.z;
 }
 
-/// The points outside of a shape and farther than `margin` from it (conservative: some may be
-/// missing). Points must be finite.
+/// Lanes whose points are outside a shape and farther than `margin` from it. Conservative: may miss
+/// some. Points must be finite.
 HWY_INLINE LaneMask<double> far_outside(const Sphere& sphere, const Vec3Lanes& point,
                                         const Doubles& margin) {
     const Vec3Lanes p = point - sphere.center;
@@ -64,7 +64,7 @@ HWY_INLINE LaneMask<double> far_outside(const BoxShape& box, const Vec3Lanes& po
     return (max_lanes(max_lanes(above.x, above.y), above.z) > margin) |
            (min_lanes(min_lanes(below.x, below.y), below.z) < -margin);
 }
-/// For the cylinder around it.
+/// Tests the cylinder around the frustum.
 HWY_INLINE LaneMask<double> far_outside(const Frustum& f, const Vec3Lanes& point,
                                         const Doubles& margin) {
     const Vec3Lanes p = point - f.center;
@@ -79,9 +79,9 @@ constexpr double kFarNumber = 0x1p500;
 /// The entries and exits of lines.
 struct LaneSpans {
     Doubles entry, exit;            ///< valid for lanes that hit; entry <= exit
-    Doubles entry_part, exit_part;  ///< whole numbers
+    Doubles entry_part, exit_part;  ///< integers
     std::uint32_t met = 0;          ///< the line crosses the shape
-    std::uint32_t unsure = 0;       ///< undecided; not in `met`
+    std::uint32_t unsure = 0;       ///< left to the scalar version; not in `met`
 
     /// Sets the spans of the lines in `maybe`; lines with crossings that are not finite are unsure.
     HWY_INLINE void set(const Doubles& in, const Doubles& out, std::uint32_t maybe) {
@@ -124,7 +124,7 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint
     spans.set(entry, exit, met & plain);
 }
 
-/// As BoxShape::intersect. Lines in the plane of a face, or parallel to it, are unsure.
+/// As BoxShape::intersect. Lines in the plane of a face or parallel to it are unsure.
 HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, std::uint32_t wanted,
                            LaneSpans& spans) {
     Doubles entry(-kFarNumber), exit(kFarNumber), entry_part(0.0), exit_part(0.0);

@@ -37,7 +37,7 @@ class PixelSamples {
     }
 
     [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
-    /// In the pixel.
+    /// Position of a sample in the pixel.
     [[nodiscard]] Vec2 place(std::size_t i) const {
         return {film_[i].x * width_ - x_, (1.0 - film_[i].y) * height_ - y_};
     }
@@ -49,7 +49,7 @@ class PixelSamples {
     }
 
     int width_, height_, x_, y_;
-    std::vector<Vec2> film_;  ///< places on the film
+    std::vector<Vec2> film_;  ///< positions on the film
     std::vector<Ray> rays_;
 };
 
@@ -68,7 +68,7 @@ void check(const LoadedScene& loaded, const ExplainOptions& options, const Frame
          fmt::format("sample {}: the pixel has {}, counted from 0", options.sample, samples));
 }
 
-/// Whether a ray of the tree ends because of the depth.
+/// True if a ray of the tree was not sent because of the depth.
 bool ends_by_depth(const RayNode& ray) {
     const auto one_does = [](const std::vector<RayNode>& rays) {
         return std::any_of(rays.begin(), rays.end(), ends_by_depth);
@@ -79,7 +79,7 @@ bool ends_by_depth(const RayNode& ray) {
     });
 }
 
-/// The tree of a ray; false where it has too many rays, or after a stop.
+/// Traces the tree of a ray; false if it has too many rays, or after a stop.
 bool trace_tree(RenderJob job, std::span<const Ray> ray, std::size_t most, RayNode& tree) {
     StopFlag enough;
     const StopFlag* const stop = std::exchange(job.control.stop, &enough);
@@ -94,8 +94,8 @@ bool trace_tree(RenderJob job, std::span<const Ray> ray, std::size_t most, RayNo
     return true;
 }
 
-/// The deepest tree within the limits; `depth` is that of the scene of the job, and becomes that of
-/// the tree.
+/// Traces the deepest tree within the limits. `depth` is that of the job's scene on input, and that
+/// of the tree on output.
 void trace_deepest(const RenderJob& job, std::span<const Ray> ray, const ExplainOptions& options,
                    int& depth, Explanation& e) {
     const int wished = depth;
@@ -104,7 +104,7 @@ void trace_deepest(const RenderJob& job, std::span<const Ray> ray, const Explain
         if (!ends_by_depth(e.tree)) depth = wished;
         return;
     }
-    int fits = 0, too_deep = depth;  // the first surfaces are told in any case
+    int fits = 0, too_deep = depth;  // the first surfaces are always shown
     depth = 0;
     (void)trace_tree(job, ray, std::numeric_limits<std::size_t>::max(), e.tree);
     while (fits + 1 < too_deep && !job.stop_requested()) {
@@ -120,7 +120,7 @@ void trace_deepest(const RenderJob& job, std::span<const Ray> ray, const Explain
     depth = fits;
 }
 
-/// The tree of one sample, and the radiance of all. `depth`: as before.
+/// Traces the tree of one sample, and the radiance of all. `depth`: as in trace_deepest.
 void trace_samples(const RenderJob& job, const PixelSamples& samples, const ExplainOptions& options,
                    int& depth, Explanation& e) {
     const auto chosen = static_cast<std::size_t>(e.sample);
@@ -153,7 +153,7 @@ AcceleratorWork work_of(const std::string& accelerator, const Scene& scene, cons
     return work;
 }
 
-/// Steps of the chosen accelerator, and the work of it, `list` and `wide_bvh`.
+/// Records the steps of the chosen accelerator, and the work of it, `list` and `wide_bvh`.
 void trace_accelerators(const LoadedScene& loaded, const ExplainOptions& options, const Ray& ray,
                         Explanation& e) {
     const std::string& accelerator = options.accelerator;
@@ -197,7 +197,7 @@ void name_parts_of(const RayNode& ray, const SceneDescription& description, Expl
     }
 }
 
-/// The path of a sample, as in the whole picture.
+/// Adds the path of a sample, which is the one of the whole picture.
 void add_path(const Scene& scene, const SceneDescription& description,
               const ExplainOptions& options, Explanation& e) {
     RenderOptions one = options.render;
@@ -211,11 +211,11 @@ void add_path(const Scene& scene, const SceneDescription& description,
     if (!record.vertices.empty()) e.path = std::move(record);
 }
 
-/// A small picture, and where its pixels are in space.
+/// Adds a small picture, and the positions of its pixels in space.
 void add_picture(const Scene& scene, const SceneDescription& description,
                  const ExplainOptions& options, Explanation& e) {
     constexpr int kLongestSide = 240;
-    constexpr int kDepthOfPicture = 5;  // it shows where things are
+    constexpr int kDepthOfPicture = 5;  // enough to show where things are
     const double scale =
         std::min(1.0, static_cast<double>(kLongestSide) / std::max(e.width, e.height));
     RenderOptions small = options.render;
@@ -235,7 +235,7 @@ void add_picture(const Scene& scene, const SceneDescription& description,
     for (const LayerChannel* channel : channels) {
         if (channel == nullptr) return;
     }
-    constexpr int kEvery = 3;  // pixels a point
+    constexpr int kEvery = 3;  // pixels per point
     for (int y = 1; y < *small.height; y += kEvery) {
         for (int x = 1; x < *small.width; x += kEvery) {
             const auto i = static_cast<std::size_t>(y * *small.width + x);

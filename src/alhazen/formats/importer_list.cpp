@@ -57,7 +57,8 @@ const Importer& find_importer(const ImportSource& source) {
 
 namespace {
 
-/// Makes the objects of these names the only parts of the root. Throws Error (Usage).
+/// Makes the objects of these names the only parts of the root. Throws Error (Usage) for an unknown
+/// name.
 void choose_objects(SceneDescription& description, std::span<const std::string> names) {
     ObjectDescription root;
     root.name = "chosen";
@@ -97,8 +98,8 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
         choose_objects(description, options.objects);
     }
     description.files = diagnostics.files();
-    // An incomplete import is validated too, to report all errors at once. Findings about the whole
-    // scene (no visible geometry) are then suppressed: they may be consequences.
+    // Validates incomplete imports too, to report all errors at once, but without findings about
+    // the whole scene (no visible geometry), which may be consequences of errors.
     const bool complete = diagnostics.error_count() == 0;
     Diagnostics findings;
     validate(description, findings);

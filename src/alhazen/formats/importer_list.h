@@ -7,11 +7,11 @@
 
 namespace alhazen {
 
-/// All importers, in the order of their queries.
+/// All importers, in the order in which they are queried.
 [[nodiscard]] std::span<const Importer* const> importers();
 
-/// The importer that recognises the bytes with the highest confidence. Throws Error (Scene) with
-/// the known formats when none does.
+/// The importer that recognises the bytes with the highest confidence. Throws Error (Scene),
+/// listing the known formats, if none does.
 [[nodiscard]] const Importer& find_importer(const ImportSource& source);
 
 /// Reads, recognises, imports and validates a scene file. Throws Error; warnings go to

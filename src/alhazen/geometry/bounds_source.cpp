@@ -19,7 +19,7 @@ Interval BoundsSource::extent(std::size_t i, const Vec3& axis) const {
 }
 
 BoundingSphere bounding_sphere(const Box3& box) {
-    // The center is rounded, and so is the distance.
+    // The margin covers the rounding of the center and of the distance.
     return {box.center(),
             (1.0 + 1e-15) * (0.5 * length(box.size())) + 1e-15 * max_component(abs(box.center()))};
 }

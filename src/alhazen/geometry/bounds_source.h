@@ -1,8 +1,6 @@
 #pragma once
-/// The interface from which builders get the bounds of primitives, and hints for ordering rays and
-/// primitives.
-///
-/// The one virtual interface of the build phase; traversal never calls it.
+/// The interface through which builders get the bounds of primitives, and hints for ordering rays
+/// and primitives. The only virtual interface of the build phase; traversal never calls it.
 
 #include <array>
 #include <cstddef>
@@ -18,10 +16,10 @@ struct BoundingSphere {
     double radius = 0;
 };
 
-/// A point where many rays start or end, such as a light: known in advance, so that data for these
+/// A point where many rays start or end, such as a light, known in advance so that data for these
 /// rays can be precomputed.
 struct RayEnd {
-    Vec3 place;                ///< or, at infinity, the unit direction towards it
+    Vec3 place;                ///< the point or, at infinity, the unit direction towards it
     bool at_infinity = false;  ///< all its rays are parallel
 };
 
@@ -31,21 +29,21 @@ class BoundsSource {
     [[nodiscard]] virtual std::size_t size() const = 0;
     /// A box that contains primitive `i`: finite, never empty, rounded outward.
     [[nodiscard]] virtual Box3 box(std::size_t i) const = 0;
-    /// Range of dot(axis, p) over the points p of primitive `i`. Default: that of its box.
+    /// Range of dot(axis, p) over the points p of primitive `i`. Default: the range over its box.
     [[nodiscard]] virtual Interval extent(std::size_t i, const Vec3& axis) const;
     /// A sphere that contains primitive `i`. Default: the one around its box.
     [[nodiscard]] virtual BoundingSphere sphere(std::size_t i) const;
-    /// Whether primitive `i` may have a point in `cell` (conservative). Default: that of its box.
+    /// True if primitive `i` may have a point in `cell` (conservative). Default: a test of its box.
     [[nodiscard]] virtual bool overlaps(std::size_t i, const Box3& cell) const;
-    /// A box that contains the part of primitive `i` inside `cell`; empty when there is none.
+    /// A box that contains the part of primitive `i` inside `cell`; empty if there is none.
     /// Default: the intersection of the two boxes.
     [[nodiscard]] virtual Box3 clipped_box(std::size_t i, const Box3& cell) const;
-    /// The vertices of primitive `i` where it is a triangle and nothing else. Default: none.
+    /// The vertices of primitive `i` if it is a plain triangle. Default: none.
     [[nodiscard]] virtual std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const;
-    /// True when primitive `i` blocks every shadow ray, of whatever kind, wherever it is hit.
-    /// Default: false.
+    /// True if primitive `i` blocks every shadow ray of every kind wherever it is hit. Default:
+    /// false.
     [[nodiscard]] virtual bool blocks_light(std::size_t i) const;
-    /// Default: none. A hint: rays may also go elsewhere.
+    /// The known ends of rays. A hint: rays may also start and end elsewhere. Default: none.
     [[nodiscard]] virtual std::span<const RayEnd> ray_ends() const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Axis-aligned boxes; empty when any `lo > hi`.
+/// Axis-aligned boxes; a box is empty if `lo > hi` in any coordinate.
 
 #include <algorithm>
 #include <array>
@@ -44,15 +44,15 @@ struct Box3 {
 inline constexpr Box3 kAllSpace{{-kInfinity, -kInfinity, -kInfinity},
                                 {kInfinity, kInfinity, kInfinity}};
 
-/// The intersection of both; the empty box where they are disjoint.
+/// The intersection of both boxes; the empty box if they are disjoint.
 [[nodiscard]] inline Box3 intersection(const Box3& a, const Box3& b) {
     const Box3 both{{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
                     {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
     return both.empty() ? Box3{} : both;
 }
 
-/// The box grown on every side by `relative` times the largest coordinate magnitude: a margin for
-/// the rounding errors of its computation.
+/// The box enlarged on every side by `relative` times the largest magnitude of a coordinate, a
+/// margin for the rounding errors of its computation.
 [[nodiscard]] inline Box3 padded(const Box3& box, double relative = 8e-16) {
     if (box.empty()) return box;
     const Vec3 reach{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
@@ -62,13 +62,13 @@ inline constexpr Box3 kAllSpace{{-kInfinity, -kInfinity, -kInfinity},
     return {box.lo - pad, box.hi + pad};
 }
 
-/// A box that contains the image of `box`; exact for the eight corners, padded for rounding.
+/// A box that contains the image of `box`: the bounds of the eight corners, padded for rounding.
 [[nodiscard]] inline Box3 transformed(const Affine& to_from, const Box3& box) {
     if (box.empty()) return box;
     if (!box.bounded()) return kAllSpace;
     Box3 image;
     for (int i = 0; i < 8; ++i) image.include(to_from.point(box.corner(i)));
-    // The rounding error grows with the added terms, not with their sum.
+    // The rounding error grows with the magnitudes of the terms, not with their sum.
     const Vec3 reach{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
                      std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
                      std::max(std::abs(box.lo.z), std::abs(box.hi.z))};

@@ -1,8 +1,8 @@
-/// A double whose fmin and fmax are one instruction; a fragment without a guard, included like
-/// sphere_roots_formula-inl.h.
+/// A double whose fmin and fmax are single instructions; a fragment without an include guard,
+/// included like sphere_roots_formula-inl.h.
 
-/// For two zeros or a NaN operand, fmin and fmax return either operand: a result that is a zero or
-/// NaN has to be recomputed (`are_plain_roots`).
+/// For two zeros or a NaN operand, fmin and fmax return either operand: a result that is zero or
+/// NaN must be recomputed (`are_plain_roots`).
 struct FastMinMaxDouble {
     double x;
 
@@ -31,10 +31,10 @@ struct FastMinMaxDouble {
     }
 };
 
-/// Roots beyond this magnitude are recomputed.
+/// Magnitude beyond which roots must be recomputed.
 inline constexpr double kFarRoot = 0x1p1000;
 
-/// Whether both roots equal those computed with the fmin and fmax of the library. False for NaN and
+/// True if both roots equal those computed with the library's fmin and fmax. False for NaN and
 /// infinity.
 inline bool are_plain_roots(double t_near, double t_far) {
     return t_near <= t_far && t_near > -kFarRoot && t_far < kFarRoot && t_near != 0.0 &&

@@ -1,5 +1,5 @@
 #pragma once
-/// Hits of rays: ids and parameters only, never pointers. Points and normals are computed once, for
+/// Hits of rays: only ids and parameters, never pointers. Points and normals are computed once, for
 /// the closest hit (see `Surface`).
 
 #include <cstdint>
@@ -17,16 +17,16 @@ inline constexpr PrimitiveId kNoPrimitive{0xFFFFFFFFu};
 struct ShapeHit {
     double t = 0;
     double u = 0, v = 0;     ///< parameters of the crossing, as the shape defines them
-    std::uint32_t part = 0;  ///< which of the shape's surfaces (side, cap, face)
+    std::uint32_t part = 0;  ///< number of the shape's surface (side, cap, face)
 };
 
-/// Maximum depth of nested instances; the scene compiler refuses deeper nesting.
+/// Maximum depth of nested instances; the scene compiler rejects deeper nesting.
 inline constexpr std::size_t kMaxInstanceDepth = 32;
 
 /// The instance primitives around a hit, innermost first.
 using InstancePath = InlineVector<PrimitiveId, kMaxInstanceDepth>;
 
-/// A crossing of a ray with a scene. `primitive` belongs to the innermost aggregate of the path.
+/// A crossing of a ray with a scene. `primitive` is an id in the innermost aggregate of the path.
 struct Hit : ShapeHit {
     Hit() { t = std::numeric_limits<double>::infinity(); }
 
@@ -34,7 +34,7 @@ struct Hit : ShapeHit {
     InstancePath path;
 
     [[nodiscard]] bool found() const { return primitive != kNoPrimitive; }
-    /// The id that breaks ties in the outermost aggregate.
+    /// The id in the outermost aggregate, which breaks ties.
     [[nodiscard]] PrimitiveId top() const { return path.empty() ? primitive : path.back(); }
 };
 

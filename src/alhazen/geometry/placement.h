@@ -1,5 +1,5 @@
 #pragma once
-/// A transform in both directions.
+/// A transform with its inverse.
 
 #include "alhazen/math/affine.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A ray: origin + t * direction for t in [t_min, t_max].
 ///
-/// Conventions: the direction is not normalised after a transform, so t denotes the same point in
-/// world and in object space. One cache line.
+/// Conventions: a transform does not normalise the direction, so t denotes the same point in world
+/// and in object space. A ray fills one cache line.
 
 #include <limits>
 
@@ -21,13 +21,13 @@ struct alignas(64) Ray {
 };
 static_assert(sizeof(Ray) == 64);
 
-/// True when a ray can be traced: finite origin and direction, direction not zero, t_min a number.
+/// True if a ray can be traced: finite origin and direction, nonzero direction, t_min a number.
 [[nodiscard]] inline bool is_valid(const Ray& ray) {
     return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3{} &&
            ray.t_min <= ray.t_max;
 }
 
-/// Always in line: a call costs as much as the products.
+/// The ray in the transformed space. Always inlined: a call would cost as much as the products.
 [[gnu::always_inline]] inline Ray transformed(const Affine& to_from, const Ray& ray) {
     return {to_from.point(ray.origin), to_from.vector(ray.direction), ray.t_min, ray.t_max};
 }

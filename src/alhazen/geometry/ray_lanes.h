@@ -1,8 +1,8 @@
 #pragma once
-/// Eight rays in lanes, for kernels that test several rays with one shape.
+/// Eight rays in lanes, for kernels that test several rays against one shape.
 ///
-/// Conventions: bit i of a set of lanes represents lane i. Lanes outside of the queried sets may
-/// hold any values.
+/// Conventions: bit i of a set of lanes stands for lane i. Lanes outside the queried sets may hold
+/// any values.
 
 #include <bit>
 #include <cstddef>

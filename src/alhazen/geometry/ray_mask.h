@@ -1,10 +1,10 @@
 #pragma once
 /// Visibility masks of rays and primitives.
 ///
-/// Source: Embree and OptiX, visibility masks of geometries and instances, by their manuals.
-/// Conventions: a ray sees a primitive where both masks share a bit; inside of instances, where
-/// that also holds for every instance around it. A ray of mask 0 sees nothing. Renderers query with
-/// one bit, that of the ray's kind; other programs may define the bits themselves.
+/// Source: Embree and OptiX manuals, visibility masks of geometries and instances.
+/// Conventions: a ray sees a primitive if both masks share a bit and, inside instances, if the same
+/// holds for every instance around it. A ray of mask 0 sees nothing. Renderers query with one bit,
+/// that of the ray's kind; other programs may define the bits themselves.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ using RayMask = std::uint32_t;
 /// The default mask of primitives and rays.
 inline constexpr RayMask kAllRays = 0xFFFFFFFFu;
 
-/// Kinds of rays of a renderer, as published ray counts distinguish them.
+/// Kinds of rays of a renderer, as in published ray counts.
 enum class RayKind { Eye, Shadow, Reflection, Refraction };
 inline constexpr std::size_t kRayKindCount = 4;
 inline constexpr std::array<const char*, kRayKindCount> kRayKindNames{"eye", "shadow", "reflection",
@@ -26,7 +26,7 @@ inline constexpr std::array<const char*, kRayKindCount> kRayKindNames{"eye", "sh
 [[nodiscard]] constexpr RayMask mask_of(RayKind kind) {
     return RayMask{1} << static_cast<unsigned>(kind);
 }
-/// The bits of all kinds; renderers ignore the others.
+/// The bits of all kinds; renderers ignore all others.
 inline constexpr RayMask kRaysOfAllKinds = (RayMask{1} << kRayKindCount) - 1;
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
-/// The arithmetic of the ray-sphere intersection; a fragment without a guard, included by
-/// sphere_roots.h in namespace alhazen and by kernels in the namespace of each instruction set (see
-/// watertight_triangle_formulas-inl.h for why).
+/// The arithmetic of the ray-sphere intersection; a fragment without an include guard, included by
+/// sphere_roots.h in namespace alhazen and by kernels in the namespace of each instruction set (the
+/// reason: watertight_triangle_formulas-inl.h).
 
-/// `t_near <= t_far` where `discriminant >= 0`; NaN or meaningless where it is negative (the line
+/// `t_near <= t_far` if `discriminant >= 0`; unspecified, possibly NaN, if it is negative (the line
 /// misses).
 template <class Real>
 struct SphereRoots {
@@ -10,15 +10,15 @@ struct SphereRoots {
 };
 
 /// A line relative to a sphere: half the linear coefficient of the quadratic, and its (scaled)
-/// discriminant, which is not negative where the line intersects the sphere.
+/// discriminant, which is not negative if the line intersects the sphere.
 template <class Real>
 struct SphereLine {
     Real b, discriminant;
 };
 
-/// (dx, dy, dz) direction, (fx, fy, fz) = origin - centre, a = |direction|^2 summed as x, y, z.
-/// `Real` needs + - * /, unary -, and sqrt, copysign, fmin, fmax by argument-dependent look-up (or
-/// <cmath>); fmin and fmax drop a NaN operand.
+/// (dx, dy, dz) is the direction, (fx, fy, fz) = origin - centre, a = |direction|^2 summed as x, y,
+/// z. `Real` needs + - * /, unary -, and sqrt, copysign, fmin, fmax by argument-dependent lookup
+/// (or <cmath>); fmin and fmax ignore a NaN operand.
 template <class Real>
 inline SphereLine<Real> sphere_line(const Real& dx, const Real& dy, const Real& dz, const Real& a,
                                     const Real& fx, const Real& fy, const Real& fz,
@@ -41,10 +41,11 @@ inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& 
     const Real q = line.b + copysign(sqrt(line.discriminant * a), line.b);
     const Real f = sqrt(fx * fx + fy * fy + fz * fz);
     const Real c = (f - radius) * (f + radius);
-    // Roots of a t^2 + 2 b t + c = 0: -q / a and -c / q; the former has the larger magnitude.
+    // The roots of a t^2 + 2 b t + c = 0 are -q / a and -c / q; the former has the larger
+    // magnitude.
     const Real big = -(q / a);
-    // Where the origin lies on the sphere and the line grazes it, c and q are noise and their
-    // quotient is arbitrary; the true root is no larger than the other one.
+    // If the origin lies on the sphere and the line grazes it, c and q are rounding errors and
+    // their quotient is arbitrary; the true root is no larger in magnitude than the other one.
     using std::fmax;
     using std::fmin;
     const Real reach = copysign(big, a);
@@ -53,8 +54,8 @@ inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& 
     return {line.discriminant, fmin(big, small), fmax(big, small)};
 }
 
-/// The same, bit for bit, where the origin lies outside and the ray approaches the sphere: b < 0
-/// and c = (f - radius) (f + radius) > 0, with f as there.
+/// The roots, with the same bits, if the origin lies outside and the ray approaches the sphere: b <
+/// 0 and c = (f - radius) (f + radius) > 0, with f as in `sphere_roots`.
 template <class Real>
 inline SphereRoots<Real> sphere_roots_ahead(const SphereLine<Real>& line, const Real& a,
                                             const Real& c) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The watertight ray-triangle test: no ray leaks between triangles that share an edge or a vertex,
-/// and every line crosses a closed mesh an even number of times.
+/// The watertight ray-triangle test: no ray passes between triangles that share an edge or a
+/// vertex, and every line crosses a closed mesh an even number of times.
 ///
 /// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the
 /// shear that makes the ray the z axis); Edelsbrunner and Mücke, "Simulation of Simplicity", ACM
@@ -10,11 +10,11 @@
 /// of the two products. (2) A true zero, the ray through an edge, is resolved as if the ray were
 /// displaced by (e, e^2), e -> 0, in the sheared plane. Each ray thus intersects a mesh in general
 /// position: exactly one of the triangles around an edge or a vertex is hit, or both sheets of a
-/// fold, or none. (3) The weights of a triangle seen nearly edge on are computed precisely, so that
-/// the point of the ray at t is within 2^-38 of the distances involved of the triangle: bounds may
-/// rely on that.
+/// fold, or none. (3) The weights of a triangle seen nearly edge-on are computed precisely, so that
+/// the point of the ray at t is within 2^-38 of the distances involved from the triangle: bounds
+/// may rely on this.
 /// Conventions: vertices shared by triangles must be equal bit for bit. A degenerate triangle and
-/// one seen edge on are never hit. Both sides are hit.
+/// one seen edge-on are never hit. Triangles are hit from both sides.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@
 
 namespace alhazen {
 
-/// The shear that takes a ray to the z axis; computed once per ray.
+/// The shear that maps a ray to the z axis; computed once per ray.
 struct RayShear {
     int kx, ky, kz;
     double sx, sy, sz;
@@ -42,7 +42,7 @@ struct RayShear {
 
 #include "alhazen/geometry/watertight_triangle_formulas-inl.h"
 
-/// The sign of a b - c d where the products, or their rounding errors, may underflow.
+/// The sign of a b - c d, for products that, or whose rounding errors, may underflow.
 inline int sign_of_tiny_difference(double a, double b, double c, double d) {
     if (a == 0.0 || b == 0.0 || c == 0.0 || d == 0.0) {
         const auto product_sign = [](double x, double y) {
@@ -62,7 +62,7 @@ inline int sign_of_tiny_difference(double a, double b, double c, double d) {
 }
 
 /// The sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0
-/// only for a == b.
+/// only if a == b.
 inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVertex<double>& b) {
     const auto sign = [](double x) { return (x > 0.0) - (x < 0.0); };
     const double p = a.x * b.y;
@@ -78,13 +78,13 @@ inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVerte
     return sign(b.x - a.x);
 }
 
-/// The power of two that scales the largest of three magnitudes to about 1; 1 where all are 0.
+/// The power of two that scales the largest of three magnitudes to about 1; 1 if all are 0.
 inline double to_unit_size(double a, double b, double c) {
     const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
     return largest > 0.0 ? std::ldexp(1.0, std::min(-std::ilogb(largest), 1000)) : 1.0;
 }
 
-/// The edge functions of triangle (a, b, c), precise to their last digits, after scaling all x and
+/// The edge functions of triangle (a, b, c), accurate to the last digits, after scaling all x and
 /// all y.
 inline void precise_edge_functions(ShearedVertex<double> a, ShearedVertex<double> b,
                                    ShearedVertex<double> c, double scale_x, double scale_y,
@@ -98,7 +98,7 @@ inline void precise_edge_functions(ShearedVertex<double> a, ShearedVertex<double
     ew = difference_of_products(a.x, b.y, a.y, b.x);
 }
 
-/// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b) and v
+/// Tests triangle (a, b, c); on a hit in [ray.t_min, ray.t_max] sets t, u (weight of b) and v
 /// (weight of c).
 inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3& a, const Vec3& b,
                                const Vec3& c, ShapeHit& hit) {
@@ -121,7 +121,8 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
     // Includes three false zeros; three true zeros cannot occur here.
     if (!edges.well_conditioned()) {
         precise_edge_functions(va, vb, vc, 1.0, 1.0, eu, ev, ew);
-        // Only the ratios matter; neither the values nor their products with lengths may underflow.
+        // Only the ratios matter, but neither the values nor their products with lengths may
+        // underflow.
         if (std::max({std::abs(eu), std::abs(ev), std::abs(ew)}) < 0x1p-300) {
             precise_edge_functions(va, vb, vc, to_unit_size(va.x, vb.x, vc.x),
                                    to_unit_size(va.y, vb.y, vc.y), eu, ev, ew);

@@ -1,11 +1,11 @@
-/// The arithmetic of the ray-triangle test, for double and lanes of double alike: `Real` needs + -
-/// * /, comparisons, and min_lanes, max_lanes, abs by argument-dependent look-up. A double is the
-/// case of one lane.
+/// The arithmetic of the ray-triangle test, for double and for lanes of double: `Real` needs + - *
+/// /, comparisons, and min_lanes, max_lanes, abs by argument-dependent lookup. A double acts as a
+/// single lane.
 ///
-/// A fragment without a guard: watertight_triangle.h includes it in namespace alhazen; code for an
-/// instruction set includes it again in its own namespace, because a compiler compiles a template
-/// for the instruction set of the place where it is written (tests/unit/simd does). One text gives
-/// one order of operations and the same bits.
+/// A fragment without an include guard: watertight_triangle.h includes it in namespace alhazen;
+/// code for an instruction set includes it again in its own namespace, because a compiler compiles
+/// a template for the instruction set of the place where it is written (tests/unit/simd does). One
+/// source gives one order of operations and the same bits.
 
 /// A vertex relative to the ray, in sheared space: x and y across the ray, z along its dominant
 /// axis.
@@ -21,13 +21,13 @@ inline ShearedVertex<Real> sheared(const Real& vx, const Real& vy, const Real& v
     return {(vx - ox) - sx * z, (vy - oy) - sy * z, z};
 }
 
-/// Twice the signed area of (origin, a, b); its sign is correct or it is zero.
+/// Twice the signed area of (origin, a, b); zero or of the correct sign.
 template <class Real>
 inline Real edge_function(const ShearedVertex<Real>& a, const ShearedVertex<Real>& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// As one lane: the second operand where one is a NaN.
+/// The minimum of a single lane: the second operand if one is NaN.
 inline double min_lanes(double a, double b) {
     return a < b ? a : b;
 }
@@ -35,12 +35,12 @@ inline double max_lanes(double a, double b) {
     return a > b ? a : b;
 }
 
-/// The edge functions of a triangle: the weights of its vertices, but for a factor.
+/// The edge functions of a triangle: the weights of its vertices, up to a common factor.
 template <class Real>
 struct TriangleEdges {
     Real u, v, w;
-    Real least, most;  ///< of them
-    Real reach;        ///< largest |x|, |y| of a vertex
+    Real least, most;  ///< of u, v, w
+    Real reach;        ///< largest |x| or |y| of a vertex
 
     TriangleEdges(const ShearedVertex<Real>& a, const ShearedVertex<Real>& b,
                   const ShearedVertex<Real>& c)
@@ -51,12 +51,13 @@ struct TriangleEdges {
           most(max_lanes(max_lanes(u, v), w)),
           reach(max_lanes(max_lanes(reach_of(a), reach_of(b)), reach_of(c))) {}
 
-    /// The ray passes outside.
+    /// True if the ray passes outside the triangle.
     [[nodiscard]] auto missed() const { return (least < Real(0.0)) & (most > Real(0.0)); }
-    /// No edge function is zero or NaN.
+    /// True if no edge function is zero or NaN.
     [[nodiscard]] auto nonzero() const { return (least > Real(0.0)) | (most < Real(0.0)); }
-    /// Their sum has not cancelled so much that the weights, and with them the hit point, could be
-    /// off by more than 2^-40 of the triangle: it is not seen nearly edge on. False for a NaN.
+    /// True if the sum of the edge functions has not cancelled so much that the weights, and with
+    /// them the hit point, could be off by more than 2^-40 of the triangle: it is not seen nearly
+    /// edge-on. False for NaN.
     [[nodiscard]] auto well_conditioned() const {
         using std::abs;
         return abs(u + v + w) > Real(0x1p-8) * reach * reach;

@@ -12,10 +12,10 @@ namespace alhazen {
 
 namespace {
 
-/// A point within this of the surface of a sphere, relative to the radius, is inside of it: there a
-/// cone would look at the point itself.
+/// Points whose squared distance from the centre of a unit sphere is at most 1 + kOnSphere count as
+/// inside: the cone of a nearer point would contain the point itself.
 constexpr double kOnSphere = 1e-9;
-/// From inside of a sphere nothing nearer than this, relative to the radius, is drawn.
+/// From inside a unit sphere, smallest distance of a sampled point.
 constexpr double kNearOnSphere = 1e-7;
 
 Vec3 corner_of(const Emitter& e) {
@@ -31,13 +31,14 @@ const Vec3& axis_z(const Emitter& e) {
     return e.world_from_own.linear.z_axis;
 }
 
-/// What an area of normal `n` becomes; the result's direction is the normal, not unit.
+/// Transforms an area with normal `n`: the direction of the result is the normal, its length the
+/// change of area.
 Vec3 transformed_area(const Mat3& m, const Vec3& n) {
     return n.x * cross(m.y_axis, m.z_axis) + n.y * cross(m.z_axis, m.x_axis) +
            n.z * cross(m.x_axis, m.y_axis);
 }
 
-/// The outer normal of a point of the sphere or the tube whose own normal is `n`.
+/// The outer normal, in world space, at a point of the sphere or the tube with own normal `n`.
 Vec3 outer_normal(const Emitter& e, const Vec3& n) {
     const Mat3& m = e.world_from_own.linear;
     return normalize(std::copysign(1.0, determinant(m)) * transformed_area(m, n));
@@ -66,7 +67,7 @@ SphericalTriangle triangle_from(const Emitter& e, const Vec3& from) {
     return {a, a + axis_x(e), a + axis_y(e)};
 }
 
-/// The weights of the second and third corner at a point of the plane.
+/// The weights of the second and third corner of the triangle at a point of its plane.
 Vec2 weights_at(const Emitter& e, const Vec3& p) {
     const Vec3 &x = axis_x(e), &y = axis_y(e);
     const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y);
@@ -131,11 +132,11 @@ Vec3 on_own_sphere(const Vec2& u) {
     return {scale * p.x, scale * p.y, 1.0 - 2.0 * share};
 }
 
-/// The sphere in its own frame, seen from a point.
+/// The sphere as seen from a point, in its own frame.
 struct SeenSphere {
-    Vec3 from;       ///< own
+    Vec3 from;       ///< the point, in the own frame
     double squared;  ///< distance to the centre
-    double cap = 0;  ///< 1 - cosine of half the cone's angle, from outside
+    double cap = 0;  ///< from outside: 1 - cosine of the half angle of the cone
     bool inside;
 
     SeenSphere(const Emitter& e, const Vec3& world_from)
@@ -145,13 +146,14 @@ struct SeenSphere {
         const double sine2 = 1.0 / squared;
         if (!inside) cap = sine2 / (1.0 + std::sqrt(1.0 - sine2));
     }
-    /// By own solid angle.
+    /// Density by solid angle in the own frame.
     [[nodiscard]] double density() const {
         return inside ? 1.0 / (4.0 * kPi) : 1.0 / (2.0 * kPi * cap);
     }
 };
 
-/// World solid angle density over own, for an own unit direction that becomes `length` long.
+/// Density by solid angle in world space over that in the own frame, for an own unit direction
+/// whose image has length `length`.
 double change_of_angle(const Emitter& e, double length) {
     return length * length * length / std::abs(determinant(e.world_from_own.linear));
 }
@@ -193,7 +195,7 @@ double density_of_sphere(const Emitter& e, const Vec3& world_from, const Emitter
 
 // ---- the tube
 
-/// The part of the angle around a tube that is sampled from a point: `half` to both sides of `x`.
+/// The angles around a tube that are sampled from a point: up to `half` to both sides of `x`.
 struct SeenTube {
     Vec3 x{1, 0, 0}, y{0, 1, 0};
     double half = kPi;
@@ -209,7 +211,7 @@ struct SeenTube {
     }
 };
 
-/// Area for an angle and a share of the length, where the own normal is `n`.
+/// Area per angle (radians) and per fraction of the length, at the own normal `n`.
 double stretch_of_tube(const Emitter& e, const Vec3& n) {
     return length(cross(e.world_from_own.linear * Vec3{-n.y, n.x, 0}, axis_z(e)));
 }
@@ -223,7 +225,7 @@ EmitterPoint point_of_tube(const Emitter& e, const SeenTube& seen, const Vec2& u
             {}};
 }
 
-/// The own normal of the tube for that of the world.
+/// The own normal of the tube for a normal in world space.
 Vec3 own_normal_of_tube(const Emitter& e, const Vec3& normal) {
     Vec3 n = transpose_times(e.world_from_own.linear, normal);
     n.z = 0.0;
@@ -238,13 +240,13 @@ EmitterPoint point_of_patch(const Emitter& e, const Vec2& parameters) {
     const Vec3 across = cross(m * value.du, m * value.dv);
     const double stretch = length(across);
     if (!(stretch > 0.0)) return {};
-    // A mirror turns du x dv, but not the outer side.
+    // A mirroring transform reverses du x dv, but not the outer side.
     const bool turned = e.patch->turned != (determinant(m) < 0.0);
     return {e.world_from_own.point(value.point), (turned ? -1.0 : 1.0) / stretch * across,
             1.0 / stretch, parameters};
 }
 
-/// Area of a curved form: a mean over a grid of its parameters.
+/// The area of a curved form, by a mean over a grid of its parameters.
 double integrated_area(const Emitter& e) {
     constexpr int kGrid = 32;
     double sum = 0.0;

@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// The emission of a surface, times how much of it is there.
+/// The emission of a surface times its coverage.
 Rgb emission_at(const Scene& scene, const Surface& surface) {
     const SurfaceLookup lookup{
         {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
@@ -97,7 +97,7 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
     const PrimitiveTable& table = aggregate.primitives();
     const bool is_solid = dynamic_cast<const CsgAggregate*>(&aggregate) != nullptr;
     const bool is_top = &aggregate == scene_.aggregate.get();
-    bool follows_half = false;  // the primitive before may be one, and has no other yet
+    bool follows_half = false;  // the primitive before may be a first half
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         const PrimitiveId id{i};
         const bool follows = std::exchange(follows_half, false);
@@ -229,7 +229,7 @@ Hit EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
     hit.part = rest;
     const EmitterForm form = emitters_[emitter].form;
     if (form == EmitterForm::Triangle || form == EmitterForm::Patch) return hit;
-    // Other forms have parameters of their own: those of the crossing nearest to the point.
+    // Parameters of other forms are those of the crossing nearest to the point.
     ShapeHits crossings;
     aggregate->primitives().intersect(hit.primitive, inner, RayShear(inner.direction), crossings);
     double nearest = kInfinity;

@@ -1,15 +1,16 @@
 #pragma once
-/// All emitting surfaces of a scene that can be sampled, numbered, instances expanded; and the
-/// number of the one that a ray hit.
+/// The emitting surfaces of a scene that can be sampled, numbered, with instances expanded; finds
+/// the number of the emitter that a ray hit.
 ///
-/// Conventions: a number is the sum, over the levels of instances, of the emitters that the table
-/// of the level has before the primitive: no map is needed. A primitive has an emitter for each of
-/// its faces or patches; two triangles of a mesh that follow each other and are the halves of a
-/// rectangle, of one material that shines evenly and in no instance, have one together. Left out,
-/// so that only rays that happen to hit them find their light: what moves, surfaces of constructive
-/// solids, what reflected rays do not see, unlit materials, forms without a case in
-/// `emitters_of_shape`, and all beyond kMostEmitters. Complexity: O(primitives); a lookup O(depth
-/// log emitters). Threads: const functions may be called from many.
+/// Conventions: a number is the sum, over the levels of instances, of the emitters before the
+/// primitive in the table of the level. A primitive has an emitter for each of its faces or
+/// patches. Two successive triangles of a mesh that are the halves of a rectangle share an emitter,
+/// if their radiance is constant and they are in no instance. Not included, so that their light is
+/// found only by rays that hit them: moving surfaces, surfaces of constructive solids, surfaces
+/// invisible to reflected rays, unlit materials, forms without a case in `emitters_of_shape`, and
+/// all beyond kMostEmitters.
+/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be
+/// called from many.
 
 #include <cstddef>
 #include <map>
@@ -22,7 +23,7 @@
 
 namespace alhazen {
 
-/// More are counted, not sampled: they take 250 bytes each.
+/// Largest number of emitters that are sampled; each takes 250 bytes.
 inline constexpr std::size_t kMostEmitters = std::size_t{1} << 22;
 
 class EmitterList {
@@ -30,24 +31,24 @@ class EmitterList {
     explicit EmitterList(const Scene& scene);
 
     [[nodiscard]] std::size_t size() const { return emitters_.size(); }
-    /// False: no material of the scene emits. True also where none of its surfaces can be sampled.
+    /// True if a material of the scene emits, whether or not its surfaces can be sampled.
     [[nodiscard]] bool may_shine() const { return may_shine_; }
-    /// Whether some surface that emits is not among them.
+    /// True if some emitting surface is not included.
     [[nodiscard]] bool leaves_some_to_chance() const { return leaves_some_; }
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
-    /// The emitter of a hit; none where it cannot be sampled.
+    /// The emitter of a hit; none if it is not included.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
-    /// The radiance that an emitter sends from a point of it against the unit `direction` of a ray
-    /// from `from`.
+    /// The radiance of an emitter along a ray from `from` with unit `direction` that hits it at
+    /// `distance`.
     [[nodiscard]] Rgb radiance(std::size_t emitter, const Vec3& from, const Vec3& direction,
                                double distance, const Vec2& parameters) const;
 
   private:
-    /// The emitters in an aggregate, those of instances included.
+    /// The emitters in an aggregate, those of its instances included.
     struct Table {
-        std::vector<std::uint32_t> primitives;  ///< that have some, ascending
-        std::vector<std::uint32_t> before;      ///< [of primitives] emitters of all before, of the
-                                                ///< second half of a rectangle but one; and all
+        std::vector<std::uint32_t> primitives;  ///< primitives with emitters, ascending
+        std::vector<std::uint32_t> before;      ///< [index in primitives] emitters before it (equal
+                                                ///< for halves of a rectangle); then the total
         [[nodiscard]] std::uint32_t count() const { return before.back(); }
     };
 
@@ -55,12 +56,12 @@ class EmitterList {
     void expand(const Aggregate& aggregate, const Affine& world_from_table);
     void expand_primitive(const PrimitiveTable& table, PrimitiveId id,
                           const Affine& world_from_table);
-    /// The last emitter, the first half of a rectangle, becomes all of it.
+    /// Replaces the last emitter, the first half of a rectangle, by the whole rectangle.
     void join_half(const PrimitiveTable& table, PrimitiveId first, PrimitiveId second);
     [[nodiscard]] bool emits(const Material& material) const;
     [[nodiscard]] bool varies(const Material& material) const;
     [[nodiscard]] bool shines(const PrimitiveTable& table, PrimitiveId id) const;
-    /// Whether the triangle may be half of a rectangle: it shines evenly.
+    /// True if the triangle may be half of a rectangle: its radiance is constant.
     [[nodiscard]] bool may_be_half(const PrimitiveTable& table, PrimitiveId id) const;
     [[nodiscard]] std::uint32_t emitters_of(const PrimitiveTable& table, PrimitiveId id);
     [[nodiscard]] Hit hit_of(std::size_t emitter, const Ray& ray, double distance,
@@ -71,7 +72,7 @@ class EmitterList {
     std::map<const Aggregate*, Table> tables_;
     bool may_shine_ = false, leaves_some_ = false;
     std::vector<Emitter> emitters_;
-    std::vector<bool> varying_;  ///< [emitter] its radiance is not the same everywhere
+    std::vector<bool> varying_;  ///< [emitter] its radiance is not constant
 };
 
 }  // namespace alhazen

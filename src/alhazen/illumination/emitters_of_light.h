@@ -1,5 +1,5 @@
 #pragma once
-/// The surfaces of lights with extent that no ray sees, as emitters.
+/// The surfaces of area lights that are invisible to rays, as emitters.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Appends them, ready.
+/// Appends the emitters of a light, after `make_ready`; area 0: not usable.
 void append_emitters_of_light(const AreaLight& light, std::vector<Emitter>& emitters);
 
 }  // namespace alhazen

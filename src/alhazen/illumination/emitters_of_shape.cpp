@@ -13,8 +13,8 @@ namespace alhazen {
 
 namespace {
 
-/// The frame of what is flat: x and y as given; z is its outer normal, along x cross y in the frame
-/// of the shape.
+/// The frame of a flat form: `x` and `y` as given; z is the outer normal, along x cross y in the
+/// frame of the shape.
 Affine flat_frame(const Affine& world, const Vec3& origin, const Vec3& x, const Vec3& y) {
     Affine frame;
     frame.translation = world.point(origin);
@@ -55,7 +55,7 @@ Emitter patch(const Affine& world, const BezierNet& net, bool turned) {
     return e;
 }
 
-/// One loop that neither leaves its plane nor crosses itself; else an emitter without parts.
+/// The emitter of a planar polygon of one simple loop; of others an emitter without parts.
 Emitter polygon(const Affine& world, const Polygon& p) {
     std::vector<std::uint32_t> loop(p.vertices.size());
     for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
@@ -186,7 +186,7 @@ void append_emitters_of_shape(const PrimitiveTable& table, PrimitiveId id,
 
 std::optional<Emitter> rectangle_of_halves(const PrimitiveTable& table, PrimitiveId first,
                                            PrimitiveId second) {
-    // Of the largest coordinate: what rounding leaves of exact corners.
+    // Largest deviation by rounding of exact corners, relative to the largest coordinate.
     constexpr double kRounding = 8e-16;
     const std::uint32_t one = table.index(first), two = table.index(second);
     if (&table.mesh_of(one) != &table.mesh_of(two)) return std::nullopt;
@@ -194,13 +194,13 @@ std::optional<Emitter> rectangle_of_halves(const PrimitiveTable& table, Primitiv
     double largest = 0.0;
     for (const Vec3& p : a) largest = std::max(largest, max_component(abs(p)));
     for (std::size_t i = 0; i < 3; ++i) {
-        // The corner without the other triangle, and the side across.
+        // The corner that is not shared, and the opposite side.
         const Vec3 &corner = a[i], &from = a[(i + 1) % 3], &to = a[(i + 2) % 3];
         const Vec3 x = from - corner, y = to - corner;
         const double xx = length_squared(x), yy = length_squared(y);
         if (!(xx > 0.0 && yy > 0.0) || std::abs(dot(x, y)) > 1e-12 * std::sqrt(xx * yy)) continue;
         for (std::size_t j = 0; j < 3; ++j) {
-            // The same winding: the other runs along that side the other way.
+            // With the same winding the other triangle has that side in the reverse direction.
             if (b[(j + 1) % 3] != to || b[(j + 2) % 3] != from) continue;
             const Vec3 off = b[j] - (from + y);
             if (max_component(abs(off)) > kRounding * largest) return std::nullopt;

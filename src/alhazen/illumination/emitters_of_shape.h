@@ -1,6 +1,6 @@
 #pragma once
-/// Shapes as emitters. ADD AN EMITTING SHAPE HERE: an overload in emitters_of_shape.cpp. Shapes
-/// without one are found by chance alone.
+/// Shapes as emitters. ADD AN EMITTING SHAPE HERE: an overload in emitters_of_shape.cpp. Light of
+/// shapes without one is found only by rays that hit them.
 
 #include <cstdint>
 #include <optional>
@@ -11,16 +11,16 @@
 
 namespace alhazen {
 
-/// Emitters of a primitive that is no instance, were its material to shine: [part of its hits], or
-/// one for all its parts.
+/// The number of emitters of a primitive if its material emits: one for each part of its hits, or
+/// one for all parts; 0 for instances and shapes without emitters.
 [[nodiscard]] std::uint32_t emitters_of_shape(const PrimitiveTable& table, PrimitiveId id);
 
-/// Appends them, not ready (`make_ready`) and without radiance.
+/// Appends the emitters of a primitive, before `make_ready` and without radiance.
 void append_emitters_of_shape(const PrimitiveTable& table, PrimitiveId id,
                               const Affine& world_from_table, std::vector<Emitter>& emitters);
 
-/// The rectangle of which two triangles of one mesh are the halves, to rounding; none where they
-/// are not. Radiance and sides are not set.
+/// The rectangle whose halves are two triangles of one mesh, up to rounding; none if they are not.
+/// `radiance` and `two_sided` are not set.
 [[nodiscard]] std::optional<Emitter> rectangle_of_halves(const PrimitiveTable& table,
                                                          PrimitiveId first, PrimitiveId second);
 

@@ -14,14 +14,14 @@ namespace alhazen {
 
 namespace {
 
-/// Neither near nor far lights are chosen more rarely than this where both shine.
+/// Smallest probability of near lights and of far lights, if the scene has both.
 constexpr double kLeastShare = 0.25;
 
 double mean_channel(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
 }
 
-/// Largest intensity of an emitter in any direction: radiance times the area of its outline.
+/// Largest intensity of an emitter over all directions: radiance times projected area.
 double intensity_of(const Emitter& e) {
     const double radiance = mean_channel(e.radiance);
     switch (e.form) {
@@ -72,7 +72,7 @@ void Illumination::Data::sort_lights() {
         const Light& light = scene->lights[i];
         if (!illuminates(light) || !(color_of(light).max() > 0.0)) continue;
         if (const auto* area = std::get_if<AreaLight>(&light)) {
-            // What is seen is a part of the scene already.
+            // Visible area lights are parts of the scene, with emitters of their own.
             if (!area->is_part) append_emitters_of_light(*area, hidden);
         } else if (place_of(light) == LightPlace::Point && attenuation_of(light).quadratic > 0.0) {
             points.push_back(i);
@@ -150,7 +150,7 @@ bool Illumination::leaves_some_to_chance() const {
 
 namespace {
 
-/// A light at a point or from one direction, chosen with that probability.
+/// Draws a singular light that was chosen with `probability`.
 LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& at,
                         double probability, const Wavelengths& waves) {
     const LightSample s = sample(light, at.point, scene.conventions.shading.clamp_attenuation);
@@ -171,7 +171,7 @@ Environment::Sight sight_for(const Environment& environment, const LitPoint& at,
                         : environment.sight(at.normal, at.both_sides, direction);
 }
 
-/// With which `draw_environment` gives a direction, once the environment is chosen.
+/// The density of `draw_environment` for a direction, without the probability of the environment.
 double density_for(const Environment& environment, const LitPoint& at, const Vec3& direction) {
     return at.in_volume ? environment.density(direction)
                         : environment.density(at.normal, at.both_sides, direction);
@@ -237,7 +237,7 @@ LightDraw Illumination::Data::draw_of_emitter(std::size_t light, double probabil
             waves.emission(emitters.radiance(light, at, s.to_light, s.distance, s.parameters),
                            emitters[light].illuminant);
     } else {
-        // No ray sees it: as a light of one direction, with its irradiance.
+        // Invisible area lights are sampled as singular lights, with their irradiance.
         draw.radiance = waves.emission((1.0 / s.density) * emitter(light).radiance);
         draw.density = probability;
         draw.singular = true;

@@ -1,15 +1,14 @@
 #pragma once
-/// All that sends light into a scene, ready to be sampled: punctual lights, emitting surfaces, the
-/// environment.
+/// The sampled light sources of a scene: singular lights, emitting surfaces and the environment.
 ///
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997 (densities for
 /// multiple importance sampling); Conty Estevez and Kulla, "Importance Sampling of Many Lights with
 /// Adaptive Tree Splitting", HPG 2018 (light_tree.h).
-/// Conventions: densities are by solid angle at the point that is lit and contain the probability
-/// with which the light is chosen. Singular lights (points, spots, directions) are hit by no ray.
-/// Intensities of singular lights are times pi: Whitted's coefficients are not divided by pi, those
-/// of a BSDF are, and both show the same diffuse surface.
-/// Left to chance hits (density 0): emitting surfaces that cannot be sampled (emitter_list.h).
+/// Conventions: densities are by solid angle at the lit point and include the probability with
+/// which the light is chosen. Singular lights (point, spot and directional lights) are hit by no
+/// ray. Their intensities are multiplied by pi: a BSDF is divided by pi and Whitted's coefficients
+/// are not, so that both show the same diffuse surface.
+/// Emitting surfaces that cannot be sampled (emitter_list.h) have density 0: only hits find them.
 /// Threads: const functions may be called from many.
 
 #include <cstddef>
@@ -23,7 +22,7 @@
 
 namespace alhazen {
 
-/// Where in a light it begins: for `Illumination::point_of_light`.
+/// A point of a light, for `Illumination::point_of_light`.
 struct PlaceInLight {
     std::size_t source = 0;  ///< number of the light
     Vec2 parameters;
@@ -32,36 +31,36 @@ struct PlaceInLight {
 /// A direction from which light comes.
 struct LightDraw {
     Vec3 to_light;          ///< unit
-    double distance = 0;    ///< to the light; infinite where it has no place
-    Spectrum radiance;      ///< that arrives unhindered; of a singular light what it gives a
-                            ///< surface across its direction (irradiance)
+    double distance = 0;    ///< to the light; infinite for far lights
+    Spectrum radiance;      ///< unoccluded; of a singular light the irradiance of a surface
+                            ///< perpendicular to its direction
     double density = 0;     ///< by solid angle; of a singular light the probability of its choice;
-                            ///< 0: no light from there
+                            ///< 0: no light arrives
     bool singular = false;  ///< no other strategy finds this light
     RayMask passes = kAllRays;  ///< mask for the shadow ray
     PlaceInLight place;
 };
 
-/// A ray of light as it leaves its source. Its power is radiance * cosine / (both densities).
+/// A ray of light that leaves its source. Its power is radiance * cosine / (both densities).
 struct LightRay {
     Ray ray;
-    Vec3 normal;                   ///< unit, of the surface; the direction where there is none
-    Spectrum radiance;             ///< of singular places: intensity; of parallel light: irradiance
-    double place_density = 0;      ///< by area, choice included; of a singular place: of the choice
-    double direction_density = 0;  ///< by solid angle; of singular directions: 1
-    bool singular_place = false;   ///< a point
-    bool singular_direction = false;  ///< parallel light
-    bool infinite = false;            ///< of the environment or parallel: it comes from infinity by
-                                      ///< way of its origin, which lies on a disc across its
-                                      ///< direction, before all that is bounded
+    Vec3 normal;                   ///< unit, of the surface; the direction if there is no surface
+    Spectrum radiance;             ///< of point lights intensity, of directional lights irradiance
+    double place_density = 0;      ///< by area, with the choice; of point lights the choice alone
+    double direction_density = 0;  ///< by solid angle; of directional lights: 1
+    bool singular_place = false;   ///< from a point light
+    bool singular_direction = false;  ///< from a directional light
+    bool infinite = false;            ///< from the environment or a directional light: the origin
+                                      ///< lies on a disc perpendicular to the direction, in front
+                                      ///< of all bounded geometry
     PlaceInLight place;
 };
 
 /// How one of many lights is chosen.
 enum class LightChoice : std::uint8_t {
-    Uniform,  ///< all alike
-    Power,    ///< by how much they send out
-    Tree,     ///< by how much may arrive (light_tree.h)
+    Uniform,  ///< all with the same probability
+    Power,    ///< by largest intensity
+    Tree,     ///< by an estimate of the light that arrives (light_tree.h)
 };
 inline constexpr const char* kLightChoiceNames[] = {"uniform", "power", "tree"};
 
@@ -71,98 +70,101 @@ struct IlluminationOptions {
 
 class Illumination {
   public:
-    /// The scene must stay as it is while this is used.
+    /// The scene must outlive the object and not change.
     explicit Illumination(const Scene& scene, const IlluminationOptions& options = {});
     ~Illumination();
     Illumination(Illumination&&) noexcept;
     Illumination& operator=(Illumination&&) noexcept;
 
-    /// False: nothing shines.
+    /// True if the scene has light.
     [[nodiscard]] bool shines() const;
-    /// Whether some emitting surface is left to chance: `draw` and `emit` never give it.
+    /// True if some emitting surface is never sampled by `draw` and `emit`.
     [[nodiscard]] bool leaves_some_to_chance() const;
 
-    /// Whether `draw` uses `choice`: there is more than one light.
+    /// True if `draw` uses `choice`: there is more than one light.
     [[nodiscard]] bool chooses() const;
-    /// A direction to a light. `choice` and `u` in [0, 1).
+    /// Samples a direction to a light. `choice` and `u` in [0, 1).
     [[nodiscard]] LightDraw draw(const LitPoint& at, double choice, const Vec2& u,
                                  const Wavelengths& waves) const;
 
-    /// The density with which `draw(at)` gives the direction of a ray that hit an emitting surface
-    /// `distance` away; 0 where `draw` never gives it.
+    /// The density of `draw(at)` for the direction of a ray that hit an emitting surface at
+    /// `distance`; 0 if `draw` never samples it.
     [[nodiscard]] double density(const LitPoint& at, const Ray& ray, const Hit& hit,
                                  const Surface& surface, double distance) const;
 
-    /// The radiance that a ray finds which leaves the scene.
+    /// The radiance of the environment along a ray that leaves the scene.
     [[nodiscard]] Spectrum environment(const Vec3& direction, const Wavelengths& waves) const;
-    /// The density with which `draw(at)` gives that direction to the environment.
+    /// The density of `draw(at)` for that direction to the environment.
     [[nodiscard]] double environment_density(const LitPoint& at, const Vec3& direction) const;
 
-    /// Both at once.
+    /// Radiance and density of the environment together.
     struct FarLight {
         Spectrum radiance;
         double density = 0;
     };
     [[nodiscard]] FarLight far_light(const LitPoint& at, const Vec3& direction,
                                      const Wavelengths& waves) const;
-    /// Whether `draw` reads a picture of the sky; if so, what it will read for these numbers can be
-    /// fetched into the cache: first the guide, some draws later the texels.
+    /// True if `draw` reads an environment picture. Its data for `u` can then be prefetched into
+    /// the cache: first the guide table, a few draws later the texels.
     [[nodiscard]] bool looks_up() const;
     void fetch_guide(const Vec2& u) const;
     void fetch_texels(const Vec2& u) const;
 
-    /// A ray from a light into the scene.
+    /// Samples a ray from a light into the scene.
     [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction,
                                 const Wavelengths& waves) const;
-    /// Densities with which `emit` gives a ray from a point of an emitting surface.
+    /// The densities of `emit` for a ray, here from a point of an emitting surface.
     struct EmitDensity {
         double place = 0, direction = 0;
     };
     [[nodiscard]] EmitDensity emit_density(const Hit& hit, const Surface& surface,
                                            const Vec3& direction) const;
-    /// The same for light of the environment that travels along `direction` to the point `lit`; 0
-    /// where no ray of `emit` gets to, far beside what is bounded.
+    /// The densities of `emit` for light of the environment that travels along `direction` to the
+    /// point `lit`; 0 outside the disc of `emit`, far from all bounded geometry.
     [[nodiscard]] EmitDensity environment_emit_density(const Vec3& direction,
                                                        const Vec3& lit) const;
 
-    /// A point of a light that was drawn or that emitted, for the densities of other strategies.
+    /// A point of a light that was sampled, for the densities of other strategies.
     struct LightPoint {
         std::size_t source = 0;
         Vec2 parameters;
-        Vec3 normal;            ///< unit, of a surface; zero where there is none
-        bool infinite = false;  ///< without a place
+        Vec3 normal;            ///< unit, of a surface; else zero
+        bool infinite = false;  ///< environment or directional light
         bool is_hit = false;    ///< rays can hit it
     };
     [[nodiscard]] LightPoint point_of_light(const PlaceInLight& place, const Vec3& point) const;
-    /// What a light with a singular place gives a surface across its direction at a point: by its
-    /// own falloff, which need not be that of its rays (the inverse square).
+    /// The irradiance that a point light gives to a surface perpendicular to its direction at
+    /// `point`, by its own falloff. The rays of `emit` fall by the inverse square instead.
     [[nodiscard]] Spectrum irradiance(const PlaceInLight& place, const Vec3& point,
                                       const Wavelengths& waves) const;
-    /// With which `emit` gives a ray from there along `direction` to the point `lit`.
+    /// The densities of `emit` for a ray from the light point along `direction` to the point `lit`.
     [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction,
                                            const Vec3& lit) const;
-    /// With which `draw(at)` gives it; as LightDraw::density, but for a light that no ray hits by
-    /// solid angle where it has an extent.
+    /// The density of `draw(at)` for the light point: LightDraw::density, except that invisible
+    /// area lights have a density by solid angle.
     [[nodiscard]] double density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,
                                  double distance) const;
 
-    /// A place of a light, from which light sets out into any direction.
+    /// A point of a light, independent of the point that is lit.
     struct LightPick {
         PlaceInLight place;
-        Vec3 at;      ///< a point; of parallel light the unit direction to it
+        Vec3 at;      ///< a point; of a directional light the unit direction to it
         Vec3 normal;  ///< unit, of a surface; else zero
         bool infinite = false;
         bool is_hit = false;  ///< rays can hit it
-        double density = 0;   ///< by area; of a point or a direction the probability; 0: none
+        double density = 0;   ///< by area; of a singular light the probability; 0: none
     };
-    /// By power; never of the environment, nor of points that do not fall with distance.
+    /// Samples a point of a light, by power. Never samples the environment nor point lights
+    /// without falloff.
     [[nodiscard]] LightPick pick(double choice, const Vec2& u) const;
     [[nodiscard]] bool picks_any() const;
-    /// What it sends to a point, unhindered: of a surface radiance times the cosine there, of a
-    /// point intensity, of parallel light irradiance across it.
+    /// The unoccluded light from a point of a light to the point `to`: of a surface radiance times
+    /// the cosine at it, of a point light intensity, of a directional light irradiance
+    /// perpendicular to it.
     [[nodiscard]] Spectrum sent(const LightPick& from, const Vec3& to,
                                 const Wavelengths& waves) const;
-    /// Whether `pick` may give what a ray along `direction` hit, with light against the ray.
+    /// True if `pick` may sample the hit of a ray along `direction`, and the surface emits against
+    /// the ray.
     [[nodiscard]] bool may_pick(const Hit& hit, const Surface& surface,
                                 const Vec3& direction) const;
 

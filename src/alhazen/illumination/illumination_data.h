@@ -1,10 +1,10 @@
 #pragma once
 /// The lights of an `Illumination`, sorted by how they are chosen and sampled.
 ///
-/// Internal to illumination.cpp, illumination_emission.cpp and light_draws.cpp.
-/// Conventions: near lights are numbered: the emitters of the scene, then those of lights that no
-/// ray sees (`hidden`), then `points`, indices into Scene::lights. Far ones: `parallel`, then the
-/// environment. Sources of `emit` are the near lights, then the far ones.
+/// Internal to the source files of `Illumination` and `LightDraws`.
+/// Conventions: near lights are numbered in this order: the emitters of the scene, those of
+/// invisible area lights (`hidden`), `points`. Far lights: `parallel`, the environment. Sources
+/// of `emit`: near lights, far lights. `points` and `parallel` are indices into Scene::lights.
 
 #include <memory>
 #include <vector>
@@ -24,12 +24,12 @@ struct Illumination::Data {
     IlluminationOptions options;
     EmitterList emitters;
     std::vector<Emitter> hidden;
-    std::vector<std::size_t> points;    ///< point and spot lights that fall with distance
-    std::vector<std::size_t> parallel;  ///< directions, and points that do not fall
+    std::vector<std::size_t> points;    ///< point and spot lights with quadratic falloff
+    std::vector<std::size_t> parallel;  ///< directional lights, and points without that falloff
     std::shared_ptr<const Environment> environment;  ///< null: black
     Vec3 center;                                     ///< of a sphere around the scene
     double radius = 1;
-    bool endless = false;  ///< something of the scene reaches to infinity
+    bool endless = false;  ///< the scene has unbounded geometry
 
     LightChooser near;      ///< for choices Uniform and Power
     LightTree tree;         ///< for choice Tree
@@ -41,15 +41,15 @@ struct Illumination::Data {
     [[nodiscard]] std::size_t near_count() const {
         return emitters.size() + hidden.size() + points.size();
     }
-    /// Whether a ray of `emit` from afar along `direction` gets to the point: it begins on the disc
-    /// before the sphere, or before all that is endless.
+    /// True if a ray of `emit` of a far light along `direction` reaches the point `lit`. Such rays
+    /// begin on the disc in front of the sphere, or in front of all unbounded geometry.
     [[nodiscard]] bool reaches(const Vec3& direction, const Vec3& lit) const {
         const Vec3 from_center = lit - center;
         const double along = dot(from_center, direction);
         return (endless || along >= -radius) &&
                length_squared(from_center - along * direction) <= radius * radius;
     }
-    /// The light at a point of a source, near or far; null: it is none.
+    /// The point or spot light of a source, near or far; null: another light.
     [[nodiscard]] const Light* light_at_point(std::size_t source) const {
         if (source < near_count()) return point_light(source);
         const std::size_t far_light = source - near_count();
@@ -60,27 +60,27 @@ struct Illumination::Data {
     [[nodiscard]] bool is_environment(std::size_t far_light) const {
         return far_light == parallel.size();
     }
-    /// An emitter of the scene or a hidden one.
+    /// An emitter, of the scene or hidden.
     [[nodiscard]] const Emitter& emitter(std::size_t near_light) const {
         return near_light < emitters.size() ? emitters[near_light]
                                             : hidden[near_light - emitters.size()];
     }
-    /// Null: an emitter.
+    /// A near point or spot light; null: an emitter.
     [[nodiscard]] const Light* point_light(std::size_t near_light) const {
         const std::size_t surfaces = emitters.size() + hidden.size();
         return near_light < surfaces ? nullptr : &scene->lights[points[near_light - surfaces]];
     }
-    /// Whether a near light is an emitter, of the scene or hidden.
+    /// True if a near light is an emitter, of the scene or hidden.
     [[nodiscard]] bool is_emitter(std::size_t near_light) const {
         return near_light < emitters.size() + hidden.size();
     }
-    /// `Illumination::draw` where its choice is a far light.
+    /// `Illumination::draw` for a `choice` of a far light.
     [[nodiscard]] LightDraw draw_far(const LitPoint& at, double choice, const Vec2& u,
                                      const Wavelengths& waves) const;
-    /// The same of a near light that is chosen with that probability.
+    /// `Illumination::draw` of a near light, chosen with `probability`.
     [[nodiscard]] LightDraw draw_near(std::size_t light, double probability, const LitPoint& at,
                                       const Vec2& u, const Wavelengths& waves) const;
-    /// Of an emitter that is sampled.
+    /// `Illumination::draw` of an emitter, chosen with `probability` and sampled as `s`.
     [[nodiscard]] LightDraw draw_of_emitter(std::size_t light, double probability, const Vec3& at,
                                             const EmitterSample& s, const Wavelengths& waves) const;
     [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const {

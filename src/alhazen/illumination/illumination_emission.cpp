@@ -15,11 +15,11 @@ double mean_power(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
 }
 
-/// Shift of the start of a ray off its surface, relative to the coordinates: above all rounding of
-/// the shapes' crossings.
+/// Offset of the origin of a ray from its surface, relative to the coordinates: above the rounding
+/// of crossings of all shapes.
 constexpr double kOffSurface = 1e-11;
 
-/// Half of the largest angle from the axis, as a cosine, of what a light at a point sends.
+/// Cosine of the half angle of the cone into which a point or spot light emits; -1: all.
 double cosine_of_cone(const Light& light) {
     const auto* spot = std::get_if<SpotLight>(&light);
     return spot != nullptr ? std::cos(spot->outer_angle) : -1.0;
@@ -35,8 +35,8 @@ Vec3 position_of(const Light& light) {
     return spot != nullptr ? spot->position : std::get<PointLight>(light).position;
 }
 
-/// What a light of the inverse square sends: intensity. Of lights that fall otherwise that of a
-/// light with a quadratic term of 1; `set_falloff` (light_starts.h) makes it their own.
+/// The intensity of a point or spot light with inverse-square falloff. Of others that with a
+/// quadratic term of 1 instead; `set_falloff` (light_starts.h) corrects the falloff.
 Rgb intensity_towards(const Light& light, const Vec3& direction) {
     Light plain = light;
     const auto set = [](auto& l) {
@@ -49,7 +49,7 @@ Rgb intensity_towards(const Light& light, const Vec3& direction) {
     return kPi * sample(plain, position_of(light) + direction, false).intensity;
 }
 
-/// A direction within a cone, uniform by solid angle, and its density.
+/// A direction in a cone of this half angle (as cosine) around `axis`, uniform by solid angle.
 Vec3 in_cone(const Vec3& axis, double cosine, const Vec2& u) {
     const double z = 1.0 - u.x * (1.0 - cosine);
     const double across = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
@@ -57,14 +57,15 @@ Vec3 in_cone(const Vec3& axis, double cosine, const Vec2& u) {
     return normalize(z * axis + (across * std::cos(angle)) * a + (across * std::sin(angle)) * b);
 }
 
-/// The start of a ray along `direction` on a disc before the scene.
+/// A ray along `direction` from a point of the disc in front of the sphere.
 Ray ray_from_afar(const Vec3& center, double radius, const Vec3& direction, const Vec2& place) {
     const Vec2 p = on_unit_disc(place);
     const Vec3 a = perpendicular(direction), b = cross(direction, a);
     return {center + radius * (p.x * a + p.y * b - direction), direction};
 }
 
-/// `squared`: where it has no quadratic term, that at which one with it gives as much.
+/// The power of a point or spot light. Without a quadratic term: of the light with inverse-square
+/// falloff that gives the same at the squared distance `squared`.
 double power_of_point(const Light& light, double squared) {
     const double solid = 2.0 * kPi * (1.0 - cosine_of_cone(light));
     const auto power = [&](const Rgb& color, const Attenuation& falloff) {
@@ -112,7 +113,7 @@ void Illumination::Data::set_sources() {
     const double disc = kPi * radius * radius;
     for (const std::size_t i : parallel) {
         const auto* sun = std::get_if<DirectionalLight>(&scene->lights[i]);
-        // What does not fall is as strong as one that gives the middle of the scene the same.
+        // A point light without falloff counts by its light at the radius of the scene.
         powers.push_back(sun != nullptr ? kPi * disc * mean_power(sun->color)
                                         : power_of_point(scene->lights[i], radius * radius));
     }

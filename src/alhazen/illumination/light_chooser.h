@@ -1,7 +1,7 @@
 #pragma once
-/// One of a list of lights, chosen by fixed weights.
+/// Chooses one of a list of lights by fixed weights.
 ///
-/// Conventions: a light of weight 0 is never chosen; all weights 0: none is.
+/// Conventions: a light of weight 0 is never chosen; if all weights are 0, none is.
 /// Complexity: O(log n). Threads: const functions may be called from many.
 
 #include <cstddef>
@@ -19,14 +19,14 @@ class LightChooser {
     LightChooser() = default;
     explicit LightChooser(const std::vector<double>& weights);
 
-    /// `choice` in [0, 1).
+    /// Chooses a light; `choice` in [0, 1).
     [[nodiscard]] ChosenLight choose(double choice) const;
     [[nodiscard]] double probability(std::size_t light) const;
     [[nodiscard]] std::size_t size() const { return sums_.size(); }
     [[nodiscard]] double total() const { return sums_.empty() ? 0.0 : sums_.back(); }
 
   private:
-    std::vector<double> sums_;  ///< [light] weights of all up to and with it
+    std::vector<double> sums_;  ///< [light] cumulative weights, including it
 };
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// Illumination::draw for eight points at once: rectangles in lanes, other lights one by one.
+/// `Illumination::draw` for eight points at once: rectangles in lanes, other lights one by one.
 
 #include <array>
 #include <cstddef>
@@ -13,20 +13,20 @@ class LightDraws {
   public:
     static constexpr std::size_t kMost = RectangleLanes::kMost;
 
-    /// `lights` stay as they are.
+    /// `lights` must outlive the object, unchanged.
     explicit LightDraws(const Illumination& lights) : lights_(lights) {}
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// Asks for what `Illumination::draw` gives; at most kMost times before `clear`. `waves` stays
+    /// Adds a call of `Illumination::draw`; at most kMost before `clear`. `waves` must stay valid
     /// until `draw`.
     void add(const LitPoint& at, double choice, const Vec2& u, const Wavelengths& waves);
     void draw();
-    /// In the order of the calls; after `draw`.
+    /// The result of the i-th `add`; valid after `draw`.
     [[nodiscard]] const LightDraw& operator[](std::size_t i) const { return drawn_[i]; }
     void clear() { size_ = in_lanes_ = 0; }
 
   private:
-    /// A draw that waits in its lane.
+    /// A draw of a rectangle, waiting in its lane.
     struct Waiting {
         std::size_t draw, light;
         double probability;

@@ -17,11 +17,11 @@ double sine_of(double cosine) {
     return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
 }
 
-/// Cosine of the larger of 0 and the angle a - b, by their cosines and sines.
+/// The cosine of max(0, a - b) for angles a and b given by their cosines and sines.
 double cosine_of_difference(double cosine_a, double sine_a, double cosine_b, double sine_b) {
     return cosine_a > cosine_b ? 1.0 : cosine_a * cosine_b + sine_a * sine_b;
 }
-/// The sine of the same.
+/// The sine of max(0, a - b).
 double sine_of_difference(double cosine_a, double sine_a, double cosine_b, double sine_b) {
     return cosine_a > cosine_b ? 0.0 : sine_a * cosine_b - cosine_a * sine_b;
 }
@@ -32,7 +32,7 @@ double importance(const LightTree::Node& n, const LitPoint& at) {
     const Vec3 lo{n.lo[0], n.lo[1], n.lo[2]}, hi{n.hi[0], n.hi[1], n.hi[2]};
     const Vec3 offset = 0.5 * (lo + hi) - at.point;
     const double radius2 = 0.25 * length_squared(hi - lo), squared = length_squared(offset);
-    // Within the sphere around the node all directions are possible.
+    // Inside the sphere around the node all directions are possible.
     if (!(squared > radius2)) return n.intensity / std::max(radius2, 1e-300);
     const double distance = std::sqrt(squared);
     const Vec3 to_light = offset / distance;
@@ -48,7 +48,7 @@ double importance(const LightTree::Node& n, const LitPoint& at) {
     const double sine_x = sine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
     const double cosine_out = cosine_of_difference(cosine_x, sine_x, cosine_b, sine_b);
     if (cosine_out <= n.cosine_reach) return 0.0;
-    // The cosine of a lamp that is no surface does not count.
+    // Lights other than surfaces have no cosine.
     const double sent = n.cosine_reach < 0.0 ? 1.0 : cosine_out;
 
     if (at.in_volume) return n.intensity * sent / squared;
@@ -69,11 +69,11 @@ using Pair = __m128d;
 Pair both(double x) {
     return _mm_set1_pd(x);
 }
-/// `yes` where the mask is set.
+/// Lanes of `yes` where the mask is set, else of `no`.
 Pair chosen(Pair mask, Pair yes, Pair no) {
     return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
 }
-/// As std::max(b, a) and std::min(b, a): no number in `a` gives `b`.
+/// std::max(b, a) and std::min(b, a) of lanes: a NaN in `a` gives `b`.
 Pair larger(Pair a, Pair b) {
     return _mm_max_pd(a, b);
 }
@@ -97,7 +97,7 @@ Pair sine_of_difference(Pair cosine_a, Pair sine_a, Pair cosine_b, Pair sine_b) 
     return _mm_andnot_pd(_mm_cmpgt_pd(cosine_a, cosine_b), sine_a * cosine_b - cosine_a * sine_b);
 }
 
-/// The twelve floats with which a node begins, of two nodes in lanes.
+/// The first twelve floats of two nodes, in lanes.
 struct NodeNumbers {
     Pair of[12];
 };
@@ -128,7 +128,7 @@ std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at
     const Pair size_x = hi_x - lo_x, size_y = hi_y - lo_y, size_z = hi_z - lo_z;
     const Pair radius2 = both(0.25) * (size_x * size_x + size_y * size_y + size_z * size_z);
     const Pair true_squared = x * x + y * y + z * z;
-    // Within the sphere around the node all directions are possible.
+    // Inside the sphere around the node all directions are possible.
     const Pair outside = _mm_cmpgt_pd(true_squared, radius2);
     const Pair squared = chosen(outside, true_squared, both(1.0));
     const Pair distance = _mm_sqrt_pd(squared);
@@ -144,7 +144,7 @@ std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at
     const Pair cosine_x = cosine_of_difference(cosine_w, sine_w, spread, sine_o);
     const Pair sine_x = sine_of_difference(cosine_w, sine_w, spread, sine_o);
     const Pair cosine_out = cosine_of_difference(cosine_x, sine_x, cosine_b, sine_b);
-    // The cosine of a lamp that is no surface does not count.
+    // Lights other than surfaces have no cosine.
     const Pair sent = chosen(_mm_cmplt_pd(reach, both(0.0)), both(1.0), cosine_out);
     Pair result = intensity * sent;
     Pair none = _mm_cmple_pd(cosine_out, reach);

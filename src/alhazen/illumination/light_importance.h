@@ -1,8 +1,8 @@
 #pragma once
-/// What the lights of a node of the light tree may send to a point, about.
+/// The importance of a node of the light tree: an estimate of the light that it sends to a point.
 ///
 /// Source: as light_tree.h, section 5.
-/// Conventions: the two nodes in lanes where the compiler has SSE2; the same bits without.
+/// Conventions: two nodes are evaluated in SIMD lanes with SSE2; results are the same without.
 
 #include <array>
 
@@ -12,7 +12,7 @@ namespace alhazen {
 
 [[nodiscard]] double importance(const LightTree::Node& node, const LitPoint& at);
 
-/// Of two that follow each other.
+/// The importances of two successive nodes.
 [[nodiscard]] std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at);
 
 }  // namespace alhazen

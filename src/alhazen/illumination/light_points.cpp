@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// The unit outer normal of an emitter at a point of it.
+/// The unit outer normal of an emitter at one of its points.
 Vec3 normal_at(const Emitter& e, const Vec3& point, const Vec2& parameters) {
     switch (e.form) {
         case EmitterForm::Sphere:

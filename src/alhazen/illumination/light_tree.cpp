@@ -14,10 +14,11 @@ namespace alhazen {
 namespace {
 
 constexpr int kBins = 12;
-/// Nodes of fewer or more lights are split along their longest axis without trying the others.
+/// Only nodes with a number of lights in this range are split along the best of all axes, others
+/// along their longest axis.
 constexpr std::size_t kTriesAllAxesFrom = 12, kTriesAllAxesTo = 2048;
 
-/// What bounds some lights.
+/// Bounds of a set of lights.
 struct Cluster {
     Box3 box;
     Vec3 axis{0, 0, 1};
@@ -27,7 +28,7 @@ struct Cluster {
     std::size_t count = 0;
 };
 
-/// The smallest cone around two: section 4.1, algorithm 1.
+/// Extends the cone of `a` to the smallest cone around both: section 4.1, algorithm 1.
 void unite_cones(Cluster& a, Cluster b) {
     if (a.two_sided && b.two_sided && dot(a.axis, b.axis) < 0.0) b.axis = -b.axis;
     if (b.cosine_spread < a.cosine_spread) {
@@ -64,7 +65,7 @@ void unite(Cluster& a, const Cluster& b) {
     a.count += b.count;
 }
 
-/// The measure of directions of section 4.4 (M_Omega), times that of the box and the intensity.
+/// The cost of section 4.4: the measure of directions (M_Omega) times area and intensity.
 double cost_of(const Cluster& c) {
     if (c.count == 0) return 0.0;
     const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0));
@@ -75,7 +76,7 @@ double cost_of(const Cluster& c) {
                                                   (2.0 * to * sine - std::cos(spread - 2.0 * to) -
                                                    2.0 * spread * sine + std::cos(spread));
     if (c.two_sided) directions *= 2.0;
-    // Lights in a point or on a line have an area, too: that of a thin box.
+    // Lights at a point or on a line count as a thin box.
     const Vec3 size = c.box.size();
     const double thin = 1e-3 * max_component(size);
     const double area = c.box.half_area() + thin * thin;
@@ -96,7 +97,7 @@ class TreeBuilder {
         if (order_.empty()) return;
         nodes.reserve(2 * order_.size());
         nodes.emplace_back().parent = LightTree::kNone;
-        // Depth first by hand: a tree of equal lights is deep.
+        // Not recursive: a tree of equal lights may be deep.
         std::vector<Task> waiting{{0, 0, order_.size()}};
         while (!waiting.empty()) {
             const Task task = waiting.back();
@@ -130,7 +131,7 @@ class TreeBuilder {
 
     [[nodiscard]] const TreeLight& light(std::size_t i) const { return lights_[order_[i]]; }
 
-    /// Box, intensity and the sum of the axes of one more light; the cone comes later.
+    /// Adds box, intensity and axis of a light; not its cone.
     static void add_to(Bin& bin, const TreeLight& l) {
         Cluster& c = bin.cluster;
         c.box.include(l.bounds.box);
@@ -141,7 +142,7 @@ class TreeBuilder {
         bin.axes += turned ? -l.bounds.axis : l.bounds.axis;
         ++c.count;
     }
-    /// After all are added: around their mean axis.
+    /// Begins the cone around the mean axis, after all lights are added.
     static void begin_cone(Bin& bin) {
         bin.cluster.axis = unit_or(bin.axes, {0, 0, 1});
         bin.cluster.cosine_spread = 1.0;
@@ -149,7 +150,7 @@ class TreeBuilder {
     static void widen_cone(Bin& bin, const TreeLight& l) {
         Cluster& c = bin.cluster;
         double cosine = std::min(1.0, dot(c.axis, l.bounds.axis));
-        // Beside one-sided lights a two-sided one has both its normals.
+        // A two-sided light counts by the normal nearer to the axis; its node is two-sided.
         if (l.two_sided) cosine = std::abs(cosine);
         const double own = l.bounds.cosine_spread;
         if (own <= -1.0) {
@@ -176,7 +177,7 @@ class TreeBuilder {
             node.hi[k] = std::nextafter(static_cast<float>(c.box.hi[k]), kInf);
             node.axis[k] = static_cast<float>(c.axis[k]);
         }
-        // Wider than the rounding of the axis.
+        // Widened by more than the rounding of the axis.
         const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0)) + 1e-3;
         node.cosine_spread = spread >= kPi ? -1.0f : static_cast<float>(std::cos(spread));
         node.cosine_reach = static_cast<float>(c.cosine_reach);
@@ -184,7 +185,7 @@ class TreeBuilder {
         node.two_sided = c.two_sided;
     }
 
-    /// Orders the lights of the task so that those of one side come first; the end of these.
+    /// Orders the lights of the task by the sides of a split; returns the end of the first side.
     std::size_t divide(const Task& task) {
         const std::size_t count = task.end - task.begin;
         const std::size_t half = task.begin + count / 2;
@@ -217,7 +218,7 @@ class TreeBuilder {
         return split == task.begin || split == task.end ? half : split;
     }
 
-    /// The cheapest of the planes between bins.
+    /// The split of lowest cost among the planes between bins, and its cost.
     [[nodiscard]] std::pair<double, double> best_split(const Task& task, int axis,
                                                        const Box3& centers, double longest) const {
         const int used = static_cast<int>(std::min<std::size_t>(kBins, task.end - task.begin));

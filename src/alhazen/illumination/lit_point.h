@@ -1,5 +1,5 @@
 #pragma once
-/// A point that is to be lit: of a surface, or inside a volume that scatters.
+/// A point at which light is gathered: on a surface, or inside a scattering volume.
 
 #include "alhazen/math/vec.h"
 
@@ -9,7 +9,7 @@ struct LitPoint {
     Vec3 point;
     Vec3 normal;              ///< unit, shading, on the side of the view
     bool both_sides = false;  ///< light from behind counts, too
-    bool in_volume = false;   ///< light counts alike from all sides: there is no normal
+    bool in_volume = false;   ///< light from all directions counts alike; no normal
 
     [[nodiscard]] static LitPoint inside_volume(const Vec3& point) {
         return {point, {}, true, true};

@@ -24,11 +24,11 @@ HWY_INLINE LaneVectors load_vectors(const double (&values)[3][RectangleLanes::kM
 HWY_INLINE Doubles dot(const LaneVectors& a, const LaneVectors& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-/// As std::clamp, also of no numbers.
+/// std::clamp of each lane, for NaNs, too.
 HWY_INLINE Doubles clamped(const Doubles& v, const Doubles& lo, const Doubles& hi) {
     return select_lanes(v < lo, lo, select_lanes(hi < v, hi, v));
 }
-/// As std::max(a, b).
+/// std::max(a, b) of each lane.
 HWY_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
     return select_lanes(a < b, b, a);
 }
@@ -47,7 +47,7 @@ void draw_rectangles(RectangleLanes::Numbers& n) {
     axis_z = {select_lanes(turned, -axis_z.x, axis_z.x), select_lanes(turned, -axis_z.y, axis_z.y),
               select_lanes(turned, -axis_z.z, axis_z.z)};
     z0 = select_lanes(turned, -z0, z0);
-    // What is seen edge on is left to others; here it computes with numbers.
+    // A rectangle edge on is sampled by `sample`; -1 avoids a division by 0 in its lane.
     const LaneMask<double> before = z0 < zero;
     z0 = select_lanes(before, z0, minus_one);
     const Doubles x0 = dot(corner, axis_x), y0 = dot(corner, axis_y);

@@ -1,8 +1,8 @@
 #pragma once
-/// Rectangles that shine, each sampled as a point sees it, for eight points in lanes.
+/// Sampling of rectangular emitters by solid angle, for eight points in lanes.
 ///
-/// Conventions: the bits of SphericalRectangle. Lanes that it does not do (solid angles too small,
-/// numbers that are none) are left to `sample`.
+/// Conventions: the bits are those of SphericalRectangle. Lanes that the kernel does not handle
+/// (solid angles up to kLeastSolidAngle, rectangles edge on, NaNs) are sampled by `sample`.
 /// Threads: used by one thread.
 
 #include <cstddef>
@@ -16,30 +16,30 @@ class RectangleLanes {
   public:
     static constexpr std::size_t kMost = 8;
 
-    /// All lanes hold some rectangle.
+    /// Fills all lanes with a unit square.
     RectangleLanes();
 
-    /// Whether the emitter may be asked.
+    /// True if `set` accepts the emitter: a rectangle with perpendicular edges.
     [[nodiscard]] static bool takes(const Emitter& e) {
         return e.form == EmitterForm::Rectangle && e.right_angled;
     }
-    /// Fills a lane; `e` stays as it is.
+    /// Fills a lane. `e` must outlive the object, unchanged.
     void set(std::size_t lane, const Emitter& e, const Vec3& from, const Vec2& u);
     /// Samples all lanes.
     void draw();
-    /// What `sample` gives for what the lane was filled with.
+    /// The result of `sample` for the arguments of `set`; valid after `draw`.
     [[nodiscard]] EmitterSample sampled(std::size_t lane) const;
 
-    /// [coordinate][lane], read and written by kernels.
+    /// Input and output of the kernels, [coordinate][lane].
     struct Numbers {
-        alignas(64) double corner[3][kMost] = {};  ///< from the point that sees it
+        alignas(64) double corner[3][kMost] = {};  ///< relative to the point of view
         alignas(64) double x[3][kMost] = {}, y[3][kMost] = {}, z[3][kMost] = {};
         alignas(64) double width[kMost] = {}, height[kMost] = {};
         alignas(64) double u[2][kMost] = {};
-        // Drawn.
+        // Results.
         alignas(64) double to_light[3][kMost] = {};
         alignas(64) double distance[kMost] = {}, density[kMost] = {};
-        std::uint32_t drawn = 0;  ///< bit of each lane
+        std::uint32_t drawn = 0;  ///< bits of the lanes that the kernel has sampled
     };
 
   private:

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The unit part of `v` that is perpendicular to the unit vector `axis`.
+/// The unit vector along the component of `v` perpendicular to the unit vector `axis`.
 Vec3 beside(const Vec3& v, const Vec3& axis) {
     return unit_or(v - dot(v, axis) * axis, perpendicular(axis));
 }
@@ -19,7 +19,7 @@ double root_of_rest(double cosine) {
     return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
 }
 
-/// Of squares, which neither over- nor underflow for lengths that scenes have.
+/// sqrt(a^2 + b^2), without protection from overflow and underflow.
 double root_of_sum(double a, double b) {
     return std::sqrt(a * a + b * b);
 }
@@ -40,19 +40,19 @@ SphericalTriangle::SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c
 Vec3 SphericalTriangle::direction(const Vec2& u) const {
     const auto& [a, b, c] = corners_;
     // The arc from `b` divides the triangle into a share u.x of its area and the rest.
-    // The angle alpha at `a`: its sine and cosine times sin(ab) sin(ca).
+    // `size` normalises the sine and cosine of the angle alpha at `a`.
     const double along = bc_ - ab_ * ca_, size = std::sqrt(along * along + triple_ * triple_);
     const double sine_alpha = triple_ / size, cosine_alpha = along / size;
-    // Of u.x times the solid angle less alpha.
+    // s and t: sine and cosine of u.x times the solid angle minus alpha.
     const double share = u.x * solid_angle_, sine = std::sin(share), cosine_share = std::cos(share);
     const double s = sine * cosine_alpha - cosine_share * sine_alpha;
     const double t = cosine_share * cosine_alpha + sine * sine_alpha;
     const double p = t - cosine_alpha, q = s + sine_alpha * ab_;
     const double above = (q * t - p * s) * cosine_alpha - q;
     const double below = (q * s + p * t) * sine_alpha;
-    // u.x = 0: both vanish, and the arc ends in `a`.
+    // For u.x = 0 both vanish, and the arc ends in `a`.
     double cosine = below != 0.0 ? std::clamp(above / below, -1.0, 1.0) : 1.0;
-    // No farther along the side from `a` than `c`.
+    // The arc ends between `a` and `c`.
     cosine = std::max(cosine, std::min(1.0, ca_));
     const Vec3 end = cosine * a + root_of_rest(cosine) * beside(c, a);
     const double z = 1.0 - u.y * (1.0 - dot(end, b));

@@ -1,14 +1,13 @@
 #pragma once
-/// Triangles and rectangles as they are seen from a point: directions chosen uniformly in their
-/// solid angle.
+/// Triangles and rectangles as seen from a point, with directions sampled uniformly by solid angle.
 ///
 /// Source: Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed.
 /// Eng. 30(2), 1983; Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995; Urena,
 /// Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013.
 /// Differs: the sine and cosine of the angle of a triangle come from the products of its corners.
-/// Conventions: corners are relative to the point that sees them; `solid_angle` is 0 where they are
-/// degenerate or seen edge on. Exact up to rounding where the solid angle is above about 1e-6;
-/// smaller ones are better sampled by area. Either side may face the point.
+/// Conventions: corners are relative to the point of view; `solid_angle` is 0 for degenerate
+/// polygons and those seen edge on. Exact up to rounding for solid angles above about 1e-6; smaller
+/// ones should be sampled by area. Either side may face the point.
 /// Threads: const functions may be called from many.
 
 #include <array>
@@ -22,21 +21,21 @@ class SphericalTriangle {
     SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
     [[nodiscard]] double solid_angle() const { return solid_angle_; }
-    /// A unit direction for `u` in the unit square; the solid angle is above 0.
+    /// A unit direction for `u` in the unit square. The solid angle must be above 0.
     [[nodiscard]] Vec3 direction(const Vec2& u) const;
 
   private:
     std::array<Vec3, 3> corners_;      ///< unit
-    double ab_ = 0, bc_ = 0, ca_ = 0;  ///< their products
+    double ab_ = 0, bc_ = 0, ca_ = 0;  ///< dot products of corners
     double triple_ = 0, solid_angle_ = 0;
 };
 
-/// Of a rectangle, whatever sees it.
+/// Axes and lengths of a rectangle, independent of the point of view.
 struct RectangleSides {
-    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< unit: along the edges and across
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< unit: along the edges, normal
     double width = 1, height = 1;
 
-    /// The edges are perpendicular.
+    /// The edges must be perpendicular.
     [[nodiscard]] static RectangleSides of(const Vec3& edge_u, const Vec3& edge_v);
 };
 
@@ -45,7 +44,7 @@ class SphericalRectangle {
     SphericalRectangle(const Vec3& corner, const RectangleSides& sides);
 
     [[nodiscard]] double solid_angle() const { return solid_angle_; }
-    /// The point for `u` in the unit square, relative to the point that sees it.
+    /// The point for `u` in the unit square, relative to the point of view.
     [[nodiscard]] Vec3 point(const Vec2& u) const;
 
   private:

@@ -19,7 +19,7 @@ namespace {
 /// Time limit for the rays of one candidate in a search.
 constexpr double kSampleSeconds = 0.3;
 
-/// `list` and `wide_bvh` first, each accelerator once.
+/// The accelerators, with `list` and `wide_bvh` first and each one once.
 std::vector<std::string> with_references(const std::vector<std::string>& wanted) {
     std::vector<std::string> all{kDefaultAccelerator, "list"};
     for (const std::string& accelerator : wanted) {
@@ -82,7 +82,7 @@ class Comparer {
         m.figures = trial_.ask(built.scene, {.seconds = options_.time_limit,
                                              .in_batches = m.name() == kDefaultAccelerator});
         m.cost = pictures_.check(built.scene, m.figures, options_.time_limit, m.picture);
-        // Last: includes structures that accelerators build while rays are traced.
+        // Measured last, to include structures that accelerators build while rays are traced.
         m.bytes = accelerator_bytes(*built.scene.aggregate);
         return m;
     }
@@ -158,7 +158,7 @@ std::vector<std::string> parse_accelerators(std::string_view list) {
     while (true) {
         const std::size_t comma = list.find(',');
         const std::string piece(list.substr(0, comma));
-        // Names have no equals sign: such a piece is one more setting.
+        // Names have no equals sign: such a piece is a further setting.
         const std::size_t equals = piece.find('=');
         if (!accelerators.empty() && equals != std::string::npos && equals < piece.find(':')) {
             accelerators.back() += "," + piece;

@@ -1,5 +1,5 @@
 #pragma once
-/// Processor seconds of this process since construction. Other programs and waiting do not count.
+/// Processor seconds of this process since construction; waiting and other processes do not count.
 ///
 /// Conventions: reading takes a system call, about 0.3 microseconds.
 

@@ -17,7 +17,7 @@ namespace alhazen {
 
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
-/// "data:image/png;base64,...".
+/// The picture as "data:image/png;base64,...".
 [[nodiscard]] std::string png_data_uri(const EncodedImage& image);
 
 }  // namespace alhazen

@@ -11,7 +11,7 @@ namespace alhazen {
 namespace {
 
 constexpr int kLargestTile = 16;
-/// Largest share of the time per tile, so that there are enough tiles.
+/// Largest share of the time per tile, to get enough tiles.
 constexpr double kShareOfTile = 1.0 / 32;
 
 bool same_bits(const Rgb& a, const Rgb& b) {

@@ -2,8 +2,8 @@
 /// Renders the picture of a trial with another accelerator and compares it with the reference:
 /// every bit of every pixel, and the numbers of rays and hits of each kind.
 ///
-/// Conventions: where the whole picture would take too long, randomly spread square tiles (fixed
-/// seed) are rendered and compared, each with its own rays.
+/// Conventions: if the whole picture would take too long, randomly spread square tiles (fixed seed)
+/// are rendered and compared, each with its own rays.
 
 #include <vector>
 
@@ -15,7 +15,7 @@ class PictureChecker {
   public:
     explicit PictureChecker(const SceneTrial& trial) : trial_(trial) {}
 
-    /// Takes about `seconds`, by the times in `figures`. Returns Measurement::cost.
+    /// Takes about `seconds`, estimated from the times in `figures`. Returns Measurement::cost.
     [[nodiscard]] std::vector<float> check(const Scene& scene, const ReplayFigures& figures,
                                            double seconds, PictureCheck& check) const;
 

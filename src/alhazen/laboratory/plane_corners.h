@@ -1,5 +1,5 @@
 #pragma once
-/// The corners of small convex bodies, for drawings.
+/// The corners of small convex polyhedra, for drawings.
 
 #include <span>
 #include <vector>
@@ -14,8 +14,8 @@ struct HalfSpaceOfPoints {
     double offset = 0;
 };
 
-/// Every point where three of the planes meet and none of the half-spaces is left by more than
-/// rounding. O(n^4): for some dozens of planes. Empty when the body is unbounded or empty.
+/// The points where three planes meet and that lie in all half-spaces up to rounding. O(n^4), for a
+/// few dozen planes. Empty if the body is unbounded or empty.
 [[nodiscard]] std::vector<Vec3> plane_corners(std::span<const HalfSpaceOfPoints> sides);
 
 }  // namespace alhazen

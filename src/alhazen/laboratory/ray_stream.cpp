@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// Single queries are grouped up to this count.
+/// Single queries are grouped up to this number.
 constexpr std::size_t kMostTogether = 512;
 
 RayKind kind_of(RayMask mask) {
@@ -45,7 +45,7 @@ void RayStream::thin_out() {
 void RayRecorder::record(std::span<const Ray> rays, RayQuestion question, RayMask mask,
                          Coherence coherence) const {
     if (rays.empty()) return;
-    // Single queries are kept or dropped in groups, as batches are.
+    // Groups of single queries are kept or dropped like batches.
     const std::uint64_t number = asked_so_far_++ / (rays.size() == 1 ? kMostTogether : 1);
     const double lot = random_at(1, number, rays.size() == 1, 0);
     if (lot >= stream_.share) return;

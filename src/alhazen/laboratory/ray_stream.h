@@ -1,11 +1,11 @@
 #pragma once
-/// The recorded rays of a picture, so that every accelerator traces the same rays.
+/// Records the rays of a picture, so that every accelerator traces the same rays.
 ///
 /// Source: Kirk and Arvo, "Improved Ray Tagging for Voxel-Based Ray Tracing", Graphics Gems II,
 /// 1991, and Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (rays
 /// and tests by kind).
 /// Differs: rays are recorded between renderer and accelerator, in the renderer's batches.
-/// Conventions: kinds of rays are those of geometry/ray_mask.h. Of a large picture a random share
+/// Conventions: kinds of rays are those of geometry/ray_mask.h. For a large picture a random share
 /// of the batches is recorded (fixed seed).
 
 #include <array>
@@ -33,8 +33,8 @@ struct RayBatch {
 struct RayStream {
     std::vector<Ray> rays;
     std::vector<RayBatch> batches;
-    double share = 1;              ///< share of the batches that are kept
-    std::size_t most = 2'000'000;  ///< rays; above this, half of the batches are dropped
+    double share = 1;              ///< share of the batches that is kept
+    std::size_t most = 2'000'000;  ///< number of rays above which half of the batches are dropped
 
     /// Recorded rays by kind.
     [[nodiscard]] std::array<std::uint64_t, kRayKindCount> by_kind() const;
@@ -46,7 +46,7 @@ struct RayStream {
 /// state the kind of ray (Scene::has_masks).
 class RayRecorder final : public Aggregate {
   public:
-    /// Both must outlive the recorder.
+    /// `asked` and `stream` must outlive the recorder.
     RayRecorder(const Aggregate& asked, RayStream& stream) : asked_(asked), stream_(stream) {}
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return asked_.primitives(); }

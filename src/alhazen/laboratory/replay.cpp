@@ -14,7 +14,7 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kPiece = 64;
-/// Rays between readings of the clock.
+/// Number of rays between readings of the clock.
 constexpr std::size_t kRaysBetweenClocks = 256;
 constexpr std::uint64_t kNothing = 0x6E6F7468696E67;
 
@@ -71,7 +71,7 @@ class Questioner {
                 return;
         }
     }
-    /// The answer of ray i of the last batch.
+    /// The hashed result of ray i of the last batch.
     [[nodiscard]] std::uint64_t answer(const RayBatch& batch, std::size_t i) const {
         if (batch.question == RayQuestion::Closest) return answer_of(hits_[i]);
         if (met_[i]) return 1;
@@ -97,7 +97,7 @@ class Questioner {
     std::vector<std::vector<Hit>> crossings_;
 };
 
-/// The batches, cut into pieces unless they are to stay whole.
+/// The batches, cut into pieces unless `whole`.
 std::vector<RayBatch> pieces_of(const RayStream& stream, bool whole) {
     if (whole) return stream.batches;
     std::vector<RayBatch> pieces;
@@ -112,8 +112,8 @@ std::vector<RayBatch> pieces_of(const RayStream& stream, bool whole) {
     return pieces;
 }
 
-/// Random order, but for the first piece of each kind: those come first, so that the shortest
-/// sample has all kinds. Returns how many these are.
+/// Shuffles the pieces, except for the first piece of each kind, which come first so that the
+/// shortest sample has all kinds. Returns the number of these.
 std::size_t shuffle(std::vector<RayBatch>& pieces) {
     RandomStream random(1);
     for (std::size_t i = pieces.size(); i > 1; --i) {
@@ -138,7 +138,7 @@ std::string name_of(const RayBatch& batch, const Ray& ray) {
         ray.t_min, ray.t_max);
 }
 
-/// Counts and compares, at least the first `begin` pieces; returns how many were asked.
+/// Counts and compares at least the first `begin` pieces; returns the number of pieces traced.
 std::size_t count(const RayStream& stream, const std::vector<RayBatch>& pieces, std::size_t begin,
                   double seconds, Questioner& questioner, Answers& expected,
                   ReplayFigures& figures) {
@@ -169,7 +169,7 @@ std::size_t count(const RayStream& stream, const std::vector<RayBatch>& pieces, 
     return asked;
 }
 
-/// Times the first `asked` pieces, kind by kind; false when time ran out.
+/// Times the first `asked` pieces, kind by kind; false if time ran out.
 bool time(const std::vector<RayBatch>& pieces, std::size_t asked, double seconds,
           Questioner& questioner, std::array<KindFigures, kRayKindCount>& kinds) {
     const CpuClock clock;
@@ -188,7 +188,7 @@ bool time(const std::vector<RayBatch>& pieces, std::size_t asked, double seconds
             kind.timed += rays;
             before = now;
             rays = 0;
-            // Each kind has its share of the time.
+            // Each kind gets its share of the time.
             if (now > seconds * static_cast<double>(k + 1) / kRayKindCount) break;
         }
         kind.seconds += clock.seconds() - before;
@@ -259,7 +259,7 @@ ReplayFigures replay(const RayStream& stream, const Aggregate& asked, const Repl
         figures.all_timed = false;
         return figures;
     }
-    // Picture order, where all rays are traced: neighbouring rays share cached data.
+    // Picture order if all rays are traced: neighbouring rays share cached data.
     std::array<KindFigures, kRayKindCount> best;
     double least = std::numeric_limits<double>::infinity(), spent = 0;
     for (int i = 0; i < options.repetitions && spent <= options.seconds; ++i) {

@@ -16,7 +16,7 @@
 namespace alhazen {
 namespace {
 
-/// As Protocol::Spd, written into the scene.
+/// Rays per side of Protocol::Spd.
 constexpr int kStandardRays = 513;
 
 RenderOptions render_options_of(const SceneDescription& description, const TrialOptions& options) {
@@ -62,11 +62,11 @@ SceneTrial::SceneTrial(SceneDescription description, const TrialOptions& options
     (void)complete_view(description_, reference_.scene, framing);
 
     RenderOptions counting = render_options_;
-    counting.count_tests = true;  // questions do not depend on earlier answers then
+    counting.count_tests = true;  // makes queries independent of earlier results
     stream_.most = options.most_rays;
     Scene recording = reference_.scene;
     recording.aggregate = std::make_shared<const RayRecorder>(*reference_.scene.aggregate, stream_);
-    recording.has_masks = true;  // every question says of what kind its rays are
+    recording.has_masks = true;  // every query states the kind of its rays
     picture_ = render(recording, description_.picture, counting);
 }
 

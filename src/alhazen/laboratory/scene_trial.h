@@ -2,7 +2,7 @@
 /// A scene, the recorded rays of its picture, and the results of each accelerator.
 ///
 /// Conventions: everything runs on one thread; seconds are processor time. The rays are those of
-/// the renderer `whitted` with the accelerator `wide_bvh`. Every accelerator must find the same
+/// the renderer `whitted` with the accelerator `wide_bvh`. All accelerators must find the same
 /// hits, hence cast the same rays; this is checked.
 
 #include <optional>
@@ -16,12 +16,12 @@ namespace alhazen {
 
 struct TrialOptions {
     std::optional<int> width, height;  ///< default: the scene's
-    int longest_side = 256;            ///< of the picture, where no size is given
-    bool spd = false;                  ///< count as published: Protocol::Spd
+    int longest_side = 256;            ///< of the picture if no size is given
+    bool spd = false;                  ///< true: counts as published, by Protocol::Spd
     std::optional<int> max_depth;      ///< default: the scene's
     std::string camera;
     std::string csg = "event_heap";
-    std::size_t most_rays = 2'000'000;  ///< recorded at most; 72 bytes each
+    std::size_t most_rays = 2'000'000;  ///< limit of recorded rays; 72 bytes each
 };
 
 /// A compiled scene with its build time.
@@ -39,20 +39,20 @@ class SceneTrial {
     [[nodiscard]] const SceneDescription& description() const { return description_; }
     [[nodiscard]] const Scene& reference() const { return reference_.scene; }
     [[nodiscard]] const RayStream& stream() const { return stream_; }
-    /// By `wide_bvh`.
+    /// The picture rendered with `wide_bvh`.
     [[nodiscard]] const RenderResult& picture() const { return picture_; }
-    /// Size, depth and camera, on one thread.
+    /// Size, depth and camera; one thread.
     [[nodiscard]] const RenderOptions& render_options() const { return render_options_; }
     [[nodiscard]] const PictureSettings& picture_settings() const { return description_.picture; }
 
     /// The eye ray of a pixel, counted from the top left. Throws Error (Usage) for a pixel outside.
     [[nodiscard]] Ray eye_ray_of(int x, int y) const;
 
-    /// Throws Error as `compile` does.
+    /// Compiles the scene with an accelerator. Throws Error as `compile` does.
     [[nodiscard]] BuiltScene build(const std::string& accelerator) const;
-    /// Compares with the answers of `wide_bvh`.
+    /// Replays the rays on `scene` and compares with the results of `wide_bvh`.
     [[nodiscard]] ReplayFigures ask(const Scene& scene, const ReplayOptions& options);
-    /// Builds and replays.
+    /// Builds an accelerator and replays the rays on it.
     [[nodiscard]] ReplayFigures ask(const std::string& accelerator, const ReplayOptions& options) {
         return ask(build(accelerator).scene, options);
     }

@@ -17,10 +17,10 @@ namespace {
 using StepKind = TraversalStep::Kind;
 
 constexpr double kWidth = 900, kEdge = 24, kLegend = 64;
-/// In larger scenes only the tested primitives are drawn.
+/// Limit above which only the tested primitives are drawn.
 constexpr std::size_t kMostDrawn = 5000;
 
-/// From the world to the paper.
+/// The projection from the world to the picture.
 class Projection {
   public:
     Projection(FigureView view, const Box3& box) {
@@ -77,7 +77,7 @@ void draw_polygon(svg::Writer& out, const Projection& project, const std::vector
              {{"class", style}, {"points", svg::points(convex_outline(std::move(points)))}});
 }
 
-/// The position of spheres among the kinds of shapes.
+/// The index of spheres among the kinds of shapes.
 std::uint32_t sphere_kind() {
     return []<class... Columns>(const std::tuple<Columns...>*) {
         std::uint32_t at = 0, found = 0;
@@ -86,7 +86,7 @@ std::uint32_t sphere_kind() {
     }(static_cast<const AnalyticShapes::Columns<ShapeColumn>*>(nullptr));
 }
 
-/// A sphere as a circle, a triangle as itself, all else as its box.
+/// Draws a sphere as a circle, a triangle as such, other primitives as their boxes.
 void draw_primitive(svg::Writer& out, const Projection& project, const PrimitiveTable& table,
                     PrimitiveId id, const std::string& style) {
     const std::uint32_t kind = table.kind(id);
@@ -152,7 +152,7 @@ class Figure {
     }
 
   private:
-    /// What is drawn: all primitives that have an end, and where the ray begins.
+    /// The box of the picture: all bounded primitives and the origin of the ray.
     static Box3 picture_box(const PrimitiveTable& table, const TraversalTrace& trace) {
         const BoundedPrimitives bounded(table);
         Box3 box;
@@ -160,7 +160,7 @@ class Figure {
         if (box.empty()) box.include(trace.ray.origin);
         const Vec3 reach = 0.5 * box.size() + Vec3{1e-9, 1e-9, 1e-9};
         const Vec3 out = abs(trace.ray.origin - box.center());
-        // For a distant eye only the last part of the ray is shown.
+        // For a distant eye only the last part of the ray is drawn.
         if (out.x < 2 * reach.x && out.y < 2 * reach.y && out.z < 2 * reach.z) {
             box.include(trace.ray.origin);
         }
@@ -233,7 +233,7 @@ class Figure {
         }
     }
 
-    /// Each cell once, however often it is visited.
+    /// Draws each cell once, however often it is visited.
     void draw_regions() {
         for (const TraversalStep& step : trace_.steps) {
             if (step.corners.empty()) continue;
@@ -245,7 +245,7 @@ class Figure {
         }
     }
 
-    /// The part of the ray inside the picture.
+    /// Draws the part of the ray inside the picture.
     void draw_ray() {
         const Ray& ray = trace_.ray;
         double enter = 0, leave = 1e300;
@@ -277,7 +277,8 @@ class Figure {
         out_.leaf("circle", {{"cx", at(p.x)}, {"cy", at(p.y)}, {"r", "4"}, {"fill", "var(--ink)"}});
     }
 
-    /// Numbers in the lower left of cells with space for them; of several in one place the first.
+    /// Draws numbers in the lower left of cells with enough space; of several in one place the
+    /// first.
     void draw_numbers() {
         if (count(StepKind::Beam) > 0) return;
         int number = 0;

@@ -94,7 +94,7 @@ std::vector<Vec3> shape_of(const Octree& octree, const TraversalStep& step) {
     return corners_of(box);
 }
 
-/// Descends to the leaf: nodes are stored depth first, the lower child before the upper one.
+/// Descends to the leaf: nodes are stored depth first, the lower child first.
 std::vector<Vec3> shape_of(const KdTree& tree, const TraversalStep& step) {
     Box3 box = tree.box();
     std::uint32_t at = 0;
@@ -133,12 +133,12 @@ std::vector<Vec3> shape_of(const Tree& accelerator, const TraversalStep& step) {
 std::vector<Vec3> shape_of(const GoldsmithSalmon& accelerator, const TraversalStep& step) {
     return shape_of(accelerator.tree().nodes[step.number].bound);
 }
-/// Its steps are tests of primitives.
+/// All steps are tests of primitives.
 std::vector<Vec3> shape_of(const List&, const TraversalStep&) {
     return {};
 }
 
-/// Gives every step its shape.
+/// Sets the shape of every step.
 template <class A>
 void add_shapes(const A& accelerator, TraversalTrace& result) {
     for (TraversalStep& step : result.steps) {
@@ -146,7 +146,7 @@ void add_shapes(const A& accelerator, TraversalTrace& result) {
     }
 }
 
-/// The cell is the origin region of the class; the beam is its swept region, up to the end of the
+/// The cell is the origin region of the class; the beam is its swept region up to the end of the
 /// primitives.
 void add_shapes(const RayClassification& made, TraversalTrace& result) {
     for (std::size_t i = 0; i < result.steps.size(); ++i) {

@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// Smaller savings are noise.
+/// Largest time, relative to the best so far, that counts as a saving; smaller savings are noise.
 constexpr double kWorthwhile = 0.97;
 
 struct TunedAccelerator {

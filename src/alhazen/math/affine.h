@@ -43,7 +43,8 @@ struct Affine {
 
     [[nodiscard]] static Affine translate(const Vec3& offset) { return {{}, offset}; }
     [[nodiscard]] static Affine scale(const Vec3& factors);
-    /// Right-handed rotation about `axis` (need not be unit, must not be zero) by `radians`.
+    /// Right-handed rotation by `radians` about `axis`, which need not be a unit vector but must
+    /// not be zero.
     [[nodiscard]] static Affine rotate(const Vec3& axis, double radians);
 };
 
@@ -53,7 +54,7 @@ inline Affine operator*(const Affine& a, const Affine& b) {
 }
 /// Not finite for a singular transform.
 [[nodiscard]] Affine inverse(const Affine& m);
-/// True when every entry is finite and the linear part has an inverse with finite entries.
+/// True if every entry is finite and the linear part has an inverse with finite entries.
 [[nodiscard]] bool is_invertible(const Affine& m);
 
 }  // namespace alhazen

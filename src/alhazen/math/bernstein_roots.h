@@ -5,17 +5,18 @@
 /// Bernstein coefficients bound the number of roots, de Casteljau's split halves the interval);
 /// Rouillier and Zimmermann, "Efficient isolation of polynomial's real roots", Journal of
 /// Computational and Applied Mathematics 162, 2004.
-/// Differs: the coefficients carry an error bound, and the sign of a coefficient within it is
-/// unknown; the search bounds the number of variations over all values of the unknown signs. It
-/// finds sign changes, not roots: a root of even multiplicity counts as none, two roots that cannot
-/// be separated as none, an odd cluster as one, so that the number of crossings always agrees with
-/// the signs at both ends. It splits where the coefficients differ most from the ends.
+/// Differs: the coefficients carry an error bound; the sign of a coefficient within it is unknown,
+/// and the search bounds the number of variations over all values of the unknown signs. It finds
+/// sign changes, not roots: a root of even multiplicity and a pair of roots that cannot be
+/// separated count as none, an odd cluster as one, so that the number of crossings always agrees
+/// with the signs at both ends. It splits where the coefficients differ most from the ends.
 /// Conventions: p(u) = sum b[i] C(n, i) (1 - u)^(n - i) u^i. In double the search fails where it is
-/// not certain; it is then repeated in double-double, with recomputed coefficients, where it always
-/// succeeds: a value that cannot be distinguished from 0 has the sign of its surroundings (of the
-/// next coefficient at the ends, but see shared_ends; if all are unknown, positive, "outside"), and
-/// roots closer than 2^-52 cancel in pairs. `find_certified_sign_changes` does both.
-/// Complexity: O(n^2) per split; mostly no split for 0 or 1 crossing, one or two for 2.
+/// not certain. It is then repeated in double-double, with recomputed coefficients, where it always
+/// succeeds: a value that cannot be distinguished from 0 has the sign of its surroundings (at an
+/// end, that of the next coefficient, but see shared_ends; if all are unknown, positive,
+/// "outside"), and roots closer than 2^-52 cancel in pairs. `find_certified_sign_changes` does
+/// both.
+/// Complexity: O(n^2) per split; usually no split for 0 or 1 crossing, one or two for 2.
 
 #include <algorithm>
 #include <array>
@@ -32,29 +33,29 @@ namespace alhazen {
 template <class Real, int N>
 struct BernsteinPolynomial {
     int degree = 0;
-    double error = 0;  ///< bound of the error of every coefficient
-    /// The ends are shared with other polynomials, such as the pieces of one curve. A value there
-    /// that cannot be distinguished from 0 is then positive for all of them; otherwise the
-    /// crossings of all pieces together would not agree with the signs.
+    double error = 0;  ///< bound on the error of every coefficient
+    /// True if the ends are shared with other polynomials, such as the pieces of one curve. A value
+    /// at an end that cannot be distinguished from 0 is then positive for all of them; otherwise
+    /// the crossings of all pieces together would not agree with the signs.
     bool shared_ends = false;
     std::array<Real, N + 1> b;  ///< the first degree + 1 are used; not initialised
 };
 
-/// Where a polynomial changes its sign in [0, 1].
+/// The places in [0, 1] where a polynomial changes its sign.
 template <int N>
 struct SignChanges {
     int count = 0;
     bool negative_at_start = false;
     std::array<double, N> u;  ///< the first `count` are set, ascending; not initialised
-    /// [i] an interval that contains this sign change and no other.
+    /// [i] the interval that contains sign change i and no other.
     std::array<double, N> lo, hi;
 
     [[nodiscard]] bool negative_at_end() const { return negative_at_start != (count % 2 != 0); }
 };
 
-/// Selects the sign changes that a caller needs: all of them. Another type may select fewer: for a
-/// sign change that is not wanted, u is any value between lo and hi. `wants` is called once for
-/// each, in ascending order, and may keep state.
+/// Selects all sign changes. Another type may select those that a caller needs: for a sign change
+/// that is not wanted, u is any value between lo and hi. `wants` is called once for each, in
+/// ascending order, and may keep state.
 struct AllSignChanges {
     [[nodiscard]] bool wants(double /*lo*/, double /*hi*/) const { return true; }
 };
@@ -68,7 +69,7 @@ inline double leading(const DoubleDouble& v) {
     return v.high;
 }
 
-/// (1 - r) a + r b; r is a dyadic fraction of few bits.
+/// (1 - r) a + r b, where r is a dyadic fraction of few bits.
 inline double blend(double a, double b, double r) {
     return (1.0 - r) * a + r * b;
 }
@@ -80,7 +81,8 @@ inline DoubleDouble blend(const DoubleDouble& a, const DoubleDouble& b, double r
 template <int N>
 using KnownDegree = std::integral_constant<int, N>;
 
-/// Calls f with the degree of the polynomial: as a constant where it is N and N is small.
+/// Calls f with the degree of the polynomial: as a compile-time constant where it is N and N is
+/// small.
 template <class Real, int N, class F>
 decltype(auto) with_degree(const BernsteinPolynomial<Real, N>& p, F&& f) {
     if constexpr (N <= 6 && std::is_same_v<Real, double>) {
@@ -89,7 +91,7 @@ decltype(auto) with_degree(const BernsteinPolynomial<Real, N>& p, F&& f) {
     return f(p.degree);
 }
 
-/// Calls f(i) for i from 0 to n: unrolled where n is known.
+/// Calls f(i) for i from 0 to n; unrolled where n is a constant.
 template <class F>
 void for_indices(int n, F&& f) {
     for (int i = 0; i <= n; ++i) f(i);
@@ -107,7 +109,7 @@ template <class Real, int N, class Degree>
 void evaluate(const BernsteinPolynomial<Real, N>& p, Degree degree, double u, Real& value,
               double& slope) {
     const DoubleDouble rest = two_sum(1.0, -u);
-    Real row[N + 2];  // the compiler does not see that the last element is not read
+    Real row[N + 2];  // one more: the compiler does not see that the last element is not read
     std::copy_n(p.b.begin(), degree + 1, row);
     slope = 0.0;
     for_indices(degree, [&](int step) {
@@ -129,8 +131,8 @@ void evaluate(const BernsteinPolynomial<Real, N>& p, double u, Real& value, doub
     with_degree(p, [&](auto degree) { evaluate(p, degree, u, value, slope); });
 }
 
-/// Newton's method with a bracket: finds the root of f where f has `sign_lo` at lo and the other
-/// sign at hi. `f(x, value, slope)`; x and the value are double.
+/// Newton's method with a bracket: the root of f, which has `sign_lo` at lo and the opposite sign
+/// at hi. `f(x, value, slope)`; x and the value are double.
 template <class F>
 double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double guess) {
     double x = guess;
@@ -145,7 +147,7 @@ double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double gues
         if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
         const double step = std::abs(next - x);
         if (step > 0.5 * last_step && i > 2) next = 0.5 * (lo + hi);
-        // Convergence is quadratic and this step is the last that matters. Near a double root it is
+        // Convergence is quadratic, so this step is the last that matters. Near a double root it is
         // linear, and steps shrink by half.
         const bool fast = step <= 1e-9 * std::abs(x) && step <= 1e-4 * last_step;
         last_step = std::abs(next - x);
@@ -161,7 +163,7 @@ double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double gues
     return x;
 }
 
-/// [n][i] C(n, i).
+/// [n][i] is C(n, i).
 template <int N>
 inline constexpr std::array<std::array<double, N + 1>, N + 1> kBinomials = [] {
     std::array<std::array<double, N + 1>, N + 1> table{};
@@ -198,12 +200,12 @@ struct ScaledPolynomial {
     }
 };
 
-/// The search, for double and double-double.
+/// The search, in double or double-double.
 template <class Real, int N, class Wanted, class Degree>
 class SignChangeSearch {
     static constexpr bool kMustAnswer = !std::is_same_v<Real, double>;
-    /// Rounding of one step of a split, relative to the largest coefficient: two products and
-    /// their sum.
+    /// Rounding error of one step of a split (two products and their sum), relative to the largest
+    /// coefficient.
     static constexpr double kRounding = kMustAnswer ? kDoubleDoubleUlp : 0x1p-52;
 
   public:
@@ -211,14 +213,14 @@ class SignChangeSearch {
                      SignChanges<N>& out)
         : p_(p), degree_(degree), wanted_(wanted), out_(out) {}
 
-    /// Returns false when the signs are not certain (never in double-double).
+    /// Returns false if the signs are not certain (never in double-double).
     bool run() {
         out_.count = 0;
         out_.negative_at_start = false;
         const int n = degree_;
         double total = p_.error;
         for_indices(degree_, [&](int i) { total += std::abs(leading(p_.b[i])); });
-        // Overflow or NaN: the polynomial counts as without crossings.
+        // Overflow or NaN: the polynomial counts as having no crossings.
         if (!std::isfinite(total)) return true;
         int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
         if (first == 0 || last == 0) {
@@ -242,7 +244,7 @@ class SignChangeSearch {
         return int(leading(v) > error) - int(leading(v) < -error);
     }
 
-    /// The sign next to an end where p is 0: that of the first coefficient whose sign is known.
+    /// The sign beside an end where p is 0: that of the nearest coefficient whose sign is known.
     int sign_beside(int end, int step) const {
         if (p_.shared_ends) return 1;
         for (int i = end; i >= 0 && i <= degree_; i += step) {
@@ -252,8 +254,8 @@ class SignChangeSearch {
         return 1;
     }
 
-    /// Upper bound of the number of sign changes of the coefficients, over all signs of the unknown
-    /// ones.
+    /// An upper bound of the number of sign changes of the coefficients, over all signs of the
+    /// unknown ones.
     int most_variations(const Real* b, double error, int first, int last) const {
         int most = 0, previous = first, unknown = 0;
         for_indices(degree_, [&](int i) {
@@ -270,12 +272,12 @@ class SignChangeSearch {
         return most;
     }
 
-    /// For at most two changes, where a point between them is found by its value: one change on
-    /// either side of it. Returns false when no point is found.
+    /// Isolates two changes by a point between them that has the other sign: one change lies on
+    /// either side of it. Returns false if no such point is found.
     bool found_between(int first) {
         const Extremes e = extremes(p_.b.data(), first);
         const bool mirrored = e.middle > 0.5;
-        const double far = mirrored ? e.middle : 1.0 - e.middle;  // the larger of both parts
+        const double far = mirrored ? e.middle : 1.0 - e.middle;  // the length of the larger part
         double value, slope;
         const ScaledPolynomial<N, Degree> q(p_, degree_);
         if (mirrored) {
@@ -283,7 +285,7 @@ class SignChangeSearch {
         } else {
             q(e.middle / far, value, slope);
         }
-        // The value is p over far^n; `error` bounds its rounding relative to the largest
+        // The value is p over far^n; `error` bounds its rounding, relative to the largest
         // coefficient.
         double scale = 1.0;
         for_indices(degree_, [&](int i) { scale *= i == 0 ? 1.0 : far; });
@@ -297,7 +299,7 @@ class SignChangeSearch {
     }
 
     struct Extremes {
-        double largest = 0;   ///< magnitude of a coefficient
+        double largest = 0;   ///< the largest magnitude of a coefficient
         double middle = 0.5;  ///< where the coefficients differ most from the first one
     };
     Extremes extremes(const Real* b, int first) const {
@@ -317,7 +319,7 @@ class SignChangeSearch {
         return e;
     }
 
-    /// Splits b at r: `left` and `right` receive the coefficients of both sides.
+    /// Splits b at r; `left` and `right` receive the coefficients of the two parts.
     void split(const Real* b, double r, Real* left, Real* right) const {
         for_indices(degree_, [&](int i) { right[i] = b[i]; });
         left[0] = right[0];
@@ -358,7 +360,7 @@ class SignChangeSearch {
                search(right, child_error, middle, hi, middle_sign, last);
     }
 
-    /// Roots that cannot be separated.
+    /// Handles an interval whose roots cannot be separated.
     bool cluster(double lo, double hi, int first, int last) {
         if (!kMustAnswer) return false;
         return first == last || emit(lo, hi, first);
@@ -422,7 +424,7 @@ class SignChangeSearch {
 
 }  // namespace bernstein
 
-/// Returns false when double is not certain; `out` is then invalid.
+/// Finds the sign changes in double. Returns false if they are not certain; `out` is then invalid.
 template <int N, class Wanted = const AllSignChanges>
 [[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out,
                                      Wanted&& wanted = {}) {
@@ -432,7 +434,8 @@ template <int N, class Wanted = const AllSignChanges>
             .run();
     });
 }
-/// Always succeeds; see the conventions above for values that cannot be distinguished from 0.
+/// Finds the sign changes in double-double. Always succeeds; see the conventions for values that
+/// cannot be distinguished from 0.
 template <int N, class Wanted = const AllSignChanges>
 void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out,
                        Wanted&& wanted = {}) {
@@ -440,8 +443,9 @@ void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChange
     bernstein::SignChangeSearch<DoubleDouble, N, W, int>(p, p.degree, wanted, out).run();
 }
 
-/// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound: in double
-/// and, where that is not certain, in double-double. Both calls must describe the same polynomial.
+/// Finds the sign changes in double and, where that is not certain, in double-double.
+/// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound; its calls
+/// must describe the same polynomial.
 template <int N, class Make, class Wanted = AllSignChanges>
 void find_certified_sign_changes(Make&& make, SignChanges<N>& out, const Wanted& wanted = {}) {
     BernsteinPolynomial<double, N> p;

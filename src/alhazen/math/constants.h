@@ -1,5 +1,5 @@
 #pragma once
-/// Constants. Files and the command line use degrees, everything else radians.
+/// Constants of angles. Files and the command line use degrees, all else radians.
 
 #include <limits>
 #include <numbers>

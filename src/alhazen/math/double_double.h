@@ -13,7 +13,7 @@
 
 namespace alhazen {
 
-/// Relative error bound of one operation; the source proves at most 5 * 2^-106.
+/// Bound on the relative error of one operation; the source proves at most 5 * 2^-106.
 inline constexpr double kDoubleDoubleUlp = 0x1p-103;
 /// Relative rounding error of one operation.
 template <class Real>
@@ -35,7 +35,7 @@ inline DoubleDouble two_sum(double a, double b) {
     return {sum, (a - (sum - b_virtual)) + (b - b_virtual)};
 }
 
-/// The same for |a| >= |b|.
+/// The rounded sum and its exact error, for |a| >= |b|.
 inline DoubleDouble fast_two_sum(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
@@ -71,13 +71,13 @@ inline DoubleDouble& operator-=(DoubleDouble& a, const DoubleDouble& b) {
     return a = a - b;
 }
 
-/// The quotient, to about 30 digits; not finite where b is 0.
+/// The quotient, to about 30 digits; not finite if b is 0.
 inline DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
     const double first = a.high / b.high;
     const DoubleDouble rest = a - b * DoubleDouble(first);
     return fast_two_sum(first, rest.high / b.high);
 }
-/// The square root, to about 30 digits. Precondition: a is not negative.
+/// The square root, to about 30 digits. Precondition: a >= 0.
 inline DoubleDouble square_root(const DoubleDouble& a) {
     if (a.high == 0.0) return {};
     const double first = std::sqrt(a.high);

@@ -3,10 +3,10 @@
 ///
 /// Source: Hida, Li and Bailey, "Library for Double-Double and Quad-Double Arithmetic", 2008 (the
 /// exponential by a series after halving, the logarithm by one step of Newton's method).
-/// Differs: sums and doubles e^x - 1, so that halving costs no digits; whole exponents are
-/// multiplied out.
-/// Conventions: slow, for cases that double does not resolve; a base that is not positive has the
-/// power 0.
+/// Differs: sums and doubles e^x - 1, so that halving costs no digits; integer exponents are
+/// computed by multiplication.
+/// Conventions: slow, for cases that double does not resolve; the power of a base that is not
+/// positive is 0.
 
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace alhazen {
 
-/// e^a, to about 2^-98 relative for a from -700 to 700; 0 below, infinite above, NaN for NaN.
+/// e^a, to about 2^-98 relative, for a in [-700, 700]; 0 below, infinite above, NaN for NaN.
 inline DoubleDouble exponential(const DoubleDouble& a) {
     constexpr DoubleDouble kLn2(0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56);
     if (a.high < -700.0) return {};
@@ -39,8 +39,8 @@ inline DoubleDouble exponential(const DoubleDouble& a) {
     return {s.high * scale, s.low * scale};
 }
 
-/// ln a, to about 2^-98, absolute for arguments near 1. Precondition: a is positive, and from
-/// 1e-304 to 1e304; beyond it may be NaN.
+/// ln a, to about 2^-98 (absolute near 1). Precondition: a is in [1e-304, 1e304]; the result may be
+/// NaN otherwise.
 inline DoubleDouble logarithm(const DoubleDouble& a) {
     const double first = std::log(a.high);
     // a / e^first = 1 + rest; its logarithm is rest - rest^2 / 2 + ...
@@ -48,7 +48,7 @@ inline DoubleDouble logarithm(const DoubleDouble& a) {
     return DoubleDouble(first) + (rest - DoubleDouble(0.5) * rest * rest);
 }
 
-/// base^exponent, to about 2^-97 (1 + exponent) for bases near 1 and below.
+/// base^exponent, to about 2^-97 (1 + exponent), for bases near 1 and below.
 inline DoubleDouble power(const DoubleDouble& base, const DoubleDouble& exponent) {
     if (!(base.high > 0.0)) return {};
     if (exponent.low == 0.0 && exponent.high == std::floor(exponent.high) &&

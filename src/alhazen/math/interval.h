@@ -1,5 +1,5 @@
 #pragma once
-/// A closed range of reals; empty when `lo > hi`.
+/// A closed range of reals; empty if `lo > hi`.
 
 #include <algorithm>
 #include <limits>

@@ -13,7 +13,7 @@ DoubleDouble two_difference(double a, double b) {
     return two_sum(a, -b);
 }
 
-/// An exact sum of doubles: non-overlapping terms in ascending order of magnitude.
+/// An exact sum of doubles, as non-overlapping terms in ascending order of magnitude.
 class ExactSum {
   public:
     void add(double term) {
@@ -32,7 +32,7 @@ class ExactSum {
         add(product.low);
         add(product.high);
     }
-    /// Adds the product of two pairs, or subtracts it.
+    /// Adds the product of two pairs, times `sign` (1 or -1).
     void add_product(const DoubleDouble& a, const DoubleDouble& b, double sign) {
         add_product(sign * a.low, b.low);
         add_product(sign * a.low, b.high);

@@ -1,5 +1,5 @@
 #pragma once
-/// Real roots of a quadratic without cancellation.
+/// Real roots of a quadratic, computed without cancellation.
 ///
 /// Source: W. Kahan, "On the Cost of Floating-Point Computation Without Extra-Precise Arithmetic",
 /// 2004 (difference of products); the second root from the product of the roots (Vieta).
@@ -9,7 +9,7 @@
 namespace alhazen {
 
 /// a*b - c*d with an error of at most 1.5 ulp and an exact sign (barring over- and underflow). The
-/// operations are explicitly fused: the same bits on every machine.
+/// operations are explicitly fused: the bits are the same on every machine.
 inline double difference_of_products(double a, double b, double c, double d) {
     const double cd = c * d;
     const double error = std::fma(-c, d, cd);

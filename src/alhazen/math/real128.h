@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers with 113-bit significands, to check results computed with 53 bits.
+/// Numbers with 113-bit significands, for checking results computed with 53 bits.
 ///
 /// Source: IEEE 754-2008, binary128.
 /// Differs: uses the compiler's arithmetic; the square root is Newton's method from the square root
@@ -17,7 +17,7 @@ using Real128 = long double;
 static_assert(sizeof(long double) == 16);
 #endif
 
-/// The square root of a number within the range of double; 0 where x is not positive.
+/// The square root of a number within the range of double; 0 if x is not positive.
 inline Real128 square_root(Real128 x) {
     if (!(x > 0)) return 0;
     Real128 y = std::sqrt(static_cast<double>(x));

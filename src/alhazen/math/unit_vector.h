@@ -1,5 +1,5 @@
 #pragma once
-/// Unit vectors of vectors of any length. A vector without a direction gives the fallback.
+/// Unit vectors along vectors of any length, with a fallback.
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace alhazen {
 
-/// Unit vector along `v`, or `fallback` when `v` is zero or not finite; does not over- or
+/// The unit vector along `v`, or `fallback` if `v` is zero or not finite. Does not over- or
 /// underflow.
 inline Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
     const double squared = length_squared(v);

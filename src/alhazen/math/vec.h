@@ -75,7 +75,7 @@ inline double length_squared(const Vec3& a) {
 inline double length(const Vec3& a) {
     return std::sqrt(dot(a, a));
 }
-/// Unit vector along `a`; NaN for a zero vector.
+/// The unit vector along `a`; NaN for a zero vector.
 inline Vec3 normalize(const Vec3& a) {
     return a / length(a);
 }
@@ -88,7 +88,7 @@ inline double max_component(const Vec3& a) {
 inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
-/// The axis (0, 1, 2) along which `a` is longest; the lowest on a tie.
+/// The axis (0, 1, 2) along which `a` is longest; the lowest if several are.
 inline int dominant_axis(const Vec3& a) {
     const Vec3 m = abs(a);
     if (m.x >= m.y && m.x >= m.z) return 0;

@@ -11,7 +11,7 @@
 namespace alhazen {
 namespace {
 
-/// Cores in the affinity mask of the process, or of the machine where the mask cannot be read.
+/// Cores in the affinity mask of the process, or of the machine if the mask cannot be read.
 int cores_by_affinity() {
     cpu_set_t cores;
     CPU_ZERO(&cores);
@@ -19,13 +19,14 @@ int cores_by_affinity() {
     return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-/// The quota of the control group (version 2), rounded up; `otherwise` without a quota.
+/// The CPU quota of the control group (version 2), rounded up; `otherwise` if there is none or it
+/// is larger.
 int cores_by_quota(int otherwise) {
     std::ifstream file("/sys/fs/cgroup/cpu.max");
     std::string quota;
     double period = 0;
     if (!(file >> quota >> period) || quota == "max" || !(period > 0)) return otherwise;
-    // atof gives 0 for a malformed file, which the test rejects.
+    // atof returns 0 for a malformed file, which the test below rejects.
     const double cores = std::ceil(std::atof(quota.c_str()) / period);
     return cores >= 1 && cores < otherwise ? static_cast<int>(cores) : otherwise;
 }

@@ -1,30 +1,30 @@
 #pragma once
-/// Tasks over all cores: a facade over oneTBB, or over std::jthread without TBB (ThreadSanitizer,
-/// minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
+/// Parallel tasks: a facade over oneTBB, or over std::jthread for builds without TBB
+/// (ThreadSanitizer, minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
 ///
-/// Conventions: results never depend on the number of threads or the order of execution; floating
-/// point is never reduced in completion order. An exception thrown by a task is rethrown to the
-/// caller once. Tasks inherit the caller's Interruptible, and are not begun once it is requested.
+/// Conventions: results never depend on the number of threads or the order of execution;
+/// floating-point values are never reduced in order of completion. An exception thrown by a task is
+/// rethrown to the caller once. Tasks inherit the caller's Interruptible and are not begun once an
+/// interruption is requested.
 
 #include <cstddef>
 #include <functional>
 
 namespace alhazen {
 
-/// Number of cores this process may use (affinity and cgroup limits included), at least 1.
+/// Number of cores that this process may use (affinity and cgroup limits included), at least 1.
 [[nodiscard]] int available_cores();
 
-/// Bounds the threads for the life of the object: parallel calls made inside `run` use at most
-/// `threads` threads.
+/// Limits parallel calls made inside `run` to `threads` threads, for the life of the object.
 class ThreadLimit {
   public:
-    /// 0: all available cores.
+    /// `threads` 0: all available cores.
     explicit ThreadLimit(int threads);
     ~ThreadLimit();
     ThreadLimit(const ThreadLimit&) = delete;
     ThreadLimit& operator=(const ThreadLimit&) = delete;
 
-    /// The bound; TBB lowers it to the cores of the machine.
+    /// The limit; TBB lowers it to the cores of the machine.
     [[nodiscard]] int threads() const { return threads_; }
     void run(const std::function<void()>& work);
 
@@ -34,12 +34,12 @@ class ThreadLimit {
     Impl* impl_;
 };
 
-/// Calls body(begin, end) for disjoint ranges that cover [0, count), of at most `grain` items each
-/// (grain >= 1).
+/// Calls body(begin, end) for disjoint ranges that cover [0, count), each of at most `grain` items.
+/// Precondition: grain >= 1.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Runs both, possibly at the same time, and returns when both are done.
+/// Runs both functions, possibly at the same time, and returns when both are done.
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b);
 
 }  // namespace alhazen

@@ -1,6 +1,6 @@
 // Each parallel call takes as many helper threads as are free in its pool, at most one per chunk,
-// and the calling thread works too. A nested call that finds no free helper runs alone, so no call
-// ever waits for a thread.
+// and the calling thread works too. A nested call that finds no free helper runs on its own thread,
+// so no call ever waits for a thread.
 
 #include <algorithm>
 #include <atomic>
@@ -17,12 +17,12 @@ namespace alhazen {
 
 namespace {
 
-/// Number of threads that a call tree may still start.
+/// The number of threads that a call tree may still start.
 class Pool {
   public:
     explicit Pool(int threads) : free_helpers_(threads - 1) {}
 
-    /// Takes up to `wanted` helpers and returns their number; they must be given back.
+    /// Takes up to `wanted` helpers and returns their number; the caller must give them back.
     int take(int wanted) {
         int available = free_helpers_.load();
         int taken = 0;
@@ -48,7 +48,7 @@ class Pool {
     std::atomic<int> free_helpers_;
 };
 
-/// Keeps the first exception of several threads.
+/// Keeps the first of the exceptions that several threads throw.
 class FirstError {
   public:
     template <class Work>
@@ -88,7 +88,7 @@ void run_with_helpers(Pool& pool, int helpers, const Work& work) {
                 });
             }
         } catch (const std::system_error&) {
-            // The system starts no more threads: the running ones and this one do the work.
+            // The system starts no more threads: the running ones and the calling one do the work.
         }
         work();
     }

@@ -7,7 +7,7 @@ namespace alhazen {
 void touch_pages(void* memory, std::size_t bytes) {
     constexpr std::size_t kPageBytes = 4096;
     constexpr std::size_t kAtOnce = std::size_t{2} << 20;
-    // Less is not worth a task.
+    // Less memory is not worth a task.
     if (bytes < 2 * kAtOnce) return;
     auto* const first = static_cast<volatile std::byte*>(memory);
     parallel_for(bytes, kAtOnce, [&](std::size_t begin, std::size_t end) {

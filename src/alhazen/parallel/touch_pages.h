@@ -1,12 +1,12 @@
 #pragma once
-/// Memory that one thread is about to set, brought in by all of them: the system clears a page when
-/// it is touched first, which takes longer than to set it.
+/// Touches memory from all threads before one thread fills it: the system clears a page when it is
+/// first touched, which takes longer than filling it.
 
 #include <cstddef>
 
 namespace alhazen {
 
-/// Writes a zero to each page of memory that holds nothing yet.
+/// Writes a zero into each page of memory that holds no values yet; leaves small blocks untouched.
 void touch_pages(void* memory, std::size_t bytes);
 
 }  // namespace alhazen

@@ -51,9 +51,9 @@ class Aggregate {
 
     /// The table that the primitive ids of hits refer to.
     [[nodiscard]] virtual const PrimitiveTable& primitives() const = 0;
-    /// The bounds of all primitives; unbounded when one of them is.
+    /// The bounds of all primitives; unbounded when any primitive is.
     [[nodiscard]] virtual Box3 box() const = 0;
-    /// A sphere that contains them; by default the one around the box.
+    /// A bounding sphere of all primitives. Default: the sphere around `box()`.
     [[nodiscard]] virtual BoundingSphere sphere() const;
     /// Bytes of the acceleration structure, without nested aggregates.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
@@ -70,30 +70,31 @@ class Aggregate {
     [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                         RayQuery query) const = 0;
 
-    /// Completes the surface at a hit where the aggregate determines more than the primitive, which
-    /// is one of its own or the instance of the hit; `ray` is in the frame of the aggregate.
-    /// Default: no change.
+    /// Adds to the surface at a hit what the aggregate determines beyond the primitive. `primitive`
+    /// is a primitive of this aggregate or the instance of the hit; `ray` is in the frame of the
+    /// aggregate. Default: no change.
     virtual void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const;
-    /// The bounds of all primitives while the shutter is open; by default nothing moves.
+    /// The bounds of all primitives while the shutter is open. Default: nothing moves.
     [[nodiscard]] virtual MovingBox moving_box() const { return {box(), box()}; }
 
-    /// Whether `complete` may change the material.
+    /// True if `complete` may change the material.
     [[nodiscard]] virtual bool changes_materials() const { return false; }
 
-    /// The same primitives for rays in lanes; null where these are no faster.
+    /// The interface for eight rays in lanes; null if lanes are not faster than single rays.
     [[nodiscard]] virtual const LaneSolid* lane_solid() const { return nullptr; }
 
-    /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
-    /// than single rays from about ten rays on, in any order.
+    /// Sets `hits` (as long as `rays`) to the hits that `closest` finds. Faster than single rays
+    /// from about ten rays on, in any order.
     virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                Coherence coherence = Coherence::Any) const;
-    /// False where batches are known to be a loop over single rays.
+    /// False if batches are a loop over single rays.
     [[nodiscard]] virtual bool gains_by_batches(Coherence) const { return true; }
-    /// Whether each ray has any hit.
+    /// Sets `occluded` [ray] to the result of `Aggregate::occluded`.
     virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                                 Coherence coherence = Coherence::Any) const;
 
-    /// The same for rays of different times, `times` as long as `rays`; by default nothing moves.
+    /// `closest_batch` for rays with a time each; `times` is as long as `rays`. Default: nothing
+    /// moves.
     virtual void closest_batch_at(std::span<const Ray> rays, std::span<const float> times,
                                   std::span<Hit> hits, RayQuery query, Coherence coherence) const;
     virtual void occluded_batch_at(std::span<const Ray> rays, std::span<const float> times,

@@ -15,7 +15,7 @@ bool within_reach(const Box3& box) {
            is_finite(box.lo) && is_finite(box.hi);
 }
 
-/// The box of some primitives, and whether all of them are bounded.
+/// The box of a range of primitives, and whether all of them are bounded.
 struct Share {
     Box3 box;
     bool bounded = true;
@@ -53,7 +53,7 @@ struct Share {
 }  // namespace
 
 BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table) {
-    // Usually all are bounded: then no list is made.
+    // Usually all primitives are bounded: then no list of ids is made.
     constexpr std::size_t kGrain = 16384;
     std::vector<Share> parts((table.size() + kGrain - 1) / kGrain);
     parallel_for(table.size(), kGrain, [&](std::size_t begin, std::size_t end) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Splits the primitives of a table into those an accelerator can be built over and the unbounded
-/// ones: planes and other shapes without a finite box. The latter are few, and tested for every
-/// ray. Every question is an interruption point of the builder that asks.
+/// Splits the primitives of a table into bounded ones, which an accelerator can be built over, and
+/// unbounded ones (planes and other shapes without a finite box), which are few and tested for
+/// every ray. Every query is an interruption point of the builder that calls it.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +14,7 @@ namespace alhazen {
 
 class BoundedPrimitives final : public BoundsSource {
   public:
-    /// Coordinates beyond this count as unbounded: a margin for sums of squares without overflow.
+    /// Boxes with a coordinate beyond this count as unbounded: sums of squares must not overflow.
     static constexpr double kReach = 1e150;
 
     /// Keeps a reference to `table`.
@@ -56,12 +56,12 @@ class BoundedPrimitives final : public BoundsSource {
     [[nodiscard]] std::uint32_t id(std::size_t i) const {
         return identity_ ? static_cast<std::uint32_t>(i) : bounded_[i];
     }
-    /// Moves the ids of the bounded primitives out; empty when primitive i is the i-th.
+    /// Moves the ids of the bounded primitives out; empty when primitive i is the i-th bounded one.
     [[nodiscard]] std::vector<std::uint32_t> take_bounded() {
         return identity_ ? std::vector<std::uint32_t>{} : std::move(bounded_);
     }
     [[nodiscard]] const std::vector<PrimitiveId>& unbounded() const { return unbounded_; }
-    /// The box of all primitives; infinite where one of them is.
+    /// The box of all primitives; infinite if any of them is.
     [[nodiscard]] const Box3& all() const { return all_; }
 
   private:

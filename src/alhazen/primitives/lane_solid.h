@@ -1,8 +1,8 @@
 #pragma once
-/// A solid that tests eight rays, in lanes, faster than one after another.
+/// The interface of solids that test eight rays in lanes faster than one by one.
 ///
-/// Conventions: numbers of hits are doubles, as they are computed in lanes of double; u and v are
-/// 0, as for all shapes tested in lanes. Bit i of a set of rays represents lane i.
+/// Conventions: integer members of hits are stored as doubles, as the lanes compute them; u and v
+/// are 0, as for all shapes tested in lanes. Bit i of a set of rays represents lane i.
 /// Threads: const functions may be called from many threads.
 
 #include <cstddef>
@@ -36,7 +36,7 @@ struct alignas(64) LaneHits {
 class LaneSolid {
   public:
     virtual ~LaneSolid() = default;
-    /// Finds the nearest hits of the rays of `wanted`, which are valid; returns the rays with a
+    /// Finds the nearest hits of the rays in `wanted`, which must be valid; returns the rays with a
     /// hit. Other lanes may hold any values.
     virtual std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
                                            LaneHits& hits, RayQuery query) const = 0;

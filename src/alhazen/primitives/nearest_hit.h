@@ -1,23 +1,22 @@
 #pragma once
-/// The nearest of the hits of a ray, and ties: of two hits at equal t the one of the lower
-/// primitive id wins, in whatever order they come. Every accelerator and every schedule decides
-/// here.
+/// The order of hits that every accelerator and every batch schedule uses: the smaller t is nearer;
+/// at equal t the lower primitive id wins, whatever the order of the tests.
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
 
 namespace alhazen {
 
-/// True where a crossing of the primitive `id` at `t` is nearer than `best`, or as near and wins the
-/// tie. `id`: of the outermost instance, where there are instances around it.
+/// True if a crossing of primitive `id` at `t` precedes `best`. For a crossing inside instances
+/// `id` is the outermost instance.
 [[nodiscard]] inline bool wins(double t, PrimitiveId id, const Hit& best) {
     return t < best.t || (t == best.t && id < best.top());
 }
 
-/// Makes a crossing the nearest hit where it wins. Then the ray ends there.
+/// Makes the crossing the nearest hit and ends the ray there, if it precedes `best`.
 inline void offer_hit(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
     if (wins(crossing.t, id, best)) {
-        // One by one: a crossing that was just put together would be waited for as a whole.
+        // Member by member: a load of the whole crossing would wait for the stores that built it.
         best.t = crossing.t;
         best.u = crossing.u;
         best.v = crossing.v;

@@ -1,8 +1,8 @@
 #pragma once
-/// The surface of a placed shape or mesh that no aggregate holds: for renderers that trace no rays.
+/// The surface of a placed shape or mesh outside any aggregate, for renderers without ray tracing.
 ///
-/// Conventions: those of Surface, and its bits; `ray` is in world space. `placement` may be null:
-/// none. Part and instance are left to the caller, and the material of a shape.
+/// Conventions: those of Surface, with the same bits; `ray` is in world space. A null `placement`
+/// is the identity. Part and instance, and the material of a shape, are left to the caller.
 
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/primitives/surface.h"
@@ -11,7 +11,7 @@ namespace alhazen {
 
 void set_shape_surface(const AnyShape& shape, const Placement* placement, const Ray& ray,
                        const Hit& hit, bool with_uv, Surface& surface);
-/// For a triangle of a mesh; sets the materials.
+/// The surface of a triangle of a mesh, with its materials.
 void set_mesh_surface(const PlacedMesh& mesh, std::uint32_t triangle, const Placement* placement,
                       const Hit& hit, Surface& surface);
 

@@ -3,7 +3,7 @@
 /// Source: Akenine-Möller, "Fast 3D Triangle-Box Overlap Testing", Journal of Graphics Tools 6(1),
 /// 2001 (triangles: separating axes); Arvo, "A Simple Method for Box-Sphere Intersection Testing",
 /// Graphics Gems, 1990; Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
-/// Differs: all tests are conservative: true where rounding leaves a doubt.
+/// Differs: all tests are conservative: true where rounding leaves the result uncertain.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ bool boxes_overlap(const Box3& a, const Box3& b) {
            a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
 }
 
-/// Whether the surface has a point in the cell.
+/// True if the surface has a point in the cell.
 bool surface_overlaps(const Sphere& sphere, const Box3& cell) {
     const double room = kRounding * std::max(reach_of(cell), max_component(abs(sphere.center)));
     double near2 = 0, far2 = 0;
@@ -51,7 +51,7 @@ bool surface_overlaps(const Sphere& sphere, const Box3& cell) {
     return !(near2 > (1.0 + 1e-14) * radius2) && !(far2 < (1.0 - 1e-14) * radius2);
 }
 
-/// Written so that an overflow never separates.
+/// Overflow never separates.
 bool triangle_overlaps(const std::array<Vec3, 3>& corners, const Box3& cell) {
     const Vec3 center = cell.center();
     const Vec3 half = cell.hi - center;
@@ -82,7 +82,7 @@ bool triangle_overlaps(const std::array<Vec3, 3>& corners, const Box3& cell) {
 
 /// A convex polygon, initially a triangle, clipped by axis-aligned planes.
 struct ClippedTriangle {
-    /// A plane adds one point; where rounding has bent the outline, at most half of their number.
+    /// A plane adds one point; if rounding has bent the outline, at most half as many again.
     std::array<Vec3, 32> points;
     std::size_t size = 3;
 

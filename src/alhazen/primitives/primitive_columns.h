@@ -15,7 +15,8 @@ struct ShapeOfColumn {
     using Type = typename decltype(std::remove_cvref_t<Column>::shapes)::value_type;
 };
 
-/// Calls `f(column)` for the column of a kind below kTriangleKind, of table.columns.
+/// Calls `f(column)` with the column of `table.columns` that holds `kind`, which is below
+/// kTriangleKind.
 template <std::size_t I = 0, class Columns, class F>
 decltype(auto) with_column(Columns& columns, std::uint32_t kind, F&& f) {
     if constexpr (I + 1 < AnalyticShapes::kCount) {

@@ -33,7 +33,7 @@ Box3 placed_box(const Placement& placement, const Box3& inner) {
 
 PrimitiveTable::PrimitiveTable() = default;
 PrimitiveTable::PrimitiveTable(const PrimitiveTable&) = default;
-// By way of a copy: the members of all shapes are less to compile so.
+// Via a copy and a move: less code to compile than memberwise assignment of all columns.
 PrimitiveTable& PrimitiveTable::operator=(const PrimitiveTable& other) {
     return *this = PrimitiveTable(other);
 }
@@ -110,7 +110,7 @@ RayMask PrimitiveTable::visible_to(PrimitiveId id) const {
 
 const PlacedMesh& PrimitiveTable::mesh_of(std::uint32_t triangle) const {
     if (meshes.size() == 1) return meshes.front();
-    // By halves, without a branch that depends on the triangle.
+    // A binary search without a branch that depends on the triangle.
     const std::uint32_t* found = mesh_starts_.data();
     for (std::size_t left = mesh_starts_.size(); left > 1;) {
         const std::size_t half = left / 2;
@@ -280,7 +280,7 @@ bool PrimitiveTable::inside_at_minus_infinity(PrimitiveId id, const Ray& ray) co
 
 namespace {
 
-/// The first hit that PrimitiveTable::intersect appends.
+/// Sets `hit` to the first hit that PrimitiveTable::intersect appends.
 bool first_hit_of(const PrimitiveTable& table, PrimitiveId id, const Ray& ray,
                   const RayShear& shear, ShapeHit& hit) {
     const std::uint32_t kind = table.kind(id);

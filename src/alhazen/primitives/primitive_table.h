@@ -1,5 +1,5 @@
 #pragma once
-/// The primitives of one aggregate, by type in contiguous columns, with the ray test of each that
+/// The primitives of one aggregate, by type in contiguous columns, and the ray test of each, which
 /// all accelerators share.
 ///
 /// Ids number the analytic shapes in the order of `AnalyticShapes`, then the triangles mesh by
@@ -32,8 +32,8 @@ inline constexpr std::uint32_t kNoPlacement = 0xFFFFFFFFu;
 template <class S>
 struct ShapeColumn {
     std::vector<S> shapes;
-    std::vector<std::uint32_t>
-        placements;  ///< [shape] index into PrimitiveTable::placements, or kNoPlacement
+    /// [shape] index into PrimitiveTable::placements, or kNoPlacement.
+    std::vector<std::uint32_t> placements;
     std::vector<MaterialId> materials;  ///< [shape]
     std::vector<std::uint32_t> parts;   ///< [shape] number of its part; empty: all 0
     /// [shape]; shapes beyond its end are visible to all rays.
@@ -55,25 +55,27 @@ struct PlacedMesh {
     bool mirrored = false;   ///< its transform reversed the winding: normals are flipped back
     std::uint32_t part = 0;  ///< number of its part; see Surface
     RayMask visible_to = kAllRays;
-    /// Where vertices move; `mesh` is as the shutter opens. Only in a MotionAggregate.
+    /// The motion of the vertices; `mesh` is their state as the shutter opens. Only in a
+    /// MotionAggregate.
     std::shared_ptr<const MeshMotion> motion;
 };
 
 struct Instance {
     std::shared_ptr<const Aggregate> aggregate;
-    /// Of the aggregate; set by PrimitiveTable::finish, like `in_place`.
+    /// LaneSolid of the aggregate; set by PrimitiveTable::finish, like `in_place`.
     const LaneSolid* lane_solid = nullptr;
     bool in_place = false;  ///< the placement is the identity
     Placement placement;
     std::uint32_t part = 0;  ///< number of the part that placed it
-    /// A single mesh shared by several parts is placed: `part` is the mesh's own part.
+    /// The instance places a mesh that several parts share: `part` is the mesh's own part.
     bool of_shared_mesh = false;
-    /// It holds one shape, which a MotionAggregate tests itself.
+    /// The aggregate holds one shape, which a MotionAggregate tests itself.
     bool holds_one_shape = false;
-    /// It holds what rests in a MotionAggregate, and is no part.
+    /// The aggregate holds the static primitives of a MotionAggregate; the instance is no part.
     bool holds_rest = false;
     RayMask visible_to = kAllRays;
-    /// Where it moves; `placement` is as the shutter opens. Only in a MotionAggregate.
+    /// The motion of the instance; `placement` is its state as the shutter opens. Only in a
+    /// MotionAggregate.
     std::shared_ptr<const TransformMotion> motion;
 };
 
@@ -94,14 +96,14 @@ static_assert(kKindCount <= 256, "kinds are kept in bytes");
 
 /// The effect of a material on light at its surface.
 enum class Opacity : std::uint8_t {
-    Transparent,      ///< some may pass, as the renderer computes
-    Opaque,           ///< none passes
-    OpaqueFromFront,  ///< none passes from the front, all from the back
+    Transparent,      ///< some light may pass; the renderer computes how much
+    Opaque,           ///< no light passes
+    OpaqueFromFront,  ///< no light passes from the front, all light from the back
 };
 
 class PrimitiveTable final : public BoundsSource {
   public:
-    // Out of line: the columns of all shape types are expensive to compile for each includer.
+    // Out of line: the columns of all shape types are expensive to compile in each includer.
     PrimitiveTable();
     PrimitiveTable(const PrimitiveTable&);
     PrimitiveTable& operator=(const PrimitiveTable&);
@@ -109,7 +111,7 @@ class PrimitiveTable final : public BoundsSource {
     PrimitiveTable& operator=(PrimitiveTable&&) noexcept;
     ~PrimitiveTable() override;
 
-    // ---- columns: filled by `compile`, then sealed by `finish`
+    // ---- Columns: filled by `compile`, then sealed by `finish`.
     AnalyticShapes::Columns<ShapeColumn> columns;
     std::vector<PlacedMesh> meshes;
     std::vector<Instance> instances;
@@ -120,7 +122,7 @@ class PrimitiveTable final : public BoundsSource {
     /// Prepares the shapes and computes the id ranges. Call once, when the columns are complete.
     void finish();
 
-    // ---- contents
+    // ---- Contents.
     [[nodiscard]] std::size_t size() const override { return first_[kKindCount]; }
     [[nodiscard]] std::uint32_t kind(PrimitiveId id) const {
         const std::uint32_t i = static_cast<std::uint32_t>(id);
@@ -137,11 +139,11 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] const PlacedMesh& mesh_of(std::uint32_t triangle) const;
     /// Vertices of the i-th triangle of the table.
     [[nodiscard]] std::array<Vec3, 3> triangle_vertices(std::uint32_t triangle) const;
-    /// The addresses of these vertices, and of their indices: for prefetching.
+    /// The addresses of these vertices, and of their indices, for prefetching.
     [[nodiscard]] std::array<const Vec3*, 3> corner_positions(std::uint32_t triangle) const;
     [[nodiscard]] const std::array<std::uint32_t, 3>* triangle_corners(
         std::uint32_t triangle) const;
-    /// True when the primitive lets no light through from either side (false for every instance).
+    /// True if the primitive lets no light through from either side (false for every instance).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
     /// The material of an analytic shape.
     [[nodiscard]] MaterialId shape_material(PrimitiveId id) const;
@@ -151,9 +153,9 @@ class PrimitiveTable final : public BoundsSource {
         return is_opaque_from_front(id) ? Opacity::OpaqueFromFront : Opacity::Transparent;
     }
 
-    /// The rays that see the primitive; of an instance, the instance itself.
+    /// The mask of rays that see the primitive; for an instance, its own mask.
     [[nodiscard]] RayMask visible_to(PrimitiveId id) const;
-    /// True when rays of this mask see all primitives.
+    /// True if rays of this mask see all primitives.
     [[nodiscard]] bool all_seen(RayMask mask) const { return (common_mask_ & mask) != 0; }
     /// Mask bits of all primitives.
     [[nodiscard]] RayMask common_mask() const { return common_mask_; }
@@ -169,11 +171,11 @@ class PrimitiveTable final : public BoundsSource {
     };
     [[nodiscard]] ShadowEffect shadow_effect(PrimitiveId id, const Ray& ray) const;
 
-    // ---- bounds; empty for primitives that cannot be hit: a triangle with two equal vertices
+    // ---- Bounds; empty for primitives that cannot be hit: triangles with two equal vertices.
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
-    /// Exact up to rounding for spheres without a placement; of an instance the smaller one of the
-    /// sphere of its contents and that around its box.
+    /// Exact up to rounding for spheres without a placement; for an instance the smaller of the
+    /// sphere of its contents and the sphere around its box.
     [[nodiscard]] BoundingSphere sphere(std::size_t i) const override;
     /// Exact up to rounding for triangles and for spheres without a placement (their surface, which
     /// is all that rays hit).
@@ -188,16 +190,16 @@ class PrimitiveTable final : public BoundsSource {
     /// The placement of a shape or an instance; null: in the frame of the table.
     [[nodiscard]] const Placement* placement_of(PrimitiveId id) const;
 
-    // ---- the ray test. Appends crossings of analytic shapes and triangles in [ray.t_min,
-    // ray.t_max], ascending; not for instances.
+    // ---- Ray test: appends the crossings of an analytic shape or a triangle in [ray.t_min,
+    // ray.t_max], ascending. Precondition: not an instance.
     void intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHits& hits) const;
-    /// Whether the line of the ray starts inside the primitive: only for an unbounded analytic
+    /// True if the line of the ray starts inside the primitive. Only for an unbounded analytic
     /// solid.
     [[nodiscard]] bool inside_at_minus_infinity(PrimitiveId id, const Ray& ray) const;
 
-    // ---- queries on one primitive of any kind, including instances; primitives that `mask` does
-    // not see are not hit Updates `best` by the primitive's nearest hit, and shrinks ray.t_max to
-    // it.
+    // ---- Queries on one primitive of any kind; primitives outside `mask` are ignored.
+
+    /// Updates `best` to the nearest hit and shrinks ray.t_max to it.
     template <class Stats>
     void closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best, Stats stats,
                  RayMask mask) const;
@@ -217,19 +219,19 @@ class PrimitiveTable final : public BoundsSource {
   private:
     void collect_masks();
     [[nodiscard]] bool is_opaque_from_front(PrimitiveId id) const;
-    /// True when a ray through the triangle leaves on its front: towards a light on that side.
+    /// True if a ray through the triangle leaves on its front: towards a light on that side.
     [[nodiscard]] bool leaves_through_front(PrimitiveId id, const Ray& ray) const;
 
     std::array<std::uint32_t, kKindCount + 1> first_{};
     std::vector<std::uint8_t> kinds_;         ///< [analytic shape]
-    std::vector<std::uint32_t> mesh_starts_;  ///< [mesh] its first triangle: dense, to be searched
+    std::vector<std::uint32_t> mesh_starts_;  ///< [mesh] its first triangle, for binary search
     /// Primitives from `first` up to the next entry.
     struct MaskRange {
         std::uint32_t first;
         RayMask visible_to;
     };
-    std::vector<MaskRange>
-        masks_;  ///< ascending; empty where all primitives are visible to all rays
+    /// Ascending; empty if all primitives are visible to all rays.
+    std::vector<MaskRange> masks_;
     RayMask common_mask_ = kAllRays;  ///< bits common to all masks
 };
 

@@ -38,7 +38,7 @@ void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
     const Affine& inner = placement.inner_from_outer;
     carry_normals_outward(inner, surface);
     if (outer.linear == Mat3{} && inner.linear == Mat3{}) {
-        // The terms below without products with 0 and 1.
+        // The general terms below without products with 0 and 1.
         const Vec3 rounded_terms = abs(surface.point) + abs(outer.translation);
         surface.point = surface.point + outer.translation;
         const Vec3 inner_terms = abs(surface.point) + abs(inner.translation);
@@ -74,7 +74,7 @@ void begin(Surface& surface) {
     surface.has_extras = false;
 }
 
-/// Constructs the result of `shape_surface()` in place: it is large.
+/// Constructs the result of `shape_surface()` in place, as it is large.
 template <class F>
 void set_shape_part(Surface& surface, F&& shape_surface) {
     ::new (static_cast<ShapeSurface*>(&surface)) ShapeSurface(shape_surface());
@@ -87,7 +87,7 @@ void share_coordinates(Surface& surface) {
     surface.dpdv2 = surface.dpdv;
 }
 
-/// The largest coordinate of a shape along each axis; where it is unbounded, that of the point.
+/// The largest coordinate of a shape along each axis; along unbounded axes that of the point.
 Vec3 reach_of(const Box3& box, const Vec3& point) {
     Vec3 reach;
     for (int k = 0; k < 3; ++k) {
@@ -102,7 +102,7 @@ template <class S>
 Vec3 reach_of_shape(const S& shape, const Vec3& point) {
     if constexpr (std::is_same_v<S, Sphere>) {
         if (shape.radius < 0.0) return reach_of(shape.box(), point);
-        // That of `outward_box`: |c| + h is the larger one of |c - h| and |c + h|, bit for bit.
+        // As `outward_box` gives: |c| + h is the larger of |c - h| and |c + h|, bit for bit.
         const Vec3 half{shape.radius, shape.radius, shape.radius};
         const Vec3 center = abs(shape.center);
         const Vec3 reach = center + (half + gamma_bound(16) * (center + half));
@@ -121,7 +121,7 @@ void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv,
     surface.error += 4 * kEpsilon * reach_of_shape(shape, surface.point);
 }
 
-/// True where texture coordinates are set.
+/// Sets the surface of an analytic shape; true if texture coordinates are set.
 bool analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
                       const Ray& ray, const Hit& hit, const CoordinateNeed& need,
                       Surface& surface) {
@@ -143,7 +143,7 @@ bool analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint
     });
 }
 
-/// Adds attributes of meshes beyond positions, normals and one set of texture coordinates.
+/// Adds the mesh attributes beyond positions, normals and one set of texture coordinates.
 void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, const Hit& hit,
                            Surface& surface) {
     const auto& corners = mesh.triangles[triangle];
@@ -189,7 +189,7 @@ void triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hi
     // 0.
     double reach = 0.0;
     for (const std::uint32_t corner : corners) {
-        // Comparisons, for fmax is a call.
+        // Comparisons instead of fmax, which is a function call.
         const Vec3 away = abs(mesh.positions[corner] - surface.point);
         for (int k = 0; k < 3; ++k) reach = away[k] > reach ? away[k] : reach;
     }
@@ -221,12 +221,12 @@ void moving_triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, c
     triangle_surface(then, 0, hit, surface);
 }
 
-/// Descends the path of instances from level `depth` (outermost = path.size()) inward. True where
+/// Descends the path of instances from level `depth` (outermost = path.size()) inward. True if
 /// texture coordinates are set.
 bool surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
                     CoordinateNeed need, float time, Surface& surface) {
     const PrimitiveTable& table = aggregate.primitives();
-    // The material of the primitive may not be what is shown.
+    // `complete` may replace the material, so the primitive's material does not decide.
     if (need.of_any() && aggregate.changes_materials()) need = CoordinateNeed::all();
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];

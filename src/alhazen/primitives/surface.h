@@ -14,25 +14,26 @@
 
 namespace alhazen {
 
-/// The media on both sides of a surface along its ray, where a solid provides them (CSG of several
-/// media); outside has no material.
+/// The media on both sides of a surface along its ray, for CSG of several media; the outside has no
+/// material.
 struct SurfaceMedia {
     bool known = false;
     std::optional<MaterialId> before, after;
 };
 
-/// In world space. `normal` is the geometric normal, outward for closed shapes; both normals are
-/// unit; `error` bounds the distance of `point` from the true surface, componentwise.
+/// A surface point in world space. `normal` is the geometric normal, outward for closed shapes;
+/// both normals are unit; `error` bounds the distance of `point` from the true surface,
+/// componentwise.
 struct Surface : ShapeSurface {
-    Vec2 uv2;           ///< second set of texture coordinates; else `uv`
-    Vec3 dpdu2, dpdv2;  ///< change of the point by uv2
-    /// Interpolated from tangents at the vertices; unit before interpolation and placement; both
-    /// zero for surfaces without tangents.
+    Vec2 uv2;           ///< second set of texture coordinates; `uv` if there is none
+    Vec3 dpdu2, dpdv2;  ///< derivatives of the point by uv2
+    /// Interpolated from the vertices' tangents; unit before interpolation and placement; both zero
+    /// for surfaces without tangents.
     Vec3 tangent, bitangent;
-    Rgba color{1, 1, 1, 1};   ///< of the vertices; white without
-    bool is_of_mesh = false;  ///< otherwise the second set of coordinates is the first
-    /// Whether colour, tangents, weights or media differ from the defaults: most surfaces have
-    /// none, and are computed faster.
+    Rgba color{1, 1, 1, 1};   ///< vertex colour; white if there is none
+    bool is_of_mesh = false;  ///< false: `uv2` equals `uv`
+    /// True if colour, tangents, weights or media differ from the defaults. Most surfaces have no
+    /// extras and are computed faster.
     bool has_extras = false;
     /// One material, or those of a triangle's vertices with their weights.
     std::array<MaterialId, 3> materials{};
@@ -45,13 +46,13 @@ struct Surface : ShapeSurface {
     std::uint32_t instance = 0;
 };
 
-/// The surfaces whose texture coordinates and their derivatives are wanted: of shapes they cost
-/// more than all else. Those of others are undefined.
+/// Selects the surfaces whose texture coordinates and derivatives are computed, the most expensive
+/// members for shapes. For other surfaces they are undefined.
 class CoordinateNeed {
   public:
     [[nodiscard]] static CoordinateNeed all() { return {true, {}}; }
     [[nodiscard]] static CoordinateNeed none() { return {false, {}}; }
-    /// Of the materials that read them; `reads`: [material], must outlive the need.
+    /// Only surfaces of materials that read them; `reads`: [material], must outlive the object.
     [[nodiscard]] static CoordinateNeed of(std::span<const std::uint8_t> reads) {
         return {!reads.empty(), reads};
     }
@@ -68,10 +69,11 @@ class CoordinateNeed {
     std::span<const std::uint8_t> reads_;
 };
 
-/// `ray` is the world-space ray that found `hit` in `aggregate`, at `time` (RayQuery::time).
+/// The surface at `hit`, which the world-space `ray` found in `aggregate` at `time`
+/// (RayQuery::time).
 [[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
                                  float time = 0.0f);
-/// The same into `surface`, which is large and not copied.
+/// Writes into `surface`, as the type is large, only the texture coordinates that `need` selects.
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
                  const CoordinateNeed& need, Surface& surface, float time = 0.0f);
 
@@ -82,8 +84,8 @@ struct HitParts {
 };
 [[nodiscard]] HitParts parts_of(const Aggregate& aggregate, const Hit& hit);
 
-/// The material of the surface at a hit, where the primitive alone determines it: without vertex
-/// colours, and without a solid around it that shows another material.
+/// The material of the surface at a hit, if the primitive alone determines it: without vertex
+/// colours, and without an enclosing solid that shows another material.
 [[nodiscard]] std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit);
 
 /// The ray that leaves the surface along `direction`, up to `t_max`. It starts outside the error
@@ -99,7 +101,7 @@ struct HitParts {
 /// `leaving_ray` for many rays of one surface.
 class LeavingRays {
   public:
-    // Implicit: a surface is what rays leave.
+    // Implicit, so that a surface may be passed.
     LeavingRays(const ShapeSurface& surface) : normal_(surface.normal) {
         const double margin = 32.0 * dot(abs(surface.normal), surface.error);
         // The sums round by half an ulp, far less than the margin.
@@ -112,8 +114,7 @@ class LeavingRays {
     }
 
   private:
-    /// The first t: not zero, and far enough from the subnormal numbers that no arithmetic on it is
-    /// slow.
+    /// The first t: positive, and far enough from the subnormal numbers to keep arithmetic fast.
     static constexpr double kBeyondZero = 0x1p-500;
 
     Vec3 normal_, outside_, inside_;

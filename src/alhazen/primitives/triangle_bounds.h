@@ -1,8 +1,8 @@
 #pragma once
-/// Boxes of the triangles of a table in registers of two doubles: those of PrimitiveTable::box,
+/// Boxes of the triangles of a table, equal to PrimitiveTable::box, in registers of two doubles and
 /// without a call for each.
 ///
-/// Conventions: corners that are not numbers are passed over, as by Box3::include.
+/// Conventions: NaN coordinates are skipped, as in Box3::include.
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -19,7 +19,7 @@
 
 namespace alhazen {
 
-/// Whether a <= b, or a == b, in both lanes.
+/// True if a <= b (a == b) in both lanes.
 inline bool both_at_most(Double2 a, Double2 b) {
 #ifdef __SSE2__
     return _mm_movemask_pd(_mm_cmple_pd(a, b)) == 3;
@@ -47,7 +47,7 @@ struct PointLanes {
 };
 static_assert(offsetof(Vec3, y) == offsetof(Vec3, x) + sizeof(double));
 
-/// The box of a triangle: its lower and upper x and y; its lower z, and less its upper z.
+/// The box of a triangle: lower and upper x and y; `deep` is lower z and negated upper z.
 struct TriangleBounds {
     Double2 lower, upper, deep;
 

@@ -1,14 +1,12 @@
 #pragma once
-/// A placeholder shear for tests of shapes, which do not use it.
+/// A placeholder for the shear argument of shape tests, which only triangles use.
 ///
-/// Conventions: outside of all target namespaces, so that no instruction set is needed to construct
-/// it.
+/// Conventions: outside all target namespaces, so that its construction needs no instruction set.
 
 #include "alhazen/geometry/watertight_triangle.h"
 
 namespace alhazen {
 
-/// Used by triangles only.
 inline const RayShear kUnusedShear(Vec3{0, 0, 1});
 
 }  // namespace alhazen

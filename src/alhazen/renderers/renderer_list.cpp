@@ -179,11 +179,11 @@ std::span<const RendererEntry> renderers() {
     static constexpr std::array<RendererEntry, 14> table{{
         {"whitted",
          "recursive ray tracing: shadows, reflection, refraction (Whitted 1980); "
-         "fresnel=on|off|scene, beer=on|off|scene (exact optics), dispersion=N (wavelengths of a "
-         "refracted ray, Thomas 1986)",
+         "fresnel=on|off|scene, beer=on|off|scene (exact optics), dispersion=N (wavelengths "
+         "per refracted ray, Thomas 1986)",
          [](RendererSettings& settings) { return make_whitted(settings); }},
         {"distributed",
-         "the same with rays spread over lenses, lights with extent and rough reflections (Cook, "
+         "distribution ray tracing: lenses, motion, area lights and rough reflections (Cook, "
          "Porter and Carpenter 1984); fresnel=on|off|scene, beer=on|off|scene",
          [](RendererSettings& settings) {
              return std::unique_ptr<Renderer>(
@@ -208,8 +208,9 @@ std::span<const RendererEntry> renderers() {
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
          "irradiance cache for them), projection=on|off, split=SHARE, "
-         "turns=1|2|4|8|16 (samples of which one follows what has less), clamp=X, every=1|2|4|8 "
-         "(successive samples of which one looks at the photons), irradiance=on|off (of the global "
+         "turns=1|2|4|8|16 (one of so many samples follows a dimmer branch), clamp=X, "
+         "every=1|2|4|8 "
+         "(one photon lookup per so many samples), irradiance=on|off (of the global "
          "map at its photons, Christensen 1999), memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
@@ -228,11 +229,12 @@ std::span<const RendererEntry> renderers() {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
          }},
         {"ambient_occlusion",
-         "how much of an even sky each point sees, as a quick look; distance=D, "
+         "the share of a uniform sky that is visible from each point; distance=D, "
          "color=white|albedo",
          [](RendererSettings& settings) { return make_ambient_occlusion(settings); }},
         {"beam_tracing",
-         "what is seen, mirrored and in shadow as exact polygons, found once for all resolutions "
+         "visible, mirrored and shadowed surfaces as exact polygons, found once for all "
+         "resolutions "
          "(Heckbert and Hanrahan 1984); sort=tree|list, hulls=on|off, contribution=SHARE, "
          "area=SHARE, tolerance=DISTANCE (triangles in place of exact shapes)",
          [](RendererSettings& settings) { return make_beam_tracing(settings); }},
@@ -249,11 +251,11 @@ std::span<const RendererEntry> renderers() {
          "(Amanatides 1984); coverage=formulas|tables",
          [](RendererSettings& settings) { return make_cone_tracing(settings); }},
         {"lane_carpenter",
-         "the same picture in scan lines, patches split where these meet them (Lane and Carpenter "
-         "1980); flatness=PIXELS, cracks=show|tighter|clark, split=one|both",
+         "the picture of ray_casting by scan lines, patches split where these meet them (Lane and "
+         "Carpenter 1980); flatness=PIXELS, cracks=show|tighter|clark, split=one|both",
          [](RendererSettings& settings) { return make_scan_lines(settings, false); }},
         {"clark",
-         "the same with all patches split before the first scan line (Clark 1979); the same "
+         "lane_carpenter with all patches split before the first scan line (Clark 1979); its "
          "settings",
          [](RendererSettings& settings) { return make_scan_lines(settings, true); }},
     }};

@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// Beyond this, Student's distribution is the normal one to half a percent.
+/// Degrees of freedom beyond which Student's distribution is the normal one to half a percent.
 constexpr double kMostDegrees = 200;
 
 }  // namespace
@@ -69,7 +69,7 @@ Estimate mean_of(std::span<const double> independent, double probability) {
     const double n = static_cast<double>(independent.size());
     double mean = 0;
     for (const double x : independent) mean += x / n;
-    // In units of the largest deviation, so that no square over- or underflows.
+    // Divides by the largest deviation, so that no square over- or underflows.
     double farthest = 0;
     for (const double x : independent) farthest = std::fmax(farthest, std::abs(x - mean));
     double squares = 0;

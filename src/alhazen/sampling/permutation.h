@@ -1,10 +1,10 @@
 #pragma once
-/// Random permutations that are computed, not stored.
+/// Random permutations that are computed and need no storage.
 ///
 /// Source: Luby and Rackoff, "How to Construct Pseudorandom Permutations from Pseudorandom
-/// Functions", SIAM J. Comput. 17(2), 1988 (rounds of Feistel); Black and Rogaway, "Ciphers with
-/// Arbitrary Finite Domains", CT-RSA 2002 (walking along the cycle into the domain).
-/// Complexity: at most four times as many rounds, on average, as for a power of four.
+/// Functions", SIAM J. Comput. 17(2), 1988 (Feistel rounds); Black and Rogaway, "Ciphers with
+/// Arbitrary Finite Domains", CT-RSA 2002 (cycle walking).
+/// Complexity: on average at most four times as many rounds as for a power of four.
 
 #include <bit>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace alhazen {
 
-/// The place of `i` in the permutation of 0 .. size - 1 that `key` selects.
+/// The image of `i` under the permutation of 0 .. size - 1 that `key` selects.
 /// Precondition: i < size <= 2^30.
 [[nodiscard]] constexpr std::uint32_t permuted(std::uint32_t i, std::uint32_t size,
                                                std::uint64_t key) {

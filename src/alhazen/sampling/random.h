@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers that depend only on (seed, pixel, sample, dimension): the same on every thread,
+/// Random numbers that depend only on (seed, pixel, sample, dimension): the same for every thread,
 /// tile and machine.
 ///
 /// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
@@ -23,14 +23,14 @@ constexpr double unit_double(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// What the numbers of a sample have in common.
+/// The hash of the coordinates that all numbers of a sample share.
 constexpr std::uint64_t random_key(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample) {
     return mix64(mix64(mix64(seed) ^ pixel) ^ sample);
 }
 constexpr double random_at(std::uint64_t key, std::uint64_t dimension) {
     return unit_double(mix64(key ^ dimension));
 }
-/// Uniform in [0, 1) from the coordinates of a sample.
+/// Uniform in [0, 1), from all coordinates of a number.
 constexpr double random_at(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample,
                            std::uint64_t dimension) {
     return random_at(random_key(seed, pixel, sample), dimension);

@@ -1,6 +1,6 @@
 #pragma once
-/// Sampling of the pixels in which the scene formats differ. An importer sets it, the samplers
-/// read it.
+/// Conventions of pixel sampling in which the scene formats differ. Importers set them, samplers
+/// read them.
 
 namespace alhazen {
 

@@ -10,7 +10,7 @@ namespace alhazen {
 namespace {
 
 constexpr int kDigits = 32;
-/// Digits that are scrambled exactly: two points of the sequence may share as many.
+/// Number of digits that are scrambled exactly: two points of the sequence may share as many.
 constexpr int kTreeDigits = 30;
 
 /// A primitive polynomial over GF(2) of a degree (its inner coefficients as bits) and the first
@@ -38,7 +38,7 @@ constexpr std::array<Direction, kSobolDimensions - 1> kTable{{
     {6, 16, {1, 3, 1, 13, 27, 49}},
 }};
 
-using Matrix = std::array<std::uint32_t, kDigits>;  // [digit of the index] its column
+using Matrix = std::array<std::uint32_t, kDigits>;  // [digit of the index] is its column
 
 constexpr Matrix columns_of(const Direction& d) {
     Matrix v{};

@@ -18,7 +18,7 @@ namespace alhazen {
 
 namespace {
 
-/// Meshes with more triangles than this that are used more than once are instanced, not copied.
+/// Larger meshes, in triangles, that are used more than once are instanced, not copied.
 constexpr std::size_t kInstancedMeshTriangles = 64;
 
 std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
@@ -32,7 +32,7 @@ Opacity opacity_of(const Material& material) {
     return material.double_sided ? Opacity::Opaque : Opacity::OpaqueFromFront;
 }
 
-/// End points of shadow rays.
+/// The positions and directions of lights, as end points of shadow rays.
 std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
     std::vector<RayEnd> ends;
     for (const LightDescription& light : lights) {
@@ -46,7 +46,7 @@ std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
     return ends;
 }
 
-/// An aggregate and its share of the census.
+/// An aggregate and its counts, as in SceneCensus.
 struct Built {
     std::shared_ptr<const Aggregate> aggregate;
     std::uint64_t effective_primitives = 0;
@@ -67,9 +67,9 @@ class Compiler {
           mesh_uses_(description.meshes.size(), 0),
           moves_(description.objects.size(), Moves::Unknown) {}
 
-    /// Fills in the aggregate and all that follows from the geometry.
+    /// Sets the aggregate and everything derived from the geometry.
     void build(Scene& scene) {
-        (void)find_csg_evaluator(options_.csg);  // an unknown one is an error in any scene
+        (void)find_csg_evaluator(options_.csg);  // throws for an unknown one in any scene
         for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
         census_ = scene.census;
         count_uses();
@@ -109,7 +109,7 @@ class Compiler {
 
     struct Draft {
         PrimitiveTable table;
-        std::vector<Instance> moving;  ///< what moves, or holds something that does
+        std::vector<Instance> moving;  ///< instances that move or contain motion
         Built built;
     };
 
@@ -128,7 +128,7 @@ class Compiler {
         return built_objects_[index];
     }
 
-    /// `accelerator`: that of the object itself, or empty.
+    /// Builds the aggregate of a draft. `accelerator`: the object's own, or empty.
     Built seal(Draft draft, const std::string& accelerator = {}) {
         if (!draft.moving.empty()) return seal_moving(std::move(draft), accelerator);
         Built built = finish(draft);
@@ -138,14 +138,14 @@ class Compiler {
         return built;
     }
 
-    /// What rests becomes one instance beside all that moves.
+    /// Collects the static primitives in one instance, beside the moving instances.
     Built seal_moving(Draft draft, const std::string& accelerator) {
         Draft all;
         all.built = draft.built;
         std::optional<std::size_t> resting;
         std::vector<Instance> moving = std::move(draft.moving);
         draft.moving.clear();
-        draft.table.finish();  // for its size
+        draft.table.finish();  // sets its size
         if (draft.table.size() > 0) {
             const bool alone = draft.table.size() == 1 && draft.table.first(kTriangleKind) == 1;
             const Built rest = seal(std::move(draft), accelerator);
@@ -197,21 +197,21 @@ class Compiler {
         RayMask visible_to = kAllRays;
     };
 
-    /// Queries of renderers have the bit of one kind of ray: a mask with all these bits is no
-    /// restriction.
+    /// Masks with the bits of all kinds of rays become kAllRays, because queries of renderers have
+    /// the bit of one kind.
     static RayMask without_unused_bits(RayMask mask) {
         return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
     }
 
     struct SolidDraft : Draft {
         CsgExpression expression;
-        /// [leaf] kind of its primitive and index among that kind; ids follow when the table is
-        /// sealed.
+        /// [leaf] kind of its primitive and index within the kind; ids are known once the table is
+        /// finished.
         std::vector<std::pair<std::uint32_t, std::uint32_t>> leaves;
-        bool any_cut = false;  ///< some leaf shows the minuend
+        bool any_cut = false;  ///< some leaf's cut surface shows the minuend
     };
 
-    /// The object as one solid; for a group the union.
+    /// Builds the object as one solid; for a group, the union.
     const Built& build_solid(std::size_t index) {
         if (!built_solids_[index].aggregate) {
             SolidDraft draft;
@@ -231,11 +231,11 @@ class Compiler {
         return built_solids_[index];
     }
 
-    /// Common to all operands of an object.
+    /// Properties shared by all operands of an object.
     struct Operands {
         Affine outer_from_object;
         RayMask visible_to = kAllRays;
-        bool cuts = false;  ///< subtracted, and their surfaces show the material of the minuend
+        bool cuts = false;  ///< subtracted, with surfaces that show the material of the minuend
     };
 
     /// Appends the object as a node of the expression.
@@ -318,7 +318,7 @@ class Compiler {
         }
     }
 
-    /// Whether something in the object moves against the object.
+    /// True if anything inside the object moves relative to it.
     bool moves_inside(std::size_t object) {
         Moves& known = moves_[object];
         if (known != Moves::Unknown) return known == Moves::Yes;
@@ -335,7 +335,7 @@ class Compiler {
         return moves;
     }
 
-    /// A part that moves becomes an instance, whatever it is.
+    /// Adds a moving part, which always becomes an instance.
     void add_moving_part(const PlacedPart& placed, const Affine& outer_from_object, Draft& draft) {
         const PartMotion& motion = *placed.part.motion;
         const TransformMotion path =
@@ -363,7 +363,7 @@ class Compiler {
         draft.moving.back().holds_one_shape = std::holds_alternative<AnyShape>(placed.part.what);
     }
 
-    /// `path`: null where only something inside moves.
+    /// `path`: null if only the contents move.
     static void add_moving(const Built& child, const PlacedPart& placed,
                            const TransformMotion* path, Draft& draft) {
         Draft one;
@@ -378,7 +378,7 @@ class Compiler {
         draft.moving.push_back(std::move(instance));
     }
 
-    /// The parts of a child become parts of the object around it.
+    /// True if the parts of a child become parts of the enclosing object.
     [[nodiscard]] bool is_dissolved(std::size_t child) const {
         const ObjectDescription& object = d_.objects[child];
         return object_uses_[child] == 1 && object.combine == Combine::Group &&
@@ -429,7 +429,7 @@ class Compiler {
             {moved, material, 0, mirrored, placed.number, placed.visible_to});
     }
 
-    /// In its own frame. Every vertex of it may move.
+    /// Builds a mesh whose vertices may all move, in its own frame.
     Built deforming_mesh(std::size_t i, MaterialId material) {
         const auto [found, fresh] = built_meshes_.try_emplace({i, material});
         if (fresh) {
@@ -456,8 +456,8 @@ class Compiler {
         draft.table.instances.back().of_shared_mesh = true;
     }
 
-    /// A mesh to transform: the description's own where it may be taken, which saves the memory of
-    /// a copy.
+    /// A mesh to transform: the description's own if it may be taken, which saves the memory of a
+    /// copy.
     [[nodiscard]] std::shared_ptr<TriangleMesh> own_copy(std::size_t mesh) const {
         if (spare_meshes_ != nullptr && mesh_uses_[mesh] == 1 &&
             (*spare_meshes_)[mesh].mesh.use_count() == 1) {

@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// Fills in materials, textures, lights, cameras, conventions and background.
+/// Sets materials, textures, lights, cameras, conventions and background.
 void compile_materials(const SceneDescription& description, Scene& scene);
 
 /// Bytes of all images and their pyramids, each counted once.

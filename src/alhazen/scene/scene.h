@@ -1,6 +1,6 @@
 #pragma once
-/// The compiled scene: geometry that rays can be traced in, and materials, textures, lights and
-/// cameras ready for use. Immutable while rendering.
+/// The compiled scene: an aggregate for ray tracing, and materials, textures, lights and cameras.
+/// Immutable while rendering.
 
 #include <cstdint>
 #include <memory>
@@ -15,22 +15,22 @@ namespace alhazen {
 
 class Environment;
 
-/// Counts of a scene. Those of shapes are 0 without an aggregate.
+/// Counts of a scene. Those of primitives are 0 without an aggregate.
 struct SceneCensus {
     std::uint64_t analytic_shapes = 0;       ///< stored, each object once
     std::uint64_t triangles = 0;             ///< stored, each object once
     std::uint64_t instances = 0;             ///< stored
     std::uint64_t effective_primitives = 0;  ///< instances expanded; saturates
     int instance_depth = 0;                  ///< deepest nesting of instances
-    std::uint64_t solids = 0;                ///< of constructive geometry (CSG), each stored once
-    std::uint64_t solid_leaves = 0;          ///< operands of these that are no operators
-    std::uint64_t moving_things = 0;         ///< instances and triangles that move
+    std::uint64_t solids = 0;                ///< CSG solids, each stored once
+    std::uint64_t solid_leaves = 0;          ///< their operands that are no operators
+    std::uint64_t moving_things = 0;         ///< moving instances and triangles
     std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
-    std::uint64_t texture_bytes = 0;         ///< of these, the textures
+    std::uint64_t texture_bytes = 0;         ///< the textures' share of scene_bytes
     std::uint64_t accelerator_bytes = 0;
 };
 
-/// Conventions of the scene file that renderers, samplers and writers of pictures read.
+/// Conventions of the scene file that renderers, samplers and picture writers read.
 struct RenderConventions {
     ShadingConventions shading;
     SamplingConventions sampling;
@@ -46,24 +46,24 @@ struct Scene {
     RenderConventions conventions;
     Rgb background;
     bool all_opaque = false;      ///< no material lets light through
-    bool has_scattering = false;  ///< some material scatters light inside of volumes
+    bool has_scattering = false;  ///< some material scatters light inside volumes
     bool has_masks = false;       ///< some part is not visible to all rays
     bool has_mipmaps = false;     ///< some texture is filtered by the cone of the ray
     bool has_solid_textures = false;
-    /// [material] 1: its look depends on texture coordinates; empty: none does.
+    /// [material] 1: its appearance depends on texture coordinates; empty: none does.
     std::vector<std::uint8_t> reads_coordinates;
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
-    std::string accelerator;  ///< of the aggregate; empty without
+    std::string accelerator;  ///< name of the accelerator; empty without an aggregate
     SceneCensus census;
-    /// Null: renderers that follow light physically are lit by `background`.
+    /// Null: `background` lights the scene for physically based renderers.
     std::shared_ptr<const Environment> environment;
 };
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";
-    std::string csg = "event_heap";  ///< evaluator of constructive solids
+    std::string csg = "event_heap";  ///< evaluator of CSG solids
     BuildOptions build{};
-    /// Objects that name an accelerator get it; false: the accelerator above traces everything.
+    /// True: objects that name an accelerator get it. False: `accelerator` is used for all objects.
     bool own_accelerators = true;
 };
 
@@ -72,8 +72,8 @@ struct CompileOptions {
 [[nodiscard]] Scene compile(const SceneDescription& description,
                             const CompileOptions& options = {});
 
-/// Materials, textures, lights, cameras and conventions, without an aggregate: for renderers that
-/// need none.
+/// Compiles materials, textures, lights, cameras and conventions without an aggregate, for
+/// renderers that need none.
 [[nodiscard]] Scene compile_without_geometry(const SceneDescription& description);
 
 /// Builds the aggregate of a scene that was compiled from `description` without geometry. Throws
@@ -90,8 +90,8 @@ void build_aggregate(const SceneDescription& description, const CompileOptions& 
 void build_aggregate_taking_meshes(SceneDescription& description, const CompileOptions& options,
                                    Scene& scene);
 
-/// The camera called `name`, or the one at that position when `name` is a number, or the first for
-/// an empty name. Throws Error (Usage) listing the cameras.
+/// The camera called `name`; the one at that position if `name` is a number; the first if it is
+/// empty. Throws Error (Usage) with a list of the cameras.
 [[nodiscard]] const CameraDescription& find_camera(const Scene& scene, const std::string& name);
 
 }  // namespace alhazen

@@ -1,16 +1,16 @@
 #pragma once
-/// A sphere around all of a scene that is bounded.
+/// A sphere around the bounded part of a scene.
 
 #include "alhazen/geometry/bounds_source.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
 
-/// Around the boxes of all bounded primitives; of radius sqrt(3) around the origin where there are
-/// none. The radius is above 0. Complexity: O(1), O(primitives) where some are unbounded.
+/// A sphere around the boxes of all bounded primitives; of radius sqrt(3) around the origin if
+/// there are none. The radius is positive. Complexity: O(1); O(primitives) if some are unbounded.
 [[nodiscard]] BoundingSphere sphere_around_bounded(const Scene& scene);
 
-/// Whether some primitive is unbounded.
+/// True if some primitive is unbounded.
 [[nodiscard]] bool reaches_infinity(const Scene& scene);
 
 }  // namespace alhazen

@@ -1,6 +1,6 @@
 #pragma once
-/// Conventions of a scene file, by their reader: everything in which scene formats differ about
-/// the meaning of a picture.
+/// Conventions of a scene file, grouped by their reader: everything in which scene formats differ
+/// about the meaning of a picture.
 ///
 /// ADD A CONVENTION HERE: a field in the struct of its reader. The native format reads and writes
 /// it (formats/native/read/native_settings.cpp, formats/native/write/native_write_view.cpp;
@@ -17,19 +17,19 @@ namespace alhazen {
 struct ImportConventions {
     /// Every material colour c of the file is used as floor(255 c) / 255. Applied by `compile`.
     bool truncate_material_colors = false;
-    /// A file without lights is given one at the eye (`complete_view`); false: it is meant to be
-    /// dark.
+    /// A file without lights gets one at the eye (`complete_view`); false: its darkness is
+    /// intended.
     bool headlight = true;
-    /// A file with lights of its own and no background is given dim neutral light from everywhere,
-    /// and a background of that colour (`complete_view`).
+    /// A file with lights and no background gets dim neutral light from all directions, and a
+    /// background of that colour (`complete_view`).
     bool surroundings = false;
 };
 
 struct Conventions {
-    ShadingConventions shading;    ///< renderers
-    SamplingConventions sampling;  ///< samplers
-    FilmConventions film;          ///< writers of pictures
-    ImportConventions importing;   ///< `compile` and the session
+    ShadingConventions shading;    ///< read by renderers
+    SamplingConventions sampling;  ///< read by samplers
+    FilmConventions film;          ///< read by picture writers
+    ImportConventions importing;   ///< read by `compile` and the session
 };
 
 }  // namespace alhazen

@@ -1,6 +1,7 @@
 #pragma once
-/// The content of a scene file: names, values and their source locations. Importers make it,
-/// `validate` checks it, `compile` turns it into the `Scene`. Plain data, free to edit in between.
+/// The content of a scene file: names, values and their source locations. Importers create it,
+/// `validate` checks it, `compile` turns it into a `Scene`. Plain data that may be edited in
+/// between.
 ///
 /// Conventions: an object is a list of parts; a part is a shape, a mesh or another object under a
 /// transform. `root` is the rendered object. An object used by several parts is instanced, not
@@ -35,15 +36,15 @@ enum class ObjectIndex : std::uint32_t {};
 
 struct Part {
     std::variant<AnyShape, MeshIndex, ObjectIndex> what;
-    Affine object_from_part;  ///< into the frame of the object that owns the part
+    Affine object_from_part;  ///< into the frame of the object that contains the part
     /// Ignored for an object (its parts have their own) and for a mesh with vertex materials.
     MaterialId material{0};
     std::string name;
     FileLocation location;
     /// Bits of `mask_of(RayKind)`, or kAllRays. A kind of ray sees the part if it also sees all
-    /// objects around it.
+    /// enclosing objects.
     RayMask visible_to = kAllRays;
-    /// Null: it rests. Else object_from_part is where it is as the shutter opens.
+    /// Null: the part is static. Otherwise object_from_part is its placement as the shutter opens.
     std::shared_ptr<const PartMotion> motion;
 };
 
@@ -55,22 +56,22 @@ enum class Combine : std::uint8_t {
     Difference,    ///< the first part minus all the others
 };
 
-/// The material of a surface cut by a subtracted part.
+/// The material of a surface that a subtracted part cuts.
 enum class CutMaterial : std::uint8_t {
-    Own,      ///< that of the subtracted part
-    Minuend,  ///< that of the solid cut there
+    Own,      ///< the subtracted part's material
+    Minuend,  ///< the material of the solid that is cut
 };
 
-/// Every object but a group is a solid: its parts must bound volumes (closed shapes, closed meshes,
-/// objects made of these).
+/// A list of parts. Every object but a group is a solid, whose parts must bound volumes (closed
+/// shapes, closed meshes, objects made of these).
 struct ObjectDescription {
     std::string name;
     std::vector<Part> parts;
     FileLocation location;
     Combine combine = Combine::Group;
     CutMaterial cut_material = CutMaterial::Own;  ///< for a difference
-    /// Of a group: "NAME" or "NAME:SETTING=VALUE,..."; the object is never dissolved in its parent.
-    /// Empty: the scene's accelerator.
+    /// For a group: "NAME" or "NAME:SETTING=VALUE,..."; the object then keeps an aggregate of its
+    /// own. Empty: the scene's accelerator.
     std::string accelerator;
 };
 
@@ -78,7 +79,7 @@ struct MeshDescription {
     std::string name;
     std::shared_ptr<TriangleMesh> mesh;  ///< vertex_materials hold values of MaterialId
     FileLocation location;
-    /// Where vertices move; `mesh` is then as the shutter opens. Empty: they rest.
+    /// Positions of moving vertices; `mesh` is the state as the shutter opens. Empty: static.
     std::vector<MeshKey> keys;
 };
 
@@ -91,9 +92,9 @@ struct TextureDescription {
 struct CameraDescription {
     std::string name;
     Camera camera;
-    double aspect = 1;  ///< width / height the camera was described for
+    double aspect = 1;  ///< width / height that the camera was described for
     FileLocation location;
-    /// Where it moves: world_from_camera * (the camera as given); empty: it rests.
+    /// Motion: world_from_camera * (the camera as given); empty: static.
     std::vector<TransformKey> keys;
 };
 
@@ -125,14 +126,14 @@ struct PictureSettings {
 /// An animation of the file; the scene shows one moment of it (ImportOptions::time).
 struct AnimationInfo {
     std::string name;
-    double begin = 0, end = 0;  ///< seconds, of its first and last key
+    double begin = 0, end = 0;  ///< times of its first and last key, seconds
 };
 
-/// The up axis where a file has no camera.
+/// The up axis of a file without cameras.
 enum class UpAxis { Y, Z };
 
 struct SceneDescription {
-    // Compiled once, not in every file that has a description.
+    // Out of line: compiled once, not in every includer.
     SceneDescription();
     SceneDescription(const SceneDescription&);
     SceneDescription(SceneDescription&&) noexcept;
@@ -142,7 +143,7 @@ struct SceneDescription {
 
     std::string format;  ///< name of the importer
     std::filesystem::path path;
-    std::set<std::filesystem::path> files;   ///< others that were read, or that it names
+    std::set<std::filesystem::path> files;   ///< other files that were read or that it names
     std::vector<CameraDescription> cameras;  ///< the first is the default
     std::vector<LightDescription> lights;
     std::vector<MaterialDescription> materials;  ///< indexed by MaterialId
@@ -155,14 +156,14 @@ struct SceneDescription {
     Shutter shutter;
     UpAxis up_axis = UpAxis::Y;
     Conventions conventions;
-    /// For renderers that follow light physically; others see `picture.background`.
+    /// For physically based renderers; others use `picture.background`.
     std::optional<EnvironmentDescription> environment;
 };
 
 /// Adds every finding about `description` to `diagnostics`: non-finite values, singular transforms,
-/// bad shapes, meshes and keys, ids out of range, objects that contain themselves, nesting deeper
-/// than kMaxInstanceDepth, empty ray masks, operands of a solid that bound no volume, unknown
-/// accelerators, an empty scene (warning).
+/// invalid shapes, meshes and keys, ids out of range, objects that contain themselves, nesting
+/// deeper than kMaxInstanceDepth, empty ray masks, operands of a solid that bound no volume,
+/// unknown accelerators, an empty scene (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
 #pragma once
-/// What moves in a scene, and the time during which the shutter is open.
+/// The motion of a scene and the shutter interval.
 ///
-/// Conventions: times of a description are in the unit of its file (seconds in glTF); those of a
-/// compiled scene are relative: 0, the shutter opens, to 1, it closes.
+/// Conventions: times of a description are in the unit of its file (seconds in glTF). Times of a
+/// compiled scene are relative: the shutter opens at 0 and closes at 1.
 
 #include <vector>
 
@@ -15,7 +15,7 @@ struct Shutter {
     friend bool operator==(const Shutter&, const Shutter&) = default;
 };
 
-/// A part that moves: at the time of a key, object_from_part = outer * key * inner.
+/// The motion of a part: at the time of a key, object_from_part = outer * key * inner.
 struct PartMotion {
     Affine outer;
     std::vector<TransformKey> keys;
@@ -26,10 +26,11 @@ struct PartMotion {
     }
 };
 
-/// Where the shutter is open for no time all others are so far away that nothing moves.
+/// The scale of relative times if the shutter opens and closes at once: so large that nothing
+/// moves.
 inline constexpr double kMoment = 0x1p60;
 
-/// `keys`, of any struct with a member `time`, with relative times.
+/// `keys` with relative times; Keys: a range of any struct with a member `time`.
 template <class Keys>
 [[nodiscard]] Keys relative_to(const Shutter& shutter, Keys keys) {
     const double length = shutter.close - shutter.open;
@@ -40,9 +41,9 @@ template <class Keys>
 
 struct SceneDescription;
 
-/// Sets the shutter, and the parts and meshes that move to where they are as it opens.
+/// Sets the shutter, and puts moving parts and meshes where they are as it opens.
 void open_shutter(SceneDescription& description, const Shutter& shutter);
-/// False: every time shows the same.
+/// False if the scene is the same at every time.
 [[nodiscard]] bool has_motion(const SceneDescription& description);
 
 }  // namespace alhazen

@@ -288,8 +288,8 @@ class Validator {
         return uses;
     }
 
-    /// Depth of every object, by an explicit stack: hostile nesting must not overflow the call
-    /// stack.
+    /// Computes the depth of every object with an explicit stack: malicious nesting must not
+    /// overflow the call stack.
     void check_nesting() {
         enum : std::uint8_t { New, Open, Done };
         const std::size_t n = d_.objects.size();
@@ -299,7 +299,7 @@ class Validator {
         }
         std::vector<std::uint8_t> state(n, New);
         std::vector<int> depth(n, 0);
-        // Parts of a solid that are placed once are merged into it: they take no instance level.
+        // Parts of a solid that are placed once are merged into it and take no instance level.
         std::vector<int> nesting(n, 0), uses = object_uses();
         const auto deepen = [&](std::size_t outer, std::size_t inner) {
             const bool joined = d_.objects[outer].combine != Combine::Group && uses[inner] == 1;

@@ -67,7 +67,7 @@ class Checker {
     }
 
   private:
-    /// What is clamped when light is traced is said.
+    /// Warns of colours that light transport clamps: negative ones and those above 1.
     void more_light_than_comes(const Material& m) {
         const auto warn = [&](const ColorInput& input, const char* what) {
             const Rgb& c = input.color;

@@ -42,7 +42,7 @@ class SolidValidator {
   private:
     enum class MeshState : std::uint8_t { Unknown, Open, Closed };
 
-    /// Marks the solids and everything that they use.
+    /// Marks the solids and all objects that they use.
     void mark_operands() {
         std::vector<std::size_t> open;
         const auto mark = [&](std::size_t object) {
@@ -107,7 +107,7 @@ class SolidValidator {
         MeshState& state = mesh_state_[mesh];
         if (state == MeshState::Unknown) {
             const TriangleMesh& m = *d_.meshes[mesh].mesh;
-            // A mesh with indices out of range is already reported.
+            // Indices out of range are already reported.
             Diagnostics ignored;
             m.validate({}, ignored);
             state = ignored.error_count() > 0 || m.closed() ? MeshState::Closed : MeshState::Open;

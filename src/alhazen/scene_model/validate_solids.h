@@ -8,10 +8,10 @@
 namespace alhazen {
 
 /// Adds to `diagnostics` every part of a solid, or of an object that a solid uses, that bounds no
-/// volume, and every empty intersection or difference. Objects may contain themselves.
+/// volume, and every empty intersection or difference. Accepts objects that contain themselves.
 void validate_solids(const SceneDescription& description, Diagnostics& diagnostics);
 
-/// "mesh 'name'", or "a mesh without a name".
+/// The text "mesh 'name'", or "a mesh without a name".
 [[nodiscard]] std::string in_words(const MeshDescription& mesh);
 
 }  // namespace alhazen

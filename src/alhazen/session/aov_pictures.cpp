@@ -13,12 +13,12 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kMaxNameBytes = 64 * 1024;
-/// Prevents a few pixels interrupted by other programs from darkening the picture of times.
+/// Keeps a few pixels that other processes interrupted from darkening the picture of times.
 constexpr double kTimeQuantile = 0.99;
 
 using Channels = std::vector<const LayerChannel*>;
 
-/// The numbers of a channel of any type.
+/// The values of a channel of any type.
 std::vector<float> numbers_of(const LayerChannel& channel) {
     if (channel.type != SampleType::Uint) return channel.values;
     return {channel.whole.begin(), channel.whole.end()};
@@ -30,7 +30,7 @@ std::vector<float> finite_values(const LayerChannel& channel) {
     return values;
 }
 
-/// Three functions of a pixel's values as 8-bit codes.
+/// A picture whose 8-bit codes are three functions of a pixel's values.
 template <class F>
 LayerPicture direct_picture(const PixelBox& crop, std::string meaning, F&& display) {
     LayerPicture picture;
@@ -61,7 +61,7 @@ LayerPicture scaled_picture(const PixelBox& crop, const LayerChannel& channel, C
     return picture;
 }
 
-/// The value below which `share` of them lie. Reorders them; there is one at least.
+/// The value below which `share` of `values` lie. Reorders `values`, which must not be empty.
 float quantile_of(std::vector<float>& values, double share) {
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
@@ -69,7 +69,7 @@ float quantile_of(std::vector<float>& values, double share) {
 }
 
 LayerPicture depth_picture(const PixelBox& crop, const LayerChannel& channel, bool drawn) {
-    // Of a ground without end a few pixels see a thousand times farther than all others.
+    // On unbounded ground a few pixels see a thousand times farther than all others.
     constexpr double kMost = 0.9;
     constexpr double kFarBeyond = 4.0;  // both counted from the nearest point
     std::vector<float> values = finite_values(channel);
@@ -114,7 +114,7 @@ LayerPicture normal_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
-/// True when all three values of a pixel are 0: the pixel is empty.
+/// True if all three values of a pixel are 0: the pixel is empty.
 bool is_empty(const Channels& c, std::size_t i) {
     return std::all_of(c.begin(), c.end(), [&](const auto* k) { return k->values[i] == 0.0f; });
 }
@@ -144,7 +144,7 @@ LayerPicture position_picture(const PixelBox& crop, const Channels& c) {
     return picture;
 }
 
-/// The fractional part of a texture coordinate, as textures repeat; 1 stays 1.
+/// Shows the fractional part of texture coordinates, as textures repeat; 1 stays 1.
 LayerPicture uv_picture(const PixelBox& crop, const Channels& c) {
     const auto wrapped = [](double x) { return x >= 0.0 && x <= 1.0 ? x : x - std::floor(x); };
     return direct_picture(crop, "u red, v green, repeating", [&](std::size_t i) {
@@ -162,7 +162,7 @@ LayerPicture albedo_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
-/// Angles modulo pi as colours of equal difference: red along the horizontal.
+/// Shows angles modulo pi as hues.
 LayerPicture angle_picture(const PixelBox& crop, const Channels& c) {
     return direct_picture(crop, "hue, red at 0, green and blue a third of pi apart",
                           [&](std::size_t i) {
@@ -175,7 +175,7 @@ LayerPicture angle_picture(const PixelBox& crop, const Channels& c) {
                           });
 }
 
-/// 0 is grey.
+/// Shows Stokes parameters; 0 is grey.
 LayerPicture stokes_picture(const PixelBox& crop, const Channels& c) {
     return direct_picture(crop, "(1 + s) / 2", [&](std::size_t i) {
         std::array<double, 3> rgb{};

@@ -1,5 +1,5 @@
 #pragma once
-/// The layers of an image as PNG files for viewing, one each, and the names of their ids
+/// The layers of an image as separate PNG files for viewing, and the names of their ids
 /// (docs/reference/layers.md).
 
 #include <filesystem>
@@ -14,19 +14,20 @@
 
 namespace alhazen {
 
-/// A picture of a layer and the meaning of its colours.
+/// A picture of a layer, with the meaning of its colours.
 struct LayerPicture {
     EncodedImage image;
     std::string meaning;
-    ImageMetadata scale;               ///< for the text of a PNG
-    std::optional<ColorScale> colors;  ///< of one number a pixel
+    ImageMetadata scale;               ///< scale of the values, stored as text in a PNG
+    std::optional<ColorScale> colors;  ///< for layers of one number per pixel
 };
 
-/// `layers` must have the channels of `entry`. `draws_scale`: below the picture, where it has one.
+/// The picture of a layer. `layers` must have the channels of `entry`; `draws_scale`: draws the
+/// colour scale, if there is one, below the picture.
 [[nodiscard]] LayerPicture layer_picture(const AovEntry& entry, const FilmLayers& layers,
                                          bool draws_scale);
 
-/// OUT.NAME.png for each layer, next to OUT.anything, in the order of the table.
+/// OUT.NAME.png for each layer, beside OUT.anything, in the order of the table.
 [[nodiscard]] std::vector<std::filesystem::path> aov_picture_paths(
     const std::filesystem::path& output, const AovSet& wanted);
 
@@ -36,7 +37,8 @@ std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
                                             const AovSet& wanted, const FilmLayers& layers,
                                             const ImageMetadata& metadata);
 
-/// The name of a part by its number, or what it is.
+/// The name of a part by its number. For an unnamed part, its kind of shape or the name of its mesh
+/// or object.
 [[nodiscard]] std::string part_name(const SceneDescription& description, std::uint32_t number);
 /// A JSON object from id to name for each wanted kind of id, under "alhazen.id.object" and so on;
 /// each is truncated at 64 KiB.

@@ -82,7 +82,7 @@ void check_environment(const std::string& text, const std::string& renderer) {
     if (text.empty()) return;
     if (!follows_light(renderer)) {
         throw Error(ErrorKind::Usage,
-                    fmt::format("--environment is for renderers that follow light physically: {}; "
+                    fmt::format("--environment requires a physically based renderer: {}; "
                                 "renderer '{}' shows the background of the scene",
                                 fmt::join(that_follow_light(), ", "), renderer));
     }

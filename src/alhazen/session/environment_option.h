@@ -1,5 +1,5 @@
 #pragma once
-/// The environment that a user chooses for a scene, or that a scene without light gets.
+/// The environment of a scene: chosen by the user, or the default of a scene without light.
 
 #include <memory>
 #include <span>
@@ -10,32 +10,32 @@
 
 namespace alhazen {
 
-/// Whether the renderer follows light physically, so that an environment lights what it renders.
+/// True if the renderer is physically based: environments then light the scene.
 [[nodiscard]] bool follows_light(const std::string& renderer);
 
-/// An environment by name, and what it is in one line.
+/// The name of a built-in environment and its description in one line.
 struct EnvironmentEntry {
     const char* name;
     const char* description;
 };
-/// What `set_environment` takes beside names of pictures.
+/// The names that `set_environment` accepts besides picture files.
 [[nodiscard]] std::span<const EnvironmentEntry> environments();
-/// That of an entry of the table; null for "none".
+/// The environment of a name in the table; null for "none".
 [[nodiscard]] std::shared_ptr<const Environment> make_environment(const std::string& name,
                                                                   UpAxis up_axis);
 
-/// Throws Error (Usage) for a text that is not empty and a renderer that sees no environments, and
-/// for what is neither a known word nor a file.
+/// Throws Error (Usage) if `text` is not empty and the renderer ignores environments, or if `text`
+/// is neither a known word nor a file.
 void check_environment(const std::string& text, const std::string& renderer);
 
-/// Sets the environment that `text` says: "sky", "studio", "none" (that of the file is removed), or
-/// the name of a picture of all directions. Empty: that of the file; where a scene has no light at
-/// all and the renderer follows light, the studio. Returns what was done, a sentence each. Throws
-/// Error as `check_environment` and `read_image`.
+/// Sets the environment `text`: "sky", "studio", "none" (removes that of the file) or the name of a
+/// picture of all directions. Empty: keeps that of the file; a scene without any light gets the
+/// studio if the renderer is physically based. Returns notes of what was done, one sentence each.
+/// Throws Error as `check_environment` and `read_image`.
 std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
                                          const std::string& renderer, const ImageLimits& limits);
 
-/// Texels of the environment that are no radiances, as a warning.
+/// Warns of texels of the environment that are not valid radiances.
 void warn_of_bad_texels(LoadedScene& loaded);
 
 }  // namespace alhazen

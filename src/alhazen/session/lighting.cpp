@@ -33,7 +33,7 @@ void turn_off(Material& material) {
     material.illuminant.reset();
 }
 
-/// Where the light is, where it shines, and its colour.
+/// Sets position, direction and colour of the choice.
 void describe(const Light& light, NamedLight& choice) {
     std::visit(Overloaded{[&](const AmbientLight& l) { choice.color = l.ambient; },
                           [&](const DirectionalLight& l) {
@@ -59,7 +59,7 @@ void describe(const Light& light, NamedLight& choice) {
                light);
 }
 
-/// Each change is beside the description: a second one of a light would forget the first.
+/// Throws if a light is changed twice: changes are relative to the file and would not add up.
 void check_names(const std::vector<LightChange>& changes) {
     std::unordered_set<std::string> names;
     for (const LightChange& change : changes) {
@@ -140,7 +140,7 @@ void apply(const LightChange& change, Material& material) {
     material.illuminant.reset();
 }
 
-/// What a choice stands for.
+/// The light or material that a choice switches.
 struct Switch {
     NamedLight choice;
     std::optional<std::size_t> light;
@@ -169,7 +169,7 @@ std::vector<Switch> switches(const SceneDescription& description) {
         list.push_back({std::move(choice), {}, id});
     }
     std::unordered_set<std::string> names;
-    std::unordered_map<std::string, std::size_t> next;  // all numbers below are taken
+    std::unordered_map<std::string, std::size_t> next;  // smaller numbers are taken
     for (Switch& s : list) {
         if (names.insert(s.choice.name).second) continue;
         std::size_t& n = next.try_emplace(s.choice.name, 2).first->second;

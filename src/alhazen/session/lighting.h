@@ -1,10 +1,11 @@
 #pragma once
-/// The lights of a scene by name, and the scene with some of them off, changed, or with other
-/// surroundings.
+/// The lights of a scene by name, and the scene with some lights switched off or changed, or with
+/// another environment.
 ///
-/// Conventions: lights are those of the description, in its order, then materials that emit, but
-/// for those of seen lights (seen_lights.h), which are off with their light. Every name is another
-/// one. A light that is off is one without intensity, so that numbers of lights stay what they are.
+/// Conventions: lights are those of the description, in its order, then the emitting materials.
+/// Materials of seen lights (seen_lights.h) are not listed; they are switched with their light.
+/// Names are unique. A light that is off stays in the scene with intensity 0, so that the indices
+/// of lights do not change.
 
 #include <memory>
 #include <optional>
@@ -24,12 +25,12 @@ struct NamedLight {
     std::string kind;  ///< "point light", "material that emits"
     std::optional<Vec3> position;
     std::optional<Vec3> direction;  ///< from the light into the scene, of any length
-    Rgb color;                      ///< or radiance, ambient term, emission; what it has
+    Rgb color;  ///< colour, radiance, ambient term or emission, whichever it has
     std::vector<ExtentSize> sizes;  ///< of a light with extent
 };
 [[nodiscard]] std::vector<NamedLight> light_choices(const SceneDescription& description);
 
-/// What is other than in the file: fields that the choice has. Of a light there is one change.
+/// Changes of one light relative to the file; only fields that the light has. One change per light.
 struct LightChange {
     std::string name;
     std::optional<Vec3> position, direction;  ///< the direction of any length but 0
@@ -42,10 +43,10 @@ struct LightChange {
 struct Lighting {
     std::vector<std::string> off;  ///< names of `light_choices`
     std::vector<LightChange> changes;
-    /// Instead of that of the scene; an entry of `environments()`, or empty. Only renderers that
-    /// follow light are to be given one.
+    /// Replaces the environment of the scene; an entry of `environments()`, or empty. Only for
+    /// physically based renderers.
     std::string environment;
-    /// Of `environment`, as `make_environment` makes it; null for "none".
+    /// The environment that `make_environment(environment)` returns; null for "none".
     std::shared_ptr<const Environment> surroundings;
 
     [[nodiscard]] bool is_that_of_the_scene() const {
@@ -53,26 +54,26 @@ struct Lighting {
     }
 };
 
-/// Of the changes those of surfaces that are parts of the scene, without their colours: what
-/// `with_moved_surfaces` builds. Throws as `with_lighting`.
+/// The changes of surfaces that are parts of the scene, without their colours: the input of
+/// `with_moved_surfaces`. Throws as `with_lighting`.
 [[nodiscard]] std::vector<LightChange> surface_changes(const SceneDescription& description,
                                                        const std::vector<LightChange>& changes);
 
-/// The scene with these surfaces where they are then; its aggregate is built, all else is shared or
-/// copied. Can be interrupted (interruption.h). Throws as `with_lighting` and `build_aggregate`.
+/// The scene with these surfaces in their changed places; builds its aggregate and shares or copies
+/// the rest. Can be interrupted (interruption.h). Throws as `with_lighting` and `build_aggregate`.
 [[nodiscard]] LoadedScene with_moved_surfaces(const LoadedScene& loaded,
                                               const std::vector<LightChange>& changes,
                                               const CompileOptions& options);
 
-/// The scene with that lighting. All geometry is shared: `scene` has the surfaces of its lights
-/// where they are to be, `description` is that of the file. Throws Error (Usage) for a light that
-/// there is not, listing those that there are, for a light that is changed more than once, for a
-/// field that a light has not, and for numbers that no light can have.
+/// The scene with a lighting. All geometry is shared: `scene` must have the surfaces of its lights
+/// in their changed places (`with_moved_surfaces`), `description` is that of the file. Throws Error
+/// (Usage) for an unknown light, with the list of known ones, for a light changed more than once,
+/// for a field that the light does not have, and for invalid numbers.
 [[nodiscard]] Scene with_lighting(const Scene& scene, const SceneDescription& description,
                                   const Lighting& lighting);
 
-/// Blocks of the native format of the lights that are changed, as they are then; a line of comment
-/// with its emission for a material. Throws as `with_lighting`.
+/// The changed lights as blocks of the native format; for a material, a comment line with its
+/// emission. Throws as `with_lighting`.
 [[nodiscard]] std::string changed_light_blocks(const SceneDescription& description,
                                                const std::vector<LightChange>& changes);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Loading a scene: read, validate, compile, with the time of each phase.
+/// Loads a scene: reads, validates and compiles it, and measures the time of each phase.
 
 #include <filesystem>
 #include <optional>
@@ -14,9 +14,9 @@ namespace alhazen {
 struct LoadOptions {
     ImportOptions import;
     CompileOptions compile;
-    std::optional<Shutter> shutter;  ///< instead of that of the file
+    std::optional<Shutter> shutter;  ///< replaces that of the file
     int threads = 0;                 ///< for the build; 0 = all available cores
-    /// True: warnings are errors. A scene that is not read whole and as it says is refused.
+    /// True: warnings are errors: a scene that cannot be read completely and literally is refused.
     bool strict = false;
     /// False: meshes that are placed once may be moved into the scene and are then null in the
     /// description.
@@ -31,7 +31,7 @@ struct LoadedScene {
     Scene scene;
     Diagnostics diagnostics;             ///< warnings
     std::uint64_t load_peak_bytes = 0;   ///< largest resident set of the process after reading
-    std::uint64_t build_peak_bytes = 0;  ///< and after building
+    std::uint64_t build_peak_bytes = 0;  ///< the same after building
     double load_seconds = 0;
     double build_seconds = 0;
 };
@@ -44,11 +44,11 @@ struct LoadedScene {
 /// Reads, validates and compiles. Throws Error.
 [[nodiscard]] LoadedScene load(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// The same for a valid description that was made otherwise; `diagnostics` are its warnings.
+/// Loads a valid description from another source; `diagnostics` are its warnings.
 [[nodiscard]] LoadedScene load(SceneDescription description, Diagnostics diagnostics,
                                const LoadOptions& options = {});
 
-/// Builds the aggregate where the scene has none, and adds to the times. Throws Error.
+/// Builds the aggregate if the scene has none, and adds to the times. Throws Error.
 void build_aggregate(LoadedScene& loaded, const LoadOptions& options);
 
 }  // namespace alhazen

@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Counts each object's parts once, for any number of placements.
+/// The number of parts with a visibility mask; the parts of an object count once.
 [[nodiscard]] inline std::uint64_t masked_parts(const SceneDescription& description) {
     std::uint64_t count = 0;
     for (const ObjectDescription& object : description.objects) {

@@ -20,7 +20,7 @@ Encoding encoding_of(const FilmConventions& conventions, const PictureOptions& o
     return options.encoding.value_or(mapped ? Encoding::Srgb : conventions.encoding());
 }
 
-/// The codes of the crop as a display shall show them. Refers to `film`.
+/// The codes of the crop for a display. Refers to `film`.
 CodeRows picture_rows(const Film& film, const FilmConventions& conventions,
                       const PictureOptions& options) {
     const int width = film.crop().width();

@@ -17,18 +17,19 @@ struct PictureOptions {
     int bits = 8;
     bool full_float = false;
     ImageMetadata metadata;
-    const FilmLayers* layers = nullptr;  ///< written with the colours for the suffix .exr
-    ToneMapping tone;                    ///< of PNG and JPEG; with it sRGB is the default encoding
+    const FilmLayers* layers = nullptr;  ///< written with the colours to files with suffix .exr
+    ToneMapping tone;                    ///< for PNG and JPEG; the default encoding is then sRGB
 };
 
-/// Whether the format holds layers (EXR only).
+/// True if the format holds layers (EXR only).
 [[nodiscard]] bool holds_layers(const std::filesystem::path& path);
 
-/// The codes of the film as a picture of `options.bits` per channel shows them.
+/// The codes of the film in a picture of `options.bits` per channel.
 [[nodiscard]] EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
                                            const PictureOptions& options);
 
-/// Integer formats are encoded from the film's doubles: truncation is exact. Throws Error.
+/// Writes the film. Integer formats are encoded from the film's doubles: truncation is exact.
+/// Throws Error.
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options);
 

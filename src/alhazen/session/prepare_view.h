@@ -1,5 +1,5 @@
 #pragma once
-/// What a loaded scene needs before it is rendered: an environment, a camera, a light.
+/// Completes a loaded scene for rendering: environment, camera, light.
 
 #include <optional>
 #include <string>
@@ -12,16 +12,16 @@
 namespace alhazen {
 
 struct ViewWishes {
-    std::optional<ViewAngles> view;  ///< of a camera that frames the scene, instead of the file's
-    std::string projection;          ///< of the camera, "NAME" or "NAME:DEGREES"; empty: its own
-    std::string environment;         ///< as of `set_environment`
+    std::optional<ViewAngles> view;  ///< of a framing camera, instead of the file's cameras
+    std::string projection;          ///< of the camera, "NAME" or "NAME:DEGREES"; empty: unchanged
+    std::string environment;         ///< text for `set_environment`
     ImageLimits image_limits;
 };
 
-/// Sets the environment, and adds a camera and a light where there are none (`complete_view`).
-/// Returns what was done, and what the renderer does not show as it is, a sentence each. A scene
-/// that gets a camera must have its aggregate. A panorama is twice as wide as high unless `options`
-/// give both sides. Throws Error as these.
+/// Sets the environment, and adds a camera and a light if there are none (`complete_view`). Returns
+/// notes, one sentence each: what was done, and what the renderer simplifies. A scene that gets a
+/// camera must have its aggregate. A panorama is twice as wide as high unless `options` give both
+/// sides. Throws Error as these functions.
 std::vector<std::string> prepare_view(LoadedScene& loaded, const RenderOptions& options,
                                       const ViewWishes& wishes);
 

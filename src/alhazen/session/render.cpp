@@ -44,7 +44,7 @@ void check(const RenderOptions& options) {
          fmt::format("depth must be 0 to {}", kMaxDepth));
 }
 
-/// The names of renderers of which `has` is true.
+/// The names of the renderers for which `has` is true.
 std::string renderers_where(bool (Renderer::*has)() const) {
     std::string names;
     for (const RendererEntry& entry : renderers()) {
@@ -54,7 +54,7 @@ std::string renderers_where(bool (Renderer::*has)() const) {
     return names;
 }
 
-/// Of renderers that promise all light.
+/// Throws if a physically based renderer would ignore scattering in volumes.
 void check_scattering(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
     if (!renderer.follows_light() || renderer.scatters_in_volumes()) return;
     for (const Material& material : scene.materials) {
@@ -71,18 +71,18 @@ void check_camera(const Camera& camera, const RenderOptions& options, const Rend
     if (!std::holds_alternative<WideCamera>(camera)) return;
     if (!renderer.takes_wide_cameras()) {
         throw Error(ErrorKind::Usage,
-                    fmt::format("fisheyes and panoramas are for the renderers {}; renderer '{}' "
-                                "draws flat pictures only",
+                    fmt::format("fisheyes and panoramas require one of the renderers {}; renderer "
+                                "'{}' supports planar projections only",
                                 renderers_where(&Renderer::takes_wide_cameras), options.renderer));
     }
     if (options.antialias) {
         throw Error(ErrorKind::Usage,
-                    "--antialias knows flat pictures only: it excludes fisheyes and panoramas");
+                    "--antialias supports planar projections only, neither fisheyes nor panoramas");
     }
 }
 
-/// Rounds do not know in advance how many samples a pixel gets: textures are as sharp as for the
-/// least.
+/// Samples per pixel for the width of texture lookups. With rounds the number is not known in
+/// advance; at most 16 are assumed.
 int samples_of_cone(const RenderOptions& options) {
     constexpr int kLeast = 16;
     const bool rounds = options.sampling && options.sampling->has_rounds();
@@ -99,7 +99,7 @@ Scene adjusted(const Scene& scene, const RenderOptions& options, const Renderer&
     return result;
 }
 
-/// `description`: of the scene, or null.
+/// `description`: that of the scene, or null.
 RenderResult render_described(const Scene& original, const SceneDescription* description,
                               const PictureSettings& picture, const RenderOptions& options) {
     check(options);
@@ -256,7 +256,7 @@ void check_photons(const RenderOptions& options, const Renderer& renderer) {
 void check_spectral(const RenderOptions& options, const Renderer& renderer) {
     if (!options.spectral || renderer.takes_wavelengths()) return;
     throw Error(ErrorKind::Usage,
-                fmt::format("--spectral is for renderers that follow light by its wavelengths: {}; "
+                fmt::format("--spectral requires a renderer that traces wavelengths: {}; "
                             "renderer '{}' does not",
                             renderers_where(&Renderer::takes_wavelengths), options.renderer));
 }
@@ -274,7 +274,7 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
     if (!renderer.follows_light() &&
         std::any_of(scene.materials.begin(), scene.materials.end(), scatters)) {
         notes.push_back(
-            fmt::format("renderer '{}' scatters no light inside of volumes; those that do: {}",
+            fmt::format("renderer '{}' does not support scattering media; supported by: {}",
                         options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
@@ -282,23 +282,25 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
     if (!renderer.lights_have_extent() &&
         std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {
         notes.push_back(
-            fmt::format("renderer '{}' takes lights with extent as points at their "
-                        "centres; 'distributed' does not",
+            fmt::format("renderer '{}' replaces area lights by point lights at their "
+                        "centres; 'distributed', 'cone_tracing' and the renderers of light "
+                        "transport do not",
                         options.renderer));
     }
     const CameraDescription& described = chosen_camera(scene, options);
     const Camera& camera = described.camera;
     if (scene.has_motion || !described.keys.empty()) {
         notes.push_back(
-            fmt::format("renderer '{}' shows the moment at which the shutter opens; 'distributed' "
-                        "all of its time",
+            fmt::format("renderer '{}' renders the moment at which the shutter opens; "
+                        "'distributed', 'ambient_occlusion' and the renderers of light transport "
+                        "render all of its time",
                         options.renderer));
     }
     const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
     if (perspective != nullptr && perspective->lens.radius > 0.0) {
         notes.push_back(
-            fmt::format("renderer '{}' sees through the centre of the lens; "
-                        "'distributed' through all of it",
+            fmt::format("renderer '{}' uses the centre of the lens; "
+                        "'distributed' and the renderers of light transport sample all of it",
                         options.renderer));
     }
     return notes;

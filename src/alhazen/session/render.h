@@ -1,5 +1,5 @@
 #pragma once
-/// Renders one image of a scene with options from the command line.
+/// Renders an image of a scene with options of the command line.
 
 #include <memory>
 #include <optional>
@@ -25,7 +25,7 @@ class Renderer;
 struct SamplingReport;
 struct ScanLineReport;
 
-/// A published way of counting that fixes size, sampling and depth.
+/// A published counting protocol that fixes size, sampling and depth.
 enum class Protocol {
     None,
     /// Haines' Standard Procedural Databases: 513x513 rays through the corners of 512x512 pixels,
@@ -43,11 +43,11 @@ struct RenderOptions {
     /// Instead of a camera of the scene; null: none.
     const CameraDescription* view = nullptr;
     std::optional<int> width, height;  ///< one given: the other follows from the aspect ratio
-    std::optional<PixelBox> crop;      ///< of the full frame; default all of it
+    std::optional<PixelBox> crop;      ///< part of the full frame; default: all of it
     int samples_per_pixel = 1;
-    /// Adaptive supersampling instead of samples_per_pixel.
+    /// Adaptive supersampling; replaces samples_per_pixel.
     std::optional<AntialiasSettings> antialias;
-    /// Sampler, filter and stop rules; samples_per_pixel is then the most that a pixel gets.
+    /// Sampler, filter and stop rules; samples_per_pixel is then the maximum of a pixel.
     std::optional<SamplingPlan> sampling;
     std::optional<int> max_depth;  ///< default: the format's
     int threads = 0;               ///< 0 = all available cores
@@ -70,55 +70,55 @@ struct RenderResult {
     FilmLayers layers;
     RayCounters counters;
     double seconds = 0;
-    double processor_seconds = 0;  ///< of all threads together
+    double processor_seconds = 0;  ///< sum over all threads
     int threads = 0;
-    bool complete = true;                   ///< false after a stop; tiles not done are black
+    bool complete = true;                   ///< false after a stop; unfinished tiles are black
     std::size_t tiles_done = 0, tiles = 0;  ///< or parts, as counted by the renderer
-    std::shared_ptr<const AntialiasReport> antialias;  ///< of adaptive supersampling, else null
-    std::shared_ptr<const SamplingReport> sampling;    ///< of RenderOptions::sampling, else null
-    std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
-    std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
-    std::vector<std::string> notes, remarks;           ///< of RenderReport
-    PhotonCloud photons;                               ///< of RenderOptions::keep_photons
+    std::shared_ptr<const AntialiasReport> antialias;  ///< null without adaptive supersampling
+    std::shared_ptr<const SamplingReport> sampling;    ///< null without RenderOptions::sampling
+    std::shared_ptr<const ScanLineReport> scan_lines;  ///< null unless a scan-line renderer
+    std::shared_ptr<const BeamReport> beams;           ///< null unless a beam renderer
+    std::vector<std::string> notes, remarks;           ///< as in RenderReport
+    PhotonCloud photons;                               ///< with RenderOptions::keep_photons
 };
 
-/// The camera that the options choose. Throws Error (Usage) for a name that there is not.
+/// The camera that the options select. Throws Error (Usage) for an unknown name.
 [[nodiscard]] const CameraDescription& chosen_camera(const Scene& scene,
                                                      const RenderOptions& options);
 
 struct FrameSize {
     int width, height;
 };
-/// The size of the picture for a camera that was described for `aspect`.
+/// The size of the picture for a camera described for `aspect`.
 [[nodiscard]] FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options,
                                    double aspect);
 
 /// Width / height of an image without a camera: that of the options, of the file, or 4 / 3.
 [[nodiscard]] double free_aspect(const PictureSettings& picture, const RenderOptions& options);
 
-/// Throws Error (Usage) where RenderOptions::antialias excludes another option, or the renderer.
+/// Throws Error (Usage) if RenderOptions::antialias conflicts with another option or the renderer.
 void check_antialias(const RenderOptions& options, const Renderer& renderer);
 
-/// The same for RenderOptions::sampling.
+/// As check_antialias, for RenderOptions::sampling.
 void check_sampling(const RenderOptions& options, const Renderer& renderer);
 
-/// The same for RenderOptions::keep_photons.
+/// As check_antialias, for RenderOptions::keep_photons.
 void check_photons(const RenderOptions& options, const Renderer& renderer);
 
-/// The same for RenderOptions::spectral.
+/// As check_antialias, for RenderOptions::spectral.
 void check_spectral(const RenderOptions& options, const Renderer& renderer);
 
-/// What of the view and the lights `renderer` does not show as it is, one sentence each.
+/// The properties of the view and the lights that `renderer` simplifies, one sentence each.
 [[nodiscard]] std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,
                                                   const Renderer& renderer);
 
-/// Renders an image. Throws Error (Usage) for invalid options, and where the renderer needs an
-/// aggregate that the scene does not have.
+/// Renders an image. Throws Error (Usage) for invalid options, and if the renderer needs an
+/// aggregate and the scene has none.
 [[nodiscard]] RenderResult render(const Scene& scene, const PictureSettings& picture,
                                   const RenderOptions& options);
 /// Renders with the description, for renderers that read geometry from it.
 [[nodiscard]] RenderResult render(const LoadedScene& loaded, const RenderOptions& options);
-/// The same of a scene whose lights are not those of the description (lighting.h).
+/// Renders a scene whose lights differ from those of the description (lighting.h).
 [[nodiscard]] RenderResult render_with_description(const Scene& scene,
                                                    const SceneDescription& description,
                                                    const RenderOptions& options);

@@ -13,8 +13,8 @@ namespace alhazen {
 namespace {
 
 constexpr double kPanel = 360, kPanelGap = 50, kPanelTop = 60, kPanelLeft = 40;
-constexpr double kRadii = 2.5;       ///< of the root of the number of points
-constexpr double kWhitePower = 3.0;  ///< times that of independent points
+constexpr double kRadii = 2.5;       ///< relative to the root of the number of points
+constexpr double kWhitePower = 3.0;  ///< relative to independent points
 constexpr int kGreys = 24;
 
 double panel_left(int panel) {
@@ -51,7 +51,7 @@ void draw_points(svg::Writer& out, const SampleStudy& study) {
     }
 }
 
-/// Runs of equal greys are one rectangle.
+/// Draws runs of equal greys as one rectangle.
 void draw_periodogram(svg::Writer& out, const Periodogram& spectrum) {
     begin_panel(out, 1, "periodogram", "#000");
     const int reach = spectrum.reach(), side = 2 * reach + 1;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kTablesLeft = 60, kTablesTop = 90, kTablesWidth = 220, kTablesHeight = 420,
                  kTablesGap = 40, kTablesBars = 80;
 constexpr double kTablesSeconds = 12;
-constexpr std::size_t kTablesMostSteps = 240;  ///< of the animation
+constexpr std::size_t kTablesMostSteps = 240;  ///< steps of the animation
 
 struct TableCurve {
     const char* name;

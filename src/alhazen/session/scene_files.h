@@ -12,7 +12,7 @@ namespace alhazen {
 /// The scene file and all other files that were read or that it names.
 [[nodiscard]] std::set<std::filesystem::path> files_of_scene(const SceneDescription& description);
 
-/// Whether both names denote one existing file.
+/// True if both names denote one existing file.
 [[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Throws Error (Usage) when one of `outputs` is a file of the scene.

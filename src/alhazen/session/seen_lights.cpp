@@ -25,7 +25,7 @@ AnyShape prepared(S shape) {
     return shape;
 }
 
-/// Of all extents but meshes.
+/// The shape of any extent but a mesh.
 AnyShape surface_of(const LightExtent& extent) {
     return std::visit(Overloaded{[](const RectangleExtent& e) {
                                      Rectangle shape;

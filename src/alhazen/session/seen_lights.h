@@ -9,16 +9,16 @@
 
 namespace alhazen {
 
-/// Adds a part of emission AreaLight::radiance for each light that is seen; it throws no shadow.
-/// The lights are then marked as parts, no longer as seen.
-/// The materials of these parts are the last of the description, in the order of the lights.
+/// Adds a part of emission AreaLight::radiance for each visible light; the part casts no shadow.
+/// The lights are marked as parts instead of as seen. The materials of these parts are the last of
+/// the description, in the order of the lights.
 void add_seen_lights(SceneDescription& description);
 
-/// Of the part of a light, after `add_seen_lights`; none where it has no part.
+/// The material of a light's part after `add_seen_lights`; none if the light has no part.
 [[nodiscard]] std::optional<MaterialId> material_of_light(const SceneDescription& description,
                                                           std::size_t light);
 
-/// Gives the part of such a light another surface; the light itself stays as it is.
+/// Gives the part of a light another surface; the light itself is unchanged.
 void set_surface_of_light(SceneDescription& description, std::size_t light,
                           const LightExtent& extent);
 

@@ -11,10 +11,10 @@ namespace alhazen {
 
 namespace {
 
-/// Times at which an animated file is read: the ends of the shutter and between.
+/// Number of times at which an animated file is read, ends of the shutter included.
 constexpr int kPoses = 9;
 
-/// Makes motion of the differences between poses of one scene.
+/// Converts the differences between poses of one scene to motion.
 class PoseMotion {
   public:
     PoseMotion(SceneDescription& first, std::span<const SceneDescription> later,
@@ -35,13 +35,14 @@ class PoseMotion {
   private:
     void require(bool same) const {
         if (same) return;
-        throw Error(ErrorKind::Scene,
-                    fmt::format("{}: has other things at another time; --shutter needs a scene in "
-                                "which things move and none come or go",
-                                d_.path.string()));
+        throw Error(
+            ErrorKind::Scene,
+            fmt::format("{}: its objects differ between times; --shutter requires a scene in "
+                        "which objects move and none appear or vanish",
+                        d_.path.string()));
     }
 
-    /// `of(pose)` at each time.
+    /// Keys with the transform `of(pose)` at each time.
     template <class Of>
     [[nodiscard]] std::vector<TransformKey> keys(Of&& of) const {
         std::vector<TransformKey> keys{{times_[0], of(d_)}};
@@ -104,7 +105,7 @@ class PoseMotion {
     std::span<const double> times_;
 };
 
-/// Directions and places of lights differ.
+/// True if directions or positions of lights differ.
 bool lights_move(const SceneDescription& a, const SceneDescription& b) {
     if (a.lights.size() != b.lights.size()) return true;
     for (std::size_t i = 0; i < a.lights.size(); ++i) {

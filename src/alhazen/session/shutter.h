@@ -1,5 +1,5 @@
 #pragma once
-/// Scenes over the time that a shutter is open.
+/// Motion blur: scenes over the time that a shutter is open.
 
 #include <filesystem>
 
@@ -7,10 +7,10 @@
 
 namespace alhazen {
 
-/// Opens the shutter of the scene. A scene of a format with animations is read at several times
-/// while the shutter is open, and what differs moves: parts, vertices of meshes, cameras. Times
-/// are in seconds there, else in the unit of the file's keys. Warns where nothing moves, and where
-/// a light does. Throws Error (Scene) where the file has other things at another time.
+/// Opens the shutter of the scene. An animated format is read at several times while the shutter is
+/// open; parts, vertices of meshes and cameras that differ then move. Times are in seconds for such
+/// formats, otherwise in the unit of the file's keys. Warns if nothing moves, and if a light moves.
+/// Throws Error (Scene) if the contents of the file differ between times.
 void open_shutter_of(SceneDescription& description, const ImportOptions& options,
                      const Shutter& shutter, Diagnostics& diagnostics);
 

@@ -30,7 +30,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Null: the renderer has none.
+/// Null if the renderer has none.
 nlohmann::ordered_json beams_json(const RenderResult& result) {
     if (!result.beams) return nullptr;
     const BeamReport& r = *result.beams;
@@ -116,7 +116,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
     }
     rays["refraction"]["total_internal"] = counters.total_internal;
     const TraversalStats& tests = counters.tests;
-    json tests_json;  // null: they were not counted
+    json tests_json;  // null: not counted
     if (options.count_tests || options.aovs.has_tests()) {
         tests_json = {{"box", tests.box_tests},
                       {"primitive", tests.primitive_tests},

@@ -1,5 +1,5 @@
 #pragma once
-/// Memory of a scene, per stored and per effective primitive.
+/// Memory of a scene, in total and per effective primitive.
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace alhazen {
     return census.scene_bytes + census.accelerator_bytes;
 }
 
-/// Bytes per effective primitive, instances expanded. None for an empty scene; too large where the
+/// Bytes per effective primitive, instances expanded. None for an empty scene; too large if the
 /// count is saturated.
 [[nodiscard]] inline std::optional<double> bytes_per_effective_primitive(
     const SceneCensus& census) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Draws a loaded scene of planar facets without pixels, by beams.
+/// Draws a loaded scene of planar facets as vector graphics, by beams.
 
 #include "alhazen/imaging/drawing/drawing.h"
 #include "alhazen/session/load.h"
@@ -13,8 +13,8 @@ enum class DrawingLook {
     Technical,  ///< lines on white
 };
 
-/// `options`: sizes, camera, depth, threads and stop are heeded. Throws Error: Usage where parts
-/// have no planar facets, or as `render`.
+/// Of `options`, sizes, camera, depth, threads and stop are used. Throws Error: Usage if parts have
+/// no planar facets, or as `render`.
 [[nodiscard]] Drawing draw_scene(const LoadedScene& loaded, const RenderOptions& options,
                                  DrawingLook look);
 

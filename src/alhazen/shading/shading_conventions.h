@@ -1,6 +1,6 @@
 #pragma once
-/// Terms of the shading equation in which the scene formats differ. An importer sets them, the
-/// renderers read them; no renderer asks which format a scene came from.
+/// Terms of the shading equation in which the scene formats differ. Importers set them, renderers
+/// read them; renderers are independent of the scene format.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; the
 /// equation of the UW CSE 457 Trace project:
@@ -9,28 +9,28 @@
 
 namespace alhazen {
 
-/// Laws of optics in place of the shares and tints of the equation, for renderers that trace its
+/// Laws of optics that replace the shares and tints of the equation, for renderers that trace its
 /// rays; docs/reference/materials.md, "Exact optics".
 struct Optics {
-    bool fresnel = false;  ///< light is shared out between the two rays by Fresnel's equations
-    bool beer = false;     ///< kt is what a unit of length leaves of light
+    bool fresnel = false;  ///< the two rays are weighted by Fresnel's equations
+    bool beer = false;     ///< kt is the transmittance of a unit of length
     [[nodiscard]] bool any() const { return fresnel || beer; }
 };
 
 struct ShadingConventions {
     /// Cosine c of the highlight: of the mirrored light direction and the eye (Phong), or of the
-    /// normal and the half vector (Blinn-Phong), to the power n of the shininess. Schlick: that of
-    /// Phong as c / (n - n c + c) instead of c^n ("A Fast Alternative to Phong's Specular Model",
-    /// Graphics Gems IV, 1994).
+    /// normal and the half vector (Blinn-Phong), to the power n of the shininess. Schlick: Phong's
+    /// cosine with c / (n - n c + c) instead of c^n ("A Fast Alternative to Phong's Specular
+    /// Model", Graphics Gems IV, 1994).
     enum class Highlight { Phong, BlinnPhong, Schlick };
     Highlight highlight = Highlight::BlinnPhong;
 
-    /// Effect on light of a transparent surface between a point and the light.
+    /// Effect of a transparent surface between a point and the light.
     enum class ShadowTint {
         PerCrossing,  ///< times kt at every crossing, entering and leaving both
         PerDistance,  ///< times kt^(distance travelled inside) (Beer)
         Opaque,       ///< any surface blocks all light
-        None,         ///< nothing casts a shadow
+        None,         ///< no shadows
     };
     ShadowTint shadow_tint = ShadowTint::PerCrossing;
 
@@ -42,25 +42,25 @@ struct ShadingConventions {
     };
     RefractionTint refraction_tint = RefractionTint::PerEvent;
 
-    /// Factor of ambient light: ka of the material, or kd where the format has no ka.
+    /// Coefficient of ambient light: ka of the material, or kd for formats without ka.
     enum class AmbientFactor { Ambient, Diffuse };
     AmbientFactor ambient_factor = AmbientFactor::Ambient;
-    /// Ambient light is multiplied by kt of the medium when the point is seen from inside it.
+    /// Ambient light is multiplied by kt of the medium if the point is seen from inside it.
     bool ambient_inside_times_kt = true;
-    /// Ambient light comes from where the ray begins: it falls with the cosine of the view.
+    /// Ambient light comes from the origin of the ray: it is multiplied by the cosine of the view.
     bool ambient_from_eye = false;
 
-    /// A point light's 1 / (c + l d + q d^2) never exceeds 1.
+    /// Limits a point light's attenuation 1 / (c + l d + q d^2) to 1.
     bool clamp_attenuation = true;
 
-    /// A transparent surface reflects although its kr is zero (the ray is cast and counted).
+    /// Rays are reflected (cast and counted) at a transparent surface whose kr is zero.
     bool transmitting_surfaces_reflect = false;
 
-    /// A reflected ray that an interpolated normal sends into the surface, or a refracted one that
-    /// it sends back out, is replaced by the one of the geometric normal.
+    /// If an interpolated normal sends a reflected ray into the surface, or a refracted ray back
+    /// out, the ray of the geometric normal is used.
     bool correct_interpolated_normals = true;
 
-    /// False: no rays of the kind are cast.
+    /// False: rays of this kind are not cast.
     bool trace_reflections = true;
     bool trace_refractions = true;
 
@@ -68,13 +68,13 @@ struct ShadingConventions {
 
     double air_index = 1.0003;
 
-    /// A ray that leaves a surface meets nothing nearer than this to where it starts; light that
-    /// passes through a surface starts there anew.
+    /// Smallest distance of a hit from the surface where a ray starts; also applied after a shadow
+    /// ray passes through a surface.
     double min_distance = 0.0;
 
-    /// Largest depth of recursion: 0 = eye rays only.
+    /// Maximum depth of recursion: 0 = eye rays only.
     int max_depth = 5;
-    /// Rays whose product of coefficients is below this in every channel are not cast; 0 = all are.
+    /// Rays whose product of coefficients is below this in every channel are not cast; 0: no limit.
     double min_contribution = 0.0;
 };
 

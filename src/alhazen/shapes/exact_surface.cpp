@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// The factor of a transform that keeps angles; none for others.
+/// The scale factor of a similarity transform; empty for other transforms.
 std::optional<double> similarity(const Mat3& m) {
     const double xx = length_squared(m.x_axis), yy = length_squared(m.y_axis),
                  zz = length_squared(m.z_axis), mean = (xx + yy + zz) / 3.0;
@@ -24,8 +24,8 @@ std::optional<double> similarity(const Mat3& m) {
     return std::sqrt(mean);
 }
 
-/// The part of `v` that is perpendicular to a unit axis; twice, since of a point beside the axis
-/// rounding is left.
+/// The part of `v` perpendicular to a unit axis. Computed twice, since near the axis the first
+/// result is mostly rounding.
 Vec3 across_axis(const Vec3& v, const Vec3& axis) {
     const Vec3 once = v - dot(v, axis) * axis;
     return once - dot(once, axis) * axis;
@@ -41,7 +41,7 @@ bool has_mixed_terms(const QuadricForm& f) {
     return f.xy != 0.0 || f.yz != 0.0 || f.zx != 0.0;
 }
 
-/// The form without mixed terms is the sum of signs_i (rows_i x)^2 in space.
+/// The form without mixed terms as the sum of signs_i (rows_i x)^2 in world space.
 std::array<Vec3, 3> rows_of(const Mat3& local_from_space, const QuadricForm& f) {
     const Mat3 rows = transposed(local_from_space);
     return {std::sqrt(std::abs(f.xx)) * rows.x_axis, std::sqrt(std::abs(f.yy)) * rows.y_axis,
@@ -52,15 +52,15 @@ Vec3 signs_of(const QuadricForm& f) {
     return {sign(f.xx), sign(f.yy), sign(f.zz)};
 }
 
-/// Whether the axes that the form has in space are known to too few digits: rows of different signs
-/// aslant, in a ratio whose square leaves less than some 5 digits.
+/// True if the form's axes in world space are known to too few digits: rows of different signs that
+/// are not perpendicular, with a ratio whose square leaves less than about 5 digits.
 bool is_too_slender(const Mat3& local_from_space, const QuadricForm& f) {
     constexpr double kMostRatio = 1e5;
     if (has_mixed_terms(f)) return false;
     const std::array<Vec3, 3> rows = rows_of(local_from_space, f);
     if (eigensystem_of_rows(rows, signs_of(f))) return false;
     const double sum = length_squared(rows[0]) + length_squared(rows[1]) + length_squared(rows[2]);
-    // Flat directions are left out.
+    // Flat directions are skipped.
     const auto entry = [&](int i, int k) {
         const double product = dot(rows[i], rows[k]);
         return i == k && product == 0.0 ? sum : product;
@@ -73,7 +73,7 @@ bool is_too_slender(const Mat3& local_from_space, const QuadricForm& f) {
     return !(least * kMostRatio * kMostRatio > max_component(squares));
 }
 
-/// Of the form in a frame, in space.
+/// Eigensystem, in world space, of a form given in a local frame.
 Eigensystem eigensystem_of(const Mat3& local_from_space, const QuadricForm& f, const Mat3& a) {
     if (!has_mixed_terms(f)) {
         const auto own = eigensystem_of_rows(rows_of(local_from_space, f), signs_of(f));
@@ -84,7 +84,7 @@ Eigensystem eigensystem_of(const Mat3& local_from_space, const QuadricForm& f, c
     Eigensystem own = eigensystem({0.5 * (half.x_axis + transposed(half).x_axis),
                                    0.5 * (half.y_axis + transposed(half).y_axis),
                                    0.5 * (half.z_axis + transposed(half).z_axis)});
-    // Rounding of a flat direction is no curvature.
+    // Sets eigenvalues of flat directions, which are mere rounding, to zero.
     const double least =
         8 * std::numeric_limits<double>::epsilon() * max_component(abs(own.values));
     for (int i = 0; i < 3; ++i) {
@@ -105,7 +105,7 @@ bool has_lines_only(const Profile& profile) {
     return true;
 }
 
-/// Open loops begin and end on the axis, which closes them.
+/// The profile with open loops, which begin and end on the axis, closed along the axis.
 Profile with_axis(const Profile& profile) {
     Profile closed = profile;
     std::size_t begin = 0;
@@ -117,15 +117,15 @@ Profile with_axis(const Profile& profile) {
     return closed;
 }
 
-/// Whether the right side of a line of the profile is inside: the other lines that the normal of
-/// its middle crosses there are odd in number.
+/// True if the right side of a line of the profile is inside: the normal at its middle crosses an
+/// odd number of other lines.
 bool lies_inside(const Profile& profile, const ProfileCurve& line) {
     const double dx = line.p[3].x - line.p[0].x, dy = line.p[3].y - line.p[0].y;
     const double mx = 0.5 * (line.p[0].x + line.p[3].x), my = 0.5 * (line.p[0].y + line.p[3].y);
     bool odd = false;
     for (const ProfileCurve& other : profile.curves) {
         if (&other == &line) continue;
-        // Along the line, and to its right, from its middle.
+        // Coordinates of a point along the line, and to its right, from its middle.
         const auto along = [&](const Vec2& p) { return dx * (p.x - mx) + dy * (p.y - my); };
         const auto aside = [&](const Vec2& p) { return dy * (p.x - mx) - dx * (p.y - my); };
         const double a = along(other.p[0]), b = along(other.p[3]);
@@ -148,7 +148,7 @@ std::size_t plane_count(const ClippedQuadric& solid) {
 template <class S>
 std::string refusal_of(const S& shape, const Affine& world) {
     constexpr const char* kUnknown = "is of a kind without a closed form";
-    constexpr const char* kSlender = "is stretched aslant, its axes in a ratio above 1e5";
+    constexpr const char* kSlender = "is stretched obliquely, with an axis ratio above 1e5";
     if constexpr (std::is_same_v<S, Torus>) {
         return similarity(world.linear) ? "" : "is placed with different scales along its axes";
     } else if constexpr (std::is_same_v<S, Tgc>) {
@@ -182,7 +182,7 @@ std::string nearest_refusal(const AnyShape& shape, const Affine& world_from_shap
                       static_cast<const AnalyticShapes::Variant&>(shape));
 }
 
-/// Appends the pieces of a shape in space.
+/// Appends the pieces of a shape in world space.
 class PieceMaker {
   public:
     PieceMaker(const Placement& world, std::vector<ExactSurface::Piece>& pieces)
@@ -254,8 +254,8 @@ class PieceMaker {
         for (std::size_t i = 0; i < closed.curves.size(); ++i) {
             const ProfileCurve& curve = closed.curves[i];
             const Vec2 &a = curve.p[0], &b = curve.p[3];
-            if (a.x == 0.0 && b.x == 0.0) continue;  // the axis
-            // Inside is on the right or the left of the line from a to b.
+            if (a.x == 0.0 && b.x == 0.0) continue;  // on the axis
+            // The side of the line from a to b that is inside.
             const bool to_left = s.is_closed && lies_inside(closed, curve);
             if (a.y != b.y) {
                 const bool up = a.y < b.y;
@@ -300,7 +300,7 @@ class PieceMaker {
             add_polygon(std::move(corners), {}, at, normalize(normal));
         }
     }
-    /// Ellipsoids, and all that have a clipped quadric.
+    /// Ellipsoids, and all shapes with a clipped quadric.
     template <class S>
     void add(const S& s) {
         if constexpr (requires { plane_count(s.solid); }) {
@@ -322,7 +322,7 @@ class PieceMaker {
 
   private:
     [[nodiscard]] Vec3 point(const Vec3& p) const { return world_.outer_from_inner.point(p); }
-    /// Of differences of points of space, in a frame of the shape.
+    /// Linear map from world space to a frame of the shape.
     [[nodiscard]] Mat3 local_from_space(const SolidFrame& frame) const {
         return frame.local_from_object * world_.inner_from_outer.linear;
     }
@@ -345,7 +345,7 @@ class PieceMaker {
                 capped,
                 apex_of(frame, f, a)};
     }
-    /// Where the gradient of f is 0 and so is f, from the shape's origin in space.
+    /// Relative to the shape's origin in world space, the point where f and its gradient are 0.
     [[nodiscard]] std::optional<Vec3> apex_of(const SolidFrame& frame, const QuadricForm& f,
                                               const Mat3& a) const {
         const Vec3 b{f.x, f.y, f.z};
@@ -446,7 +446,8 @@ std::optional<PointOnSurface> ExactSurface::nearest_of(const Spindle& s, const V
     const Vec3 out = unit_or(across, perpendicular(s.axis));
     const Vec2 p{length(across), height};
     std::optional<PointOnSurface> best;
-    // From a to b in the half plane of (distance from the axis, height), outside to the right.
+    // A line from a to b in the half plane of (distance from the axis, height); outside is to the
+    // right.
     const auto line = [&](const Vec2& a, const Vec2& b) {
         const Vec2 d{b.x - a.x, b.y - a.y};
         const double squared = d.x * d.x + d.y * d.y;

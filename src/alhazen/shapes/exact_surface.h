@@ -1,19 +1,19 @@
 #pragma once
-/// A shape where it is placed, for questions about its nearest point.
+/// A placed shape prepared for nearest-point queries.
 ///
-/// Source: clipped_region.h for quadrics and what planes bound, flat_region.h for polygons; a
-/// torus is a circle's surroundings; a cylinder or cone that is not stretched is lines in the plane
-/// through its axis and the point.
-/// Differs: a placement may be any affine transform, under which quadrics and planes stay what they
-/// are and nearest points do not; a torus must be placed by one that keeps angles.
+/// Source: clipped_region.h for quadrics and solids bounded by planes, flat_region.h for polygons.
+/// The nearest point of a torus follows from its circle; that of a cylinder or cone that is not
+/// stretched from line segments in the plane through its axis and the query point.
+/// Differs: placements may be any affine transform, which preserves quadrics and planes though not
+/// nearest points; a torus requires a similarity transform.
 /// ADD A SHAPE HERE: a branch of `refusal_of` and an overload of `PieceMaker::add` in
 /// exact_surface.cpp.
-/// Conventions: points and normals are in space; normals are outward for closed shapes. What is
-/// left of the exact distance is some roundings of the largest coordinate
-/// (tests/unit/shapes/nearest_test.cpp), that of the point asked from included. Cones and
-/// hyperboloids that are stretched aslant, and quadrics with mixed terms, lose more: as many as the
-/// squared ratio of their longest to their shortest axis; the former are refused beyond 1e5.
-/// Threads: const functions may be called from many.
+/// Conventions: points and normals are in world space; normals are outward for closed shapes. The
+/// error of a distance is some roundings of the largest coordinate, including that of the query
+/// point (tests/unit/shapes/nearest_test.cpp). It is larger for obliquely stretched cones and
+/// hyperboloids and for quadrics with mixed terms, by the squared ratio of their longest to their
+/// shortest axis; the former are refused beyond 1e5.
+/// Threads: const functions may be called concurrently.
 
 #include <memory>
 #include <string>
@@ -26,17 +26,17 @@
 
 namespace alhazen {
 
-/// Why the nearest point of a shape is not known; empty where it is.
+/// Why nearest points of a shape are not supported; empty if they are.
 [[nodiscard]] std::string nearest_refusal(const AnyShape& shape, const Affine& world_from_shape);
 
 class ExactSurface {
   public:
-    /// Precondition: the shape is prepared, and not refused.
+    /// Precondition: the shape is prepared and not refused.
     ExactSurface(const AnyShape& shape, const Placement& world);
 
-    /// `from` is finite.
+    /// The nearest point; `from` must be finite.
     [[nodiscard]] PointOnSurface nearest(const Vec3& from) const;
-    /// With all that it keeps elsewhere.
+    /// Memory, including heap allocations.
     [[nodiscard]] std::size_t bytes() const;
 
   private:
@@ -54,18 +54,18 @@ class ExactSurface {
         Vec3 center, axis;
         double half_height = 1, base_radius = 1, top_radius = 1;
         bool capped = true;
-        bool hollow = false;  ///< the normals lead to the axis
+        bool hollow = false;  ///< the normals point to the axis
     };
     struct Wall {
         Vec3 point, normal;
     };
-    // Large ones are kept elsewhere: there may be very many balls.
+    // Allocated separately because of their size: there may be very many balls.
     struct Clipped {
         Vec3 origin;
         std::shared_ptr<const ClippedRegion> region;
-        bool hollow = false;  ///< the normals lead to where f < 0
+        bool hollow = false;  ///< the normals point to where f < 0
     };
-    /// What a plane cuts out of the first region and leaves of the second, which may be null.
+    /// The part of a plane inside the first region and outside the second, which may be null.
     struct Annulus {
         Vec3 origin;
         std::shared_ptr<const ClippedRegion> outer, hole;

@@ -53,8 +53,7 @@ using AnalyticShapes =
                Blob, HeightField, BezierPatch, PatchMesh, NurbsSurface, BilinearPatch,
                SteinerPatch>;
 
-/// Any analytic shape by value: the variant, with copy, move and destruction compiled once instead
-/// of in every file that has parts.
+/// Any analytic shape by value: the variant, with copy, move and destruction compiled only once.
 class AnyShape : public AnalyticShapes::Variant {
   public:
     using AnalyticShapes::Variant::Variant;

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Turns the triangles from `first` on, with the vertices from `first_vertex` on, inside out.
+/// Reverses the orientation of the triangles from `first` and the vertices from `first_vertex`.
 void turn(TriangleMesh& mesh, std::size_t first, std::size_t first_vertex) {
     for (std::size_t k = first; k < mesh.triangles.size(); ++k) {
         std::swap(mesh.triangles[k][1], mesh.triangles[k][2]);

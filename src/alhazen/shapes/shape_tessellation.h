@@ -1,10 +1,10 @@
 #pragma once
-/// Triangles within a tolerance of a shape.
+/// Tessellation of shapes within a tolerance.
 ///
-/// Source: see patch_tessellation.h; the patches that a shape is: exact_forms.h.
+/// Source: see patch_tessellation.h; the patches of a shape: exact_forms.h.
 /// Conventions: triangles are counterclockwise from outside, with the normals of the exact surface
-/// at their vertices. The mesh of a closed shape is closed where vertices of equal position are
-/// one. Faces of boxes, polygons and height fields are exact.
+/// at their vertices. The mesh of a closed shape is closed after vertices of equal position are
+/// merged. Faces of boxes, polygons and height fields are exact.
 
 #include <cstdint>
 #include <string>
@@ -15,12 +15,12 @@
 namespace alhazen {
 
 inline constexpr const char* kTooManyTriangles = "needs more triangles than the limit";
-/// A closed shape without patches or faces: its crossings with lines give the triangles
-/// (solids/solid_triangles.h).
+/// Result for a closed shape without patches or faces, to be tessellated from its crossings with
+/// lines (solids/solid_triangles.h).
 inline constexpr const char* kNeedsLines = "has no patches";
 
 /// Appends triangles within `tolerance`, in object space, of a prepared, valid shape. Returns an
-/// empty text, or why there are none: "is endless". Nothing is appended then.
+/// empty text, or why the shape has none (for example "is endless"); nothing is appended then.
 /// Precondition: tolerance > 0.
 [[nodiscard]] std::string append_triangles(const AnyShape& shape, double tolerance,
                                            std::uint64_t max_triangles, TriangleMesh& mesh);

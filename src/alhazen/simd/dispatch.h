@@ -1,5 +1,5 @@
 #pragma once
-/// The choice among the kernels of a source that is compiled once for each instruction set.
+/// Selects among the kernels of a source that is compiled once for each instruction set.
 ///
 /// Conventions: included after <hwy/highway.h>, once for all targets (under HWY_ONCE). `kernel` is
 /// a function of HWY_NAMESPACE, compiled for every target of the source.
@@ -8,13 +8,13 @@
 
 namespace alhazen {
 
-/// The targets that kernels are chosen among: those of this machine, or the one that is forced.
+/// The targets that kernels are chosen among: those of this machine, or the forced one.
 [[nodiscard]] const hwy::ChosenTarget& chosen_simd_target();
 
 }  // namespace alhazen
 
-/// The table of a kernel, one entry for each instruction set. At the scope of the kernel's own
-/// namespace.
+/// The table of a kernel, with one entry for each instruction set. Placed at the scope of the
+/// kernel's own namespace.
 #define ALHAZEN_KERNEL_TABLE(kernel)                                                   \
     static decltype(&HWY_STATIC_DISPATCH(kernel))                                      \
         const kernel##_table[] = {nullptr, /* Highway's entry for a choice not made */ \

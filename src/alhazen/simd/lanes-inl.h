@@ -1,11 +1,11 @@
-/// Vectors of eight (or N) lanes of float or double with the operators of a scalar: for blocks of
+/// Vectors of eight (or N) lanes of float or double with the operators of a scalar, for blocks of
 /// eight primitives, the eight children of a node, and rays prepared together.
 ///
 /// A block of double is one AVX-512 register of double, two of AVX, four of SSE. Every operation is
-/// the correctly rounded IEEE one, so each lane has the bits of the scalar form on every target;
-/// only mul_add and its variants are fused where the target can.
+/// correctly rounded (IEEE), so each lane has the bits of the scalar form on every target; only
+/// mul_add and its variants are fused where the target can.
 /// Conventions: included once per target, by the pattern of Highway's foreach_target.h; everything
-/// is in HWY_NAMESPACE and must not be used outside of it.
+/// is in HWY_NAMESPACE and must not be used outside it.
 
 #if defined(ALHAZEN_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SIMD_LANES_INL_H_
@@ -21,8 +21,7 @@
 #include <cstdint>
 #include <cstring>
 
-// Unrolls loops over parts, except in plain C++, where eight copies of everything only slow down
-// compilation.
+// Unrolls loops over parts, except in plain C++, where eight copies only slow down compilation.
 #undef ALHAZEN_UNROLL
 #if HWY_TARGET == HWY_SCALAR
 #define ALHAZEN_UNROLL
@@ -39,8 +38,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr std::size_t kLaneCount = 8;
 inline constexpr std::uint32_t kAllLanes = (1u << kLaneCount) - 1;
 
-/// Doubles use registers of at most four lanes: an occasional 512-bit instruction lowers the clock
-/// of many processors by a sixth, for everything that runs.
+/// The registers of a block. Those of double have at most four lanes: occasional 512-bit
+/// instructions lower the clock of many processors by a sixth.
 template <class T, std::size_t N = kLaneCount>
 using LaneTag = hn::CappedTag<T, (sizeof(T) == 8 && N > 4) ? 4 : N>;
 
@@ -69,7 +68,7 @@ struct Lanes {
 using Doubles = Lanes<double>;
 using Floats = Lanes<float>;
 
-/// `values` is aligned to a block (64 bytes for double, 32 for float).
+/// Loads from an address aligned to a block (64 bytes for double, 32 for float).
 template <std::size_t N = kLaneCount, class T>
 HWY_INLINE Lanes<T, N> load_lanes(const T* values) {
     Lanes<T, N> r;
@@ -209,7 +208,7 @@ ALHAZEN_LANES_BINARY(copysign, hn::CopySign(a.part[i], b.part[i]))
 /// Minimum and maximum; the result for a NaN operand differs between targets.
 ALHAZEN_LANES_BINARY(min_lanes, hn::Min(a.part[i], b.part[i]))
 ALHAZEN_LANES_BINARY(max_lanes, hn::Max(a.part[i], b.part[i]))
-/// As in <cmath>: a NaN operand is dropped.
+/// Minimum and maximum as in <cmath>: a NaN operand is ignored.
 ALHAZEN_LANES_BINARY(fmin, hn::IfThenElse(hn::IsNaN(a.part[i]), b.part[i],
                                           hn::IfThenElse(hn::IsNaN(b.part[i]), a.part[i],
                                                          hn::Min(a.part[i], b.part[i]))))
@@ -223,7 +222,7 @@ ALHAZEN_LANES_COMPARE(operator>=, hn::Ge(a.part[i], b.part[i]))
 
 /// Maximum and minimum of floats without NaN, compared as integers, which takes one cycle instead
 /// of four. Exact where one operand (for the maximum) or both (for the minimum) are at least +0;
-/// otherwise one of the operands that is negative.
+/// otherwise one of the negative operands.
 ALHAZEN_LANES_BINARY(larger_by_bits,
                      hn::BitCast(LaneTag<T, N>(), hn::Max(bits_as_integers<T, N>(a.part[i]),
                                                           bits_as_integers<T, N>(b.part[i]))))
@@ -235,7 +234,7 @@ ALHAZEN_LANES_BINARY(smaller_by_bits,
 #undef ALHAZEN_LANES_BINARY
 #undef ALHAZEN_LANES_COMPARE
 
-/// Fused where the target can: only for bounds with a margin for either rounding.
+/// Fused where the target can: only for bounds whose margin covers either rounding.
 #define ALHAZEN_LANES_FUSED(name, operation)                                \
     template <class T, std::size_t N>                                       \
     HWY_INLINE Lanes<T, N> name(const Lanes<T, N>& a, const Lanes<T, N>& b, \
@@ -252,7 +251,7 @@ ALHAZEN_LANES_FUSED(mul_sub, hn::MulSub)         ///< a b - c
 ALHAZEN_LANES_FUSED(neg_mul_add, hn::NegMulAdd)  ///< c - a b
 #undef ALHAZEN_LANES_FUSED
 
-/// Whether mul_add and its variants are fused: otherwise scalar code with std::fma gives other bits
+/// True if mul_add and its variants are fused; otherwise scalar code with std::fma gives other bits
 /// than lanes.
 #if (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2) || (HWY_ARCH_ARM_A64 && HWY_TARGET == HWY_NEON)
 inline constexpr bool kFusesExactly = true;
@@ -260,7 +259,7 @@ inline constexpr bool kFusesExactly = true;
 inline constexpr bool kFusesExactly = false;
 #endif
 
-/// a b - c d as `difference_of_products` (math/quadratic.h) computes it, where kFusesExactly.
+/// a b - c d with the bits of `difference_of_products` (math/quadratic.h), where kFusesExactly.
 template <std::size_t N>
 HWY_INLINE Lanes<double, N> difference_of_products(const Lanes<double, N>& a,
                                                    const Lanes<double, N>& b,
@@ -282,8 +281,8 @@ HWY_INLINE Lanes<T, N> select_lanes(const LaneMask<T, N>& mask, const Lanes<T, N
     return r;
 }
 
-/// Lane 0 is combine(combine(lane 0, lane 1), combine(lane 2, lane 3)) of a, lane 1 of b, and so
-/// on.
+/// Lane 0 is combine(combine(lane 0, lane 1), combine(lane 2, lane 3)) of a; lanes 1 to 3 are the
+/// same of b, c and d.
 template <class F>
 HWY_INLINE Lanes<double, 4> combined_lanes(const Lanes<double, 4>& a, const Lanes<double, 4>& b,
                                            const Lanes<double, 4>& c, const Lanes<double, 4>& d,
@@ -300,7 +299,7 @@ HWY_INLINE Lanes<double, 4> combined_lanes(const Lanes<double, 4>& a, const Lane
         return r;
     }
 #endif
-    // By columns.
+    // Transposes, then combines columns.
     HWY_ALIGN double rows[4][4], columns[4][4];
     store_lanes(a, rows[0]);
     store_lanes(b, rows[1]);
@@ -316,12 +315,12 @@ HWY_INLINE Lanes<double, 4> combined_lanes(const Lanes<double, 4>& a, const Lane
     }
     return r;
 }
-/// The largest lane of a, of b, of c and of d. Precondition: no NaN.
+/// Lanes 0 to 3 are the largest lanes of a, b, c and d. Precondition: no NaN.
 HWY_INLINE Lanes<double, 4> largest_of_each(const Lanes<double, 4>& a, const Lanes<double, 4>& b,
                                             const Lanes<double, 4>& c, const Lanes<double, 4>& d) {
     return combined_lanes(a, b, c, d, [](auto x, auto y) { return hn::Max(x, y); });
 }
-/// The sums of the lanes of a, of b, of c and of d.
+/// Lanes 0 to 3 are the sums of the lanes of a, b, c and d.
 HWY_INLINE Lanes<double, 4> sum_of_each(const Lanes<double, 4>& a, const Lanes<double, 4>& b,
                                         const Lanes<double, 4>& c, const Lanes<double, 4>& d) {
     return combined_lanes(a, b, c, d, [](auto x, auto y) { return hn::Add(x, y); });
@@ -350,7 +349,7 @@ HWY_INLINE LaneMask<T, N> operator!(const LaneMask<T, N>& a) {
     return r;
 }
 
-/// Bit i is lane i.
+/// The mask as bits: bit i is lane i.
 template <class T, std::size_t N>
 HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
     const LaneTag<T, N> d;
@@ -362,7 +361,7 @@ HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
         std::uint32_t part = byte[0];
         if constexpr (hn::MaxLanes(LaneTag<T, N>()) > 8) {
             if constexpr (std::endian::native == std::endian::little) {
-                std::uint16_t both;  // as one word: compilers put bytes together one by one
+                std::uint16_t both;  // as one word: compilers combine bytes one by one
                 std::memcpy(&both, byte, sizeof(both));
                 part = both;
             } else {
@@ -374,7 +373,7 @@ HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
     return bits;
 }
 
-/// Sets lane i where bit i is set.
+/// The mask whose lane i is set where bit i is.
 template <class T, std::size_t N = kLaneCount>
 HWY_INLINE LaneMask<T, N> lanes_of_bits(std::uint32_t bits) {
     const LaneTag<T, N> d;

@@ -1,6 +1,5 @@
 #pragma once
-/// Vectors of the compiler that fill a 128-bit register, for code compiled once for all instruction
-/// sets.
+/// 128-bit vector types of the compiler, for code compiled once for all instruction sets.
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -11,8 +10,8 @@ namespace alhazen {
 using Float4 = float __attribute__((vector_size(16)));
 using Double2 = double __attribute__((vector_size(16)));
 
-/// Lane by lane a < b ? a : b and a > b ? a : b. Compilers use one instruction only where they may
-/// ignore NaN.
+/// Lane by lane a < b ? a : b and a > b ? a : b, by one instruction; compilers use it for the
+/// expression only where they may ignore NaN.
 inline Float4 lesser(Float4 a, Float4 b) {
 #ifdef __SSE2__
     return _mm_min_ps(a, b);

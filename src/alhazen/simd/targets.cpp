@@ -16,14 +16,15 @@ namespace {
 
 #if HWY_ARCH_X86
 
-/// What compilers' names of features leave out, by a leaf of `cpuid` and a bit of ECX.
+/// True if a bit of ECX of a leaf of `cpuid` is set, for features that the compiler's builtin has
+/// no name for.
 bool has_cpuid_bit(unsigned leaf, int bit) {
     unsigned a = 0, b = 0, c = 0, d = 0;
     return __get_cpuid(leaf, &a, &b, &c, &d) != 0 && (c >> bit & 1U) != 0;
 }
 
-/// The targets whose instructions this machine and its operating system have. Highway's library
-/// would tell, but measures the timer for some milliseconds whenever a program is loaded.
+/// The targets that this machine and its operating system support. Highway's library could tell,
+/// but it measures the timer for some milliseconds whenever a program is loaded.
 std::int64_t targets_of_machine() {
     __builtin_cpu_init();
     std::int64_t targets = HWY_EMU128 | HWY_SCALAR;
@@ -53,7 +54,7 @@ std::int64_t targets_of_machine() {
 
 #endif
 
-/// Those that are compiled in. Throws Error(Usage) where the machine has none of them.
+/// The compiled targets that this machine supports. Throws Error (Usage) if there are none.
 std::int64_t usable_targets() {
     const std::int64_t targets = targets_of_machine() & HWY_TARGETS;
     if (targets == 0) {
@@ -66,7 +67,7 @@ std::int64_t usable_targets() {
     return targets;
 }
 
-/// The targets to choose among, a lower bit the better.
+/// The targets to choose among; a lower bit is a better target.
 struct Choice {
     std::int64_t of_machine = usable_targets();
     std::atomic<std::int64_t> targets = of_machine;
@@ -75,7 +76,7 @@ struct Choice {
     Choice() { set(targets); }
     void set(std::int64_t new_targets) {
         targets = new_targets;
-        // With the weaker ones, for kernels that are not compiled for the best.
+        // Includes the weaker targets, for kernels that are not compiled for the best one.
         chosen.Update(of_machine & -(new_targets & -new_targets));
     }
 };

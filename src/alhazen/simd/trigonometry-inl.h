@@ -1,10 +1,10 @@
 /// Arc cosine, sine and cosine of eight lanes, with the bits of <cmath>.
 ///
-/// Each lane is computed to about 60 bits. Where they tell how 53 bits are rounded, with a margin
-/// of a sixteenth of a unit in the last place, that is the result: a library whose error is below
-/// 0.53 of that unit rounds the same way (of glibc 0.523 at most is known: Zimmermann and others,
-/// "Accuracy of Mathematical Functions in Single, Double, Double Extended, and Quadruple
-/// Precision", 2024). The other lanes, a sixteenth of them, ask the library.
+/// Each lane is computed to about 60 bits. If these determine the rounding to 53 bits with a margin
+/// of 1/32 ulp, the rounded value is the result. Assumption: the library's error is at most 0.53
+/// ulp, so that it rounds the same way (largest known error of glibc: 0.523 ulp; Zimmermann and
+/// others, "Accuracy of Mathematical Functions in Single, Double, Double Extended, and Quadruple
+/// Precision", 2024). All other lanes, about a sixteenth, call the library.
 ///
 /// Source: Ziv, "Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last
 /// Bit", ACM TOMS 17(3), 1991 (the test of the rounding); Cody and Waite, "Software Manual for the
@@ -28,12 +28,12 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace trigonometry {
 
-/// Lanes of high + low, |low| at most about half a unit in the last place of high.
+/// Lanes of high + low; |low| is at most about 1/2 ulp of high.
 struct Pairs {
     Doubles high, low;
 };
 
-/// For |a| >= |b| in each lane.
+/// The exact sum for |a| >= |b| in each lane.
 HWY_INLINE Pairs fast_two_sum(const Doubles& a, const Doubles& b) {
     const Doubles sum = a + b;
     return {sum, b - (sum - a)};
@@ -43,9 +43,9 @@ HWY_INLINE Pairs two_sum(const Doubles& a, const Doubles& b) {
     return {sum, (a - (sum - b_virtual)) + (b - b_virtual)};
 }
 
-/// The lanes of which the rounded value is known.
+/// The lanes whose rounding is certain: |low| is at least 1/32 ulp below a tie.
 HWY_INLINE std::uint32_t lanes_rounded(const Pairs& x) {
-    // 1 / (1 - 2 / 32), so that half a unit is passed a 32nd before.
+    // At least 1 / (1 - 2 / 32): 1/2 - 1/32 ulp becomes 1/2 ulp.
     const Doubles with_margin = mul_add(x.low, Doubles(0x1.12p+0), x.high);
     return bits_of((with_margin <= x.high) & (with_margin >= x.high));
 }
@@ -57,7 +57,7 @@ HWY_INLINE Doubles polynomial(const Doubles& x, const double (&coefficients)[N])
     return sum;
 }
 
-/// The product with a constant that is known to more than a double's digits.
+/// The product with the constant `constant` + `constant_low`.
 HWY_INLINE Pairs product(const Pairs& x, double constant, double constant_low) {
     const Doubles c(constant), high = x.high * c;
     return {high,
@@ -68,8 +68,8 @@ HWY_INLINE Pairs square(const Pairs& x) {
     return {high, mul_add(x.high + x.high, x.low, mul_sub(x.high, x.high, high))};
 }
 
-/// y (1 + first + second + rest), the terms falling: of those behind the first the size of the last
-/// digits counts.
+/// y (1 + first + second + rest), in order of decreasing magnitude; the terms after `first` are
+/// added without compensation.
 HWY_INLINE Pairs odd_function(const Pairs& y, const Pairs& first, const Pairs& second,
                               const Doubles& rest) {
     const Pairs sum = fast_two_sum(Doubles(1.0), first.high);
@@ -79,7 +79,7 @@ HWY_INLINE Pairs odd_function(const Pairs& y, const Pairs& first, const Pairs& s
             mul_add(y.high, low, mul_add(y.low, sum.high, mul_sub(y.high, sum.high, product)))};
 }
 
-/// Lanes of `value` that are not in `known` become f(of that lane of `x`).
+/// Sets the lanes of `value` that are not in `known` to f of the lanes of `x`.
 template <class F>
 HWY_INLINE void ask_library(std::uint32_t known, const Doubles& x, Doubles& value, F&& f) {
     if (known == kAllLanes) return;
@@ -97,7 +97,7 @@ HWY_INLINE void ask_library(std::uint32_t known, const Doubles& x, Doubles& valu
 
 namespace trigonometry {
 
-/// The lanes of std::acos that are returned as known, -1 to 1.
+/// Sets `value` to the arc cosines of `x` in [-1, 1]; returns the lanes that are certain.
 HWY_INLINE std::uint32_t find_acos(const Doubles& x, Doubles& value) {
     if constexpr (kFusesExactly) {
         static constexpr double kRest[] = {
@@ -105,7 +105,7 @@ HWY_INLINE std::uint32_t find_acos(const Doubles& x, Doubles& value) {
             0x1.c99a006f82965p-7, 0x1.7a7f54c0d5f42p-7, 0x1.404f481b3686fp-7, 0x1.0eba461a2c9c9p-7,
             0x1.0b94d31c8181fp-7, 0x1.4b700d9dd8936p-9, 0x1.23291da97be2fp-6, -0x1.230cab6b32200p-6,
             0x1.bb8cd3a934fc8p-6};
-        // Beyond 1/2: acos(x) = 2 asin(sqrt((1 - x) / 2)); else pi / 2 - asin(x).
+        // |x| > 1/2: acos(x) = 2 asin(sqrt((1 - x) / 2)); else pi / 2 - asin(x).
         const Doubles size = abs(x), half = (Doubles(1.0) - size) * Doubles(0.5);
         const LaneMask<double> outer = size > Doubles(0.5), right = x > Doubles(0.0);
         const Doubles root = sqrt(half);
@@ -118,7 +118,7 @@ HWY_INLINE std::uint32_t find_acos(const Doubles& x, Doubles& value) {
         const Pairs z{select_lanes(outer, half, own.high),
                       select_lanes(outer, Doubles(0.0), own.low)};
         const Pairs zz = square(z);
-        // Minus what is taken from 0, pi / 2 or pi.
+        // The amount to be subtracted from 0, pi / 2 or pi.
         const Pairs taken = odd_function(y, product(z, 0x1.5555555555555p-3, 0x1.5555555555555p-57),
                                          product(zz, 0x1.3333333333333p-4, 0x1.999999999999ap-59),
                                          zz.high * z.high * polynomial(z.high, kRest));
@@ -137,7 +137,7 @@ HWY_INLINE std::uint32_t find_acos(const Doubles& x, Doubles& value) {
 
 }  // namespace trigonometry
 
-/// std::acos of each lane of four blocks, -1 to 1.
+/// std::acos of each lane of four blocks, in [-1, 1].
 HWY_INLINE void acos_of_lanes(const Doubles (&x)[4], Doubles (&value)[4]) {
     using namespace trigonometry;
     std::uint32_t unknown = 0;
@@ -159,7 +159,7 @@ struct SineCosine {
     Doubles sine, cosine;
 };
 
-/// std::sin and std::cos of each lane, 0 to 7.
+/// std::sin and std::cos of each lane, in [0, 7].
 HWY_INLINE SineCosine sine_cosine_of_lanes(const Doubles& x) {
     using namespace trigonometry;
     SineCosine value{x, x};
@@ -171,7 +171,7 @@ HWY_INLINE SineCosine sine_cosine_of_lanes(const Doubles& x) {
         static constexpr double kCosine[] = {-0x1.6c16c16c16c16p-10, 0x1.a01a01a019d06p-16,
                                              -0x1.27e4fb77125c5p-22, 0x1.1eed8deac3dfep-29,
                                              -0x1.9394b8bd50ae1p-37, 0x1.ab779550c8d45p-45};
-        // Adding it rounds to whole numbers.
+        // Added and subtracted, it rounds to whole numbers.
         const Doubles rounder(0x1.8p+52);
         const Doubles quarter = mul_add(x, Doubles(0x1.45f306dc9c883p-1), rounder) - rounder;
         const Doubles near = neg_mul_add(quarter, Doubles(0x1.921fb54442d18p+0), x);
@@ -187,7 +187,8 @@ HWY_INLINE SineCosine sine_cosine_of_lanes(const Doubles& x) {
         const Doubles c_low = mul_add(Doubles(-0.5), z.low, one_less.low) +
                               (term.high + mul_add(cube, polynomial(z.high, kCosine), term.low));
         const Pairs sine = fast_two_sum(s.high, s.low), cosine = fast_two_sum(one_less.high, c_low);
-        // Quarters 1 and 3 take the other function. 2, 3: the sine is negative; 1, 2: the cosine.
+        // Quarters 1 and 3 swap the functions; the sine is negative in 2 and 3, the cosine in 1
+        // and 2.
         const auto within = [&](double low, double high) {
             return (quarter > Doubles(low)) & (quarter < Doubles(high));
         };
@@ -197,7 +198,7 @@ HWY_INLINE SineCosine sine_cosine_of_lanes(const Doubles& x) {
         };
         value.sine = signed_by(within(1.5, 3.5), select_lanes(other, cosine.high, sine.high));
         value.cosine = signed_by(within(0.5, 2.5), select_lanes(other, sine.high, cosine.high));
-        // Nearer to a multiple of a quarter its digits do not suffice.
+        // Nearer to a multiple of pi / 2 the reduced argument has too few digits.
         const std::uint32_t others = bits_of(other);
         const std::uint32_t sane =
             bits_of((abs(near) > Doubles(0x1p-20)) | (quarter < Doubles(0.5)));

@@ -21,7 +21,7 @@ constexpr std::size_t kTurns = 8;
 
 using SurfacePoint = IsolatedSolid::SurfacePoint;
 
-/// Points spread over the surface, from lines in all directions.
+/// Points on the surface, from lines in all directions.
 std::vector<SurfacePoint> surface_points(const IsolatedSolid& solid, std::uint64_t key) {
     const Box3 box = solid.box();
     const double radius = 0.5 * length(box.size());
@@ -51,7 +51,7 @@ class LineGap {
   public:
     LineGap(const IsolatedSolid& a, const IsolatedSolid& b) : a_(a), b_(b) {}
 
-    /// Negative `distance`: a point of the line lies in both solids.
+    /// The gap on a line. Negative `distance`: a point of the line lies in both solids.
     Pair on(const Vec3& through, const Vec3& direction) {
         const Ray line{through, direction, -kInfinity, kInfinity};
         in_a_.clear();
@@ -89,7 +89,7 @@ class LineGap {
     std::vector<SurfacePoint> in_a_, in_b_;
 };
 
-/// Moves the line through two points in shrinking steps while the gap narrows.
+/// Moves the line through two points in shrinking steps as long as the gap narrows.
 Pair improve(LineGap& gap, Pair best, double size) {
     double step = 0.1 * size;
     int turn = 0;
@@ -108,7 +108,7 @@ Pair improve(LineGap& gap, Pair best, double size) {
                 better = true;
             }
         };
-        // Along the normals: on flat ground this finds the feet of the perpendicular at once.
+        // Along the normals: finds the nearest points of flat faces in one step.
         attempt({}, length(best.b.point - best.a.point) * (best.a.normal - d));
         attempt(length(best.b.point - best.a.point) * (best.b.normal + d), {});
         for (std::size_t i = 0; i < kTurns && best.distance > 0; ++i) {
@@ -131,7 +131,8 @@ class SlabSearch {
   public:
     SlabSearch(const IsolatedSolid& a, const IsolatedSolid& b) : a_(a), b_(b) {}
 
-    /// Searches the widest slab from a start direction; `found` also receives slabs along the axes.
+    /// Searches for the widest slab from a start direction; `found` also receives slabs along the
+    /// axes.
     void run(const Vec3& start, Clearance& found) {
         best_normal_ = start;
         best_ = width(start);
@@ -143,7 +144,7 @@ class SlabSearch {
             }
         }
         tilt();
-        // Where edges face each other the width has a ridge, along which small turns do not climb.
+        // Where edges face each other the width has a ridge, which small turns do not follow.
         for (double half = 0.25; half > 1e-9 && best_ > 0; half *= 0.05) climb_ridges(half);
         if (!(best_ > 0)) return;
         // The computed normal is unit within rounding.
@@ -153,7 +154,7 @@ class SlabSearch {
 
   private:
     static constexpr int kTilts = 24;
-    static constexpr int kSections = 32;  ///< of an interval, by the golden ratio
+    static constexpr int kSections = 32;  ///< golden-section steps per interval
 
     [[nodiscard]] double width(const Vec3& n) const { return b_.extent(n).lo - a_.extent(n).hi; }
 
@@ -166,7 +167,7 @@ class SlabSearch {
         return w;
     }
 
-    /// Small turns in all directions while they find wider slabs.
+    /// Applies small turns in all directions as long as they widen the slab.
     void tilt() {
         int turn = 0;
         for (double step = 0.2; step > 1e-4;) {
@@ -180,8 +181,8 @@ class SlabSearch {
         }
     }
 
-    /// The directions n + x right + y up, x and y up to `half`. Where the width is positive it has
-    /// one maximum over y for each x, and these maxima have one over x.
+    /// Searches the directions n + x right + y up, |x| and |y| <= `half`. Where the width is
+    /// positive it has one maximum over y for each x, and these maxima have one maximum over x.
     void climb_ridges(double half) {
         const Vec3 n = best_normal_, right = perpendicular(n), up = cross(n, right);
         (void)golden_section(half, [&](double x) {
@@ -246,7 +247,7 @@ std::vector<Pair> nearest_pairs(const std::vector<SurfacePoint>& on_a,
 
 Clearance clearance(const IsolatedSolid& a, const IsolatedSolid& b, std::uint64_t seed) {
     if (!a.box().bounded() || !b.box().bounded()) {
-        throw Error(ErrorKind::Usage, "a solid is not bounded: its clearance is not looked for");
+        throw Error(ErrorKind::Usage, "a solid is not bounded: clearance requires bounded solids");
     }
     const auto on_a = surface_points(a, mix64(seed));
     const auto on_b = surface_points(b, mix64(seed + 1));

@@ -1,15 +1,15 @@
 #pragma once
-/// The smallest distance between two solids: a lower and an upper bound.
+/// Lower and upper bounds of the smallest distance between two solids.
 ///
 /// Source: the separating slab is that of Gilbert, Johnson and Keerthi, "A Fast Procedure for
 /// Computing the Distance between Complex Objects", IEEE J. Robotics Autom. 4(2), 1988.
 /// Differs: both bounds come from searches that use only lines and extents.
-/// Conventions: `at_most` is the distance of two given points, each on the surface of its solid
-/// within `error`. `at_least` is the width of a slab that separates the two solids. The slab is
-/// that of the convex hulls: as wide as the clearance for convex solids, possibly zero for others
-/// (a pin in a hole), where only `at_most` tells. `at_most` may be too large where a small feature
-/// is nearer than every starting point of the search.
-/// Complexity and threads: about ten thousand lines.
+/// Conventions: `at_most` is the distance of two points, each on the surface of its solid within
+/// `error`. `at_least` is the width of a slab that separates the convex hulls of the solids: the
+/// clearance itself for convex solids, possibly zero for others (a pin in a hole), for which only
+/// `at_most` is informative. `at_most` may be too large if a small feature is nearer than every
+/// starting point of the search.
+/// Complexity: about ten thousand lines.
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ struct Clearance {
     Vec3 slab_normal;  ///< normal of the slab of width `at_least`; zero without a slab
 };
 
-/// Throws Error (Usage) for unbounded solids.
+/// The clearance of `a` and `b`. Throws Error (Usage) for unbounded solids.
 [[nodiscard]] Clearance clearance(const IsolatedSolid& a, const IsolatedSolid& b,
                                   std::uint64_t seed = 1);
 

@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// Copies one shape of a table into a table of its own; returns its placement there.
+/// Copies a shape of a table into a separate table; returns its placement there.
 Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable& alone) {
     Placement placement;
     const std::uint32_t kind = from.kind(id);
@@ -109,7 +109,7 @@ double IsolatedSolid::magnitude() const {
             }
         }
     }
-    // Lines go into the frame of the solid and come back: the numbers on the way, without signs.
+    // Lines are transformed into the frame of the solid and back: bounds the numbers on the way.
     const Affine& out = world_.outer_from_inner;
     const Affine& in = world_.inner_from_outer;
     const Vec3 world = magnitude_of(out, inner);
@@ -137,8 +137,8 @@ Interval IsolatedSolid::extent(const Vec3& axis) const {
 
 namespace {
 
-/// Removes walls between media inside a solid, which are not part of its surface: an exit and an
-/// entry at the same place.
+/// Removes surfaces between media inside a solid (an exit and an entry at the same place), which
+/// are not part of its surface.
 void drop_walls(std::vector<Hit>& hits) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -1,10 +1,10 @@
 #pragma once
-/// A solid isolated from its scene, or the intersection of several: lines cross it without the rest
-/// of the scene.
+/// A solid of a scene, or the intersection of several, that lines cross without the rest of the
+/// scene.
 ///
-/// Conventions: world space; a line runs from t = -inf to +inf, whatever the limits of its ray.
-/// Complexity and threads: const functions may be called from many threads, each with its own
-/// LineSpans.
+/// Conventions: world space; a line runs from t = -inf to +inf, regardless of the limits of its
+/// ray.
+/// Threads: const functions may be called from many threads, each with its own LineSpans.
 
 #include <memory>
 #include <vector>
@@ -19,31 +19,31 @@ struct LineSpans {
     std::vector<Interval> spans;  ///< ascending, each of positive length
     /// Sum of |cosine of the angle between line and normal| over the crossings.
     double cosines = 0;
-    bool consistent = true;  ///< false: crossings did not come in pairs; there are no spans
+    bool consistent = true;  ///< false: crossings are not paired; there are no spans
 
-    // ---- scratch
+    // ---- Scratch.
     std::vector<Hit> hits;
     std::vector<Interval> others;
 };
 
-/// A body that lines can measure.
+/// The interface of bodies that lines measure.
 class Measurable {
   public:
     virtual ~Measurable() = default;
     [[nodiscard]] virtual Box3 box() const = 0;
     /// Range of dot(axis, p), rounded outward.
     [[nodiscard]] virtual Interval extent(const Vec3& axis) const = 0;
-    /// Bound of the numbers that crossings are computed from: surfaces lie where they are said to
-    /// be within a few roundings of it. By default the largest coordinate of the box.
+    /// Bound of the numbers that crossings are computed from; it scales the rounding error of
+    /// surface points. Default: the largest coordinate of the box.
     [[nodiscard]] virtual double magnitude() const;
-    /// `want_cosines`: computes the normals too.
+    /// Finds the spans of a line. `want_cosines`: also computes `cosines`.
     virtual void cross(const Ray& line, bool want_cosines, LineSpans& found) const = 0;
 };
 
 class IsolatedSolid final : public Measurable {
   public:
     /// Precondition: `id` is a solid of the list. A mesh that shares its tree with other primitives
-    /// gets a tree of its own.
+    /// gets its own tree.
     IsolatedSolid(const SolidList& solids, SolidId id);
 
     [[nodiscard]] Box3 box() const override { return box_; }
@@ -71,7 +71,7 @@ class IsolatedSolid final : public Measurable {
   private:
     SolidPlace place_;
     std::shared_ptr<const Aggregate> aggregate_;
-    bool has_walls_ = false;  ///< between media inside the solid
+    bool has_walls_ = false;  ///< surfaces between media inside the solid exist
     const SolidAggregate* csg_ = nullptr;
     Placement world_;
     Box3 box_;
@@ -80,13 +80,13 @@ class IsolatedSolid final : public Measurable {
 /// The intersection of two solids.
 class Overlap final : public Measurable {
   public:
-    /// Both must outlive it.
+    /// Both solids must outlive the object.
     Overlap(const IsolatedSolid& a, const IsolatedSolid& b) : a_(a), b_(b) {}
 
     [[nodiscard]] Box3 box() const override;
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
     [[nodiscard]] double magnitude() const override;
-    /// Computes no cosines: the surface of the intersection is not needed.
+    /// Computes no cosines: the area of an intersection is not measured.
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
 
   private:

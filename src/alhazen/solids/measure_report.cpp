@@ -25,7 +25,7 @@ Estimate scaled(double factor, const Estimate& e) {
     return {factor * e.value, size * e.half_width, size * e.rounding};
 }
 
-/// The sum of independent numbers. Their rounding is not independent: it adds up.
+/// The sum of independent estimates. Their rounding errors are not independent: they add up.
 Estimate sum(const Estimate& a, const Estimate& b) {
     const double rounding = a.rounding + b.rounding;
     const double scatter = std::hypot(a.half_width - a.rounding, b.half_width - b.rounding);
@@ -86,12 +86,12 @@ json pair_json(const PairReport& r) {
     return out;
 }
 
-/// Digits down to the interval, then the interval.
+/// The value with digits down to the interval, then the interval.
 std::string text_of(const Estimate& e) {
     if (!(e.half_width > 0)) return fmt::format("{:.15g}", e.value);
     const double exponent = std::floor(std::log10(e.half_width)) - 1;
     const int decimals = static_cast<int>(std::clamp(-exponent, 0.0, 17.0));
-    // Numbers too small for fixed notation are written with an exponent.
+    // Intervals too narrow and values too large for fixed notation are written with an exponent.
     if (e.half_width < 1e-15 || std::abs(e.value) >= 1e15) {
         return fmt::format("{:.16g} +- {:.2g}", e.value, e.half_width);
     }

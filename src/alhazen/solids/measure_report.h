@@ -1,5 +1,5 @@
 #pragma once
-/// Results of `alhazen measure`, as JSON and as text.
+/// Results of `alhazen measure` as JSON and text.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -20,7 +20,8 @@ struct SolidReport {
     std::optional<SectionArea> section;
     double seconds = 0;
 
-    /// All checks passed: crossings in pairs, directions and areas agree, numbers in range.
+    /// True if all checks passed: crossings are paired, directions and areas agree, numbers are in
+    /// range.
     [[nodiscard]] bool holds() const;
 };
 
@@ -35,7 +36,7 @@ struct MeasureReport {
     std::vector<SolidReport> solids;
     std::vector<PairReport> pairs;
     std::uint64_t open_surfaces = 0;
-    std::vector<std::string> open_meshes;  ///< which of their edges are open; see SolidScene
+    std::vector<std::string> open_meshes;  ///< which edges are open; see SolidScene
 
     [[nodiscard]] bool holds() const;
 };

@@ -19,9 +19,9 @@ double brightness(const Rgb& c) {
     return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
 }
 
-/// What one sample of a pixel shows.
+/// The content of one sample of a pixel.
 struct Sample {
-    std::uint64_t cut = kNoSolid;  ///< the solid whose cut face it is
+    std::uint64_t cut = kNoSolid;  ///< the solid whose cut face is seen
     Rgb color = kPaper;
 };
 
@@ -82,7 +82,7 @@ class SectionPainter {
     void paint_rows(int begin, int end, Image& picture) const {
         const int grid = view_.grid;
         const int width = view_.width * grid;
-        // One more pixel right and below: edges are found by comparing neighbours.
+        // One more pixel right and below, because edges are found by comparing neighbours.
         const int stride = width + grid;
         const int rows = (end - begin + 1) * grid;
         std::vector<Sample> samples(static_cast<std::size_t>(stride) *
@@ -115,7 +115,7 @@ class SectionPainter {
                static_cast<std::size_t>(i);
     }
 
-    /// The sample, dark where another cut face begins within a pixel.
+    /// The colour of the sample, dark if another cut face begins within a pixel.
     [[nodiscard]] Rgb ink(const std::vector<Sample>& samples, int i, int j, int stride) const {
         const Sample& here = samples[at(i, j, stride)];
         const bool edge = samples[at(i + view_.grid, j, stride)].cut != here.cut ||
@@ -128,7 +128,7 @@ class SectionPainter {
         const double across = dot(frame_.normal, ray.direction);
         const double above = dot(frame_.normal, ray.origin - frame_.origin);
         const double crossing = -above / across;
-        // The camera of the plane lies in it; other cameras lie in front of it or behind.
+        // The camera of the plane lies in it; other cameras lie in front of it or behind it.
         const bool through_plane = across < 0.0 && (above >= 0.0 || !view_.camera);
         if (through_plane) {
             ray.t_min = view_.camera ? crossing : 0.0;
@@ -158,7 +158,7 @@ class SectionPainter {
         return {kNoSolid, (0.08 + 0.42 * cosine) * color};
     }
 
-    /// The material inside the solid where the ray begins; of several media the one there.
+    /// The material inside the solid at the start of the ray; for several media, the one there.
     [[nodiscard]] MaterialId material_at(Ray ray, SolidId solid, SpanList& list) const {
         ray.t_max = ray.t_min;
         ray.t_min = -kInfinity;

@@ -19,7 +19,7 @@ namespace alhazen {
 struct SectionView {
     int width = 800, height = 800;
     int grid = 3;                  ///< grid x grid samples per pixel
-    std::optional<Camera> camera;  ///< none: straight on
+    std::optional<Camera> camera;  ///< none: parallel, against the normal
 };
 
 [[nodiscard]] Image section_picture(const SolidScene& solids, const Scene& scene,
@@ -39,11 +39,12 @@ struct SectionLayer {
 struct SvgOptions {
     std::string unit = "mm";  ///< unit of the scene: mm, cm, in, pt, px
     double tolerance = 1e-4;
-    /// Shown when nothing is cut: the projection of this box onto the plane.
+    /// Box whose projection onto the plane is shown if nothing is cut.
     Box3 around{};
 };
 
-/// An SVG with a layer per solid, in units of the scene. Throws Error (Usage) for an unknown unit.
+/// An SVG with one layer per solid, in units of the scene. Throws Error (Usage) for an unknown
+/// unit.
 [[nodiscard]] std::string section_svg(const std::vector<SectionLayer>& layers,
                                       const PlaneFrame& frame, const SvgOptions& options);
 

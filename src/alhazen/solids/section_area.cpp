@@ -1,4 +1,4 @@
-// The area that a plane cuts out of a solid: sums over lines in the plane.
+// The area of the section of a solid by a plane: sums over lines in the plane.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr std::uint32_t kFirstLinesInPlane = 512;
 constexpr std::uint32_t kMostLines = std::uint32_t{1} << 27;
 constexpr std::uint32_t kLinesPerTask = 1024;
 
-/// Parallel lines along one direction of the plane.
+/// Parallel lines along one direction in the plane.
 class LineRow {
   public:
     LineRow(const Measurable& solid, const Vec3& origin, const Vec3& along, const Vec3& aside,
@@ -57,7 +57,7 @@ class LineRow {
         return mean_of(area);
     }
     [[nodiscard]] double width() const { return range_.width(); }
-    /// Ends of spans on a line, on average.
+    /// Mean number of ends of spans on a line.
     [[nodiscard]] double ends() const {
         double sum = 0;
         for (const Sum& s : sums_) sum += s.ends;
@@ -123,7 +123,7 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
         throw Error(ErrorKind::Usage, "the solid is not bounded: its section may have no area");
     }
     const Deadline deadline(options.seconds, options.stop);
-    // The middle of the box in the plane keeps numbers small.
+    // An origin in the middle of the box keeps numbers small.
     const Vec3 center = box.center();
     const Vec3 origin = center - dot(center - frame.origin, frame.normal) * frame.normal;
     // Along the axes of the plane, and oblique to them: lines along an edge have a large variance.
@@ -152,8 +152,8 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
     const double length_of_rows = solid.extent(best).width();
     for (;;) {
         const Estimate area = row.area();
-        // An outline that lies elsewhere by the slack. Its length: as often as a line crosses it,
-        // at most about both extents.
+        // Error of an outline displaced by the slack. The length of the outline is at most about
+        // both extents times the mean number of crossings of a line.
         const double outline = row.ends() * (length_of_rows + row.width());
         found.area = with_rounding(area, slack * outline + kSumming * area.value);
         found.reached = found.area.half_width <= options.relative_error * found.area.value;

@@ -14,10 +14,10 @@ namespace alhazen {
 
 namespace {
 
-/// Largest number of times that a cell is split in four, and the grid units per side of a cell.
+/// Largest number of times that a cell is split into four, and the grid units per side of a cell.
 constexpr int kMaxSplits = 8;
 constexpr std::int64_t kUnits = std::int64_t{1} << kMaxSplits;
-/// Splits of a chord: the tolerance is reached far earlier, or never.
+/// Limit of splits of a chord; the tolerance is reached far earlier or never.
 constexpr int kMaxChordSplits = 24;
 
 struct Segment {
@@ -30,7 +30,7 @@ struct PointHash {
     }
 };
 
-/// A crossing of an edge of a cell; `enters`: on a counter-clockwise walk around the cell.
+/// A crossing of an edge of a cell; `enters` refers to a counter-clockwise walk around the cell.
 struct EdgeCrossing {
     Vec2 point;
     bool enters;
@@ -51,8 +51,7 @@ class ContourFollower {
         }
         const double cell = std::max(x.width(), y.width()) / options.cells;
         unit_ = cell / static_cast<double>(kUnits);
-        // An offset that avoids round numbers, so that no grid line runs along an edge of the
-        // outline.
+        // Irrational offsets, so that grid lines are unlikely to run along an edge of the outline.
         x0_ = x.lo - 0.6180339887 * cell;
         y0_ = y.lo - 0.7320508076 * cell;
         columns_ = static_cast<std::int64_t>(std::ceil((x.hi - x0_) / cell)) + 1;
@@ -94,7 +93,7 @@ class ContourFollower {
         return entry->second;
     }
 
-    /// Crossings of an edge [lo, hi) of a cell; `forward`: walked towards growing coordinates.
+    /// Adds crossings of an edge [lo, hi) of a cell; `forward`: towards growing coordinates.
     void edge(const std::vector<Interval>& spans, double lo, double hi, bool is_row, double at,
               bool forward) {
         auto span = std::lower_bound(spans.begin(), spans.end(), lo,
@@ -137,7 +136,7 @@ class ContourFollower {
         }
     }
 
-    /// Curves closer than the grid resolves: any pairing is valid.
+    /// Pairs the ends of curves that the grid cannot separate: any pairing is valid.
     void pair_up() {
         ++out_.unresolved;
         std::vector<EdgeCrossing> enters, leaves;
@@ -147,7 +146,8 @@ class ContourFollower {
         }
     }
 
-    /// The solid lies between the entry and the exit of the walk: the curve runs back.
+    /// Adds a segment directed so that the solid, which lies between entry and exit, is on its
+    /// left.
     void add_segment(const EdgeCrossing& a, const EdgeCrossing& b) {
         const Segment s = a.enters ? Segment{b.point, a.point} : Segment{a.point, b.point};
         segments_.push_back(s);
@@ -180,7 +180,7 @@ class ContourFollower {
         }
     }
 
-    /// Appends the beginning of the segment and points of the curve up to its end.
+    /// Appends the start of the segment and points of the curve up to its end.
     void trace_chord(const Segment& segment, Polyline& loop) {
         struct Piece {
             Vec2 from, to;
@@ -200,7 +200,7 @@ class ContourFollower {
                     const Vec2 at = piece.from + part * chord;
                     const double off = offset_of_curve(at, chord, size);
                     if (!(std::abs(off) <= size)) {
-                        // A curve that leaves the chord so far is another one.
+                        // A curve this far from the chord is a different one.
                         if (part == 0.5) ++out_.unresolved;
                         break;
                     }
@@ -219,7 +219,7 @@ class ContourFollower {
         }
     }
 
-    /// Distance to the left of a chord point at which the solid begins; infinite without one.
+    /// Distance to the left of a chord point at which the solid begins; infinite if there is none.
     double offset_of_curve(const Vec2& at, const Vec2& chord, double size) {
         const Vec2 left{-chord.y / size, chord.x / size};
         double nearest = kInfinity;
@@ -229,10 +229,10 @@ class ContourFollower {
         return nearest;
     }
 
-    /// Removes points within the tolerance of the lines that join the others.
+    /// Removes points that are within the tolerance of the remaining polyline.
     void simplify(Polyline& loop) const {
         if (loop.size() < 4) return;
-        // Any two points far apart divide the loop.
+        // Two points far apart divide the loop.
         std::size_t far = 0;
         double farthest = 0;
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -312,7 +312,7 @@ double least_tolerance(const Box3& box) {
 
 SectionOutlines trace_section(const Measurable& solid, const PlaneFrame& frame,
                               const OutlineOptions& options) {
-    // A NaN would split chords for ever.
+    // The negated comparison refuses NaN, which would split chords endlessly.
     if (!(options.tolerance > 0.0) || options.cells < 1) {
         throw Error(ErrorKind::Usage, "outlines need a tolerance above 0 and at least one cell");
     }

@@ -1,4 +1,4 @@
-// Outlines as an SVG with a layer for each solid.
+// Outlines as an SVG with one layer per solid.
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::array<const char*, 5> kLengthUnits{"mm", "cm", "in", "pt", "px"};
 
-/// The corners of what the SVG shows, y downward: all loops; without any, the shadow of `around`
-/// on the plane, or a square of one unit.
+/// The bounds of the SVG, y downward: those of all loops; without loops, of the projection of
+/// `around` onto the plane, or a square of one unit.
 void find_corners(const std::vector<SectionLayer>& layers, const PlaneFrame& frame,
                   const Box3& around, Vec2& lo, Vec2& hi) {
     const double inf = std::numeric_limits<double>::infinity();
@@ -42,7 +42,7 @@ void find_corners(const std::vector<SectionLayer>& layers, const PlaneFrame& fra
     hi = {x.hi - level_x, level_y - y.lo};
 }
 
-/// y points down in an SVG.
+/// The path of the outlines, with y downward.
 std::string path_of(const SectionOutlines& outlines) {
     svg::Path path;
     for (const Polyline& loop : outlines.loops) {

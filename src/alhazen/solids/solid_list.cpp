@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kMostSolids = std::uint64_t{1} << 63;
 
-/// Calls f(shape, position in its column, placement, material, part) for every shape of the table.
+/// Calls f(shape, index in its column, placement, material, part) for every shape of the table.
 template <class F>
 void for_each_shape(const PrimitiveTable& table, F&& f) {
     std::uint32_t kind = 0;
@@ -23,7 +23,7 @@ void for_each_shape(const PrimitiveTable& table, F&& f) {
     std::apply([&](const auto&... column) { (visit(column), ...); }, table.columns);
 }
 
-/// Calls f(column, position) for one shape.
+/// Calls f(column, index) for one shape.
 template <class F>
 void with_column(const PrimitiveTable& table, PrimitiveId id, F&& f) {
     const std::uint32_t kind = table.kind(id);
@@ -169,8 +169,8 @@ SolidPlace SolidList::place(SolidId id) const {
     const Node* node = root_;
     std::uint64_t number = static_cast<std::uint64_t>(id);
     bool of_shared_mesh = false;
-    // The last instance whose solids begin at or before the number. Instances without solids are
-    // skipped, because the next one begins at the same number.
+    // Finds the last instance whose solids begin at or before the number. Instances without solids
+    // are skipped, because the next one begins at the same number.
     while (node->csg == nullptr && !node->instances.empty() &&
            number >= node->instance_number.front()) {
         const auto after =

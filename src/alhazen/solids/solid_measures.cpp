@@ -19,34 +19,34 @@ namespace {
 constexpr std::uint64_t kPilotLines = 1024;  ///< per direction
 constexpr std::uint64_t kFirstLines = 4096;
 /// Limits for slow lines: the pilot and the first round take at most this share of the time, but at
-/// least this many lines, below which estimates are meaningless.
+/// least kLeastLines lines, below which estimates are meaningless.
 constexpr double kShareOfPilot = 1.0 / 64, kShareOfFirst = 1.0 / 32;
 constexpr std::uint64_t kLeastLines = 128;
-/// A smaller growth gains nothing.
+/// The least worthwhile growth.
 constexpr double kLeastGrowth = 1.25;
-/// The interval of a bundle falls about with this power of its lines; kReserve times the lines make
-/// it narrow enough reliably.
+/// The interval of a bundle falls about with this power of the number of lines; kReserve times the
+/// estimated lines make it narrow enough reliably.
 constexpr double kOrder = 1.2, kReserve = 2;
-/// Growth in one step.
+/// Limits of the growth in one step.
 constexpr double kLeastStep = 2, kMostStep = 16;
-/// Independent line sets for Crofton's formula and lines per set: a check, which converges slowly.
+/// Independent line sets for Crofton's formula, and lines per set. The check converges slowly.
 constexpr std::size_t kCroftonSets = 16;
 constexpr std::uint32_t kCroftonLines = 2048, kLeastCroftonLines = 32;
-constexpr double kShareOfCrofton = 1.0 / 16;  ///< of the time, at most
+constexpr double kShareOfCrofton = 1.0 / 16;  ///< largest share of the time
 /// Share of the time for the volume when the area is measured too.
 constexpr double kShareOfVolume = 0.875;
-/// Half of an interval of the wanted width is exceeded once in twenty cases: work on the volume
-/// continues, while there is time, until that is rare.
+/// Half of an interval of the requested width is exceeded once in twenty cases; work on the volume
+/// continues, within the time limit, until that is rare.
 constexpr double kShareOfWanted = 0.5;
-/// Largest difference, as a multiple of both intervals.
+/// Largest allowed difference, as a multiple of both intervals.
 constexpr double kAgreement = 2.5;
 
 constexpr StratifiedChords::Measured kArea = StratifiedChords::Measured::Area;
 
-/// Beyond these, moments of inertia overflow or lose their digits.
+/// Range of moments of inertia without overflow or loss of digits.
 constexpr double kLeastMoment = 1e-290, kMostMoment = 1e300;
 
-/// The world's axes, and a frame oblique to common directions.
+/// The axes of the world, and a frame oblique to common directions.
 std::array<std::array<BundleFrame, 3>, 2> frames() {
     const Mat3 aslant = Affine::rotate({0.36, 0.48, 0.8}, 0.7236).linear *
                         Affine::rotate({1, 0.2, -0.3}, 0.5129).linear;
@@ -134,14 +134,14 @@ class Measurer {
         }
     }
 
-    /// This many lines, or fewer where they would take more than this share of the time.
+    /// `lines`, or fewer if they would take more than this share of the time.
     [[nodiscard]] std::uint64_t affordable(std::uint64_t lines, double share) const {
         const double room = share * deadline_.room(lines_) / StratifiedChords::kCostOfLine;
         const auto least = static_cast<double>(kLeastLines);
         return static_cast<std::uint64_t>(std::clamp(room, least, double(lines)));
     }
 
-    /// Estimated number of lines for the wanted error along the direction of a pilot.
+    /// Estimated number of lines for the requested error along the direction of a pilot.
     [[nodiscard]] double work_ahead(const StratifiedChords& pilot) const {
         const Estimate e = pilot.estimate();
         const double rounding = slack_ * pilot.projected_area() + kSumming * std::abs(e.value);
@@ -157,8 +157,8 @@ class Measurer {
     void grow_bundle(StratifiedChords& bundle, std::uint64_t lines) {
         lines_ += static_cast<double>(bundle.grow_to(lines));
     }
-    /// Adds the lines for an interval narrower by the factor, as far as time allows, or casts new
-    /// lines in the same cells; false when there is no time for that either.
+    /// Adds lines to narrow the interval by the factor, as far as time allows; otherwise casts new
+    /// lines in the same cells. Returns false if there is no time for that either.
     bool enlarge(StratifiedChords& bundle, double factor, const Deadline& deadline) {
         const double room = deadline.room(lines_);
         const auto round = static_cast<double>(bundle.lines_of_round());
@@ -173,7 +173,7 @@ class Measurer {
         return true;
     }
 
-    /// Ratio of the interval to the wanted one; at most 1 where it is narrow enough.
+    /// Ratio of the interval to the requested one; at most 1 if it is narrow enough.
     [[nodiscard]] static double excess(const Estimate& e, double relative) {
         const double wanted = relative * std::abs(e.value);
         return e.half_width <= wanted ? 1 : e.half_width / wanted;
@@ -218,8 +218,8 @@ class Measurer {
     }
     [[nodiscard]] Estimate volume() const { return volume_along(best_); }
 
-    /// A surface that lies elsewhere by up to the slack: that much times its area, which is at most
-    /// the sum of its projections along the three directions.
+    /// Error of the volume for a surface displaced by the slack: slack times its area, which is at
+    /// most the sum of its projections along the three directions.
     [[nodiscard]] double volume_rounding(double volume) const {
         double surface = 0;
         for (const StratifiedChords& bundle : bundles_) surface += bundle.projected_area();
@@ -234,15 +234,15 @@ class Measurer {
             const double share = bundle.value();
             value += share;
             spreads[k] = bundle.spread();
-            // Silhouettes whose every side lies elsewhere by the slack, and sums of cosines.
+            // Silhouettes with every side displaced by the slack, and sums of cosines.
             const double edges = 1 / bundle.right_width() + 1 / bundle.up_width();
             rounding += std::abs(share) * (2 * slack_ * edges + kSumming);
         }
         return with_rounding(estimate_of(value, sum_of(spreads)), rounding);
     }
 
-    /// Isotropic lines through the ball around the box: the mean number of crossings times the
-    /// surface of the ball is twice the area.
+    /// Crofton's formula with isotropic lines through the ball around the box: the mean number of
+    /// crossings times the surface of the ball is twice the area.
     [[nodiscard]] Estimate crofton() {
         const double radius = 0.5 * length(box_.size());
         std::array<double, kCroftonSets> area{};
@@ -302,13 +302,13 @@ class Measurer {
         found.reached = reached_;
     }
 
-    /// Centroid and inertia are ratios: computed per half sample, then averaged.
+    /// Computes centroid and inertia, which are ratios, per half sample and averages them.
     void fill_moments(SolidMeasures& found) const {
         std::array<Replicates, 3> centroid{};
         std::array<Replicates, 6> inertia{};
         for (std::size_t r = 0; r < kReplicates; ++r) {
             const Moments m = bundles_[best_].moments(r);
-            // An empty solid, or one that almost no line hits, has no centroid.
+            // An empty solid, or one that hardly any line hits, has no centroid.
             if (!(m.volume > 0.0)) return;
             const Vec3 c = m.first / m.volume;
             std::array<double, 6> s = m.second;  // about the centroid
@@ -343,7 +343,7 @@ class Measurer {
     Deadline deadline_, volume_deadline_;
     Box3 box_;
     Vec3 center_;
-    double slack_ = 0;  ///< how far a surface may lie from where it is, by rounding
+    double slack_ = 0;  ///< largest displacement of a surface by rounding
     std::size_t frame_ = 0, best_ = 0;
     std::vector<StratifiedChords> bundles_, area_bundles_;
     double lines_ = 0;

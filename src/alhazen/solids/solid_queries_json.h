@@ -1,5 +1,5 @@
 #pragma once
-/// Answers to queries about solids as JSON, one line per ray or point.
+/// Results of queries about solids as JSON, one line per ray or point.
 ///
 /// Conventions: numbers round-trip exactly; null is infinite. `solid` is the number of the solid,
 /// `name` its name (SolidScene).
@@ -20,15 +20,15 @@ namespace alhazen {
 [[nodiscard]] nlohmann::ordered_json inside_json(const SolidScene& scene, const Vec3& point,
                                                  std::span<const Containment> solids);
 
-/// Numbers of a text, separated by commas or white space; "inf" is a number. Throws Error (Usage)
-/// that names `what` for a count not in `counts` and for a word that is not a number.
+/// Parses numbers separated by commas or white space; "inf" is a number. Throws Error (Usage) that
+/// names `what` if their count is not in `counts` or a word is not a number.
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& text,
                                                 std::initializer_list<std::size_t> counts,
                                                 const std::string& what,
                                                 const FileLocation& where = {});
-/// "ox,oy,oz,dx,dy,dz[,t_min,t_max]". Throws Error (Usage), also for an invalid ray.
+/// Parses "ox,oy,oz,dx,dy,dz[,t_min,t_max]". Throws Error (Usage), also for an invalid ray.
 [[nodiscard]] Ray parse_ray(const std::string& text, const FileLocation& where = {});
-/// "x,y,z". Throws Error (Usage).
+/// Parses "x,y,z". Throws Error (Usage).
 [[nodiscard]] Vec3 parse_point(const std::string& text, const FileLocation& where = {});
 
 /// Reads the lines of a text file in batches, without empty lines and comments after '#'.
@@ -39,7 +39,7 @@ class LineReader {
         FileLocation where;
     };
     LineReader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
-    /// Up to `count` more lines; none at the end. Throws Error (File) when reading fails.
+    /// Up to `count` further lines; none at the end. Throws Error (File) when reading fails.
     [[nodiscard]] std::vector<Line> next(std::size_t count);
 
   private:

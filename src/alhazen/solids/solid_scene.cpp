@@ -14,7 +14,7 @@ namespace alhazen {
 
 namespace {
 
-/// Scenes with more solids are not searched by name; numbers find them.
+/// Scenes with more solids are not searched by name, only by number.
 constexpr std::uint64_t kMostNamed = 2'000'000;
 constexpr std::uint64_t kMostListed = 30;
 constexpr std::size_t kMostOpenMeshes = 5;
@@ -33,7 +33,7 @@ std::string own_name(const SceneDescription& description, const Part& part) {
                       std::get<AnyShape>(part.what));
 }
 
-/// Whether `word` is the name, or a beginning or end of it delimited by slashes.
+/// True if `word` is the name, or a beginning or end of it delimited by slashes.
 bool means(const std::string& word, const std::string& name) {
     if (word == name) return true;
     if (word.empty() || word.size() >= name.size()) return false;
@@ -87,7 +87,7 @@ void SolidScene::name_parts(const SceneDescription& description) {
         }
     }
     part_names_.resize(parts);
-    // An object that is placed once is flattened: the names of its parts begin with its own.
+    // An object that is placed once is flattened: the names of its parts begin with its own name.
     struct Waiting {
         std::size_t object;
         std::string prefix;

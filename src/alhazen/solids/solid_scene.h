@@ -1,9 +1,10 @@
 #pragma once
-/// The solids of a loaded scene by the names of the file.
+/// The solids of a loaded scene by name.
 ///
-/// Conventions: a solid's name joins the names of the parts that lead to it with '/', outermost
-/// first; a part without a name is called by its type. Names need not be unique; numbers are.
-/// Complexity and threads: as SolidQueries; names are made on request.
+/// Conventions: the name of a solid joins the names of the parts on the path to it with '/',
+/// outermost first; a part without a name is called by its type. Names need not be unique; numbers
+/// are.
+/// Complexity and threads: as SolidQueries; names are created on request.
 
 #include <optional>
 #include <span>
@@ -17,7 +18,7 @@ namespace alhazen {
 
 class SolidScene {
   public:
-    /// Both must outlive it.
+    /// Both must outlive the object.
     SolidScene(const SceneDescription& description, const Scene& scene);
 
     [[nodiscard]] const SolidQueries& queries() const { return queries_; }
@@ -26,14 +27,14 @@ class SolidScene {
     [[nodiscard]] const std::string& material_name(MaterialId material) const;
 
     /// The solids that the words select, in ascending order. A word is a number, a whole name, or
-    /// the end or beginning of a name up to a '/'. No words: all solids. Throws Error (Usage) with
-    /// a list of names if a word selects none.
+    /// the end or beginning of a name delimited by '/'. No words: all solids. Throws Error (Usage)
+    /// with a list of names if a word selects none.
     [[nodiscard]] std::vector<SolidId> select(std::span<const std::string> words) const;
 
-    /// For each mesh that bounds no volume, up to a few: its name, and which of its edges are open.
+    /// Name and open edges of each mesh that bounds no volume, up to a few.
     [[nodiscard]] std::vector<std::string> open_meshes() const;
 
-    /// The density of the solid's material; for a CSG object that of its leaves, if they share one.
+    /// The density of the solid's material; for a CSG object that of its leaves if it is the same.
     [[nodiscard]] std::optional<double> density(SolidId solid) const;
 
   private:
@@ -41,7 +42,7 @@ class SolidScene {
 
     const Scene& scene_;
     SolidQueries queries_;
-    std::vector<std::string> part_names_;  ///< [part number] with those of objects placed once
+    std::vector<std::string> part_names_;  ///< [part] with names of parents that are placed once
 };
 
 }  // namespace alhazen

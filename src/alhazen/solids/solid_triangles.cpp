@@ -14,7 +14,7 @@ namespace {
 
 using SurfacePoint = IsolatedSolid::SurfacePoint;
 
-/// Crossings of a line with the surface, without walls between media.
+/// Crossings of a line with the surface, without surfaces between media.
 class SurfaceLine {
   public:
     explicit SurfaceLine(const IsolatedSolid& solid) : solid_(solid) {}
@@ -57,14 +57,14 @@ class SurfaceLine {
     LineSpans line_;
 };
 
-/// Where the surface crosses an edge of the lattice.
+/// A crossing of the surface with an edge of the lattice.
 struct Crossing {
     Vec3 point, normal;
     std::uint32_t material = 0;
 };
 
-/// The point nearest to the tangent planes at crossings, drawn a little to their mean; within a
-/// box.
+/// The point nearest to the tangent planes at the crossings, weakly drawn to their mean, clamped to
+/// a box.
 Vec3 feature_point(std::span<const Crossing> crossings, const Vec3& lo, const Vec3& hi) {
     constexpr double kDraw = 0.02;
     const double share = 1.0 / static_cast<double>(crossings.size());
@@ -88,13 +88,14 @@ Vec3 feature_point(std::span<const Crossing> crossings, const Vec3& lo, const Ve
     return point;
 }
 
-/// One lattice. A node is a point of it, a cell the cube above a node.
+/// A lattice. A node is one of its points, a cell the cube above a node.
 class Lattice {
   public:
     Lattice(const IsolatedSolid& solid, double cell, double tolerance, TriangleMesh& mesh)
         : line_(solid), cell_(cell), tolerance_(tolerance), mesh_(mesh) {
         const Box3 box = solid.box();
-        // No lattice plane is a likely plane of the solid; the outermost nodes are outside.
+        // Irrational shifts keep lattice planes off likely planes of the solid; outermost nodes are
+        // outside.
         const Vec3 shift{0.6180339887, 0.7548776662, 0.5698402910};
         for (int k = 0; k < 3; ++k) {
             const double lo = box.lo[k] - cell * shift[k];
@@ -107,7 +108,7 @@ class Lattice {
     }
 
     enum class Outcome { Made, TooMany, TooCoarse };
-    /// `certain`: cells are so small that no triangle needs a test.
+    /// Creates the triangles. `certain`: cells are so small that no triangle needs a test.
     Outcome make(bool certain, std::uint64_t max_triangles) {
         if (!certain && !sees_all()) return Outcome::TooCoarse;
         for (slab_ = 0; slab_ + 1 < count_[0]; ++slab_) {
@@ -134,7 +135,7 @@ class Lattice {
         return j * count_[2] + k;
     }
 
-    /// Which lattice points of a layer are inside.
+    /// Marks the lattice points of a layer that are inside.
     void set_layer(std::uint64_t i, std::vector<std::uint8_t>& layer) {
         std::fill(layer.begin(), layer.end(), std::uint8_t{0});
         for (std::uint64_t j = 0; j < count_[1]; ++j) {
@@ -145,14 +146,14 @@ class Lattice {
             }
         }
     }
-    /// The first lattice point of a line along an axis that is not before `t`.
+    /// The first lattice point of a line along an axis at or after `t`.
     [[nodiscard]] std::uint64_t point_after(double t, std::size_t axis) const {
         const auto count = static_cast<double>(count_[axis]);
         return static_cast<std::uint64_t>(std::clamp(std::ceil(t / cell_), 0.0, count));
     }
 
-    /// False where a part of the solid, or a gap in it, is between two lattice points and thicker
-    /// than the tolerance.
+    /// False if a part of the solid, or a gap in it, that is thicker than the tolerance lies
+    /// between two lattice points.
     bool sees_all() {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -180,7 +181,7 @@ class Lattice {
         }
         return true;
     }
-    /// Whether the surface is within half the tolerance of the middle of a part of a line.
+    /// True if the surface is within half the tolerance of the middle of a part of a line.
     bool is_thin(const Vec3& from, const Vec3& along, const Interval& part) {
         const double limit = 0.5 * tolerance_;
         if (0.5 * (part.hi - part.lo) <= limit) return true;
@@ -193,14 +194,14 @@ class Lattice {
         return false;
     }
 
-    // ---- crossings
+    // ---- Crossings.
     /// Number of a node: `slab_` or `slab_` + 1, j, k.
     using Node = std::array<std::uint64_t, 3>;
 
     [[nodiscard]] bool is_in(const Node& n) const {
         return layer_[n[0] - slab_][place(n[1], n[2])] != 0;
     }
-    /// On the edge from a node along an axis, whose ends differ.
+    /// The crossing on the edge from a node along an axis, one end of which is inside.
     const Crossing& crossing(const Node& from, std::size_t axis) {
         auto& known = crossings_[from[0] - slab_];
         const auto [found, is_new] = known.try_emplace(place(from[1], from[2]) * 3 + axis);
@@ -217,7 +218,7 @@ class Lattice {
             if (!(dot(p.normal, along) > 0.0)) continue;
             return {p.point, p.normal, static_cast<std::uint32_t>(p.material)};
         }
-        // Within rounding of the surface.
+        // Down to rounding of the surface.
         for (int round = 0; round < 40; ++round) {
             const Vec3 middle = 0.5 * (inner + outer);
             (line_.inside(middle) ? inner : outer) = middle;
@@ -225,7 +226,7 @@ class Lattice {
         return {inner, normalize(along), 0};
     }
 
-    // ---- a vertex for each cell that the surface passes through
+    // ---- A vertex for each cell that the surface passes through.
     void add_cells() {
         for (std::uint64_t j = 0; j + 1 < count_[1]; ++j) {
             for (std::uint64_t k = 0; k + 1 < count_[2]; ++k) {
@@ -270,13 +271,13 @@ class Lattice {
         mesh_.vertex_materials.push_back(material);
     }
 
-    // ---- a quadrangle around each edge that the surface crosses
+    // ---- A quadrangle around each edge that the surface crosses.
     void add_faces() {
         for (std::uint64_t j = 0; j + 1 < count_[1]; ++j) {
             for (std::uint64_t k = 0; k + 1 < count_[2]; ++k) {
                 const Node at{slab_, j, k};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    // Edges on the border of the lattice are outside.
+                    // Edges on the border of the lattice are outside the solid.
                     if (at[(axis + 1) % 3] == 0 || at[(axis + 2) % 3] == 0) continue;
                     Node to = at;
                     ++to[axis];
@@ -290,7 +291,7 @@ class Lattice {
         const Crossing& met = crossing(at, axis);
         std::array<std::uint32_t, 4> corners{};
         for (std::size_t side = 0; side < 4; ++side) {
-            Node cell = at;  // around the axis, right-handed
+            Node cell = at;  // visits the cells around the axis, right-handed
             cell[u] -= side == 0 || side == 3 ? 1u : 0u;
             cell[v] -= side < 2 ? 1u : 0u;
             corners[side] = corner(cells_[1 - (slab_ - cell[0])].at(place(cell[1], cell[2])), met);
@@ -303,19 +304,20 @@ class Lattice {
     }
     void add_triangle(const std::array<std::uint32_t, 3>& t) {
         const auto& p = mesh_.positions;
-        // Without area it is an edge between its neighbours.
+        // A triangle with two equal corners has no area and is left out.
         if (p[t[0]] == p[t[1]] || p[t[1]] == p[t[2]] || p[t[2]] == p[t[0]]) return;
         mesh_.triangles.push_back(t);
     }
-    /// How far the triangles on both sides of a diagonal are from the normal of the surface.
+    /// Deviation of the two triangles beside a diagonal from the surface normal: the negated least
+    /// cosine.
     [[nodiscard]] double badness(const std::array<std::uint32_t, 4>& c, std::size_t first,
                                  const Vec3& normal) const {
         const auto p = [&](std::size_t k) { return mesh_.positions[c[(first + k) % 4]]; };
         const Vec3 one = cross(p(1) - p(0), p(2) - p(0)), two = cross(p(2) - p(0), p(3) - p(0));
         return -std::min(dot(unit_or(one, normal), normal), dot(unit_or(two, normal), normal));
     }
-    /// The vertex of a cell for a face: one of its own where the surface has an edge or another
-    /// material.
+    /// The vertex of a cell for a face: a copy if the surface has an edge or another material
+    /// there.
     std::uint32_t corner(std::uint64_t vertex, const Crossing& met) {
         const auto own = static_cast<std::uint32_t>(vertex);
         const bool edge = is_edge_[own];
@@ -327,7 +329,7 @@ class Lattice {
         return next;
     }
 
-    /// Whether the surface is near all triangles from `first` on.
+    /// True if the surface is near all triangles from index `first` on.
     bool are_near(std::size_t first) {
         const double limit = 0.5 * tolerance_;
         for (std::size_t k = first; k < mesh_.triangles.size(); ++k) {
@@ -342,7 +344,8 @@ class Lattice {
         }
         return true;
     }
-    /// Along the normal; beside an edge of the surface the nearest point lies elsewhere.
+    /// Tests along the normal and seven other directions: near an edge the normal may miss the
+    /// surface.
     bool is_near(const Vec3& p, const Vec3& face, double limit) {
         if (line_.distance(p, face, limit) <= limit) return true;
         const double c = std::sqrt(1.0 / 3.0);
@@ -366,8 +369,8 @@ class Lattice {
     std::vector<Crossing> cell_crossings_;
     std::vector<bool> is_edge_;                                  ///< [vertex]
     std::vector<std::uint8_t> layer_[2];                         ///< nodes at slab_ and slab_ + 1
-    std::unordered_map<std::uint64_t, Crossing> crossings_[2];   ///< edges from these nodes
-    std::unordered_map<std::uint64_t, std::uint64_t> cells_[2];  ///< before and in the slab
+    std::unordered_map<std::uint64_t, Crossing> crossings_[2];   ///< on edges from these nodes
+    std::unordered_map<std::uint64_t, std::uint64_t> cells_[2];  ///< previous slab, this slab
 };
 
 }  // namespace
@@ -382,7 +385,7 @@ bool make_solid_triangles(const IsolatedSolid& solid, double tolerance, std::uin
     double cell = std::max(max_component(box.size()) / kFirstCells, smallest);
     for (;;) {
         const bool certain = cell <= smallest;
-        // A surface has at least the triangles of its largest projection.
+        // A surface has at least as many triangles as its largest projection.
         const Vec3 cells = box.size() / cell;
         const double projected =
             std::max({cells.x * cells.y, cells.y * cells.z, cells.z * cells.x});

@@ -1,16 +1,18 @@
 #pragma once
-/// Triangles within a tolerance of a solid, from its crossings with lines.
+/// Tessellates a solid within a tolerance by its crossings with lines.
 ///
-/// Source: Ju, Losasso, Schaefer and Warren, "Dual Contouring of Hermite Data", SIGGRAPH 2002: a
-/// vertex for each cell of a lattice that the surface passes through, nearest to the tangent planes
-/// where it crosses the cell's edges; a quadrangle around each edge that it crosses.
-/// Differs: no function is sampled. Lattice points are in or out by the spans of lines along z;
-/// crossings and normals are exact. One size of cells for the solid, halved until it serves.
+/// Source: Ju, Losasso, Schaefer and Warren, "Dual Contouring of Hermite Data", SIGGRAPH 2002: one
+/// vertex per lattice cell that the surface passes through, nearest to the tangent planes at its
+/// crossings with the cell's edges; one quadrangle around each edge that the surface crosses.
+/// Differs: no function is sampled. The spans of lines along z tell which lattice points are
+/// inside; crossings and normals are exact. All cells have one size, which is halved until the
+/// tolerance holds.
 /// Conventions: the frame of the solid's scene; counterclockwise from outside; closed, with the
 /// normals of the exact surface. All points of a face are within a cell's diagonal of the surface,
-/// so cells of that size need no test. Larger ones serve where lines through the corners, the edges
-/// and the middle of each triangle meet the surface within half the tolerance, and no part or gap
-/// thicker than the tolerance lies between lattice points. Parts thinner than it may be missing.
+/// so cells whose diagonal is the tolerance need no test. Larger cells are accepted if lines
+/// through the corners, the edges and the middle of each triangle meet the surface within half the
+/// tolerance, and no part or gap thicker than the tolerance lies between lattice points. Parts
+/// thinner than the tolerance may be missing.
 /// Complexity: O((size / cell)^3) lattice points, O((size / cell)^2) lines and triangles.
 
 #include <cstdint>
@@ -20,8 +22,8 @@
 
 namespace alhazen {
 
-/// Makes a mesh with the materials of a CSG object at its vertices (one for the three of a
-/// triangle). Returns false where there would be more than `max_triangles`.
+/// Creates a mesh with the materials of a CSG object at its vertices (the same for the three
+/// vertices of a triangle). Returns false if there would be more than `max_triangles`.
 /// Preconditions: the box of the solid is bounded; tolerance > 0.
 [[nodiscard]] bool make_solid_triangles(const IsolatedSolid& solid, double tolerance,
                                         std::uint64_t max_triangles, TriangleMesh& mesh);

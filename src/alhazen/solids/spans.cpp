@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kRaysPerTask = 256;
 
-/// Sorts crossings by solid; those of one solid keep the order along the line.
+/// Sorts crossings by solid; those of one solid keep their order along the line.
 void sort_by_solid(std::vector<SpanList::Crossing>& crossings) {
     std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
         return a.solid != b.solid ? a.solid < b.solid : a.hit < b.hit;
@@ -45,8 +45,8 @@ bool has(const std::vector<SolidId>& sorted, SolidId solid) {
     return std::binary_search(sorted.begin(), sorted.end(), solid);
 }
 
-/// Whether the line ends (t = +inf) inside the solid: tests the beginning of the reversed line.
-/// Rare.
+/// True if the line ends (t = +inf) inside the solid; tests the beginning of the reversed line.
+/// Rarely called.
 bool ends_inside(const SolidList& solids, const Ray& ray, SolidId solid, SpanList& list) {
     if (!list.end_is_known) {
         list.inside_at_end.clear();
@@ -58,13 +58,13 @@ bool ends_inside(const SolidList& solids, const Ray& ray, SolidId solid, SpanLis
     return has(list.inside_at_end, solid);
 }
 
-/// Makes spans from the crossings of one solid.
+/// Pairs the crossings of one solid to spans.
 class Pairer {
   public:
     Pairer(const SolidList& solids, const Ray& ray, SpanList& list)
         : solids_(solids), ray_(ray), list_(list) {}
 
-    /// `begin` and `end`: the crossings of the solid.
+    /// `begin`, `end`: index range of the solid's crossings.
     void pair(SolidId solid, std::size_t begin, std::size_t end) {
         bool inside = has(list_.inside_at_start, solid);
         const bool began_inside = inside;
@@ -89,8 +89,8 @@ class Pairer {
     }
 
   private:
-    /// Adds the span from entry_ to `exit`. An entry and an exit at one point only touch the
-    /// surface.
+    /// Adds the span from entry_ to `exit`, unless they are one point, where the line only touches
+    /// the surface.
     void close(SolidId solid, const SpanEnd& exit) {
         if (is_one_point(entry_, exit)) return;
         if (list_.spans.size() > first_ && is_one_point(list_.spans.back().exit, entry_)) {
@@ -100,12 +100,12 @@ class Pairer {
         }
     }
 
-    /// Whether two crossings, a before b, coincide within rounding.
+    /// True if two crossings, a before b, coincide within rounding.
     [[nodiscard]] bool is_one_point(const SpanEnd& a, const SpanEnd& b) const {
         if (a.t == b.t) return true;
         const double gap = b.t - a.t;
         const double reach = std::max(std::abs(a.t), std::abs(b.t));
-        // Far above any error bound: decides nearly all pairs.
+        // Far above any error bound; decides nearly all pairs.
         const double far = 1e-9 * (reach + length(ray_.origin) / length(ray_.direction));
         if (!(gap <= far) || !a.is_crossing || !b.is_crossing) return false;
         const Vec3 room = surface_at(solids_.aggregate(), ray_, a.hit).error +
@@ -214,7 +214,7 @@ class PointLocator {
 
     [[nodiscard]] bool is_at_point(const Ray& ray, const Hit& hit) const {
         const Surface surface = surface_at(solids_.aggregate(), ray, hit);
-        // The line intersects the surface up to twice as far away as the surface is, and along its
+        // Intersections with the line lie up to twice as far away as the surface, along the line's
         // own direction: the bounds of the three components add up.
         const Vec3 room = surface.error + 0x1p-52 * abs(point_);
         return length_squared(surface.point - point_) <= 4.0 * length_squared(room);

@@ -3,12 +3,12 @@
 ///
 /// Source: Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982 (spans).
 /// Differs: covers a whole scene, solid by solid; solids may overlap.
-/// Conventions: every crossing of the whole line is found, from t = -inf to +inf, and taken in
-/// pairs: a crossing enters or leaves by its place in that order, never by a normal. A tangent (two
+/// Conventions: all crossings of the whole line, from t = -inf to +inf, are found and paired: the
+/// order of the crossings decides which enter and which leave, not the normals. A tangent (two
 /// crossings closer than their error bounds) neither begins nor ends a span. The surface of a solid
 /// belongs to it.
 /// Complexity and threads: a span query is one all-hits query and a sort. Const functions may be
-/// called from many threads at once.
+/// called from many threads.
 
 #include <cstdint>
 #include <memory>
@@ -20,10 +20,10 @@
 
 namespace alhazen {
 
-/// Where a span begins or ends.
+/// The beginning or end of a span.
 struct SpanEnd {
     double t = 0;
-    /// False: the ray begins or ends there, inside the solid; `hit` is then undefined.
+    /// False: the ray begins or ends here, inside the solid; `hit` is then undefined.
     bool is_crossing = false;
     Hit hit;
 };
@@ -45,17 +45,17 @@ struct SpanSurface {
 /// The spans of one ray in order of entry, and scratch memory.
 struct SpanList {
     std::vector<SolidSpan> spans;
-    /// Solids whose crossings do not come in pairs on the line: their spans are left out.
+    /// Solids whose crossings cannot be paired on the line; they have no spans.
     std::vector<SolidId> inconsistent;
 
-    // ---- scratch
+    // ---- Scratch.
     std::vector<Hit> hits;
     struct Crossing {
         SolidId solid;
         std::uint32_t hit;
     };
     std::vector<Crossing> crossings;
-    std::vector<SolidId> inside_at_start, inside_at_end;  ///< ends of the line, sorted
+    std::vector<SolidId> inside_at_start, inside_at_end;  ///< at the ends of the line, sorted
     bool end_is_known = false;
 };
 
@@ -63,7 +63,7 @@ struct SpanList {
 struct SpanLists {
     std::vector<SolidSpan> spans;
     std::vector<std::size_t> ends;   ///< [ray] end of its spans
-    std::uint64_t inconsistent = 0;  ///< pairs of a ray and a solid that were left out
+    std::uint64_t inconsistent = 0;  ///< pairs of a ray and a solid without spans
 
     [[nodiscard]] std::span<const SolidSpan> of(std::size_t ray) const {
         const std::size_t begin = ray == 0 ? 0 : ends[ray - 1];
@@ -74,7 +74,7 @@ struct SpanLists {
 /// A solid that contains a point.
 struct Containment {
     SolidId solid{};
-    /// The point lies on the solid's surface, within its error bound.
+    /// True if the point lies on the solid's surface, within its error bound.
     bool on_surface = false;
     friend bool operator==(const Containment&, const Containment&) = default;
 };
@@ -97,23 +97,23 @@ class SolidQueries {
 
     /// Replaces the list by the spans of the ray in [t_min, t_max]. A span that contains an end of
     /// the ray is clipped there and marked. An invalid ray has none. Directions may have any length
-    /// that double holds (geometry/ray_scale.h).
+    /// in the range of double (geometry/ray_scale.h).
     void spans(const Ray& ray, SpanList& list) const;
     /// Point, normal and material at the ends of a span of this ray. The normal points against the
     /// ray at the entry and along it at the exit.
     [[nodiscard]] SpanSurface entry_surface(const Ray& ray, const SolidSpan& span) const;
     [[nodiscard]] SpanSurface exit_surface(const Ray& ray, const SolidSpan& span) const;
-    /// Does not throw; an invalid ray has zero thickness.
+    /// The lengths of the ray inside solids. Does not throw; an invalid ray has zero thickness.
     [[nodiscard]] Thickness thickness(const Ray& ray, SpanList& scratch) const;
 
     /// The solids that contain the point, by number. Four lines through it, near the diagonals of a
-    /// cube, count the crossings on either side. Where they disagree (a grazing ray, a damaged
-    /// mesh) the majority of up to twelve lines wins. On a face, edge or corner of an axis-parallel
+    /// cube, count the crossings on either side. If they disagree (a grazing ray, a damaged mesh),
+    /// the majority of up to twelve lines decides. On a face, edge or corner of an axis-parallel
     /// box, and on any smooth surface, `on_surface` is certain; on a sharp edge of another solid
     /// the point may also be reported as outside. A non-finite point is in no solid.
     [[nodiscard]] std::vector<Containment> inside(const Vec3& point) const;
 
-    // ---- batches, over all threads
+    // ---- Batches, over all threads.
     void spans(std::span<const Ray> rays, SpanLists& lists) const;
     [[nodiscard]] std::vector<std::vector<Containment>> inside(std::span<const Vec3> points) const;
     [[nodiscard]] std::vector<Thickness> thickness(std::span<const Ray> rays) const;

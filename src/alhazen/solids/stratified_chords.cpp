@@ -15,12 +15,12 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kCellsPerTask = 256;
-/// Share of cells that are cut for their size alone, whatever was seen in them: features too small
-/// to be seen at once must not be missed for good.
+/// Share of cells that are cut for their size alone, whatever the survey saw, so that features too
+/// small to be seen at once are found later.
 constexpr double kCutForSize = 0.15;
-/// The same where hardly a line misses: the survey did not see the empty corners.
+/// The same share if hardly any line misses: the survey did not see the empty corners.
 constexpr double kCutForSizeIfFull = 0.75;
-/// This many misses show in the variance.
+/// From this many misses on, they show in the variance.
 constexpr std::uint64_t kEnoughMisses = 10;
 /// Survey lines per cell: one in the middle, six on a hexagon around it; the hexagon's radius is up
 /// to this many halves of the cell's side.
@@ -28,10 +28,9 @@ constexpr std::uint64_t kSurveyLines = 7;
 constexpr double kLeastSurveyRadius = 1.1, kMostSurveyRadius = 1.7;
 /// Growth of the number of cells between surveys, and after the last one.
 constexpr double kSurveyGrowth = 1.5, kLastGrowth = 2;
-/// Share of the variance of a cell along a rim that each of its quarters has (h^5).
+/// Share of the variance of a cell along a rim that each of its quarters inherits (h^5).
 constexpr float kRimShare = 1.0f / 32;
-/// Weight of that guess where the quarter itself was surveyed: seven lines may have missed a
-/// feature.
+/// Weight of that guess if the quarter itself was surveyed: seven lines may miss a feature.
 constexpr float kWeightOfGuess = 0.1f;
 
 double now() {

@@ -1,7 +1,7 @@
 #pragma once
-/// Sums over parallel lines through a solid, stratified over a net of cells.
+/// Sums over parallel lines through a solid, stratified over a grid of cells.
 ///
-/// Source, Differs, Conventions: see solid_measures.h, whose implementation this is.
+/// Implementation of solid_measures.h, which gives source, differences and conventions.
 
 #include <array>
 #include <limits>
@@ -15,9 +15,9 @@ namespace alhazen {
 
 /// Number of half samples of every estimate; a power of two.
 inline constexpr std::size_t kReplicates = 16;
-/// Ends of spans lie within this many times the magnitude of the numbers they are computed from.
+/// Error of the ends of spans, relative to the magnitude of the numbers they are computed from.
 inline constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
-/// Rounding of the sums themselves, as a share of the sum of absolute values.
+/// Rounding error of the sums, relative to the sum of absolute values.
 inline constexpr double kSumming = 300 * std::numeric_limits<double>::epsilon();
 
 /// An estimate per half sample, or per independent set of lines.
@@ -29,7 +29,7 @@ struct Moments {
     Vec3 first;
     std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
     double cosines = 0;
-    double ends = 0;      ///< ends of spans, counted
+    double ends = 0;      ///< number of ends of spans
     double measured = 0;  ///< volume or cosines minus their model, for precision
 
     Moments& operator+=(const Moments& other);
@@ -42,11 +42,11 @@ struct BundleFrame {
 };
 
 /// The lines of one direction. Their base plane is cut into cells, finer where the measured
-/// quantity varies. Every cell has two pairs of lines, each pair opposite each other about the
-/// middle. A half sample takes one pair of each cell, twice.
+/// quantity varies. Every cell has two pairs of lines, each pair symmetric about the middle. A half
+/// sample takes one pair of each cell, twice.
 ///
 /// A survey chooses the cells to cut: seven lines per cell that are not part of the estimate. They
-/// reach beyond the cell on all sides, so that a rim that only touches a corner is seen. They also
+/// reach beyond the cell on all sides, so that a rim that touches only a corner is seen. They also
 /// give the curvature of the measured quantity: a model that is subtracted from the lines of the
 /// cell and added as its integral.
 class StratifiedChords {
@@ -60,36 +60,36 @@ class StratifiedChords {
     [[nodiscard]] const Vec3& direction() const { return frame_.d; }
     /// Number of lines in the estimates.
     [[nodiscard]] std::uint64_t lines() const { return casts_ * kLinesPerCell * cells_.size(); }
-    /// Number of lines if their density were everywhere that of the sparsest cells.
+    /// Number of lines if their density were that of the sparsest cells everywhere.
     [[nodiscard]] double sparsest() const;
-    /// Cuts the cells until there are about `lines` lines, and casts all lines anew. Where there
-    /// are as many cells already, casts additional lines and keeps the earlier ones. Returns the
-    /// number of lines cast, surveys included: about kCostOfLine for each.
+    /// Cuts the cells until there are about `lines` lines, and casts all lines again. If there are
+    /// as many cells already, casts additional lines and keeps the earlier ones. Returns the number
+    /// of lines cast, including surveys: about kCostOfLine per line.
     std::uint64_t grow_to(std::uint64_t lines);
     static constexpr double kCostOfLine = 2.25;
 
-    /// Moments of a half sample. Cosines sum to this direction's share of the area, for bundles
-    /// that measure the area only.
+    /// Moments of a half sample. For bundles that measure only the area, cosines sum to this
+    /// direction's share of it.
     [[nodiscard]] Moments moments(std::size_t replicate) const;
-    /// The measured volume, or this direction's share of the area, and how far it scatters: by the
-    /// differences of the pairs of all cells. Rounding is not included.
+    /// The measured volume, or this direction's share of the area, and its variance from the
+    /// differences of the pairs of all cells, without rounding.
     [[nodiscard]] double value() const { return share() * sums_.all.measured; }
     [[nodiscard]] Spread spread() const;
     [[nodiscard]] Estimate estimate() const { return estimate_of(value(), spread()); }
-    /// Area of the surface as projected along this direction, every layer counted.
+    /// Area of the surface projected along this direction, every layer counted.
     [[nodiscard]] double projected_area() const { return share() * sums_.all.ends; }
     /// Extents of the rectangle that the lines fill.
     [[nodiscard]] double right_width() const { return right_.width(); }
     [[nodiscard]] double up_width() const { return up_.width(); }
-    /// Lines ever cast whose crossings did not come in pairs.
+    /// Number of lines cast so far whose crossings could not be paired.
     [[nodiscard]] std::uint64_t inconsistent() const { return inconsistent_; }
     /// Number of lines in one round.
     [[nodiscard]] std::uint64_t lines_of_round() const { return kLinesPerCell * cells_.size(); }
-    /// Lines that missed the solid.
+    /// Number of lines that missed the solid.
     [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
 
   private:
-    /// Second derivatives, xx, xy, yy, where half a cell's side is 1.
+    /// Second derivatives xx, xy, yy in units of half a cell's side.
     using Curvature = std::array<float, 3>;
     /// A square part of the unit square.
     struct Cell {
@@ -107,11 +107,11 @@ class StratifiedChords {
     static constexpr std::uint64_t kLinesPerCell = 4;
     struct Sums {
         Moments all;
-        /// First pair minus second, for the cells of each row of the Hadamard matrix.
+        /// First pair minus second pair, for the cells of each row of the Hadamard matrix.
         std::array<Moments, kReplicates> differences;
-        /// Second and fourth powers of these differences, in units of scale_.
+        /// Sums of second and fourth powers of these differences, in units of scale_.
         double squares = 0, fourths = 0;
-        std::uint64_t inconsistent = 0, misses = 0, lines = 0;  ///< lines: of surveys
+        std::uint64_t inconsistent = 0, misses = 0, lines = 0;  ///< lines: those of surveys
 
         Sums& operator+=(const Sums& other);
     };
@@ -135,10 +135,10 @@ class StratifiedChords {
     Vec3 center_;
     std::uint64_t key_;
     Measured measured_;
-    Interval right_, up_;  ///< extent of the base rectangle, from the centre
+    Interval right_, up_;  ///< extent of the base rectangle, relative to the centre
     double scale_;         ///< unit of the value of a line
     std::vector<Cell> cells_;
-    std::uint64_t rounds_ = 0, casts_ = 0;  ///< in total, and since the cells were cut
+    std::uint64_t rounds_ = 0, casts_ = 0;  ///< in total; since the cells were last cut
     std::uint64_t inconsistent_ = 0;
     std::uint64_t missed_ = 0;    ///< lines that missed, in total
     std::uint64_t surveyed_ = 0;  ///< lines of surveys
@@ -149,11 +149,11 @@ class StratifiedChords {
 class Deadline {
   public:
     Deadline(double seconds, const StopFlag* stop);
-    /// Whether `lines` more fit in, estimated from the `lines_done` so far.
+    /// True if `lines` more fit into the time, estimated from the `lines_done` so far.
     [[nodiscard]] bool allows(double lines, double lines_done) const {
         return lines <= room(lines_done);
     }
-    /// Estimated number of further lines that fit in.
+    /// Estimated number of further lines that fit into the time.
     [[nodiscard]] double room(double lines_done) const;
 
   private:
@@ -162,17 +162,17 @@ class Deadline {
     double begin_;
 };
 
-/// Widens an interval by a bound of what is rounding.
+/// Widens an interval by a bound of the rounding error.
 [[nodiscard]] Estimate with_rounding(Estimate estimate, double rounding);
 
-/// Widens the interval of a volume where the solid fills the rectangle of its shadow so well that
+/// Widens the interval of a volume if the solid fills the rectangle of its projection so well that
 /// hardly a line missed it, yet lines differ: empty corners are too rare to show in the variance,
 /// and bounded only by the number of misses. `lines`: see StratifiedChords::sparsest. Lines that
-/// differ by no more than `rounding` are alike.
+/// differ by at most `rounding` count as equal.
 [[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines,
                                         double rounding);
 
-/// The estimate of these half samples, with its interval.
+/// The estimate of half samples, with its interval.
 [[nodiscard]] Estimate half_sample_estimate(const Replicates& half_samples);
 
 }  // namespace alhazen

@@ -19,14 +19,14 @@ void check_lengths(std::size_t rays, std::size_t results) {
                                       std::to_string(results) + " results; expected one per ray");
 }
 
-/// Finishes the table for the builders. All geometry is opaque: there are no materials.
+/// Completes the table for the builders. All geometry is opaque: there are no materials.
 PrimitiveTable finished(PrimitiveTable table) {
     table.material_opacity = {Opacity::Opaque};
     table.finish();
     return table;
 }
 
-/// Throws unless the id is in the table and is an instance or not, as expected.
+/// Throws unless the id is in the table and is (or is not) an instance, as expected.
 void check_id(const PrimitiveTable& table, PrimitiveId id, bool instance) {
     const auto i = static_cast<std::uint32_t>(id);
     if (i < table.size() && (i >= table.first(kInstanceKind)) == instance) return;
@@ -41,7 +41,7 @@ decltype(auto) with_usual(const Ray& ray, const Trace& trace) {
     return exponent == 0 ? trace(ray, 0) : trace(rescaled(ray, exponent), exponent);
 }
 
-/// The rays; copied and rescaled when some are of unusual length.
+/// The given rays; a rescaled copy when any has an unusual length.
 class UsualRays {
   public:
     explicit UsualRays(std::span<const Ray> rays) : given_(rays) {

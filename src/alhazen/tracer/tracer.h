@@ -31,27 +31,26 @@ namespace alhazen {
 struct Scene;
 
 struct TracerOptions {
-    /// A name of `accelerator_table()`; others throw Error (Usage) with the valid names.
+    /// A name of `accelerator_table()`; other names throw Error (Usage) with the valid ones.
     std::string accelerator = kDefaultAccelerator;
     /// Build effort: {.build = {.quality = BuildQuality::High}}.
     BuildOptions build{};
 };
 
-/// The geometry of a `Hit` in tracer coordinates: point, normals, texture coordinates and the other
-/// members of `Surface`. Its materials are unused.
+/// The geometry of a `Hit` in tracer coordinates: the members of `Surface`; materials are unused.
 struct HitDetails : Surface {
-    /// The geometry hit; within instances, its id in the scene of the innermost one.
+    /// The geometry hit; inside instances, its id in the scene of the innermost one.
     GeometryId geometry{};
     std::uint32_t primitive = 0;  ///< triangle of a mesh; 0 for a shape
-    /// Ids of the enclosing instances, outermost first; each in the scene of the previous one.
+    /// Enclosing instances, outermost first; each id is in the scene of the previous instance.
     InlineVector<GeometryId, kMaxInstanceDepth> instances;
 };
 
-/// What was hit, without its surface.
+/// The ids of a hit, without its surface.
 struct HitIds {
     GeometryId geometry{};        ///< as HitDetails::geometry
     std::uint32_t primitive = 0;  ///< triangle of a mesh; 0 for a shape
-    GeometryId outermost{};       ///< the outermost instance around it, or the geometry itself
+    GeometryId outermost{};       ///< the outermost enclosing instance, or the geometry itself
 };
 
 /// All hits of a batch of rays, in the order of the rays.
@@ -70,21 +69,21 @@ class Tracer {
     /// Builds over the whole scene, which may be empty.
     explicit Tracer(TracerScene scene, const TracerOptions& options = {});
     /// Maps a tree stored by `save` for the same scene into memory instead of building it. The hits
-    /// are the same. Throws Error (File) when the file is damaged, of other geometry or of another
-    /// library version; build instead. Instances are loaded or built separately.
+    /// are the same. Throws Error (File) when the file is damaged, belongs to other geometry or
+    /// comes from another library version. Instances are loaded or built separately.
     [[nodiscard]] static Tracer load(TracerScene scene, const std::filesystem::path& file);
     /// Stores the tree, not the geometry, atomically. Throws Error: Usage for an accelerator other
     /// than `wide_bvh`, File when the file cannot be written.
     void save(const std::filesystem::path& file) const;
 
-    /// Traces a compiled scene that has its aggregate; geometry is numbered by the parts of its
-    /// description (Surface::part). Moving parts are where they are as the shutter opens.
+    /// Traces a compiled scene that has its aggregate. Geometry ids are the parts of its
+    /// description (Surface::part). Moving parts have their placement as the shutter opens.
     [[nodiscard]] static Tracer of(const Scene& scene);
 
     /// Finds the nearest hit: t, u and v (the weights of the second and third vertex of a triangle,
     /// or the parameters of a shape). True on a hit; otherwise `hit.found()` is false.
     bool intersect(const Ray& ray, Hit& hit, RayMask mask = kAllRays) const;
-    /// True when there is any hit; cheaper than the nearest hit.
+    /// True if there is any hit; faster than the nearest hit.
     [[nodiscard]] bool occluded(const Ray& ray, RayMask mask = kAllRays) const;
     /// Replaces `hits` by all hits, nearest first.
     void all_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask = kAllRays) const;
@@ -99,33 +98,34 @@ class Tracer {
                   Coherence coherence = Coherence::Any) const;
     void all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask = kAllRays) const;
 
-    /// Names what was hit: cheaper than `details`. Throws Error (Usage) without a hit.
+    /// The ids of the geometry hit; faster than `details`. Throws Error (Usage) without a hit.
     [[nodiscard]] HitIds ids(const Hit& hit) const;
     /// The surface at a hit of this tracer. `leaving_ray` (primitives/surface.h) starts the next
     /// ray there. Throws Error (Usage) without a hit.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
 
-    /// The surface alone, into `surface`, which is large and not copied; without texture
-    /// coordinates. Precondition: a hit of this tracer.
+    /// Writes the surface without texture coordinates into `surface`, as the type is large.
+    /// Precondition: a hit of this tracer.
     void surface(const Ray& ray, const Hit& hit, Surface& surface) const;
 
-    /// The normal of the surface alone, the same bits as `surface` gives; cheap for triangles that
-    /// lie in no instance. Precondition: a hit of this tracer. `scratch` is left unspecified.
+    /// The normal alone, bit-identical to that of `surface`; fast for triangles outside instances.
+    /// Precondition: a hit of this tracer. `scratch` is left unspecified.
     [[nodiscard]] Vec3 normal(const Ray& ray, const Hit& hit, Surface& scratch) const;
 
-    /// Spans, thickness and containment queries for geometry that bounds volumes. Creation tests
-    /// which geometry does (a sort of the edges of every mesh): create once. Shares the geometry
+    /// Span, thickness and containment queries for geometry that bounds volumes. Creation tests
+    /// which geometry does (it sorts the edges of every mesh): create once. Shares the geometry
     /// with the tracer.
     [[nodiscard]] SolidQueries solids() const { return SolidQueries(aggregate_); }
 
-    /// Bounds all geometry; empty for an empty scene, infinite with planes.
+    /// The bounds of all geometry; empty for an empty scene, infinite with planes.
     [[nodiscard]] Box3 box() const { return aggregate_->box(); }
-    /// Calls that added geometry; of a compiled scene the shapes and triangles stored.
+    /// The number of calls that added geometry; for a compiled scene, of shapes and triangles
+    /// stored.
     [[nodiscard]] std::size_t geometry_count() const { return geometry_count_; }
-    /// Bytes of the acceleration structure, excluding instanced tracers.
+    /// Bytes of the acceleration structure, without instanced tracers.
     [[nodiscard]] std::size_t memory_bytes() const { return aggregate_->memory_bytes(); }
-    /// For step counts and queries beyond this class. Takes directions unscaled: lengths of 2^-40
-    /// to 2^40 give the results of this class.
+    /// For step counts and queries beyond this class. Rays are not rescaled: direction lengths of
+    /// 2^-40 to 2^40 give the results of this class.
     [[nodiscard]] const Aggregate& aggregate() const { return *aggregate_; }
 
   private:

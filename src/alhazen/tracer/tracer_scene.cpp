@@ -9,7 +9,7 @@
 namespace alhazen {
 namespace {
 
-/// The location of findings.
+/// The location of a finding about `geometry`.
 FileLocation place_of(std::uint32_t geometry) {
     return {"geometry " + std::to_string(geometry), 0, 0};
 }
@@ -19,7 +19,7 @@ void check_transform(const Affine& transform, std::uint32_t geometry) {
     throw Error(ErrorKind::Scene, "the transform is singular or not finite", place_of(geometry));
 }
 
-/// Adds a mesh or an analytic shape.
+/// Checks a mesh or an analytic shape.
 template <class Shape>
 void check_shape(const Shape& shape, std::uint32_t geometry) {
     Diagnostics diagnostics;

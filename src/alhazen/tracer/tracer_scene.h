@@ -28,8 +28,8 @@ enum class GeometryId : std::uint32_t {};
 struct GeometryOptions {
     /// Placement: any invertible affine transform.
     Affine world_from_geometry{};
-    /// Visible to rays whose mask has a bit in common with this one; the program defines the bits.
-    /// 0: invisible.
+    /// Visible to rays whose mask shares a bit with this one (meanings are the program's); 0:
+    /// invisible.
     RayMask visible_to = kAllRays;
 };
 
@@ -40,19 +40,19 @@ class TracerScene {
     GeometryId add_mesh(std::span<const Vec3> positions,
                         std::span<const std::array<std::uint32_t, 3>> triangles,
                         const GeometryOptions& options = {});
-    /// The same from flat arrays: coordinates[3 * vertex + axis], indices[3 * triangle + corner].
-    /// Throws Error (Usage) when a length is not a multiple of three.
+    /// Adds a mesh from flat arrays: coordinates[3 * vertex + axis], indices[3 * triangle +
+    /// corner]. Throws Error (Usage) when a length is not a multiple of three.
     GeometryId add_mesh(std::span<const float> coordinates, std::span<const std::uint32_t> indices,
                         const GeometryOptions& options = {});
     /// Adds a mesh with all vertex attributes except materials. Without a transform the mesh is
-    /// shared, not copied, and must not change any more.
+    /// shared, not copied, and must not change afterwards.
     GeometryId add_mesh(std::shared_ptr<const TriangleMesh> mesh,
                         const GeometryOptions& options = {});
 
     GeometryId add_sphere(const Vec3& center, double radius, const GeometryOptions& options = {});
     /// Adds any shape of shapes/shape_list.h, exact and not tessellated: add(Cylinder{...}).
     GeometryId add(const AnyShape& shape, const GeometryOptions& options = {});
-    /// Adds all geometry of `inner` at another placement, without a copy. Instances may be nested
+    /// Adds all geometry of `inner` at a placement, without a copy. Instances may be nested
     /// `kMaxInstanceDepth` deep.
     GeometryId add_instance(const Tracer& inner, const GeometryOptions& options = {});
 
@@ -60,7 +60,7 @@ class TracerScene {
 
   private:
     friend class Tracer;
-    /// Adds a checked mesh to the table.
+    /// Adds a mesh that has passed its checks.
     GeometryId place_mesh(std::shared_ptr<const TriangleMesh> mesh, bool mirrored,
                           RayMask visible_to);
 

@@ -10,9 +10,10 @@ namespace alhazen {
 
 namespace {
 
-/// Primitives under one box.
+/// Number of primitives in a block, which has one box.
 constexpr std::size_t kBlock = BoxList::kGroup;
-/// Blocks that all rays of a batch are tested with before the next ones: they stay in the cache.
+/// Number of blocks that all rays of a batch are tested with before the next ones, to stay in the
+/// cache.
 constexpr std::size_t kBlocksAtOnce = BoxList::kGroup;
 constexpr std::size_t kRaysAtOnce = 256;
 
@@ -22,12 +23,12 @@ constexpr std::size_t kRaysAtOnce = 256;
 struct BruteForce::Group {
     const Aggregate* aggregate = nullptr;
     const PrimitiveTable* table = nullptr;  ///< null: one solid
-    std::vector<std::uint32_t> plain;       ///< ids that are tested with every ray
-    std::vector<std::uint32_t> boxed;       ///< the others, ascending
+    std::vector<std::uint32_t> plain;       ///< ids tested with every ray
+    std::vector<std::uint32_t> boxed;       ///< the other ids, ascending
     BoxList boxes, blocks;                  ///< [boxed], [block of them]
     Vec3 center;
     double scale = 0;  ///< half of the largest side of all boxes; 0: none can be used
-    Box3 box;          ///< of everything; all of space where something is plain
+    Box3 box;          ///< of everything; all of space if `plain` is not empty
     std::vector<const Group*> inner;  ///< [instance] null for solids
 };
 
@@ -96,7 +97,7 @@ void BruteForce::add_boxes(Group& group) {
     if (!(group.scale > 0) || !std::isfinite(group.scale) || !std::isfinite(1 / group.scale)) {
         group.scale = 0;
     }
-    // Boxes of the blocks are made in the units of the lanes.
+    // Boxes of blocks are in the units of the lanes.
     const double to_unit = group.scale > 0 ? 1 / group.scale : 0;
     group.boxes.reserve(boxes.size());
     for (std::size_t begin = 0; begin < boxes.size(); begin += kBlock) {
@@ -150,7 +151,7 @@ class BruteForce::Batch {
         if (!is_valid(ray)) return {{}, Meets::Nothing};
         if (!(group_.scale > 0)) return {{}, Meets::Unknown};
         const Vec3 d = ray.direction / max_component(abs(ray.direction));
-        // In the units of the lanes.
+        // In units of the lanes.
         const Vec3 origin = (ray.origin - group_.center) / group_.scale;
         constexpr double kFarthest = 0x1p28;
         if (!is_finite(d) || !(max_component(abs(origin)) < kFarthest)) {
@@ -205,7 +206,7 @@ class BruteForce::Batch {
         table.all_hits(PrimitiveId{id}, s.ray, shears_[shot], *s.hits, NoStats{}, s.mask);
     }
 
-    /// The rays of each instance together.
+    /// Traces the rays of each instance together.
     void trace_instances() {
         std::stable_sort(placed_.begin(), placed_.end(),
                          [](const Placed& a, const Placed& b) { return a.instance < b.instance; });

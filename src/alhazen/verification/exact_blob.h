@@ -1,11 +1,10 @@
 #pragma once
-/// All crossings of a line with a blob, in numbers of any type.
+/// All crossings of a line with a blob, for any number type.
 ///
 /// Source: the definition in shapes/blobs/blob.h.
 /// Differs: between the boundaries of components the density is summed in powers of t about the
-/// middle, and its roots are isolated by those of its derivatives (exact_polynomials.h); no tree,
-/// no Bernstein forms, no error bounds.
-/// those of its derivatives (exact_polynomials.h); no tree, no Bernstein forms, no error bounds.
+/// middle, and its roots are isolated by those of its derivatives (exact_polynomials.h). Uses no
+/// tree, no Bernstein forms and no error bounds.
 
 #include "alhazen/verification/exact_polynomials.h"
 
@@ -19,7 +18,7 @@ struct BlobPiece {
     PowersOf<R> q;
 };
 
-/// 1 - |f + t d|^2 / scale where that is positive, between lo and hi.
+/// Adds 1 - |f + t d|^2 / scale, between lo and hi, if it is positive somewhere.
 template <class R>
 void add_blob_piece(const Vec3Of<R>& f, const Vec3Of<R>& d, const R& scale, const R& strength,
                     const R& lo, const R& hi, std::vector<BlobPiece<R>>& pieces) {
@@ -52,7 +51,7 @@ std::vector<BlobPiece<R>> blob_pieces(const Blob& blob, const LineOf<R>& line) {
             continue;
         }
         const Vec3Of<R> from_top = line.origin - Vec3Of<R>(c.top);
-        // A rod between the planes through its ends, balls beyond.
+        // A rod: a cylinder between the planes through its ends, spheres beyond.
         const R speed = dot(d, axis), start = dot(from_base, axis);
         const Vec3Of<R> aside = from_base - (start / length) * axis;
         const Vec3Of<R> sideways = d - (speed / length) * axis;
@@ -99,7 +98,7 @@ CrossingsOf<R> exact_crossings(const Blob& blob, const LineOf<R>& line) {
                                     q[1] + 2 * middle * q[2], q[2]};
             sum_of = sum(sum_of, product(moved, moved), R(-piece.strength));
         }
-        // Negative is inside. The value at a common end of two spans may round to different signs.
+        // Inside where negative. At a common end of two spans rounding may give different signs.
         if ((value_at(sum_of, R(-half)) < 0) != inside) cross(from);
         for (const R& t : sign_changes(sum_of, R(-half), half)) cross(middle + t);
     }

@@ -1,13 +1,13 @@
 #pragma once
-/// All crossings of a line with a solid in 113 bits, from the definition of the shape, by formulas
-/// other than the ray tracer's.
+/// All crossings of a line with a solid in 113 bits, computed from the definition of the shape by
+/// other formulas than the ray tracer's.
 ///
 /// Source: the definitions in the headers of the shapes.
 /// Differs: written for any number type, and for simplicity. To add a shape, add an overload of
-/// `exact_crossings` below or in a header exact_*.h of this folder; a shape without one is not
-/// checked.
-/// Conventions: ascending; each crossing changes between inside and outside. Infinite where an
-/// unbounded solid has no end.
+/// `exact_crossings` below or in a header exact_*.h of this folder; shapes without an overload are
+/// not checked.
+/// Conventions: crossings ascend, and each changes between inside and outside. They are infinite
+/// where an unbounded solid has no end.
 
 #include <concepts>
 
@@ -21,7 +21,7 @@
 
 namespace alhazen {
 
-// ---- formulas
+// ---- Formulas.
 
 template <class R>
 CrossingsOf<R> exact_crossings(const Sphere& sphere, const LineOf<R>& line) {
@@ -47,7 +47,7 @@ CrossingsOf<R> exact_crossings(const BoxShape& box, const LineOf<R>& line) {
     return {false, {entry, exit}};
 }
 
-/// Points whose height along the axis is from 0 to 1 (base to top) and whose distance from the axis
+/// Points whose height along the axis is in [0, 1] (base to top) and whose distance from the axis
 /// is at most the radius, which is linear in the height.
 template <class R>
 CrossingsOf<R> exact_frustum(const Vec3& base, const Vec3& top, double base_radius,
@@ -83,7 +83,7 @@ CrossingsOf<R> exact_frustum(const Vec3& base, const Vec3& top, double base_radi
         const R root = -c / (2 * b);
         return b > 0 ? clipped(ends.lo, root) : clipped(root, ends.hi);
     }
-    // Outside the roots; the part beyond the apex lies outside the ends.
+    // The inside is outside the roots; the part beyond the apex lies outside the ends.
     const std::vector<R> roots = quadratic_roots<R>(a, b, c);
     if (roots.empty()) return clipped(ends.lo, ends.hi);
     const CrossingsOf<R> before = clipped(ends.lo, roots[0]);
@@ -107,7 +107,7 @@ CrossingsOf<R> exact_crossings(const HalfSpace& half, const LineOf<R>& line) {
     return {rate > 0, {dot(n, Vec3Of<R>(half.point) - line.origin) / rate}};
 }
 
-/// The faces as prepared: points and unit normals.
+/// Uses the prepared faces: points and unit normals.
 template <class R>
 CrossingsOf<R> exact_crossings(const Polyhedron& solid, const LineOf<R>& line) {
     bool has_entry = false, has_exit = false;
@@ -138,17 +138,17 @@ concept HasExactCrossings = requires(const S& shape, const ExactLine& line) {
     { exact_crossings(shape, line) } -> std::same_as<ExactCrossings>;
 };
 
-// ---- primitives of a table and solids made of them
+// ---- Primitives of a table and solids made of them.
 
-/// Whether a closed shape has a formula; false for meshes and instances.
+/// True if a closed shape has a formula; false for meshes and instances.
 [[nodiscard]] bool has_exact_crossings(const PrimitiveTable& table, PrimitiveId id);
-/// Precondition: has_exact_crossings. Uses the stored placement.
+/// The crossings with a primitive in its stored placement. Precondition: has_exact_crossings.
 [[nodiscard]] ExactCrossings exact_crossings(const PrimitiveTable& table, PrimitiveId id,
                                              const ExactLine& line);
-/// Whether all leaves have formulas.
+/// True if all leaves have formulas.
 [[nodiscard]] bool has_exact_crossings(const CsgSolid& solid);
-/// Evaluates the expression between consecutive crossings of leaves; parts thinner than `least` (in
-/// t) are left out.
+/// Evaluates the expression between consecutive crossings of leaves; parts not longer than `least`
+/// (in t) are omitted.
 [[nodiscard]] ExactCrossings exact_crossings(const CsgSolid& solid, const ExactLine& line,
                                              Real128 least);
 

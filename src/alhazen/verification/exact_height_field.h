@@ -1,8 +1,8 @@
 #pragma once
-/// All crossings of a line with a height field, in numbers of any type.
+/// All crossings of a line with a height field, for any number type.
 ///
 /// Source: the definition in shapes/meshes/height_field.h.
-/// Differs: no triangle is intersected; over the line the terrain is a polyline with corners where
+/// Differs: no triangle is intersected. Above the line the terrain is a polyline with corners where
 /// the line, seen from above, crosses rows, columns and diagonals.
 
 #include "alhazen/verification/exact_polynomials.h"
@@ -15,7 +15,7 @@ class TerrainAbove {
   public:
     TerrainAbove(const HeightField& field, const LineOf<R>& line) : field_(field), line_(line) {}
 
-    /// The t of all corners in [lo, hi], both ends included, ascending.
+    /// The t of all corners in [lo, hi], including both ends, ascending.
     [[nodiscard]] std::vector<R> corners(const R& lo, const R& hi) const {
         std::vector<R> t{lo, hi};
         const auto add = [&](const R& at) {
@@ -37,13 +37,14 @@ class TerrainAbove {
         std::sort(t.begin(), t.end());
         return t;
     }
-    /// The height at t on the plane of the triangle under the line at `within`.
+    /// The height at t of the plane of the triangle under the line at `within`, relative to the
+    /// line.
     [[nodiscard]] R at(const R& t, const R& within) const {
         return Cell(within, *this).height(t, within) - (line_.origin.z + t * line_.direction.z);
     }
 
   private:
-    /// The cell under the line at a t.
+    /// The cell under the line at some t.
     struct Cell {
         const TerrainAbove& of;
         std::uint32_t i, j;
@@ -53,7 +54,7 @@ class TerrainAbove {
             i = index(above.x(t), f.columns, [&](std::uint32_t k) { return f.vertex(k, 0).x; });
             j = index(above.y(t), f.rows, [&](std::uint32_t k) { return f.vertex(0, k).y; });
         }
-        /// The last cell that begins before.
+        /// The last cell that begins before `at`.
         template <class Place>
         static std::uint32_t index(const R& at, std::uint32_t count, Place&& place) {
             std::uint32_t lo = 0, hi = count - 1;

@@ -1,7 +1,7 @@
 #pragma once
-/// Lines and their parts inside solids, in numbers of any type.
+/// Lines and their parts inside solids, for any number type.
 ///
-/// Conventions: t counts in lengths of the direction; crossings ascend, and each changes between
+/// Conventions: t is in units of the direction's length; crossings ascend, and each changes between
 /// inside and outside.
 
 #include <algorithm>
@@ -58,9 +58,9 @@ struct CrossingsOf {
 };
 using ExactCrossings = CrossingsOf<Real128>;
 
-// ---- formulas
+// ---- Formulas.
 
-/// a t^2 + 2 b t + c = 0 for a != 0, ascending; none, or two.
+/// Roots of a t^2 + 2 b t + c for a != 0, ascending; none or two.
 template <class R>
 std::vector<R> quadratic_roots(const R& a, const R& b, const R& c) {
     const R discriminant = b * b - a * c;
@@ -73,7 +73,7 @@ std::vector<R> quadratic_roots(const R& a, const R& b, const R& c) {
     return {t1, t0};
 }
 
-/// The part of a line between two values of one coordinate; a line along a face is outside.
+/// The part of a line between two values of one coordinate. A line along a face is outside.
 template <class R>
 struct SlabOf {
     bool empty = false, unlimited = false;

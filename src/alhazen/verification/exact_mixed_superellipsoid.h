@@ -1,6 +1,6 @@
 #pragma once
-/// All crossings of a line with a superellipsoid that has one exponent above 2 and one below, in
-/// numbers of any type.
+/// All crossings of a line with a superellipsoid that has one exponent above 2 and one below, for
+/// any number type.
 ///
 /// Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE CG&A 1(1), 1981; Horst
 /// and Thoai, "DC Programming: Overview", Journal of Optimization Theory and Applications 103, 1999
@@ -27,7 +27,7 @@ class MixedSuperellipsoid {
         R outward, upper;  ///< slopes of N and g; infinite or NaN at a plane of symmetry
     };
 
-    /// `middle`: a t inside the part, off the planes.
+    /// `middle`: a t inside the part, off the planes of symmetry.
     MixedSuperellipsoid(const Superellipsoid& solid, const LineOf<R>& line, const R& middle)
         : p_(solid.p), q_(solid.q), line_(line) {
         for (int k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ class MixedSuperellipsoid {
         const R at = line_.origin[k] + t * line_.direction[k];
         return at < 0 ? -at : at;
     }
-    /// (a / b)^(exponent - 1) rate, where `power` is (a / b)^exponent.
+    /// (a / b)^(exponent - 1) rate; `power` is (a / b)^exponent.
     static R slope(const R& a, const R& b, const R& power, const R& exponent, const R& rate) {
         if (rate == 0) return 0;
         if (!(b > 0)) return R(0) / R(0);  // unknown: a NaN implies nothing
@@ -79,7 +79,7 @@ class MixedSearch {
 
     void search(const Value& a, const Value& b, int halvings) {
         const bool turns = (a.height < 0) != (b.height < 0);
-        // The slope of a concave function falls along the line.
+        // The slope of a concave function decreases along the line.
         const Value &first = concave_ ? b : a, &last = concave_ ? a : b;
         const R least = first.outward - last.upper, most = last.outward - first.upper;
         const bool monotone = least >= 0 || most <= 0;
@@ -96,9 +96,8 @@ class MixedSearch {
     }
 
   private:
-    /// Whether slopes in this range cannot lead from one side of 0 at both ends to the other. The
-    /// lines with slope `least` from a and `most` from b, or the reverse, meet at the extreme
-    /// value.
+    /// True if the function, with slopes in this range, keeps its sign between the ends. The lines
+    /// with slope `least` from a and `most` from b, or vice versa, meet at the extreme value.
     static bool keeps_away(const Value& a, const Value& b, const R& least, const R& most) {
         const bool below = a.height < 0;
         const R &from_a = below ? most : least, &from_b = below ? least : most;
@@ -123,8 +122,8 @@ class MixedSearch {
     std::vector<R>& found_;
 };
 
-/// `ends`: of the part of the line that may be inside, and its crossings of planes of symmetry;
-/// ascending.
+/// `ends`: the ends of the part of the line that may be inside, and its crossings of planes of
+/// symmetry; ascending.
 template <class R>
 std::vector<R> mixed_crossings(const Superellipsoid& solid, const LineOf<R>& line,
                                const std::vector<R>& ends) {
@@ -134,7 +133,7 @@ std::vector<R> mixed_crossings(const Superellipsoid& solid, const LineOf<R>& lin
         if (!(ends[i] < ends[i + 1])) continue;
         const MixedSuperellipsoid<R> f(solid, line, (ends[i] + ends[i + 1]) / 2);
         auto from = f.at(ends[i]), to = f.at(ends[i + 1]);
-        // Outside the clip the line is outside the solid, which begins there.
+        // Outside the clip the line is outside the solid: an end inside is moved to the surface.
         if (i == 0 && from.height < 0) from.height = 0;
         if (i + 2 == ends.size() && to.height < 0) to.height = 0;
         MixedSearch<R>(f, solid.p < 1, found).search(from, to, kMostHalvings);

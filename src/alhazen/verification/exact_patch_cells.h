@@ -1,6 +1,6 @@
 #pragma once
-/// Control points of a patch as a line sees them, in double precision or 113 bits, and what they
-/// prove of a part of the patch.
+/// Control points of a patch relative to a line, in double precision or 113 bits, and the
+/// properties of a part of the patch that they prove.
 ///
 /// Source: see exact_patches.h.
 /// Conventions: internal to exact_patches.cpp.
@@ -16,11 +16,11 @@
 namespace alhazen {
 
 inline constexpr std::size_t kMostPoints = std::size_t{kMaxPatchOrder} * kMaxPatchOrder;
-// A Jacobian that differs from the identity by at most this is one to one.
+// A Jacobian that differs from the identity by at most this bound is one to one.
 inline constexpr double kContraction = 0.9;
 inline constexpr double kMostNoise = 0.01;  // of a cell's half-width
 
-/// The two coordinates in the plane of the line, times the weight.
+/// The two coordinates perpendicular to the line, times the weight.
 template <class R>
 struct LineNet {
     int n = 0, m = 0;
@@ -33,7 +33,7 @@ struct LineNet {
 };
 
 struct DyadicCell {
-    Real128 u = 0, v = 0;  // least corner
+    Real128 u = 0, v = 0;  // lower corner
     int level_u = 0, level_v = 0;
 
     [[nodiscard]] Real128 width_u() const { return std::ldexp(1.0, -level_u); }
@@ -75,7 +75,7 @@ void halve(const LineNet<R>& net, bool along_u, LineNet<R>& low, LineNet<R>& hig
     }
 }
 
-/// The line with its plane, in 113 bits.
+/// The line and two planes through it, in 113 bits.
 struct ExactFrame {
     Vec3Of<Real128> origin, direction, a, b;
 
@@ -131,13 +131,13 @@ inline LineNet<double> rounded_net(const BezierNet& net, const ExactFrame& frame
     return out;
 }
 
-/// What the control points of a cell prove, in units of half of its widths.
+/// The result of the control points of a cell, in units of half its widths.
 struct CellProof {
     enum class Answer { None, OneToOne, Divide, Unknown } answer = Answer::Divide;
     bool along_u = true;
 };
 
-/// `noise`: bound of the rounding errors of a control point.
+/// Examines a cell. `noise`: bound of the rounding errors of a control point.
 template <class R>
 CellProof prove(const LineNet<R>& net, double noise) {
     using Answer = CellProof::Answer;

@@ -9,9 +9,9 @@ namespace alhazen {
 namespace {
 
 constexpr double kOnSide = 0x1p-85;
-// What is proven of a cell holds for the cell with this part of its width on each side: beyond its
-// cell, a polynomial of degree 7 by 7 is at most (1 + 2 * kMargin)^14 times its largest control
-// point.
+// The properties of a cell hold for the cell extended by this part of its width on each side:
+// beyond its cell, a polynomial of degree 7 by 7 is at most (1 + 2 * kMargin)^14 times its largest
+// control point.
 constexpr double kMargin = 0x1p-10;
 
 /// Value and derivatives of Bernstein polynomials.
@@ -122,8 +122,8 @@ class PatchSearch {
         return net;
     }
 
-    /// Newton's method in 113 bits in a cell with at most one root; false where it does not arrive
-    /// in the cell with its margin.
+    /// Newton's method in 113 bits in a cell with at most one root; false if it does not converge
+    /// to a point of the extended cell.
     bool root_in(const DyadicCell& cell) {
         const Real128 width_u = cell.width_u(), width_v = cell.width_v();
         const double unit_u = static_cast<double>(width_u), unit_v = static_cast<double>(width_v);
@@ -133,7 +133,7 @@ class PatchSearch {
                             std::abs(static_cast<double>(dv)) / unit_v);
         };
         if (std::max(cell.level_u, cell.level_v) <= 24) {
-            // A better start in double precision; no root is expected far from the cell.
+            // A better start by double precision; no root is expected far from the cell.
             double a = static_cast<double>(u), b = static_cast<double>(v), da = 0, db = 0;
             for (int step = 0; step < 8; ++step) {
                 if (!newton_step(rounded_, a, b, da, db)) return false;
@@ -152,7 +152,7 @@ class PatchSearch {
             v += dv;
             const double moved = size_of(du, dv);
             if (!(moved < 4.0)) return false;
-            // The next step would be its square.
+            // The next step would be the square of this one.
             if (moved < 0x1p-50) return accept(cell, u, v);
         }
         return false;
@@ -164,7 +164,7 @@ class PatchSearch {
                    v >= cell.v - margin_v && v <= cell.v + cell.width_v() + margin_v;
         };
         if (!within(kOnSide, kOnSide)) {
-            // The one root of the cell with its margin is not in the cell, which has none.
+            // The only root of the extended cell is outside the cell, which has none.
             return within(kMargin * cell.width_u(), kMargin * cell.width_v());
         }
         const auto same = [](Real128 a, Real128 b) {

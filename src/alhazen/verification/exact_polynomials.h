@@ -1,14 +1,14 @@
 #pragma once
-/// All crossings of a line with solids f(x, y, z) < 0, f a polynomial: quadrics, the torus, the
-/// truncated general cone and algebraic surfaces, in numbers of any type.
+/// All crossings of a line with solids f(x, y, z) < 0 with polynomial f (quadrics, the torus, the
+/// truncated general cone and algebraic surfaces), for any number type.
 ///
 /// Source: the definitions in the headers of the shapes; Yuksel, "A Fast and Robust Polynomial
 /// Solver in Computer Graphics", HPG 2022 (a polynomial is monotone between the roots of its
 /// derivative).
 /// Differs: f along the line is expanded in powers of t about the point nearest to the middle of
 /// the clip, and brackets are halved until they are as short as the numbers allow. Uses neither
-/// Bernstein forms nor error bounds: it shares nothing with the code under test. The stored frame
-/// of a shape defines the shape.
+/// Bernstein forms nor error bounds: it shares no code with the tested implementation. The stored
+/// frame of a shape defines the shape.
 
 #include <limits>
 #include <optional>
@@ -21,7 +21,7 @@ namespace alhazen {
 template <class R>
 inline const R kInfinitelyFar = R(std::numeric_limits<double>::infinity());
 
-// ---- polynomials of one variable: [i] the coefficient of t^i
+// ---- Polynomials of one variable: [i] is the coefficient of t^i.
 
 template <class R>
 using PowersOf = std::vector<R>;
@@ -34,7 +34,7 @@ PowersOf<R> product(const PowersOf<R>& a, const PowersOf<R>& b) {
     }
     return c;
 }
-/// a + factor b
+/// a + factor b.
 template <class R>
 PowersOf<R> sum(const PowersOf<R>& a, const PowersOf<R>& b, const R& factor) {
     PowersOf<R> s = a;
@@ -55,8 +55,8 @@ PowersOf<R> derivative(const PowersOf<R>& p) {
     return d;
 }
 
-/// The sign change of `value(t)` between lo and hi; it is negative at one of them, `slope(t)` is
-/// its derivative.
+/// The sign change of `value(t)` between lo and hi; it is negative at exactly one of them.
+/// `slope(t)` is its derivative.
 template <class R, class Value, class Slope>
 R bracketed_zero(Value&& value, Slope&& slope, R lo, R hi, bool negative_at_lo) {
     R t = (lo + hi) / 2;
@@ -64,7 +64,7 @@ R bracketed_zero(Value&& value, Slope&& slope, R lo, R hi, bool negative_at_lo) 
         const R v = value(t);
         (negative_at_lo == (v < 0) ? lo : hi) = t;
         const R next = t - v / slope(t);
-        // Newton's step while it stays inside the bracket, and bisection every fourth time.
+        // Newton's step if it stays inside the bracket; bisection every fourth time.
         const R step = next > t ? next - t : t - next;
         if (next > lo && next < hi && i % 4 != 3) {
             if (step <= R(0x1p-100) * (t < 0 ? -t : t)) return next;
@@ -111,7 +111,7 @@ std::vector<R> sign_changes(const PowersOf<R>& p, const R& lo, const R& hi, bool
     return changes;
 }
 
-// ---- clips
+// ---- Clips.
 
 /// The part of a line within a clip; initially the whole line.
 template <class R>
@@ -119,7 +119,7 @@ struct ClippedPart {
     R lo = -kInfinitelyFar<R>, hi = kInfinitelyFar<R>;
 
     [[nodiscard]] bool empty() const { return !(lo < hi); }
-    /// Clips to where a + b t lies between least and most; a line along an end is outside.
+    /// Clips to least <= a + b t <= most; a line along an end is outside.
     void cut(const R& a, const R& b, double least, double most) {
         if (b == 0) {
             if (!(R(least) < a && a < R(most))) hi = lo;
@@ -151,7 +151,7 @@ LineOf<R> in_frame(const SolidFrame& frame, const LineOf<R>& line) {
     return {local(line.origin - Vec3Of<R>(frame.origin)), local(line.direction)};
 }
 
-/// The parts where p < 0, p about t = `middle`. Precondition: the part is finite.
+/// The parts where p < 0; p is in powers of t - `middle`. Precondition: the part is finite.
 template <class R>
 CrossingsOf<R> where_negative(const PowersOf<R>& p, const R& middle, const ClippedPart<R>& part) {
     const R lo = part.lo - middle, hi = part.hi - middle;
@@ -162,7 +162,7 @@ CrossingsOf<R> where_negative(const PowersOf<R>& p, const R& middle, const Clipp
     return found;
 }
 
-/// x, y and z along the line about t = `middle`.
+/// x, y and z along the line in powers of t - `middle`.
 template <class R>
 struct CoordinatesOf {
     PowersOf<R> x, y, z;
@@ -175,7 +175,7 @@ struct CoordinatesOf {
     }
 };
 
-/// The parts where a polynomial `f(coordinates)` is negative in the box.
+/// The parts in the box where a polynomial `f(coordinates)` is negative.
 template <class R, class F>
 CrossingsOf<R> negative_in_box(const LineOf<R>& line, const Box3& box, F&& f) {
     ClippedPart<R> part;
@@ -185,7 +185,7 @@ CrossingsOf<R> negative_in_box(const LineOf<R>& line, const Box3& box, F&& f) {
     return where_negative(f(CoordinatesOf<R>(line, middle)), middle, part);
 }
 
-// ---- shapes
+// ---- Shapes.
 
 template <class R>
 CrossingsOf<R> exact_crossings(const ClippedQuadric& solid, const LineOf<R>& given) {
@@ -233,7 +233,7 @@ CrossingsOf<R> exact_crossings(const ClippedQuadric& solid, const LineOf<R>& giv
     return found;
 }
 
-/// Shapes that are a clipped quadric.
+/// A shape that is a clipped quadric.
 template <class S>
 concept IsClippedQuadric = std::same_as<S, Ellipsoid> || std::same_as<S, EllipticCylinder> ||
     std::same_as<S, EllipticCone> || std::same_as<S, Paraboloid> || std::same_as<S, Hyperboloid> ||
@@ -264,7 +264,7 @@ CrossingsOf<R> exact_crossings(const Tgc& cone, const LineOf<R>& given) {
     const LineOf<R> line = in_frame(cone.solid.frame, given);
     const Box3 around{{-2, -2, 0}, {2, 2, 1}};
     return negative_in_box(line, around, [&](const CoordinatesOf<R>& at) {
-        // The semi-axes at the height: (x b)^2 + (y a)^2 - (a b)^2.
+        // With the semi-axes at the height: (x b)^2 + (y a)^2 - (a b)^2.
         const auto between = [&](double at_base, double at_top) {
             const PowersOf<R> none{R(at_base)};
             return sum(none, at.z, R(at_top) - R(at_base));

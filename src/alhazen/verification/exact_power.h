@@ -1,5 +1,5 @@
 #pragma once
-/// Powers with non-integer exponents, in numbers of any type.
+/// Powers with non-integer exponents, for any number type.
 ///
 /// Source: Brent and Zimmermann, "Modern Computer Arithmetic", 2010, 4.2 and 4.4 (the series of the
 /// exponential after halving its argument; Newton's method for the logarithm, here of third order).
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// e^x for |x| below 700, accurate to a few last bits of 113.
+/// e^x for |x| < 700, accurate to a few last bits of 113.
 template <class R>
 R exponential(const R& x) {
     constexpr int kTerms = 14;
@@ -39,7 +39,7 @@ R logarithm(const R& x) {
     return start + r * (1 - r * (R(1) / 2 - r * (R(1) / 3)));
 }
 
-/// x^p for 0 <= x, p > 0.
+/// x^p for x >= 0 and p > 0.
 template <class R>
 R power_of(const R& x, const std::type_identity_t<R>& p) {
     if (!(x > 0)) return 0;

@@ -15,14 +15,14 @@ namespace alhazen {
 
 namespace {
 
-/// Evaluation calls every leaf for each line: CSG objects with more leaves are left to `roth`.
+/// Every line tests every leaf; CSG objects with more leaves are compared with `roth` only.
 constexpr std::uint32_t kMostLeaves = 4096;
-/// Number of unchecked solids that are named, and of solids of the scene that are searched for
-/// them.
+/// Limits of the unchecked solids that are named, and of the solids of the scene that are searched
+/// for them.
 constexpr std::size_t kMostNamedSolids = 20;
 constexpr std::uint64_t kMostLookedThrough = 1'000'000;
 
-/// Why crossings of a primitive have no formula; empty where they have one.
+/// The reason why crossings of a primitive have no formula; empty if they have one.
 std::string why_unchecked(const PrimitiveTable& table, PrimitiveId id) {
     const std::uint32_t kind = table.kind(id);
     if (kind == kInstanceKind) return "what is placed several times has no formula as an operand";
@@ -128,7 +128,7 @@ Real128 ExactSolid::nearest(const ExactLine& line, bool of_any_leaf) const {
         }
     };
     if (csg == nullptr || !of_any_leaf) {
-        // Thin slivers count too.
+        // Includes slivers of any thickness.
         take(crossings(line, 0));
         return nearest;
     }

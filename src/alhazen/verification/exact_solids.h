@@ -1,9 +1,9 @@
 #pragma once
-/// The solids of a scene that `verify_exact` checks, traced and exact; for unchecked solids their
-/// names and reasons.
+/// The solids of a scene that `verify_exact` checks, in traced and exact form; names and reasons of
+/// the unchecked solids.
 ///
-/// Conventions: each stored shape and CSG object once, in the frame of its aggregate; instances
-/// included. Internal to this folder.
+/// Conventions: each stored shape and CSG object counts once, in the frame of its aggregate,
+/// including those in instances. Internal to this folder.
 
 #include <memory>
 #include <string>
@@ -17,22 +17,22 @@
 
 namespace alhazen {
 
-/// A solid alone: the traced form and the exact crossings.
+/// One solid: its traced form and its exact crossings.
 struct ExactSolid {
     std::shared_ptr<const Aggregate> aggregate;
     const CsgSolid* csg = nullptr;
-    /// Why it is not checked; empty if it is.
+    /// Reason why it is not checked; empty if it is.
     std::string reason;
     /// The aggregate that stores the shape, or the CSG object itself.
     const Aggregate* stored_in = nullptr;
     PrimitiveId shape = kNoPrimitive;
-    /// List of this solid alone: tells where lines begin.
+    /// List of this solid only, which tells whether lines begin inside.
     std::shared_ptr<const SolidList> solids;
 
     [[nodiscard]] bool begins_inside(const Ray& ray) const;
     [[nodiscard]] ExactCrossings crossings(const ExactLine& line, Real128 least) const;
     /// The distance along the line from its origin to the nearest surface of the solid, or of any
-    /// leaf (walls between media included).
+    /// leaf (boundaries between media included).
     [[nodiscard]] Real128 nearest(const ExactLine& line, bool of_any_leaf) const;
 };
 
@@ -40,7 +40,7 @@ struct ExactSolid {
 [[nodiscard]] std::vector<ExactSolid> exact_solids(
     const std::shared_ptr<const Aggregate>& aggregate);
 
-/// The first solids without a formula, each with its first place.
+/// The first solids without a formula, each with its first placement.
 [[nodiscard]] std::vector<UncheckedSolid> unchecked_solids(const std::vector<ExactSolid>& all,
                                                            const SceneDescription& description,
                                                            const Scene& scene);

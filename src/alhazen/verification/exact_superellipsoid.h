@@ -1,18 +1,18 @@
 #pragma once
-/// All crossings of a line with a superellipsoid, in numbers of any type.
+/// All crossings of a line with a superellipsoid, for any number type.
 ///
 /// Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE CG&A 1(1), 1981;
 /// Kelley, "The Cutting-Plane Method for Solving Convex Programs", SIAM J. 8, 1960 (a convex
 /// function lies above its tangents).
-/// Differs: the function is convex where both exponents 2 / e and 2 / n are at least 1, and concave
-/// within each octant where both are at most 1. Either is crossed at most twice; tangents decide
-/// whether at all. No interval arithmetic. For other exponents see exact_mixed_superellipsoid.h.
+/// Differs: the function is convex if both exponents 2 / e and 2 / n are at least 1, and concave
+/// within each octant if both are at most 1. Either has at most two zeros; tangents decide whether
+/// it has any. No interval arithmetic. For other exponents see exact_mixed_superellipsoid.h.
 
 #include "alhazen/verification/exact_mixed_superellipsoid.h"
 
 namespace alhazen {
 
-/// The function minus 1, and its derivative, along a line; t from `start`.
+/// The function minus 1 and its derivative along a line; t is relative to `start`.
 template <class R>
 class SuperellipsoidAlong {
   public:
@@ -44,7 +44,7 @@ class SuperellipsoidAlong {
     const LineOf<R>& line_;
 };
 
-/// A function made convex, with known ends: -f where f is concave.
+/// A convex function with known ends: f, or -f if f is concave.
 template <class R>
 class ConvexCrossings {
   public:
@@ -71,9 +71,9 @@ class ConvexCrossings {
         const Value v = f_.at(t);
         return {sign_ * v.value, sign_ * v.slope};
     }
-    /// Bisects, or takes the intersection of the tangents at the ends, a lower bound of the values.
-    /// The first ends have no tangents: they may lie in planes of symmetry, where the slope is
-    /// unbounded.
+    /// True if the function is negative at a point, `found`. Bisects, or takes the intersection of
+    /// the tangents at the ends, which is a lower bound of the values. The initial ends have no
+    /// tangents: they may lie in planes of symmetry, where the slope is unbounded.
     bool negative_between(R lo, R hi, R& found) const {
         Value a{}, b{};
         bool has_a = false, has_b = false;

@@ -1,11 +1,11 @@
 #pragma once
-/// All crossings of a line with prisms and lathes, in numbers of any type.
+/// All crossings of a line with prisms and lathes, for any number type.
 ///
 /// Source: the definitions in shapes/swept/prism.h and shapes/swept/lathe.h.
 /// Differs: powers of the curve's parameter, about a value near all roots, and brackets by the
 /// roots of the derivative (exact_polynomials.h); no Bernstein forms, no error bounds.
-/// Conventions: the inside lies between an odd and an even crossing, counted from a point certainly
-/// outside.
+/// Conventions: the inside lies between an odd and an even crossing, counted from a point that is
+/// certainly outside.
 
 #include "alhazen/verification/exact_polynomials.h"
 
@@ -37,9 +37,9 @@ struct ProfilePowers {
     [[nodiscard]] PointOf<R> point(const R& u) const { return {value_at(x, u), value_at(y, u)}; }
 };
 
-// ---- prisms
+// ---- Prisms.
 
-/// Whether a point of the profile's plane is inside the loops: counts the crossings to its right.
+/// True if a point of the profile's plane is inside the loops: counts the crossings to its right.
 template <class R>
 bool is_within(const Profile& profile, const PointOf<R>& point) {
     bool inside = false;
@@ -66,7 +66,7 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
     const R a = s1 * o.y - s0 * d.y, b = s0 * d.x - s1 * o.x, c = o.x * d.y - o.y * d.x;
     const auto size_at = [&](const R& t) { return s0 + t * s1; };
     if (a == 0 && b == 0) {
-        // The line keeps one profile point.
+        // The line projects to one profile point.
         if (d.z == 0) return {};
         const R middle = (part.lo + part.hi) / 2, size = size_at(middle);
         const PointOf<R> point{(o.x + middle * d.x) / size, (o.y + middle * d.y) / size};
@@ -88,7 +88,7 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
         }
     }
     std::sort(t.begin(), t.end());
-    // The line is outside where the size is 0. Where the size shrinks with t, an odd number of
+    // The line is outside where the size is 0. If the size shrinks with t, an odd number of
     // crossings means that the line begins inside.
     CrossingsOf<R> inside{s1 < 0 && t.size() % 2 != 0, std::move(t)};
     CrossingsOf<R> found;
@@ -100,10 +100,10 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
     return found;
 }
 
-// ---- lathes
+// ---- Lathes.
 
-/// Squared distance of a line from the axis, as a t^2 + c. t counts from the point nearest to the
-/// axis (or, for a line along it, from the height of the middle), at height z.
+/// Squared distance of a line from the axis, as a t^2 + c, where t = 0 is the point nearest to the
+/// axis (for a line along the axis, the height of the middle), at height z.
 template <class R>
 struct LineAroundAxis {
     R nearest, a, c, z, climb;
@@ -117,7 +117,7 @@ struct LineAroundAxis {
         const R x = o.x + nearest * d.x, y = o.y + nearest * d.y;
         c = x * x + y * y;
     }
-    /// Positive where the line is farther from the axis than the point at the point's height.
+    /// Positive if the line, at the height of the point, is farther from the axis than the point.
     /// Precondition: the line is not level.
     [[nodiscard]] R beyond(const PointOf<R>& p) const {
         const R t = (p.y - z) / climb;
@@ -125,7 +125,7 @@ struct LineAroundAxis {
     }
 };
 
-/// The crossings with a piece of a curve of monotone height; t from the nearest point.
+/// Adds the crossings with a monotone piece of a curve; t = 0 is the nearest point of the line.
 template <class R>
 void add_crossings(const LineAroundAxis<R>& line, const ProfileCurve& curve, const R& from,
                    const R& to, const PointOf<R>& first, const PointOf<R>& last,

@@ -16,7 +16,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Lanes of at most a group.
+/// Vectors of floats, at most a group wide.
 using MetTag = hn::CappedTag<float, BoxList::kGroup>;
 using MetLanes = hn::Vec<MetTag>;
 

@@ -12,7 +12,7 @@ namespace {
 
 using SideKey = std::vector<double>;
 
-/// The control points of a side, the same from either end.
+/// The control points of a side, the same from both ends.
 SideKey side_key(const BezierNet& net, int side, bool* reversed = nullptr) {
     std::array<HomogeneousPoint, kMaxPatchOrder> curve;
     const int count = boundary_curve(net, side, curve);
@@ -36,7 +36,7 @@ Vec3 unit_direction(RandomStream& random) {
     }
 }
 
-/// A crossing by its place along the line.
+/// A crossing by its position along the line.
 struct LinePlace {
     std::uint32_t patch = 0;
     double at = 0;  ///< length along the line
@@ -52,7 +52,7 @@ LinePlace place_on(const PatchModel& model, const Ray& ray, std::uint32_t patch,
     const PatchPoint at = derivatives_at(model.nets[patch], u, v);
     const Vec3 normal = cross(at.du, at.dv);
     const double facing = std::abs(dot(normal, d));
-    // Distances from the sides as the line sees them: heights of a parallelogram.
+    // Distances from the sides as seen along the line: heights of a parallelogram.
     const double per_u = facing / std::max(length(cross(at.dv, d)), 1e-300);
     const double per_v = facing / std::max(length(cross(at.du, d)), 1e-300);
     const bool by_side[4] = {v * per_v <= near, (1 - u) * per_u <= near, (1 - v) * per_v <= near,
@@ -72,8 +72,8 @@ LinePlace place_on(const PatchModel& model, const Ray& ray, std::uint32_t patch,
     return place;
 }
 
-/// Pairs of the two lists in order, as many as possible, then those with the least differences:
-/// [k] = place in `found` for exact crossing k, or -1.
+/// Pairs as many elements of the two lists as possible, in order, with the least differences: [k] =
+/// index in `found` for exact crossing k, or -1.
 std::vector<int> matched(const std::vector<LinePlace>& exact, const std::vector<LinePlace>& found,
                          double farthest) {
     const std::size_t n = exact.size(), m = found.size();
@@ -107,7 +107,7 @@ std::vector<int> matched(const std::vector<LinePlace>& exact, const std::vector<
     return partner;
 }
 
-/// Takes out of `left` what rounding decides; the number that remains.
+/// Removes from `left` the crossings that rounding decides; returns the number that remain.
 int judged(const std::vector<LinePlace>& left, double rounding, PatchJudgement& out) {
     std::vector<LinePlace> rest;
     for (const LinePlace& one : left) {
@@ -154,7 +154,7 @@ PatchModel::PatchModel(std::string name_, std::vector<BezierNet> nets_)
 void PatchModel::orient() {
     struct SideUse {
         std::size_t patch;
-        bool backward;  // as it runs around its patch
+        bool backward;  // direction around its patch
     };
     std::map<SideKey, std::vector<SideUse>> uses;
     std::vector<std::array<SideKey, 4>> keys(nets.size());

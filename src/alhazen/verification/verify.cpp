@@ -16,7 +16,8 @@ namespace alhazen {
 
 namespace {
 
-/// Rays that one query may trace by the accelerator: the list itself tests every primitive.
+/// The number of rays that a query of the tested accelerator may trace: `list` tests every
+/// primitive.
 std::uint64_t affordable_rays(std::uint64_t rays, std::uint64_t primitives,
                               const VerifyOptions& options) {
     constexpr std::uint64_t kLeastRays = 100;
@@ -33,7 +34,7 @@ void count_crossings(const Aggregate& surface, VerifyRays& rays, std::uint64_t l
     ++report.closed_surfaces;
     report.parity_lines += lines;
     std::vector<VerifyRays::Sample> samples;
-    std::vector<std::string> odd;  // [sample] what was found; empty: an even number
+    std::vector<std::string> odd;  // [sample] description of an odd number; empty if even
     for (std::uint64_t done = 0; done < lines; done += samples.size()) {
         samples.clear();
         while (samples.size() < kLinesAtOnce && done + samples.size() < lines) {
@@ -65,11 +66,11 @@ struct LoneSurface {
     PrimitiveTable table;
     bool closed = false;
     bool is_mesh = false;
-    bool is_whole_scene =
-        false;  ///< the table is empty: the aggregate of the scene is the surface's
+    /// The table is empty: the aggregate of the scene is used.
+    bool is_whole_scene = false;
 };
 
-/// True where a scene is nothing but this mesh, not moved: another aggregate would be the same.
+/// True if the scene is only this mesh, not moved: its aggregate can be used.
 bool is_only(const Scene& scene, const TriangleMesh& mesh) {
     const PrimitiveTable& table = scene.aggregate->primitives();
     if (scene.has_masks || table.meshes.size() != 1) return false;
@@ -97,7 +98,7 @@ LoneSurface lone_shape(const AnyShape& any) {
     LoneSurface lone;
     std::visit(
         [&]<class S>(const S& shape) {
-            // What has no bounds may be crossed oddly often.
+            // Unbounded shapes may have an odd number of crossings.
             lone.closed = shape.closed() && shape.box().bounded();
             auto& column = std::get<ShapeColumn<S>>(lone.table.columns);
             column.shapes.push_back(shape);
@@ -108,8 +109,7 @@ LoneSurface lone_shape(const AnyShape& any) {
     return lone;
 }
 
-/// Every closed surface of the scene by itself; no more analytic shapes than a sample of each
-/// scene.
+/// Every closed surface of the scene separately; of analytic shapes at most a sample.
 std::vector<LoneSurface> lone_surfaces(const SceneDescription& description, const Scene& scene,
                                        VerifyReport& report) {
     constexpr std::size_t kMaxShapes = 64;

@@ -1,6 +1,6 @@
 #pragma once
-/// Rays traced twice: by an accelerator, by every road that makes pictures, and by brute force.
-/// Every disagreement is reported with the ray that shows it.
+/// Traces rays with an accelerator, by every call that renderers use, and by brute force. Every
+/// disagreement is reported with its ray.
 
 #include <array>
 #include <cstdint>
@@ -16,17 +16,17 @@ namespace alhazen {
 struct VerifyOptions {
     std::string accelerator = "wide_bvh";
     BuildOptions build{};
-    std::string csg = "event_heap";  ///< who evaluates solids; compared with `roth`
-    std::uint64_t rays = 20000;      ///< in all, over the kinds below
+    std::string csg = "event_heap";  ///< evaluator of solids; compared with `roth`
+    std::uint64_t rays = 20000;      ///< in total, over all kinds
     std::uint64_t seed = 1;
     std::string camera;
     std::size_t max_reported = 20;
     ProgressSink* progress = nullptr;
-    /// Tests of rays with primitives that `list` may take in each query; rays beyond are left out.
+    /// Limit of the primitive tests of a query of accelerator `list`; further rays are left out.
     std::uint64_t most_list_tests = 100'000'000;
 };
 
-/// The calls by which a ray gets to its hit. Which schedule traces it is the accelerator's choice.
+/// The calls that trace a ray. The accelerator chooses the schedule.
 enum class Road : std::uint8_t {
     Single,    ///< `closest`, `occluded`, `all_hits`, `shadowed`
     Stream,    ///< batches with Coherence::Any
@@ -37,32 +37,32 @@ inline constexpr std::array<const char*, kRoadCount> kRoadNames{"single", "strea
 
 struct RoadCounts {
     std::uint64_t rays = 0;           ///< traced, per query
-    std::uint64_t disagreements = 0;  ///< of its queries
+    std::uint64_t disagreements = 0;  ///< number of its queries that disagree
 };
 
-/// One ray on which the two differ. Coordinates are printed with 17 digits so that they repeat it
+/// A ray for which the two results differ. Coordinates are printed with 17 digits and reproduce it
 /// exactly.
 struct Disagreement {
     /// "random", "lattice", "eye", "aimed", "tile", "converging", "parallel"; "random for shadow"
-    /// where parts are masked.
+    /// if parts are masked.
     std::string kind;
     std::string query;  ///< "closest", "occluded", "all_hits", "shadowed", "parity"
     Ray ray;
     std::string found, expected;
-    std::string road{};  ///< of kRoadNames; empty where no aggregates are compared
+    std::string road{};  ///< one of kRoadNames; empty if no aggregates are compared
 };
 
 struct VerifyReport {
     std::string accelerator;
     std::uint64_t rays = 0;           ///< traced, per query
-    std::uint64_t rays_left_out = 0;  ///< of those asked for: `list` tests every primitive itself
-    /// Shapes and CSG solids that brute force tested only with the rays that meet their boxes.
+    std::uint64_t rays_left_out = 0;  ///< rays not traced because `list` tests every primitive
+    /// Shapes and CSG solids that brute force tested only with rays that meet their boxes.
     std::uint64_t believed_boxes = 0;
     std::uint64_t hits = 0;           ///< of the closest-hit query
-    std::uint64_t disagreements = 0;  ///< of all roads
+    std::uint64_t disagreements = 0;  ///< over all roads
     std::array<RoadCounts, kRoadCount> roads{};
     std::uint64_t closed_surfaces = 0;   ///< meshes and shapes whose crossings were counted
-    std::uint64_t open_meshes = 0;       ///< meshes that bound no volume: nothing to count
+    std::uint64_t open_meshes = 0;       ///< meshes that bound no volume; not checked
     std::uint64_t shapes_left_out = 0;   ///< shapes whose crossings were not counted
     std::uint64_t parity_lines = 0;      ///< lines through closed surfaces
     std::uint64_t odd_crossings = 0;     ///< of those, lines with an odd number of crossings
@@ -71,7 +71,7 @@ struct VerifyReport {
     [[nodiscard]] bool holds() const { return disagreements == 0 && odd_crossings == 0; }
 };
 
-/// The description must have passed `validate`. Throws Error.
+/// Verifies a description that has passed `validate`. Throws Error.
 [[nodiscard]] VerifyReport verify(const SceneDescription& description,
                                   const VerifyOptions& options);
 

@@ -19,9 +19,9 @@ namespace alhazen {
 namespace {
 
 constexpr double kEpsilon = 0x1p-53;
-/// Stored solids that are checked; of more, as many spread over all.
+/// Limit of the stored solids that are checked; of more, a sample spread over all.
 constexpr std::size_t kMostExactSolids = 256;
-/// Roundings of a ray's own numbers on the way to a crossing.
+/// Number of roundings of a ray's own numbers on the way to a crossing.
 constexpr double kRayRoundings = 16;
 
 std::string describe_crossings(const std::vector<Hit>& hits) {
@@ -78,7 +78,7 @@ class Checker {
     }
 
   private:
-    /// How far a line may be off that has the crossings that were found, scene units.
+    /// Displacement of the line that explains the crossings found, scene units.
     [[nodiscard]] double bound_of(const Ray& ray) const {
         double largest = 0;
         double t_reach = 0;
@@ -93,8 +93,8 @@ class Checker {
 
     enum class Match { Same, Grazing, Wrong };
 
-    /// Where the two differ about inside and outside for longer than the bound, points must be
-    /// nearer to the surface than the bound.
+    /// Compares the two: where they differ about inside and outside for longer than the bound,
+    /// points must be nearer to the surface than the bound.
     Match compare(const ExactCrossings& found, const ExactCrossings& truth, const Ray& ray,
                   double bound) {
         const Real128 least = bound / length(ray.direction);
@@ -127,7 +127,7 @@ class Checker {
         return match;
     }
 
-    /// The crossings of lines displaced by the bound to all sides.
+    /// The crossings of lines displaced by the bound in all directions.
     [[nodiscard]] std::vector<ExactCrossings> displaced_lines(const Ray& ray, double bound) const {
         const Vec3 d = unit_or(ray.direction, {0, 0, 1});
         const Vec3 right = perpendicular(d), up = cross(d, right);
@@ -142,7 +142,7 @@ class Checker {
         return lines;
     }
 
-    /// Distance of the points from the true surface along their normals.
+    /// Checks the distance of the points from the true surface along their normals.
     void check_points(const VerifyRays::Sample& sample, const Ray& ray, double line_bound) {
         for (const Hit& hit : hits_) {
             const Surface surface = surface_at(*solid_.aggregate, ray, hit);
@@ -160,9 +160,9 @@ class Checker {
         }
     }
 
-    /// Near an edge or a tip the normal of one face need not meet any, and the point may lie beyond
-    /// the edge by what its ray is off: it is right when a point so near is on the surface, by
-    /// whatever way.
+    /// True if the point is near an edge or a tip. There the normal of one face need not meet any
+    /// face, and the point may lie beyond the edge by the ray's error: it is correct if any point
+    /// so near is on the surface.
     [[nodiscard]] bool is_on_edge(const Surface& surface, double line_bound) const {
         const bool is_wall = surface.media.before && surface.media.after;
         const Vec3 right = perpendicular(surface.normal), up = cross(surface.normal, right);
@@ -196,7 +196,7 @@ class Checker {
     double reach_ = 0;
 };
 
-/// Rays of all kinds, and every third nearly tangent to the surface.
+/// Rays of all kinds; every third is nearly tangent to the surface.
 class ExactRays {
   public:
     ExactRays(const Aggregate& aggregate, std::uint64_t seed)
@@ -215,7 +215,7 @@ class ExactRays {
         const Vec3 right = perpendicular(surface.normal);
         const double angle = random_.uniform(0, 6.283185307179586);
         const Vec3 along = std::cos(angle) * right + std::sin(angle) * cross(surface.normal, right);
-        // Off the tangent by anything from nothing to a thousandth.
+        // Slopes of 0 to a thousandth relative to the tangent.
         const double slope = random_.below(4) == 0 ? 0 : std::pow(10.0, random_.uniform(-17, -3));
         const Vec3 direction = along + slope * surface.normal;
         const double back = random_.below(2) == 0 ? 0 : std::pow(10.0, random_.uniform(-2, 4));
@@ -229,7 +229,7 @@ class ExactRays {
     std::uint64_t count_ = 0;
 };
 
-/// Adds what was found with some rays of one solid.
+/// Adds the results of some rays of one solid.
 void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
     report.rays += part.rays;
     report.crossings += part.crossings;
@@ -244,7 +244,7 @@ void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
     }
 }
 
-/// Shoots `count` rays at one solid, on all cores; the report does not depend on their number.
+/// Traces `count` rays at one solid on all cores; the report does not depend on their number.
 void check_solid(const ExactSolid& solid, std::uint64_t seed, std::uint64_t count,
                  const VerifyOptions& options, SharedProgress& progress, ExactReport& report) {
     constexpr std::size_t kRaysOfPart = 64, kMostParts = 256;

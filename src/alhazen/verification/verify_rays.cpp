@@ -21,8 +21,8 @@ void for_each_pixel_of_tile(F&& f) {
     }
 }
 
-/// The ray whose direction is offset by `steps` of `step` along one axis. Without steps the
-/// direction keeps its negative zero.
+/// Changes the direction of a ray by `steps` of `step` along one axis. With 0 steps it keeps its
+/// negative zero.
 void turn(Ray& ray, int axis, int steps, double step) {
     if (steps != 0) ray.direction[axis] += steps * step;
 }
@@ -33,7 +33,7 @@ VerifyRays::VerifyRays(const Box3& bounds, const Camera* camera, const Primitive
                        std::uint64_t seed)
     : bounds_(bounds), camera_(camera), table_(table), random_(seed) {
     if (bounds_.empty() || !bounds_.bounded()) bounds_ = {{-10, -10, -10}, {10, 10, 10}};
-    // A flat scene still needs room around it to start rays in.
+    // A flat scene needs room around it for the origins of rays.
     const double margin = 0.1 * max_component(bounds_.size()) + 1e-300;
     bounds_ = {bounds_.lo - Vec3{margin, margin, margin},
                bounds_.hi + Vec3{margin, margin, margin}};
@@ -49,7 +49,7 @@ VerifyRays::Sample VerifyRays::next() {
             return {"aimed", aimed_ray()};
         default: {
             if (camera_ == nullptr) return {"random", random_line()};
-            // One after the other: the order of arguments is the compiler's.
+            // Separate statements: the order of evaluation of arguments is unspecified.
             const double x = random_.uniform(), y = random_.uniform();
             return {"eye", eye_ray(*camera_, x, y)};
         }
@@ -125,7 +125,7 @@ Ray VerifyRays::random_line() {
     const Vec3 a = uniform_point();
     const Vec3 b = uniform_point();
     const Vec3 direction = b - a;
-    // Start well outside: ten times the distance back along the line, half of the time.
+    // Half of the rays start well outside: ten times the distance back along the line.
     const Vec3 origin = random_.below(2) == 0 ? a - 10.0 * direction : a;
     return {origin, direction};
 }
@@ -137,7 +137,7 @@ Ray VerifyRays::lattice_ray() {
     for (int k = 0; k < 3; ++k) {
         ray.origin[k] =
             bounds_.lo[k] + cell[k] * (static_cast<double>(random_.below(3 * kCells)) - kCells);
-        // Whole numbers are where modelled scenes put their faces.
+        // Faces of modelled scenes often have integer coordinates.
         if (random_.below(2) == 0) ray.origin[k] = std::round(2.0 * ray.origin[k]) / 2.0;
     }
     do {

@@ -20,7 +20,7 @@ bool same_hit(const Hit& a, const Hit& b) {
            a.primitive == b.primitive && a.path == b.path;
 }
 
-/// Also where there is none.
+/// True if both are the same hit or both are no hit.
 bool same_answer(const Hit& a, const Hit& b) {
     return a.found() == b.found() && (!a.found() || same_hit(a, b));
 }
@@ -29,7 +29,7 @@ const char* state_of(bool occluded) {
     return occluded ? "occluded" : "free";
 }
 
-/// What no query gives: of a primitive that no table has.
+/// A hit that no query gives: its primitive is in no table.
 Hit wrong_hit() {
     Hit hit;
     hit.t = -std::numeric_limits<double>::infinity();
@@ -62,10 +62,10 @@ std::string describe(const std::vector<Hit>& hits) {
     return text;
 }
 
-/// Takes the rays of one block along every road.
+/// Traces the rays of one block by all calls.
 class RoadComparison::BlockComparison {
   public:
-    /// Of progress: single calls, and all others.
+    /// Units of progress per ray: single calls, and all others.
     static constexpr std::size_t kUnitsOfRay = 2;
 
     BlockComparison(const RoadComparison& all, const Block& block)
@@ -96,7 +96,7 @@ class RoadComparison::BlockComparison {
     void compare_single(std::size_t i);
     void shoot_stream();
     void shoot_coherent();
-    /// Takes the rays of `chosen_` through the batch calls, those of each mask together.
+    /// Traces the rays of `chosen_` by the batch calls, those of each mask together.
     void shoot_by_mask(Road road);
     void shoot_batch(Road road, std::span<const std::size_t> chosen, RayMask mask);
     void disagree(std::size_t i, Road road, const char* query, std::string found,
@@ -111,7 +111,7 @@ class RoadComparison::BlockComparison {
     std::size_t most_reported_;
     VerifyReport report_;
 
-    // Of the block, [ray] each.
+    // [ray] of the block.
     const std::vector<VerifyRays::Sample>& samples_;
     const std::vector<RayMask>& masks_;
     std::vector<std::vector<Hit>> all_;  ///< by brute force
@@ -167,7 +167,7 @@ void RoadComparison::add(VerifyReport block) {
     }
 }
 
-// ---- Make a block.
+// ---- Blocks.
 
 RayMask RoadComparison::next_mask(std::uint64_t number) const {
     return masked_ ? mask_of(static_cast<RayKind>(number % kRayKindCount)) : kAllRays;
@@ -198,7 +198,7 @@ void RoadComparison::add_mixed(VerifyRays& rays, Block& block) {
     constexpr std::size_t kMixedRays = 3 * VerifyRays::kTileRays;
     for (std::size_t i = 0; i < kMixedRays; ++i) {
         block.samples.push_back(rays.next());
-        // Rays of one sort come every fourth time.
+        // The mask changes after one ray of each of the four kinds.
         block.masks.push_back(next_mask(mixed_count_++ / 4));
     }
 }
@@ -208,7 +208,7 @@ void RoadComparison::end_set(RayMask mask, Block& block) {
     block.masks.resize(block.samples.size(), mask);
 }
 
-/// Where the rays of the tile end; a ray that hits nothing gives the point at t = 1.
+/// The points where the rays of the tile end; for a ray that hits nothing the point at t = 1.
 std::vector<Vec3> RoadComparison::origins_on(const RaySet& tile, RayMask mask,
                                              const Block& block) const {
     std::vector<Vec3> origins;
@@ -221,7 +221,7 @@ std::vector<Vec3> RoadComparison::origins_on(const RaySet& tile, RayMask mask,
     return origins;
 }
 
-// ---- Compare.
+// ---- Comparisons.
 
 void RoadComparison::BlockComparison::shoot_brute() {
     all_.resize(samples_.size());

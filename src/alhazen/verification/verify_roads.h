@@ -1,12 +1,12 @@
 #pragma once
 /// Compares an aggregate with brute force over the same primitives: every ray by single calls and
-/// in a batch, rays of coherent sets in batches with the hint too.
+/// in a batch; rays of coherent sets also in batches with the hint.
 ///
 /// Conventions: rays come in blocks of kBlockRays: tiles, shadow rays that start where the rays of
-/// a tile end, and between them rays of all other kinds. A batch has the rays of a block with one
-/// mask; coherent sets are shot set by set, then all sets of the block at once. Results hold wrong
-/// values before each call: a batch that leaves one unwritten disagrees. The report does not depend
-/// on the number of threads.
+/// a tile end, and between them rays of all other kinds. A batch contains the rays of a block with
+/// one mask; coherent sets are traced set by set, then all sets of the block at once. Results are
+/// set to wrong values before each call, so that a result that a batch does not write disagrees.
+/// The report does not depend on the number of threads.
 
 #include <cstddef>
 #include <string>
@@ -26,12 +26,12 @@ namespace alhazen {
 
 class RoadComparison {
   public:
-    /// Adds to `report`. All arguments must outlive the object.
+    /// The comparison adds to `report`. All arguments must outlive the object.
     RoadComparison(const Aggregate& tested, const BruteForce& brute, const VerifyOptions& options,
                    VerifyReport& report);
 
-    /// Shoots `options.rays` rays, several blocks at once. `masked`: each sees what rays of one
-    /// RayKind see, in turn; else rays see everything.
+    /// Traces `options.rays` rays, several blocks at once. `masked`: rays have the mask of one
+    /// RayKind, in turn; otherwise they see everything.
     void run(VerifyRays& rays, bool masked);
 
   private:
@@ -47,12 +47,12 @@ class RoadComparison {
         std::vector<RayMask> masks;
         std::vector<RaySet> sets;
     };
-    /// Shoots a block; defined beside its functions.
+    /// Traces a block; defined beside its functions.
     class BlockComparison;
 
     [[nodiscard]] Block make_block(VerifyRays& rays, std::size_t count);
     void add_mixed(VerifyRays& rays, Block& block);
-    /// The samples added since the last set.
+    /// Ends a set: the samples added since the last one.
     static void end_set(RayMask mask, Block& block);
     [[nodiscard]] std::vector<Vec3> origins_on(const RaySet& tile, RayMask mask,
                                                const Block& block) const;

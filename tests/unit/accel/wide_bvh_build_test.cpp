@@ -163,7 +163,7 @@ TEST(WideBvhBuild, HoldsEveryPrimitiveOnceWithinItsBoxes) {
 }
 
 #ifdef __SSE2__
-/// As the mode is while other libraries trace rays.
+/// The floating-point mode that other libraries set while they trace rays.
 TEST(WideBvhBuild, HoldsEveryPrimitiveWhereDenormalNumbersAreZero) {
     struct DenormalsAreZero {
         unsigned int before = _mm_getcsr();

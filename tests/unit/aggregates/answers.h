@@ -1,5 +1,5 @@
 #pragma once
-/// Sends the same queries to two aggregates and reports differences.
+/// Comparison of two aggregates by the same queries.
 
 #include <algorithm>
 #include <cstring>

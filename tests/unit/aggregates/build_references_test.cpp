@@ -1,4 +1,4 @@
-// What the builders of the wide BVH are given has the boxes of the table.
+// The references passed to the builders of the wide BVH have the boxes of the table.
 
 #include "alhazen/aggregates/wide_bvh/leaves/build_references.h"
 

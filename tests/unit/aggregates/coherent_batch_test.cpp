@@ -18,8 +18,8 @@ using namespace testing;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// Triangles, among them spheres: of a tree with placed ones packets are pyramids, of one with
-/// others they go in lanes.
+/// Triangles and spheres. Packets use frusta in a tree with placed primitives, lanes in one
+/// without.
 PrimitiveTable triangles_and_spheres(int count, double size, std::uint64_t seed, bool placed) {
     RandomEngine random(seed);
     TableBuilder builder;
@@ -232,7 +232,7 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
 }
 
 TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
-    // Corners behind the eye, beside it and at its depth, whose slopes are meaningless.
+    // Corners behind the eye, next to it and at its depth, whose slopes are meaningless.
     RandomEngine random(18);
     TableBuilder builder;
     for (int i = 0; i < 300; ++i) {
@@ -379,8 +379,8 @@ TEST(CoherentBatch, TheRoadFollowsWhatTheTreeHolds) {
 }
 
 TEST(CoherentBatch, PacketsThatFailAreNotTriedAgainAtOnceAndHitTheSame) {
-    // Much finer than the distance of the rays: for packets in lanes, whose rays part, and
-    // pyramids.
+    // Much finer than the distance of the rays: for packets in lanes, whose rays diverge, and
+    // frusta.
     for (const PrimitiveTable& table :
          {random_triangles(20000, 1, 0.01, 19), random_spheres(20000, 1, 0.003, 19)}) {
         const auto tree = make_aggregate("wide_bvh", table);

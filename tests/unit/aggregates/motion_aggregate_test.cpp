@@ -25,7 +25,7 @@ std::vector<TransformKey> keys_of(std::mt19937_64& random) {
     return keys;
 }
 
-/// Things that rest, move, deform, and move inside of things that do.
+/// Objects that rest, move, deform, and move inside of moving objects.
 SceneDescription scene_in_motion() {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> number(-1, 1);
@@ -63,7 +63,7 @@ SceneDescription scene_in_motion() {
     maker.add(deforming, front, Affine::translate({2, -2, 0}));
     maker.add(deforming, clear, Affine::translate({2, 2, 1}));
     move(0, Affine{});
-    // An object of things that move, placed twice: at rest, and moving.
+    // An object of moving parts, placed twice: at rest, and moving.
     const ObjectIndex swarm = maker.object("swarm");
     for (int i = 0; i < 3; ++i) {
         maker.add(BoxShape{}, i == 1 ? clear : matt, {}, swarm);
@@ -182,7 +182,7 @@ TEST(MotionAggregate, BatchesAreSingleRaysAtTheirTimes) {
     }
 }
 
-/// `shape` rests, alone, seen by reflected rays only where `masked`; balls slide before it.
+/// One resting `shape`, visible to reflected rays only if `masked`; balls slide in front of it.
 SceneDescription sliding_balls_before(const AnyShape& shape, bool masked) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> number(-1, 1);
@@ -205,7 +205,7 @@ SceneDescription sliding_balls_before(const AnyShape& shape, bool masked) {
 }
 
 TEST(MotionAggregate, OneShapeThatRestsIsMetAsInTheFrozenScene) {
-    // For the sphere there is a test in lanes, for the polygon there is none.
+    // The sphere has a test in lanes, the polygon has none.
     const Polygon floor{.vertices = {{-4, -4, -2}, {4, -4, -2}, {4, 4, -2}, {-4, 4, -2}}};
     const std::vector<Ray> rays = random_rays(500);
     const std::vector<float> times(rays.size(), 0.5f);

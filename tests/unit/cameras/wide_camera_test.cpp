@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr WideProjection kAll[] = {WideProjection::Equidistant, WideProjection::Equisolid,
                                    WideProjection::Panorama};
 
-/// At the origin, along -z, with x to the right and y up.
+/// A camera at the origin, along -z, with x to the right and y up.
 WideCamera camera_of(WideProjection projection, double degrees, double aspect = 1.0) {
     return look_around({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, projection, degrees * kPi / 180.0, aspect);
 }

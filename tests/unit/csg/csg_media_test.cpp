@@ -171,7 +171,7 @@ Scene turned_glass(double radius, const char* evaluator) {
 }
 
 TEST(CsgMedia, CrossingsOfASolidThatIsGoneAreNotTakenForThoseOfTheNext) {
-    // The same lines through solids that may lie where the one before lay in memory.
+    // The same lines through solids that may reuse the address of an earlier one.
     const Ray line{{-4, 0, 0}, {1, 0, 0}};
     for (const char* evaluator : kEvaluators) {
         for (const double radius : {1.0, 0.5, 2.0, 0.75}) {

@@ -40,7 +40,7 @@ LoadedScene loaded_file(const std::string& name) {
     return load(testing::source_folder() / "scenes" / name);
 }
 
-/// The combination of the leaves is what the solid answers, on rays through it.
+/// The combination of the leaves' spans equals the solid's, on rays through it.
 TEST(RaySpans, TheCombinationIsThatOfTheSolid) {
     for (const char* name : {"machined_part.alhazen", "glass_of_wine.alhazen", "solids.alhazen"}) {
         SCOPED_TRACE(name);

@@ -222,7 +222,7 @@ TEST(RayTree, SaysThatARayHasPassedTheMostSurfaces) {
         const double left = ends ? std::pow(1 - 1e-4, kMaxPassedSurfaces) : 0.0;
         EXPECT_NEAR(tree.left.g, left, 1e-9);
     }
-    // A path passes a surface or ends there, by chance: nearly none ends at these.
+    // A path passes a surface or ends there at random; nearly none ends at these.
     for (const int count : {10, kMaxPassedSurfaces + 10}) {
         SCOPED_TRACE(count);
         options.render.renderer = "path_tracing";
@@ -245,7 +245,7 @@ TEST(RayTree, ConesAreNamedByTheirLights) {
     Material matt;
     matt.diffuse.color = {0.5, 0.5, 0.5};
     scene.material(matt);
-    // Seen at a small angle: a long piece, which asks in parts.
+    // Seen at a small angle: a long piece, which is queried in parts.
     scene.add(Rectangle{{-2, -9, -18}, {4, 0, 36}, {0, 18, 0}});
     ExplainOptions options;
     options.render.width = options.render.height = 1;

@@ -21,7 +21,7 @@ Material shining(const Rgb& radiance, bool two_sided = true) {
     return m;
 }
 
-/// One emitting thing at about (0, 0, 3), lit points below.
+/// A scene of one emitter at about (0, 0, 3), with lit points below.
 template <class Shape>
 Scene lamp_of(Shape shape, const Affine& placement = {}, bool two_sided = true) {
     SceneMaker maker;
@@ -205,7 +205,7 @@ TEST(Emitters, OneSidedOnesShineToTheirOuterSideAlone) {
             int lit = 0;
             for (const LitPoint& at : {kAt, above}) {
                 const double z = irradiance_z(all[i], lights, at, 8000, 31 + i);
-                // No variance: it is dark there.
+                // No variance: the point is dark.
                 if (!std::isnan(z)) ++lit;
                 EXPECT_FALSE(std::abs(z) > 4.5) << i << " " << z;
             }
@@ -256,7 +256,7 @@ TEST(Emitters, HalvesOfARectangleAreOneEmitter) {
             EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 20000, 5)), 4.0);
         }
     }
-    // What is none: slanted, folded, of two sizes, the one over the other.
+    // Pairs of triangles that are no rectangle: slanted, folded, of two sizes, overlapping.
     const Vec3 aside{0.3, 0, 0}, up{0, 0, 0.1};
     const std::vector<std::array<std::uint32_t, 3>> usual{{0, 1, 2}, {0, 2, 3}};
     for (const Scene& scene :

@@ -40,7 +40,7 @@ EnvironmentSettings settings_of(EnvironmentKind kind) {
     return settings;
 }
 
-/// Directions in bins of equal solid angle, the density there, and draws: chi-square.
+/// Chi-square test of sampled directions against the density, in bins of equal solid angle.
 template <class Sample, class Density>
 double p_value_on_sphere(Sample&& sample, Density&& density, std::uint64_t seed) {
     constexpr int kRows = 10, kColumns = 20, kFine = 24, kDraws = 20000;
@@ -224,7 +224,7 @@ TEST(Environments, IlluminationDrawsThem) {
             EXPECT_EQ(lights.environment(draw.to_light, kColorChannels), draw.radiance);
         }
         EXPECT_EQ(other_texel, 0);
-        // Power of what it sends into the sphere around the scene.
+        // Power emitted into the bounding sphere of the scene.
         double power = 0.0;
         constexpr int kRays = 20000;
         for (int i = 0; i < kRays; ++i) {
@@ -233,7 +233,7 @@ TEST(Environments, IlluminationDrawsThem) {
                 lights.emit(0.5, {random.uniform(), random.uniform()}, {u, v}, kColorChannels);
             ASSERT_TRUE(out.infinite);
             power += out.radiance.b / (out.place_density * out.direction_density) / kRays;
-            // Its ray comes to all of the disc, and to nothing beside it.
+            // Its ray covers all of the disc, and nothing outside it.
             const Vec3 beside = out.ray.origin + 3.0 * perpendicular(out.ray.direction);
             EXPECT_EQ(lights.environment_emit_density(out.ray.direction, out.ray.at(1.0)).place,
                       out.place_density);

@@ -1,4 +1,4 @@
-// Lights drawn for eight points at once have the bits of those drawn one by one.
+// Lights sampled for eight points at once have the bits of those sampled one by one.
 
 #include "alhazen/illumination/light_draws.h"
 
@@ -24,7 +24,7 @@ Rectangle rectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v) 
     return r;
 }
 
-/// Rectangles on both sides of the points, one of them aslant, and lamps that are none.
+/// Rectangles on both sides of the points, one of them oblique, and lights of other forms.
 Scene lamps(bool one) {
     SceneMaker maker;
     const auto shining = [&](bool two_sided) {
@@ -55,7 +55,7 @@ bool same_bits(const Vec3& a, const Vec3& b) {
     return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
 
-/// Anywhere, or on a coarse grid: in the planes of the lamps, beside their edges.
+/// A point anywhere, or on a coarse grid: in the planes of the lights or beside their edges.
 Vec3 random_point(RandomStream& random, bool on_grid) {
     Vec3 p;
     for (int k = 0; k < 3; ++k) {
@@ -76,7 +76,7 @@ TEST(LightDraws, EightAtOnceHaveTheBitsOfThoseOneByOne) {
             std::size_t shone = 0;
             for (int batch = 0; batch < 4000; ++batch) {
                 draws.clear();
-                // Lanes stay empty, too.
+                // Some lanes stay empty.
                 const std::size_t count = 1 + random.below(LightDraws::kMost);
                 std::vector<LightDraw> expected;
                 for (std::size_t i = 0; i < count; ++i) {

@@ -103,14 +103,14 @@ TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {
             for (std::size_t k = 0; k < count; ++k)
                 sum_in_volume += tree_of_lamps.probability(inside, k);
             EXPECT_NEAR(sum_in_volume, 1.0, 1e-12);
-            // What is missing are nodes of which no light reaches the point.
+            // The rest belongs to nodes without a light that reaches the point.
             EXPECT_LE(sum, 1.0 + 1e-12);
             EXPECT_NEAR(sum_of_lamps, 1.0, 1e-12);
         }
     }
 }
 
-/// Beside a surface, seen edge on, a light counts for nothing; in a volume as all others.
+/// A light seen edge-on from a surface has no weight; in a volume it has the weight of all others.
 TEST(LightTree, InAVolumeNoCosineCounts) {
     std::vector<TreeLight> lights(2);
     for (std::size_t k = 0; k < 2; ++k) {

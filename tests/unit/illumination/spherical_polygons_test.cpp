@@ -39,7 +39,8 @@ TEST(SphericalPolygons, ARectangleIsTwoTriangles) {
     }
 }
 
-/// Draws from points near and far, flat and edge on: on the emitter, where they say.
+/// Samples from points near and far, facing the emitter and edge-on, lie on the emitter at the
+/// reported place.
 void expect_on_emitter(EmitterForm form, std::uint64_t seed) {
     Random random(seed);
     int drawn = 0;

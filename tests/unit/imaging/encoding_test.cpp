@@ -94,7 +94,7 @@ TEST(Encoding, AlphaDoesNotGoThroughTheCurve) {
 
 TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
     std::vector<double> values{-1.0, 0.0, 1e-300, 1.0, 2.0, std::nan(""), 0.0031308};
-    for (int code = 0; code < 256; ++code) {  // where codes change, and beside
+    for (int code = 0; code < 256; ++code) {  // where codes change, and next to it
         const double edge = linear_from_srgb((code + 0.5) / 255.0);
         double below = edge, above = edge;
         for (int k = 0; k < 20; ++k) {
@@ -110,7 +110,7 @@ TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         ASSERT_EQ(encoded.samples[i], encode_channel(values[i], Encoding::Srgb, 8)) << values[i];
     }
-    // Of more pixels than are written at once.
+    // With more pixels than one write takes.
     const auto count = static_cast<std::size_t>(pixels);
     ASSERT_GT(count, 4096U);
     for (const Encoding encoding : {Encoding::Srgb, Encoding::LinearTruncated}) {

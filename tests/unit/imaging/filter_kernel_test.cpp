@@ -45,7 +45,7 @@ TEST(FilterKernel, IsThatOfItsSource) {
 }
 
 TEST(FilterKernel, OfAnEvenKernelHasTheBitsOfTheTable) {
-    // Two in place of one: the same shares, and all that is computed is exact.
+    // A kernel of 2 instead of 1 has the same shares, and all its arithmetic is exact.
     const FilterEntry twice{"twice", "", 0.5, [](double, double) { return 2.0; }, nullptr};
     for (const double radius : {0.5, 0.7}) {
         const FilterKernel even(*find_filter("box"), radius), table(twice, radius);

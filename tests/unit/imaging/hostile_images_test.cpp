@@ -108,7 +108,7 @@ TEST(HostileImages, MemoryBeyondTheLimitIsRefusedBeforeItIsTaken) {
             }
         };
         EXPECT_EQ(kind_at(image.memory_bytes() - 1), ErrorKind::Resource) << sample.name;
-        // Decoders need little memory beside the samples of a small image.
+        // Decoders need little memory in addition to the samples of a small image.
         EXPECT_EQ(kind_at(image.memory_bytes() + (1 << 16)), std::nullopt) << sample.name;
     }
 }

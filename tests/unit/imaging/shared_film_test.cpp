@@ -1,4 +1,4 @@
-// Samples that count for all pixels within reach of a filter.
+// Samples that contribute to all pixels within the radius of a filter.
 
 #include "alhazen/imaging/film/shared_film.h"
 

@@ -14,7 +14,7 @@ using testing::Random;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Relative, of the high part.
+/// Relative difference of the high parts.
 double difference(const DoubleDouble& a, const DoubleDouble& b) {
     return std::abs((a - b).high) / std::abs(b.high);
 }

@@ -1,4 +1,4 @@
-// Surfaces that are partly there, seen from one side, thin, absorbing or not lit.
+// Partly transparent, single-sided, thin, absorbing and unlit surfaces.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST(Alpha, ManyInvisibleSurfacesEndSomewhere) {
     expect_near(center(maker.compile()), {0, 0, 1});
 }
 
-/// A white floor lit from straight above, something between them, as the camera sees it.
+/// A white floor lit from above through an object, as the camera sees it.
 Rgb lit_behind(const Rectangle& between, const Material& m,
                void (*change)(SceneDescription&) = nullptr) {
     SceneMaker maker;
@@ -208,14 +208,14 @@ TEST(Transmission, LightFallsByTheLengthInsideAVolume) {
     maker.add(BoxShape{{-1, -1, -2}, {1, 1, 2}}, maker.material(m));
     maker.add(wall(-3), maker.material(glowing({1, 1, 1})));
     maker.description().conventions.shading.max_depth = 2;
-    // Four units inside: twice the distance; two surfaces pass 96 % each. One reflection inside is
-    // seen too: 0.96 of it leaves again towards nothing.
+    // Four units inside: twice the distance; two surfaces pass 96 % each. One internal reflection
+    // is also visible: 0.96 of it leaves towards the background.
     const double two = 0.96 * 0.96;
     expect_near(center(maker.compile()), {two * 0.25, two * 0.0625, two}, 1e-9);
 }
 
 TEST(Transmission, ShadowsAreTintedAndAbsorbedOnce) {
-    // Light comes straight down through a slab of two units; the camera looks under it, aslant.
+    // Light comes vertically down through a slab of two units; the camera looks obliquely under it.
     SceneMaker maker;
     Material white;
     white.diffuse.color = {1, 1, 1};
@@ -292,7 +292,8 @@ TEST(NormalMaps, BendTheLightAsTheSurfaceWouldLookTilted) {
     maker.add(wall(0), maker.material(m));
     maker.light(DirectionalLight{.to_light = normalize(Vec3{0, 1, 1})});
     EXPECT_NEAR(center(maker.compile()).r, 1.0, 1e-6);
-    // Seen from behind, the same material bends the other way around: the normal is reversed.
+    // Seen from behind, the same material tilts the normal in the other direction: the normal is
+    // reversed.
     SceneMaker behind;
     behind.description().textures.push_back({"", texture, {}});
     behind.add(Rectangle{.corner = {2, -2, 0}, .edge_u = {-4, 0, 0}, .edge_v = {0, 4, 0}},

@@ -138,7 +138,7 @@ TEST(AdaptiveGrid, APixelBesideADividedOneShowsItsCentre) {
     EXPECT_NEAR(grid.pixels()[1].g, 3.14159265 * 0.09, 0.005);
     EXPECT_NEAR(grid.pixels()[2].g, 0.53, 0.02);  // along the grid
     EXPECT_EQ(grid.pixels()[3].g, 1.0);
-    EXPECT_TRUE(asked.contains({0.5, 0.5}));  // beside the disc's
+    EXPECT_TRUE(asked.contains({0.5, 0.5}));  // next to the disc's
     std::uint64_t points = 0;
     for (const std::uint64_t n : grid.points_of_levels()) points += n;
     EXPECT_EQ(points, asked.size());

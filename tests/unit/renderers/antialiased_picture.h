@@ -29,7 +29,7 @@ inline AntialiasedPicture picture(const Scene& scene, const AntialiasSettings& s
     return result;
 }
 
-/// Emits light, so that it is seen without lamps.
+/// An emitting material, visible without lights.
 inline MaterialId bright(SceneMaker& maker) {
     Material m;
     m.emission.color = {1, 1, 1};

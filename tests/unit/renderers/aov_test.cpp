@@ -141,7 +141,7 @@ TEST(Aov, IdsTellPartsMaterialsAndInstances) {
 }
 
 TEST(Aov, AMeshSharedByPartsKeepsTheNumberOfEachPart) {
-    // More triangles than are copied: the compiler makes instances of its own accord.
+    // More triangles than are copied: the compiler makes instances by itself.
     TriangleMesh many;
     for (int i = 0; i < 40; ++i) {
         const TriangleMesh one = square(-0.01 * i);
@@ -223,7 +223,7 @@ TEST(Aov, ACropHasTheNumbersOfTheWhole) {
 
 TEST(Aov, SeveralSamplesGiveTheMeanOverThoseThatHit) {
     // Half of the pixel sees the square, whatever the number of samples: its depth is not mixed
-    // with the emptiness beside it.
+    // with the background.
     SceneMaker maker;
     maker.add(maker.mesh(square(0)), MaterialId{0}, Affine::translate({1, 0, 0}));
     maker.description().cameras[0].camera =

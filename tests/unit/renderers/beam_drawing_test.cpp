@@ -37,7 +37,7 @@ Rgb color_at(const DrawingRegion& region, const Vec2& p) {
     return (1 - share) * g.at_from + share * g.at_to;
 }
 
-/// A mirror wall, a box on a floor, and a lamp that throws its shadow.
+/// A mirror wall, a box on a floor, and a light that casts its shadow.
 struct Room {
     Room() {
         Material matt, red, mirror;

@@ -80,7 +80,7 @@ void look(SceneMaker& maker, const Vec3& eye, const Vec3& at) {
         look_along(eye, at - eye, {0, 0, 1}, 0.9, double(kWidth) / kHeight);
 }
 
-/// Blocks and a mesh between two mirrors, under a lamp and the sun, partly behind a pane.
+/// Blocks and a mesh between two mirrors, under a point light and the sun, partly behind a pane.
 void furnish(SceneMaker& maker, double transmissive) {
     look(maker, {-1.13, -3.07, 1.61}, {0.31, 0.9, 0.83});
     const auto floor = maker.material(painted({0.6, 0.5, 0.4}, 0.1));
@@ -350,7 +350,7 @@ TEST(BeamTracing, TheErrorOfRefractionIsALayer) {
     Film film(kWidth, kHeight, {0, 0, kWidth, kHeight});
     (void)BeamTracing().render(job, film);
     const auto& values = aovs.layers().find("refraction_error")->values;
-    EXPECT_EQ(values.front(), 0.0f);  // beside the block
+    EXPECT_EQ(values.front(), 0.0f);  // next to the block
     const float middle = values[kHeight / 2 * kWidth + kWidth / 2];
     float most = 0;
     for (const float v : values) most = std::max(most, v);
@@ -419,7 +419,8 @@ TEST(PixelQuadrature, FourPointsHaveTheMomentsOfAPolygon) {
 }
 
 TEST(PixelQuadrature, PeaksWithinAPixelAreIntegratedToTheErrorAskedFor) {
-    // A lamp at a height above the pixel: the integral over a rectangle is that of 1 / r^2 cosines.
+    // A light at a height above the pixel: the integral over a rectangle is that of 1 / r^2
+    // cosines.
     const double height = 0.05;
     const auto lamp = [&](const Vec2& p) {
         const double r = p.x * p.x + p.y * p.y + height * height;

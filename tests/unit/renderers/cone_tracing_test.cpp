@@ -16,7 +16,7 @@ namespace {
 
 using testing::SceneMaker;
 
-/// Pixels of side 1, (0, 0) in the middle of the picture; a look along -z from z = 100.
+/// Pixels of side 1, (0, 0) in the middle of the picture; the view is along -z from z = 100.
 OrthographicCamera unit_pixels(int size) {
     const double side = size;
     return {{0, 0, 100}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
@@ -241,7 +241,7 @@ TEST(ConeTracing, AFlatMirrorShowsTheMirroredScene) {
     }
 }
 
-/// A tracer of a scene of nothing but blockers.
+/// A tracer of a scene of occluders only.
 struct Blockers {
     Scene scene;
     ConeScene geometry;

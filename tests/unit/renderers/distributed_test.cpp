@@ -32,7 +32,8 @@ Film picture_of(const Scene& scene, const Camera& camera, const Renderer& render
     return film;
 }
 
-/// The mean of 1 / density over a grid of samples: the solid angle of what is seen of the light.
+/// The mean of 1 / density over a grid of samples: the solid angle of the visible part of the
+/// light.
 double solid_angle(const LightExtent& extent, const Vec3& from) {
     const LightSurface surface(extent, false);
     constexpr int kSide = 400;
@@ -77,7 +78,7 @@ TEST(Distributed, WithNothingToSpreadIsWhittedWithTheSameSamples) {
     for (int i = 0; i < 24 * 24; ++i) EXPECT_EQ(a.at(i % 24, i / 24), b.at(i % 24, i / 24));
 }
 
-/// A matt floor in z = 0, seen straight from above without perspective.
+/// A matt floor in z = 0, seen vertically from above without perspective.
 struct Floor {
     Floor() {
         Material matt;

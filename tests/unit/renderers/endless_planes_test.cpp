@@ -1,4 +1,4 @@
-// Light from the sky and the sun where something reaches to infinity.
+// Light from the sky and the sun in scenes with unbounded surfaces.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using namespace alhazen::testing;
 /// As in TheThreeStrategiesAgreeOnThirteenScenes.
 constexpr double kMost = 5.7;
 
-/// A matt table with a ball, seen from above, under an even sky.
+/// A matt table with a ball, seen from above, under a uniform sky.
 SceneMaker table_under_the_sky() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -75,7 +75,7 @@ TEST(EndlessPlanes, StrategiesAgreeBesideAndBelowThem) {
     }
 }
 
-/// Before, light paths began below it.
+/// Light paths of the sun begin above an unbounded surface.
 TEST(EndlessPlanes, TheSunLightsOneAboveAllThatIsBounded) {
     SceneMaker maker = table_under_the_sky();
     maker.description().picture.background.reset();
@@ -89,8 +89,8 @@ TEST(EndlessPlanes, TheSunLightsOneAboveAllThatIsBounded) {
     }
 }
 
-/// Light from afar begins in it. Before, light paths knew nothing of the medium there; the same for
-/// an eye and a lamp that the water above all that is bounded holds.
+/// Distant light begins in the unbounded medium; so do an eye and a light inside of water that
+/// extends above all bounded objects.
 TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
     Material water;
     water.index.value = 1.0 + 1e-9;
@@ -113,7 +113,7 @@ TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
         maker.description().cameras[0].camera =
             OrthographicCamera{{0, 0, 1.2}, {0, 0, -1}, {0.9, 0, 0}, {0, 0.9, 0}};
         maker.description().picture.background = Rgb{0.5, 0.8, 1.2};
-        // Seen from above, and lit from below by way of a card aslant.
+        // Seen from above, and lit from below by way of a tilted card.
         maker.add(ball({0.3, 0.2, 0.3}, 0.3), maker.material(matt({0.7, 0.7, 0.2})));
         maker.add(rectangle({-0.6, -0.5, 0}, {0.5, 0, 0.5}, {0, 1, 0}),
                   maker.material(matt({0.8, 0.8, 0.8})));
@@ -123,7 +123,7 @@ TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
         const Scene scene = maker.compile();
         std::vector<std::string> renderers{"path_tracing:depth=5", "bidirectional:depth=5",
                                            "vcm:photons=400,radius=0.02,pilot=off,depth=5"};
-        // Fog beside the disc of the light paths stays dark to it.
+        // Fog outside the disc of the light paths stays dark to light tracing.
         if (!scene.has_scattering) renderers.push_back("light_tracing:depth=5");
         expect_same_light(scene, c.name, renderers, 24, kMost);
     }

@@ -54,7 +54,7 @@ Layered layered(const Scene& scene, const std::string& filter, int side, int sam
     return result;
 }
 
-/// A room with a lamp, a matt and glossy floor, a mirror and glass.
+/// A room with a light, a matt and glossy floor, a mirror and glass.
 Scene mixed_scene() {
     SceneMaker maker;
     maker.description().cameras[0].camera =

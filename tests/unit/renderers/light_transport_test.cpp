@@ -45,7 +45,7 @@ TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
     }
 }
 
-// Rays that the floor scatters found a lamp's back as bright as its front, which no lamp draws.
+// Scattered rays see the back of a single-sided light as black, consistent with sampling the light.
 TEST(LightTransport, ASingleSidedLampShinesToItsFrontAlone) {
     for (const char* renderer :
          {"path_tracing", "path_tracing --spectral", "bidirectional", "light_tracing",
@@ -289,7 +289,7 @@ TEST(LightTransport, APlaneMirrorShowsTheLampBehindIt) {
         mirror.reflective.color = {0.9, 0.9, 0.9};
         maker.add(rectangle({1, -5, 0}, {0, 10, 0}, {0, 0, 10}), maker.material(mirror));
         const Rgb with = mean_of(picture_of(maker.compile(), renderer, 2, 16384));
-        // The lamp's image is 2 to the side: L A cos^2 / (pi d^2), over a small lamp.
+        // The light's image is 2 to the side: L A cos^2 / (pi d^2), over a small light.
         EXPECT_NEAR(without.r, 10 * 0.25 / (4 * kPi), 0.01) << renderer;
         EXPECT_NEAR(with.r - without.r, 0.9 * 10 * 0.25 * 0.5 / (8 * kPi), 0.003) << renderer;
     }

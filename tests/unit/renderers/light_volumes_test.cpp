@@ -21,7 +21,7 @@ using testing::SceneMaker;
 using testing::shining;
 
 constexpr double kIndex = 1.5;
-/// Fresnel's reflectance of glass straight on.
+/// Fresnel's reflectance of glass at normal incidence.
 constexpr double kStraight = (kIndex - 1) * (kIndex - 1) / ((kIndex + 1) * (kIndex + 1));
 /// As in TheThreeStrategiesAgreeOnThirteenScenes.
 constexpr double kMost = 5.7;
@@ -33,7 +33,7 @@ Material glass(const Rgb& absorption, double index = kIndex) {
     return m;
 }
 
-/// A wall of radiance 1 seen straight on by parallel rays along -z.
+/// A wall of radiance 1 seen by parallel rays along -z.
 SceneMaker wall_of_light() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -89,7 +89,7 @@ TEST(LightVolumes, AnEyeInGlassLooksThroughIt) {
     }
 }
 
-/// Of the picture, half begins in a block that absorbs, half beside it.
+/// Half of the eye rays begin in an absorbing block, half next to it.
 TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
     const double absorption = 0.7, way = 1;
     SceneMaker maker = wall_of_light();
@@ -110,15 +110,15 @@ TEST(LightVolumes, EachRayOfAParallelCameraBeginsInItsOwnVolume) {
 }
 
 TEST(LightVolumes, ALampInGlassShinesThroughIt) {
-    // A small lamp in the middle of a ball: its rays meet the glass straight on.
+    // A small light in the middle of a ball: its rays meet the glass at normal incidence.
     const double radius = 0.5, lamp = 0.02, absorption = 1.5, high = 2;
     constexpr double kSide = 1.5;
     SceneMaker maker = floor_from_above(kSide);
     maker.add(ball({0, 0, high}, lamp), maker.material(shining({100, 100, 100})));
     maker.add(ball({0, 0, high}, radius), maker.material(glass({absorption, 0, absorption})));
     const Scene scene = maker.compile();
-    // Mean over the matt lamp's directions of exp(-absorption * way), with r = radius:
-    // way = sqrt(r^2 - b^2) - lamp cos, b = lamp sin.
+    // Mean over the matt light's directions of exp(-absorption * way), with r = radius: way =
+    // sqrt(r^2 - b^2) - lamp cos, b = lamp sin.
     double t = 0;
     constexpr int kAngles = 256;
     for (int i = 0; i < kAngles; ++i) {
@@ -127,8 +127,7 @@ TEST(LightVolumes, ALampInGlassShinesThroughIt) {
         const double way = std::sqrt(radius * radius - b * b) - lamp * std::sqrt(squared);
         t += std::exp(-absorption * way) / kAngles;
     }
-    // Reflected light meets the black lamp, and is gone: but for rays that start aslant and pass
-    // it.
+    // Reflected light ends at the black light, except for oblique rays that miss it.
     double falls = 0;  // mean of the cube of the cosine over the picture
     constexpr int kGrid = 64;
     for (int i = 0; i < kGrid * kGrid; ++i) {
@@ -169,7 +168,7 @@ TEST(LightVolumes, AreFoundBelowAnOpenSheet) {
     EXPECT_TRUE(finder.around({0, 0, 1.5}, 0).empty());
 }
 
-/// Light that is focused by glass, found by paths that happen to hit the lamp and by others.
+/// Light focused by glass, found by paths that hit the light by chance and by other paths.
 TEST(LightVolumes, PathsAgreeOnGlassInARoom) {
     const auto room = [](const Material& of_ball) {
         SceneMaker maker;

@@ -69,7 +69,7 @@ TriangleMesh smooth_mesh(int levels) {
     return mesh;
 }
 
-/// Shapes around (0, 0, 2), of every way to know how their normals change.
+/// Shapes around (0, 0, 2), with every kind of derivative of the normal.
 void add_shape(SceneMaker& maker, int which, MaterialId material) {
     const Affine up = Affine::translate({0, 0, 2});
     switch (which) {
@@ -252,8 +252,8 @@ TEST(Manifold, AllChainsThroughABallAreFound) {
     EXPECT_GT(several, 5);
 }
 
-/// Irradiance across the light that a mirror of radius r sends from a lamp of intensity 1: the
-/// tangential and the sagittal focus.
+/// Irradiance, perpendicular to its direction, of the light of intensity 1 that a mirror of radius
+/// r reflects: from the tangential and the sagittal focus.
 double by_convex_mirror(double to_mirror, double to_floor, double cosine, double radius) {
     const double product = 2.0 * to_mirror * to_floor / radius;
     return 1.0 /
@@ -309,7 +309,7 @@ TEST(Manifold, AConcaveMirrorSendsTheLampAlongAllFourWays) {
 }
 
 TEST(Manifold, APaneOfGlassShiftsTheLamp) {
-    constexpr double kIndex = 1.5, kThick = 0.4, kAbove = 1.6;  // the rest of the way in air
+    constexpr double kIndex = 1.5, kThick = 0.4, kAbove = 1.6;  // the rest is in air
     for (const double aside : {0.0, 0.7}) {
         SceneMaker maker = floor_from_above(1e-4);
         maker.description().conventions.shading.clamp_attenuation = false;
@@ -364,7 +364,7 @@ TEST(Manifold, APoolOfWaterIsLitFromAbove) {
     EXPECT_NEAR(seen, expected, 0.02 * expected);
 }
 
-/// Small rooms, seen by paths from the lights and by chains.
+/// Adds a small room, rendered by light paths and by specular chains.
 void add_room(SceneMaker& maker) {
     const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
     maker.description().cameras[0].camera =
@@ -375,7 +375,8 @@ void add_room(SceneMaker& maker) {
     maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
 }
 
-/// Light paths do not find what the eye sees in mirrors and through glass: it sees none here.
+/// Hides the last part from the eye, because light paths do not find surfaces seen in mirrors and
+/// through glass.
 void hide_last(SceneMaker& maker) {
     maker.description().objects[0].parts.back().visible_to =
         kRaysOfAllKinds & ~mask_of(RayKind::Eye);
@@ -436,7 +437,7 @@ TEST(Manifold, RoomsWithPointsOfLightAreAsLightTracingShowsThem) {
 }
 
 TEST(Manifold, LightOfLampsThatCanBeHitIsNotCountedTwice) {
-    // Paths find it, too, if slowly; light paths need no mirror at all.
+    // Paths also find it, slowly; light paths need no specular chain.
     expect_chains(
         "lamp above a glass ball", 6, "light_tracing",
         [](SceneMaker& m) {

@@ -1,4 +1,4 @@
-// Matt directions in lanes, and BSDFs that are shared.
+// Diffuse directions in lanes, and shared BSDFs.
 
 #include "alhazen/renderers/light_transport/matt_directions.h"
 

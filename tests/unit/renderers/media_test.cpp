@@ -23,8 +23,8 @@ MaterialId clear(SceneMaker& maker, const Rgb& kt) {
     return maker.material(m);
 }
 
-/// Glass from z = 0 to 1 and from 3 to 3.5, wine from 1 to 3, in one solid; what is named first is
-/// there where both are.
+/// Glass from z = 0 to 1 and from 3 to 3.5, wine from 1 to 3, in one solid; the medium named first
+/// has priority in the overlap.
 void add_tank(SceneMaker& maker, bool wine_first, const Affine& placement = {}) {
     const MaterialId glass = clear(maker, kGlass), wine = clear(maker, kWine);
     const ObjectIndex tank = maker.object("tank");
@@ -40,8 +40,8 @@ Rgb power(const Rgb& base, double exponent) {
     return {std::pow(base.r, exponent), std::pow(base.g, exponent), std::pow(base.b, exponent)};
 }
 
-/// What the whole tank leaves of light: by the lengths of the way, or by its six surfaces, of which
-/// each wall counts as one of either medium.
+/// Transmittance of the whole tank: by distances, or by its six surfaces, of which each wall counts
+/// as one of either medium.
 Rgb by_distance() {
     return power(kGlass, 1.5) * power(kWine, 2.0);
 }

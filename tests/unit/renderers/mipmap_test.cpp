@@ -1,4 +1,4 @@
-// A checkerboard that reaches to the horizon: what mipmaps and ray cones are for.
+// A checkerboard that extends to the horizon: the use case of mipmaps and ray cones.
 
 #include <gtest/gtest.h>
 

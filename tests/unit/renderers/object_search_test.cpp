@@ -1,4 +1,4 @@
-// What the guarantee of adaptive supersampling takes for one object, and the rays that look for it.
+// The objects of the guarantee of adaptive supersampling, and the rays that search for them.
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(SceneObjects, PolygonsThatShareSidesAreOneObject) {
     const SceneObject& box = objects.objects()[1];
     EXPECT_NEAR(box.sphere.radius, 0.5 * std::sqrt(3.0), 1e-12);
     EXPECT_LT(length(box.sphere.center - Vec3{0.1, -0.1, 0}), 1e-12);
-    // Its back faces are not looked for.
+    // Its back faces are not searched.
     const AntialiasedPicture p = picture(scene, {});
     EXPECT_EQ(p.counts().objects, 2U);
     EXPECT_EQ(p.counts().met, 2U);
@@ -164,7 +164,7 @@ TEST(ObjectSearch, ABallBehindAGapIsFoundByGuaranteeAll) {
     EXPECT_NEAR(all.film.at(kSide / 2, kSide / 2 - 1).r, 0.0765, 0.015);
 }
 
-/// A tube hidden behind the edge of a wall, so close that no bound tells that it is.
+/// A tube hidden behind the edge of a wall, so close that no bound proves it hidden.
 Scene hidden_tube() {
     SceneMaker maker;
     Material matt;
@@ -252,7 +252,7 @@ void expect_equal_shades(const Scene& scene) {
     for (std::size_t k = 0; k < kRayKindCount; ++k) {
         EXPECT_EQ(parts.rays[k].cast, whole.rays[k].cast) << k;
     }
-    // A batch after that starts from nothing.
+    // The next batch starts without a remainder.
     answers->trace(std::span(rays).first(9), std::span(shaded).first(9), {}, parts);
     EXPECT_TRUE(std::equal(shaded.begin(), shaded.begin() + 9, traced.begin()));
 }

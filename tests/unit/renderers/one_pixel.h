@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of one pixel, and what they show.
+/// Pictures of one pixel, and their colour.
 
 #include <gtest/gtest.h>
 

@@ -67,7 +67,7 @@ TEST(PhotonRenderers, ASphereOfLightOverAFloorGivesItsFormFactor) {
     }
 }
 
-/// Light by way of a mirror is a caustic of parallel rays: as bright as the direct light.
+/// Light reflected by a mirror is a caustic of parallel rays, as bright as the direct light.
 TEST(PhotonRenderers, APlaneMirrorAddsTheLightOfTheLampBehindIt) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -78,7 +78,7 @@ TEST(PhotonRenderers, APlaneMirrorAddsTheLightOfTheLampBehindIt) {
     maker.add(rectangle({1, -3, 0}, {0, 6, 0}, {0, 0, 3}), maker.material(mirror));
     maker.light(PointLight{.position = {0, 0, 1}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
     const Scene scene = maker.compile();
-    // The image of the lamp is at (2, 0, 1): cosine 1 / sqrt(5), squared distance 5.
+    // The image of the light is at (2, 0, 1): cosine 1 / sqrt(5), squared distance 5.
     const double expected = 1.0 + 0.8 / (5.0 * std::sqrt(5.0));
     for (const char* renderer :
          {"photon_mapping:photons=1000,caustics=100000,nearest=400,filter=disc",
@@ -90,8 +90,8 @@ TEST(PhotonRenderers, APlaneMirrorAddsTheLightOfTheLampBehindIt) {
     }
 }
 
-/// A ball of glass around a point of light bends nothing, and lets all light out in the end: the
-/// floor is lit as if it were not there. No eye path finds the point, and no shadow ray.
+/// A ball of glass around a point light does not refract its light and transmits all of it in the
+/// end: the floor is lit as without the ball. No eye path and no shadow ray finds the point.
 TEST(PhotonRenderers, APointOfLightInABallOfGlassLightsTheFloor) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -109,8 +109,9 @@ TEST(PhotonRenderers, APointOfLightInABallOfGlassLightsTheFloor) {
     }
 }
 
-/// A wall that shines, seen straight through a slab: (1 - R) / (1 + R) of it, over all orders. Both
-/// ways at each side are one sample's; with a choice a sample is all or nothing.
+/// An emitting wall, seen through a slab at normal incidence: (1 - R) / (1 + R) of it, over all
+/// orders. Each sample follows both branches at each side; with a random choice a sample would be
+/// all or nothing.
 TEST(PhotonRenderers, BothWaysThroughASlabOfGlassAreOneSample) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -134,8 +135,8 @@ TEST(PhotonRenderers, BothWaysThroughASlabOfGlassAreOneSample) {
     }
 }
 
-/// A lamp in a mirror counts for no more than `clamp`, of its own colour; seen straight it is
-/// whole.
+/// The contribution of a light in a mirror is limited to `clamp` in its own colour; a directly
+/// visible light is not limited.
 TEST(PhotonRenderers, TheLightOfLampsInMirrorsIsLimited) {
     for (const bool mirrored : {false, true}) {
         SceneMaker maker = testing::floor_from_above(0.2, {0, 0, 0});
@@ -157,9 +158,8 @@ TEST(PhotonRenderers, TheLightOfLampsInMirrorsIsLimited) {
     }
 }
 
-/// What a way through dispersing glass does with the wavelengths is its own: through a pane of
-/// plain glass a ball that disperses is seen, and in its reflection the caustic of another on a
-/// wall.
+/// Each branch handles the wavelengths separately: through a pane of plain glass a dispersing ball
+/// is seen, and in its reflection the caustic of another one on a wall.
 TEST(PhotonRenderers, BothWaysHaveTheirOwnWavelengths) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -291,7 +291,7 @@ TEST(PhotonRenderers, AgreeWithPathTracingInSixRooms) {
 }
 
 /// The disc of an estimate reaches over the edges of the floor: sixteen times the photons make it
-/// four times as narrow, and what is missing four times as little.
+/// four times as narrow, and the missing light a quarter.
 TEST(PhotonRenderers, MorePhotonsTakeTheBiasAway) {
     const Scene scene = room([](SceneMaker& m) {
         m.light(
@@ -408,14 +408,14 @@ TEST(PhotonRenderers, SayWhyTheyCannotShoot) {
         EXPECT_NE(message_of(lit, name + ":photons=0").find("photons=0"), std::string::npos);
         EXPECT_NE(message_of(lit, name + ":photons=1000000000,memory=1").find("memory"),
                   std::string::npos);
-        EXPECT_NE(message_of(unsent, name).find("no light of the scene sends photons"),
+        EXPECT_NE(message_of(unsent, name).find("no light of the scene emits photons"),
                   std::string::npos);
         EXPECT_EQ(message_of(dark, name), "");
     }
 }
 
-/// A light in the middle of a black sphere: photons of the caustic map by way of no mirror there
-/// are none, all others lie on the sphere, evenly.
+/// A light in the middle of a black sphere: the caustic map is empty without mirrors, and all other
+/// photons are uniform on the sphere.
 TEST(PhotonRenderers, TellTheirPhotonsAndTheirDensity) {
     SceneMaker maker;
     maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2, 1.0);

@@ -1,4 +1,4 @@
-// Photons in volumes that scatter light: closed forms, and path_tracing.
+// Photons in scattering volumes: closed forms, and path_tracing.
 
 #include <gtest/gtest.h>
 
@@ -52,8 +52,8 @@ double share_inside(double apart) {
     return lens / (4.0 / 3.0 * kPi * r * r * r);
 }
 
-/// Light from all sides comes through the boundary: photons of caustics, and what they scatter.
-/// Estimates reach beyond the boundary, where nothing is.
+/// Light from all sides enters through the boundary as caustic photons, and is scattered. Estimates
+/// extend beyond the boundary into empty space.
 TEST(PhotonVolumes, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
     for (const double g : {0.0, 0.5}) {
         const Rgb scattering{0.4, 0.8, 1.6};
@@ -108,7 +108,7 @@ TEST(PhotonVolumes, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     }
 }
 
-/// A room of coloured mist with a lamp in it.
+/// A room of coloured mist with a light in it.
 SceneMaker room_of_mist() {
     SceneMaker maker;
     const auto wall = [&](const Vec3& corner, const Vec3& u, const Vec3& v, const Rgb& color) {
@@ -156,7 +156,7 @@ TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
                     {"photon_mapping:photons=10000,caustics=0,nearest=40",
                      "photon_mapping:photons=10000,caustics=0,nearest=40,gather=4",
                      "sppm:photons=4000,radius=0.1"});
-    // A sixteenth of the photons are looked at.
+    // A sixteenth of the photons are looked up.
     expect_light_of(scene, "path_tracing --spectral",
                     {"photon_mapping:photons=80000,caustics=0,nearest=320 --spectral",
                      "sppm:photons=4000,radius=0.1 --spectral"});

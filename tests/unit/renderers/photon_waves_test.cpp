@@ -59,7 +59,7 @@ Material flint(double roughness) {
     return m;
 }
 
-/// A coloured floor and a wall, a lamp, and a ball of flint before it.
+/// A coloured floor and a wall, a light, and a ball of flint in front of it.
 Scene room(double roughness) {
     SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.2});
     maker.add(rectangle({-1, 0.8, 0}, {2, 0, 0}, {0, 0, 2}), maker.material(matt({0.2, 0.5, 0.8})));
@@ -127,8 +127,8 @@ TEST(PhotonWaves, AgreeWithPathTracingOnWhatMoves) {
     expect_light_of_path_tracing(scene, cases, "moving balls");
 }
 
-/// Light falls through a pane to the floor while one card is off its way; the eye sees the floor
-/// while another one is off: before it, or `at_once`. Both jump about the middle of the time.
+/// Light passes a pane to the floor while one card is out of its way; the eye sees the floor while
+/// another card is away: before that, or `at_once`. Both jump near the middle of the shutter time.
 Scene floor_behind_cards(bool cards, bool at_once) {
     SceneMaker maker;
     SceneDescription& d = maker.description();
@@ -201,12 +201,12 @@ TEST(PhotonPasses, HaveEachPartOfTheShutterOnce) {
             }
         }
     }
-    // By chance each of the parts is the first one.
+    // Each of the parts is the first one for some seed.
     EXPECT_GT(first.size(), 16u);
 }
 
 TEST(PhotonWaves, ShowTheColoursOfMaterials) {
-    // A floor below a lamp that is as wide as the sky: all light is direct.
+    // A floor below an environment: all light is direct.
     SceneMaker maker = floor_from_above(0.2, {0.7, 0.3, 0.1});
     maker.description().picture.background = Rgb{2, 2, 2};
     const Scene scene = maker.compile();

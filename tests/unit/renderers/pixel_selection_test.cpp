@@ -135,7 +135,7 @@ TEST(PixelSelection, ThreadsAreNotSeen) {
 }
 
 TEST(PixelSelection, AnEdgeBetweenCellsIsFoundBySmallerNeighbours) {
-    // A post that no ray of the first grid meets beside a ball that is divided: the sides of the
+    // A post that no ray of the first grid meets next to a ball that is divided: the sides of the
     // cells next to it show it.
     testing::SceneMaker maker;
     Material bright;

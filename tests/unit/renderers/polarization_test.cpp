@@ -46,8 +46,8 @@ Vec3 along(const Chain& chain, std::size_t k) {
     return normalize(chain.points[k + 1] - chain.points[k]);
 }
 
-/// I, Q, U, V in the frame of `axis` at the eye of unpolarised light at the end: half of it swings
-/// one way, half the other.
+/// I, Q, U, V in the frame of `axis` at the eye of unpolarised light at the end: the sum of two
+/// orthogonal linear polarisations, half each.
 std::array<double, 4> by_fields(const Chain& chain, const Vec3& axis) {
     const std::size_t n = chain.amplitudes.size();
     std::array<double, 4> stokes{};
@@ -135,8 +135,8 @@ TEST(PolarizedPath, FresnelsRhombMakesLinearLightCircular) {
     EXPECT_LT(std::hypot(s[1], s[2]) / s[0], 1e-2);
 }
 
-/// Two panes of glass, of which front faces alone are met, between the eye and a lamp; `turn`: of
-/// the second plane of reflection around the ray between them.
+/// Two panes of glass, with front faces alone, between the eye and a light; `turn`: angle of the
+/// second plane of reflection around the ray between them.
 Scene two_mirrors(double incidence, double turn, const Material& material) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -220,7 +220,7 @@ Layers layers_of(const Scene& scene, const std::string& renderer, int side, int 
     return result;
 }
 
-/// A pane that mirrors a lamp to the eye.
+/// A pane that reflects a light to the eye.
 Scene one_mirror(double incidence, const Material& material) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -265,7 +265,7 @@ TEST(Polarization, AReflectiveCoefficientIsThatOfAClearBodyAtNormalIncidence) {
         const double across = std::norm(r.across), along = std::norm(r.along);
         EXPECT_NEAR(seen.at("polarization.degree", 1, 0), (across - along) / (across + along),
                     1e-6);
-        // How much it reflects is what the scene says, at every angle.
+        // The reflectance is that of the scene at every angle.
         EXPECT_NEAR(seen.film.at(1, 0).g, 0.04, 1e-12);
     }
     const double brewster = std::atan(1.5);

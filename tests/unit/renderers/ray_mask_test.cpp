@@ -1,4 +1,4 @@
-// Parts that only some kinds of rays see.
+// Parts visible only to some kinds of rays.
 
 #include <gtest/gtest.h>
 

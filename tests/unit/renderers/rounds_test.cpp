@@ -155,7 +155,7 @@ TEST(Rounds, PixelsWithoutNoiseGetFewSamplesAndTheOthersReachTheLimit) {
     EXPECT_LT(report.rounds.back().pixels, std::uint64_t{kWidth * kHeight / 4});
     EXPECT_EQ(report.pixels_above, 0U);
     EXPECT_EQ(report.samples(), result.report.counters[RayKind::Eye].cast);
-    // The standard error asked for, of values near 0.5, and the estimate's own error.
+    // The requested standard error, of values near 0.5, and the error of its estimate.
     const SampledPicture reference = picture(scene, plan_of("sobol"), 4096);
     double squares = 0, at_edges = 0;
     for (int y = 0; y < kHeight; ++y) {

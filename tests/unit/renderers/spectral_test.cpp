@@ -39,8 +39,8 @@ class Walker {
           walk_(scene, lights_, counters_, nullptr) {
         job_.round = &round_;
     }
-    /// The direction in which light leaves after these ways at each surface; by chance, so that
-    /// it is tried again and again.
+    /// The direction in which light leaves after these branches at each surface. Branches are
+    /// random, so the walk is repeated until it takes them.
     Vec3 leaves(const Ray& ray, double nm, const std::vector<bool>& transmitted) {
         const Wavelengths waves = Wavelengths::single(nm);
         const PathChance chance(job_);
@@ -185,7 +185,7 @@ TEST(Spectral, PicturesDependNeitherOnThreadsNorOnTiles) {
 }
 
 TEST(Spectral, ABlackBodyHasItsOwnColourThroughAFilter) {
-    // Behind a filter the spectrum tells what its colour does not: seen through the same glass.
+    // Behind a filter the spectrum differs from its colour: both are seen through the same glass.
     SceneMaker maker;
     maker.description().cameras[0].camera =
         OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {0.1, 0, 0}, {0, 0.1, 0}};

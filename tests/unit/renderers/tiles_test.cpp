@@ -17,8 +17,8 @@ namespace {
 
 using testing::SceneMaker;
 
-/// Mirrors, glass, what is partly there and what is seen from one side only, over a floor: tiles
-/// that leave every kind of thing behind for the next one.
+/// Mirrors, glass, partly transparent and single-sided surfaces over a floor: tiles that leave
+/// every kind of state to the next one.
 Scene mixed_scene() {
     SceneMaker maker;
     Material floor, mirror, glass, thin, single;
@@ -133,7 +133,7 @@ TEST(TiledRenderer, AnyThreadsAndTileSizeGiveTheSamePixelsAndCounts) {
     }
 }
 
-/// Notes what it is told, and requests a stop after some parts.
+/// Records its calls, and requests a stop after some parts.
 class Notes final : public ProgressSink {
   public:
     std::vector<std::size_t> done;

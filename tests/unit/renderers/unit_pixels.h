@@ -1,5 +1,5 @@
 #pragma once
-/// A camera by whose pixels lengths are counted.
+/// A camera whose pixels are the unit of length.
 
 #include "alhazen/cameras/camera.h"
 

@@ -1,4 +1,4 @@
-// A flat look is the colour that shading the surface gives, and only where that is one colour.
+// The cached colour equals that of shading the surface, and exists only for surfaces of one colour.
 
 #include "alhazen/renderers/core/unlit_cache.h"
 
@@ -19,8 +19,8 @@ Material glowing(const Rgb& color) {
     return m;
 }
 
-/// Random rays around the origin: the colour is that of the surface, and it is there for the
-/// materials that are `flat`, by their number. How many of the hits were.
+/// Expects for random rays around the origin that the cached colour is that of the surface, and
+/// exists exactly for the materials marked in `flat` by index. Returns the number of such hits.
 int check(const Scene& scene, const std::vector<bool>& flat) {
     const std::vector<Rgb> ambient = ambient_terms(scene.lights);
     UnlitCache cache(scene, ambient);
@@ -62,7 +62,7 @@ TEST(UnlitCache, OfLightsOfTheirOwnAreTheirColour) {
     maker.add(Sphere{{0, 0, 1}, 0.5}, maker.material(dull));
     maker.light(AmbientLight{{0.3, 0.2, 0.1}});
     EXPECT_GT(check(maker.compile(), {true, false, false, false, true}), 100);
-    // What is dull shows no other light.
+    // A matt surface shows no other light.
     maker.light(PointLight{.position = {3, 4, 5}});
     EXPECT_GT(check(maker.compile(), {true, false, false, false, false}), 100);
 }

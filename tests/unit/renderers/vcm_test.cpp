@@ -68,7 +68,7 @@ TEST(MergedPathWeight, TheWeightsOfAllTechniquesSumToOne) {
     }
 }
 
-/// The sums along both sides, kept from vertex to vertex, give what the whole path gives.
+/// The sums kept from vertex to vertex along both sides give the weight of the whole path.
 TEST(MergedPathWeight, IsThatOfTheSumsAlongBothSides) {
     RandomStream random(6);
     int compared = 0;
@@ -120,8 +120,8 @@ TEST(Vcm, ASphereOfLightOverAFloorGivesItsFormFactor) {
     EXPECT_NEAR(seen.b / seen.r, 0.25, 1e-9);
 }
 
-/// A ball of glass around a point of light bends nothing, and lets all light out in the end. The
-/// wall that it lights is seen in a mirror: by merging alone, all others show black.
+/// A ball of glass around a point light does not refract its light and transmits all of it in the
+/// end. The lit wall is seen in a mirror: only merging finds it, all other techniques give black.
 TEST(Vcm, FindsTheMirrorImageOfTheLightOfAPointInGlass) {
     SceneMaker maker;
     // Looks up into a mirror at 45 degrees, which shows the wall at (-4, 0, 0.5).
@@ -291,7 +291,8 @@ TEST(Vcm, SaysWhatItCannotDo) {
     SamplingPlan rounds;
     rounds.noise = 0.1;
     EXPECT_NE(message_of(lit, "vcm", rounds).find("takes --spp"), std::string::npos);
-    // Nothing to merge with: dark, or an emitter that sends no paths. The rest goes on.
+    // Nothing to merge with: no light, or an emitter that sends no paths. The other techniques
+    // still work.
     EXPECT_EQ(message_of(room([](SceneMaker&) {}), "vcm"), "");
     const Scene unsent = room([](SceneMaker& m) {
         Torus ring;
@@ -306,7 +307,7 @@ TEST(Vcm, SaysWhatItCannotDo) {
                 mean_of(picture_of(unsent, "path_tracing", 4, 64)).g, 0.02);
 }
 
-/// Mirror images of caustics want merging, a room with a lamp does not.
+/// The pilot chooses merging for mirror images of caustics, and not for a room with a light.
 TEST(VcmPilot, SaysWhetherMergingPays) {
     const Scene plain = room([](SceneMaker& m) { add_lamp(m, 0.5, {4, 4, 4}); });
     const Scene caustic = room([](SceneMaker& m) {
@@ -326,7 +327,7 @@ TEST(VcmPilot, SaysWhetherMergingPays) {
     EXPECT_NE(remark(plain, "vcm:pilot=choose").find("does not pay"), std::string::npos);
     EXPECT_NE(remark(plain, "vcm:pilot=choose").find("none are merged"), std::string::npos);
     EXPECT_EQ(remark(plain, "vcm:pilot=off"), "");
-    // Too short a render for a pilot that only says something.
+    // The render is too short for a pilot that only reports.
     EXPECT_EQ(remark(plain, "vcm"), "");
 }
 

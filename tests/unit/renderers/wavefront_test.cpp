@@ -1,5 +1,4 @@
-/// Whatever the number of rays that are traced together: the same picture, bounded memory, and an
-/// end when one is asked for.
+/// For any number of rays traced together: the same picture, bounded memory, and an end on request.
 
 #include "alhazen/renderers/core/wavefront.h"
 
@@ -36,7 +35,7 @@ Material glass() {
     return m;
 }
 
-/// Cut out of its surface by half, or not there at all.
+/// A material with an alpha: partly transparent, or invisible.
 Material partly_there(double alpha) {
     Material m = shiny(0.6, 0.2);
     m.alpha_mode = AlphaMode::Blend;
@@ -44,7 +43,7 @@ Material partly_there(double alpha) {
     return m;
 }
 
-/// Mirrors, glass and surfaces that are only partly there, at random; two lights and ambient light.
+/// Mirrors, glass and partly transparent surfaces at random; two lights and ambient light.
 Scene mixed_scene(bool transparent, const std::string& accelerator = "wide_bvh") {
     SceneMaker maker;
     const MaterialId wall = maker.material(shiny(0.7, 0.0));
@@ -129,7 +128,7 @@ TEST(Wavefront, ThreadsThatShareARendererGiveTheSamePicture) {
     for (const Picture& picture : pictures) expect_same(alone, picture, 256);
 }
 
-/// Watches what another aggregate is asked.
+/// Forwards to another aggregate and observes its queries.
 class Watched final : public Aggregate {
   public:
     explicit Watched(std::shared_ptr<const Aggregate> inner) : inner_(std::move(inner)) {}
@@ -236,7 +235,7 @@ TEST(Wavefront, AStopEndsTheWorkWithTheGenerationAtHand) {
     }
 }
 
-/// What a recursion of one ray after the other, written down once more for mirrors alone, gives.
+/// Compares with a plain recursion of single rays, reimplemented here for mirrors alone.
 TEST(Wavefront, MirrorsInARowMultiplyAsTheRecursionDoes) {
     SceneMaker maker;
     Material m;

@@ -31,8 +31,8 @@ Film film_of(const Scene& original, const std::string& name, int side) {
     return film;
 }
 
-/// A ray through a prism, and a lamp as wide as 0.02 degrees where it should leave at a wavelength;
-/// `off`: the lamp is turned away by so many degrees.
+/// A ray through a prism, and a light of 0.02 degrees in the exit direction of a wavelength; `off`:
+/// rotation of the light away from it, in degrees.
 Scene prism_and_lamp(const std::string& glass, double nm, double off) {
     const double apex = 50 * kDegree, incidence = 45 * kDegree, tilt = 0.5 * apex;
     const double half = std::tan(tilt);

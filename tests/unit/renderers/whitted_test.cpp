@@ -122,13 +122,13 @@ TEST(Whitted, WhatIsNearerThanTheLeastDistanceIsNotMet) {
         shading.air_index = 1.0;
         return center(maker.compile()).r;
     };
-    // Shadows: both faces of the pane; of a thin one only the first; the second where the first is
-    // too near.
+    // Shadows: both faces of the pane; only the first one of a thin pane; the second one if the
+    // first is too near.
     EXPECT_NEAR(color_with(1, 1.0005, 0, false), 0.6 * 0.25, 1e-12);
     EXPECT_NEAR(color_with(1, 1.0005, 1e-3, false), 0.6 * 0.5, 1e-12);
     EXPECT_NEAR(color_with(1, 1.0015, 1e-3, false), 0.6 * 0.25, 1e-12);
     EXPECT_NEAR(color_with(0.0005, 1, 1e-3, false), 0.6 * 0.5, 1e-12);
-    // What is seen through the pane; its shadow does not reach the point.
+    // The view through the pane; its shadow does not reach the point.
     const double thick = color_with(1, 1.0015, 1e-3, true);
     EXPECT_NEAR(color_with(1, 1.0005, 1e-3, true), 2 * thick, 1e-12);
     EXPECT_NEAR(color_with(1, 1.0005, 0, true), thick, 1e-12);
@@ -340,7 +340,7 @@ TEST(LocalShading, ALightWithoutGlintsHasNoHighlightOnGlass) {
     }
 }
 
-/// Few shapes in a tree: shadow rays are cast at once. The list has them gathered.
+/// With few shapes in a tree shadow rays are cast immediately; with the list they are gathered.
 TEST(Whitted, ShadowRaysCastAtOnceShowThePictureOfBatches) {
     for (const bool tinted : {false, true}) {
         SceneMaker maker;

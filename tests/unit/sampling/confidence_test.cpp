@@ -61,7 +61,7 @@ TEST(Confidence, DegreesOfFreedomFollowFromHowEvenlyThePartsScatter) {
         EXPECT_GE(held / double{kRuns}, ratio == 1.0 ? 0.945 : 0.92) << ratio;
         EXPECT_LE(held / double{kRuns}, 0.99) << ratio;
     }
-    // Nothing scatters: certain.
+    // No variance: certain.
     EXPECT_EQ(estimate_of(3, spread_of_differences(0, 0)).half_width, 0);
     // Of independent numbers the variances add up.
     const std::array<Spread, 2> two{Spread{3, 10}, Spread{4, 10}};

@@ -67,7 +67,8 @@ TEST(Samplers, GiveRunsOfManyPixelsTheValuesOfEach) {
         for (const std::uint32_t count : {1u, 5u, 16u, 1u << 17}) {
             if (count > 16 && !entry.progressive) continue;
             const auto sampler = entry.make(7, count);
-            // Neighbours, jumps, a pixel twice, parts of sets; enough for the ways of many points.
+            // Neighbours, jumps, a pixel twice, parts of sets; enough points for the code of many
+            // points.
             std::vector<SampleRun> runs;
             for (int i = 0; i < 60; ++i) {
                 const SamplePixel pixel{i < 40 ? i % 8 : 65535 - 97 * i, i < 40 ? i / 8 : i * i};

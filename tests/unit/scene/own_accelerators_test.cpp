@@ -1,4 +1,4 @@
-/// Objects with an accelerator of their own.
+/// Objects with separate accelerators.
 
 #include <gtest/gtest.h>
 

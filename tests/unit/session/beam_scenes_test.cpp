@@ -1,4 +1,4 @@
-/// Beams in whole scenes: what the eye sees adds up to the window exactly, and is what rays see.
+/// Beams in whole scenes: the visible pieces add up to the window exactly, and agree with rays.
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ bool overlap(const PolygonSet& a, const PolygonSet& b) {
     return false;
 }
 
-/// Pieces that the eye sees, and nothing, are the window: in whole numbers.
+/// Expects that the visible pieces and the background make up the window exactly, in integers.
 void expect_exact_areas(const BeamTree& tree, const PolygonSet& window) {
     std::vector<const PolygonSet*> regions;
     Int128 sum = 0;

@@ -147,7 +147,7 @@ TEST(ConvertMeshes, InstancesThatMultiplyBeyondMemoryAreRefused) {
     EXPECT_NE(message_of(doubling_scene(true), path, ErrorKind::Resource, options)
                   .find("4294967296 triangles"),
               std::string::npos);
-    // Without meshes there is nothing to traverse.
+    // A scene without meshes has no tree to traverse.
     SceneMaker maker;
     maker.description() = doubling_scene(false);
     maker.add(maker.mesh(testing::tetrahedron()), MaterialId{0});
@@ -275,7 +275,7 @@ TEST(ConvertNative, FilesOfAnotherSceneAreNotReplaced) {
     (void)convert(textured(10), obj);
     EXPECT_EQ(texel_of(obj), 10);
     EXPECT_EQ(texel_of(native), 10);
-    // A copy under another name refers to them, too.
+    // A copy under another name also refers to them.
     std::filesystem::copy_file(native, folder.path() / "copy.alhazen");
     (void)convert(textured(40), native);
     EXPECT_EQ(texel_of(folder.path() / "copy.alhazen"), 10);

@@ -40,8 +40,8 @@ TEST(EnvironmentOption, ASceneWithoutLightGetsTheStudioWhereLightIsFollowed) {
     EXPECT_EQ(complete_view(loaded.description, loaded.scene, {}).size(), 1u);
 }
 
-/// A point of light at the eye would be seen through water by renderers that send light from it,
-/// and by no others.
+/// A point light at the eye would be visible through water for renderers that trace light from it,
+/// and for no others.
 TEST(EnvironmentOption, ABackgroundIsTheLightOfASceneWithoutWhereLightIsFollowed) {
     for (const char* renderer : {"path_tracing", "bidirectional", "vcm", "sppm"}) {
         LoadedScene loaded = loaded_ball();

@@ -28,8 +28,8 @@ double slowdown() {
     return text != nullptr ? std::atof(text) : 1.0;
 }
 
-/// Seconds from a request, made `delay` after the work began, to its end; none where it ended
-/// before.
+/// Seconds from a stop request, made `delay` after the work began, to its end; none if the work
+/// ended before the request.
 template <class Work>
 std::optional<double> seconds_to_end(std::chrono::milliseconds delay, const Work& work) {
     StopFlag flag;
@@ -102,7 +102,7 @@ TEST(Interruption, EveryAcceleratorStopsBuildingWithinATenthOfASecond) {
         for (const int delay : {2, 20, 100, 300}) {
             double least = 1e9;
             int tries = 0;
-            // Other programs run beside this one: the best of some.
+            // The best of several tries, because other programs may run.
             for (; tries < 5 && least > 0.1; ++tries) {
                 const std::optional<double> seconds =
                     seconds_to_end(std::chrono::milliseconds(delay), [&] {

@@ -81,7 +81,7 @@ TEST(Lighting, LightsOfOneNameAreNumberedAtOnce) {
     SceneMaker maker;
     for (std::size_t i = 0; i < kCount; ++i) maker.light(PointLight{});
     for (LightDescription& light : maker.description().lights) light.name = "lamp";
-    // Numbers that are names already are left out.
+    // Numbers that would repeat an existing name are skipped.
     maker.description().lights[0].name = "lamp (3)";
     maker.description().lights[3].name = "lamp (2)";
     const std::vector<NamedLight> choices = light_choices(maker.description());
@@ -171,7 +171,7 @@ std::vector<float> picture(const Scene& scene, const SceneDescription& descripti
     return render_with_description(scene, description, options).film.to_image().samples;
 }
 
-/// The lamps, loaded from a text.
+/// The scene of a text, loaded.
 LoadedScene loaded(const std::string& text) {
     const auto path = std::filesystem::path(::testing::TempDir()) / "lighting_lamps.alhazen";
     write_file_atomically(path, text);
@@ -236,7 +236,7 @@ TEST(Lighting, ALampIsHitWhereItIsDrawnAndNoLongerWhereItWas) {
 TEST(Lighting, OnlySurfacesThatMoveAreBuiltAnew) {
     const LoadedScene file = loaded(kLamps);
     const std::vector<NamedLight> choices = light_choices(file.description);
-    // A colour, and what the file says, leave the geometry as it is.
+    // A colour, and the values of the file, do not change the geometry.
     for (const NamedLight& choice : choices) {
         LightChange same{choice.name, choice.position, choice.direction, Rgb{5, 5, 5}};
         for (const ExtentSize& size : choice.sizes) same.sizes.push_back(size.value);
@@ -259,7 +259,7 @@ TEST(Lighting, OnlySurfacesThatMoveAreBuiltAnew) {
 
 TEST(Lighting, ALightIsChangedOnceInARequest) {
     const LoadedScene file = loaded(kLamps);
-    // Each is beside the file: the surface and the light would be at different places.
+    // Each change is relative to the file: the surface and the light would be at different places.
     const std::vector<LightChange> twice{{"sphere", Vec3{0, 1, 4}, {}, {}, {}},
                                          {"disc", {}, {}, Rgb{5, 5, 5}, {}},
                                          {"sphere", {}, {}, {}, {0.5}}};

@@ -122,7 +122,8 @@ TEST(TechnicalDrawing, WhatIsBehindIsDashedOrLeftOut) {
     EXPECT_EQ(box.segments(LineStyle::Silhouette), 6u);
     EXPECT_EQ(box.segments(LineStyle::Crease), 3u);
     EXPECT_EQ(Sheet(maker, false).count(LineStyle::Hidden), 0);
-    // A post in front of it: four of its edges are seen whole, and the box goes on behind it.
+    // A post in front of the box: four of its edges are fully visible, and the box continues behind
+    // it.
     maker.add(BoxShape{{0.2, -3, -1}, {0.4, -2.8, 3}}, grey);
     const Sheet both(maker);
     EXPECT_GE(both.segments(LineStyle::Hidden), 3u + 3u + 2u);

@@ -33,7 +33,7 @@ TEST(ExtentHandles, WhatIsSetIsWhatIsThenThere) {
         if (before.direction) {
             EXPECT_LT(length(normalize(*after.direction) - direction), 1e-14) << extent.index();
         }
-        // A scale is one of what is there.
+        // A scale is relative to the present extent, so it is 1.
         const bool scales = std::string(before.sizes.front().name) == "scale";
         for (std::size_t i = 0; i < sizes.size(); ++i) {
             EXPECT_NEAR(after.sizes[i].value, scales ? 1.0 : sizes[i], 1e-14) << extent.index();
@@ -54,7 +54,7 @@ TEST(ExtentHandles, WhatIsSetToWhatItIsStays) {
     }
 }
 
-// The cross product of opposite normals says nothing about an axis.
+// The cross product of opposite normals does not define an axis.
 TEST(ExtentHandles, ASurfaceIsTurnedToItsBack) {
     for (const LightExtent& extent : all_extents()) {
         const ExtentHandles now = handles_of(extent);

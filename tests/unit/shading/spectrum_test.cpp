@@ -153,7 +153,8 @@ TEST(Illuminants, HaveTheChromaticitiesOfTheStandard) {
 }
 
 TEST(SmoothDielectric, ReflectionAtFourIndicesIsThatOfEachInTheMean) {
-    // Any of the four may be the first: what is reflected and what the first transmits, together.
+    // Any of the four may be the hero: the reflected light and that transmitted for the hero,
+    // together.
     const Spectrum all{1 / 1.5, 1 / 1.6, 1 / 1.7, 1 / 1.8};
     const Vec3 view = normalize(Vec3{0.8, 0, 0.6});
     constexpr int kChoices = 20000;

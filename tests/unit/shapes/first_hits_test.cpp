@@ -200,7 +200,8 @@ TEST(FirstHits, OfPatchesAreThoseOfEachRayAlone) {
     check_random_blocks<PatchMesh>(8, 1000);
 }
 
-/// Rays apart, some side by side, some with directions whose squares overflow or vanish.
+/// Incoherent rays, some coherent ones, and some with directions whose squares overflow or
+/// underflow.
 template <class S>
 void check_many_rays(std::uint64_t seed, int least_hits) {
     constexpr std::size_t kMost = kMostRaysAtOnce<S>;

@@ -1,5 +1,5 @@
-// Nearest points beside what rays say: the distance to a shape is the least distance of the first
-// crossings over all directions.
+// Nearest points against rays: the distance to a shape is the least distance of the first crossings
+// over all directions.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::Random;
 using testing::random_shape;
 using testing::ShapeSource;
 
-/// A shape where it is placed, asked by rays and for its nearest point.
+/// A placed shape with queries for first crossings and nearest points.
 class Placed {
   public:
     template <class S>
@@ -35,7 +35,7 @@ class Placed {
                    static_cast<const AnalyticShapes::Variant&>(any_));
         return hits.size() > 0 ? hits[0].t : kInfinity;
     }
-    /// Of the first crossing at about `t`; 0 where there is none.
+    /// The normal of the first crossing at about `t`; 0 if there is none.
     [[nodiscard]] Vec3 normal_at(const Vec3& from, const Vec3& direction, double t,
                                  double slack) const {
         const Ray ray{world_.inner_from_outer.point(from),
@@ -108,7 +108,8 @@ bool is_there(const Placed& shape, const Vec3& point, Random& random, double siz
     return false;
 }
 
-/// Whether rays beside the point, from both sides, tell one normal; expects that one.
+/// True if rays next to the point, from both sides, have one normal; expects that of the found
+/// point.
 bool check_normal(const Placed& shape, const PointOnSurface& found, Random& random, double size) {
     const double away = 1e-4 * size;
     Vec3 normal;
@@ -138,7 +139,7 @@ void check_beside_rays(const Placed& shape, const Vec3& from, Random& random, do
     EXPECT_NEAR(length(found.normal), 1.0, 1e-14);
     EXPECT_TRUE(is_there(shape, found.point, random, size));
     check_normal(shape, found, random, size);
-    // Nothing is nearer.
+    // No other point is nearer.
     const Box3 box = shape.box();
     std::vector<std::pair<double, Vec3>> starts;
     for (int i = 0; i < 200; ++i) {
@@ -248,7 +249,7 @@ void check_from_far(std::uint64_t seed, int rounds) {
             for (const Vec3& x : crossings) ASSERT_GT(length(x - from), distance - tolerance);
             EXPECT_LT(std::sqrt(placed.nearest(found.point).squared),
                       1e-12 * (size + length(found.point)));
-            // From near by, on the way there, it is the nearest point too.
+            // It is also the nearest point from a place on the connecting segment.
             const Vec3 out = (from - found.point) / distance;
             const double by = std::min(size, 0.5 * distance);
             EXPECT_NEAR(std::sqrt(placed.nearest(found.point + by * out).squared), by,
@@ -373,7 +374,7 @@ TEST(Nearest, ShapesWithoutNearestPointsSayWhy) {
     EXPECT_EQ(nearest_refusal(Torus{}, {}), "");
     EXPECT_NE(nearest_refusal(Torus{}, stretched), "");
     EXPECT_EQ(nearest_refusal(Sphere{}, stretched), "");
-    // Where the axes that f has in space would have no digits left.
+    // A placement in which the axes of the function would lose all digits.
     const Affine turned = Affine::rotate(normalize(Vec3{1, 2, 3}), 1);
     const Affine aslant = Affine::scale({1, 1, 1e6}) * turned;
     Cone round;
@@ -480,7 +481,7 @@ TEST(Nearest, SlenderQuadricsLoseNoDigits) {
     }
 }
 
-// Beside an apex f is small, off the surface too.
+// Near an apex the function is small off the surface as well.
 TEST(Nearest, PointsBesideAnApexAreOnTheSurface) {
     const Affine stretched = Affine::scale({1, 2, 3});
     const Cone cone{.base = {0, 0, 0}, .top = {0, 0, 1}, .base_radius = 1, .top_radius = 0};
@@ -502,7 +503,7 @@ TEST(Nearest, PointsBesideAnApexAreOnTheSurface) {
     }
 }
 
-// Where the multiplier is at its pole, and beside it.
+// The multiplier at its pole, and near it.
 TEST(Nearest, PointsBesideAnAxisAreAsNearAsOnIt) {
     const Ellipsoid egg{.axis_a = {2, 0, 0}, .axis_b = {0, 2, 0}, .axis_c = {0, 0, 1}};
     const Paraboloid bowl{.capped = false};

@@ -269,7 +269,7 @@ TEST(Lanes, TheSphereTestGivesTheBitsOfTheScalar) {
         [](std::size_t, double a, double b) { return same_value(a, b); });
 }
 
-/// Of [low, high]: any, those near to `special`, and its neighbours.
+/// Numbers of [low, high]: random ones, numbers near to `special`, and its neighbours.
 std::vector<double> numbers(double low, double high, const std::vector<double>& special) {
     std::mt19937_64 random(71);
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -292,7 +292,7 @@ std::vector<double> numbers(double low, double high, const std::vector<double>& 
     return all;
 }
 
-/// Runs `kernel` for these numbers on every instruction set.
+/// Compares `kernel` with `scalar` for these numbers on every instruction set.
 template <class Kernel, class ScalarForm>
 void compare_numbers(const std::vector<double>& all, std::size_t outputs, const Kernel& kernel,
                      const ScalarForm& scalar) {

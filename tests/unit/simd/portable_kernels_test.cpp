@@ -8,7 +8,7 @@
 namespace alhazen {
 namespace {
 
-// Else the program has the kernels of the rooms, and its other tests say nothing of plain C++.
+// Otherwise the program has the kernels of the modules, and its other tests do not test plain C++.
 TEST(PortableKernels, AreInPlainCxxAlone) {
     EXPECT_EQ(simd_targets(), std::vector<std::string>{"SCALAR"});
 }

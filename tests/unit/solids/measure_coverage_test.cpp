@@ -49,7 +49,7 @@ Coverage coverage_of(const Measurable& solid, double volume, double area, double
     return held;
 }
 
-/// What a number's interval consists of.
+/// The origin of a number's interval.
 enum class Interval95 {
     Scatter,  ///< it holds in 95 %
     /// Widened: the solid fills its shadow's rectangle (with_rare_misses), or every line is alike

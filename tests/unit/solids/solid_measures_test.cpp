@@ -52,7 +52,7 @@ TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
     const LoneScene scene(known_solids()[1]);
     const SolidMeasures m = measure(scene.solid);
     EXPECT_NEAR(m.volume.value, 6, 1e-13);
-    // Nothing scatters. What is left is the bound of rounding, 2.9e-12: 64 roundings of the largest
+    // No variance. The width is the bound of rounding, 2.9e-12: 64 roundings of the largest
     // coordinate, 8, times the area, 22; and 300 roundings of the sum, 6.
     EXPECT_NEAR(m.volume.half_width, 0x1p-52 * (64 * 8 * 22 + 300 * 6), 1e-14);
     EXPECT_EQ(m.volume.half_width, m.volume.rounding);
@@ -60,8 +60,8 @@ TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
 }
 
 TEST(SolidMeasures, IntervalsOfBlocksHoldTheirRounding) {
-    // All chords of a block along the axes are alike: nothing is left but rounding, which follows
-    // from the coordinates, not from the volume.
+    // All chords of a block along the axes are equal: the width is rounding alone, which depends on
+    // the coordinates, not on the volume.
     testing::Random random(19);
     for (int i = 0; i < 30; ++i) {
         const double scale = random.log_uniform(1e-3, 1e4), far = random.log_uniform(0.1, 1e3);

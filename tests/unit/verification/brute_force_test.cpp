@@ -155,7 +155,7 @@ TEST(Verify, TheReportTellsWhatWasLeftOut) {
     EXPECT_EQ(report.believed_boxes, 0u);
 }
 
-/// Keeps what it is told.
+/// Records its input.
 class Recorder final : public ProgressSink {
   public:
     void update(std::string_view phase, std::size_t done, std::size_t total) override {

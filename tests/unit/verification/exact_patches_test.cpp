@@ -1,4 +1,4 @@
-/// Crossings of patches in 113 bits: against formulas, and the judgement of what is missed.
+/// Crossings of patches in 113 bits: against formulas, and the classification of missed ones.
 
 #include "alhazen/verification/exact_patches.h"
 
@@ -103,7 +103,7 @@ TEST(PatchTrials, AMissingAndAnInventedCrossingAreSeen) {
 
 TEST(PatchTrials, OnlyAPairWithinRoundingMayBeMissing) {
     const PatchModel model = torus_model();
-    // Beside the highest circle, where two crossings are one.
+    // Next to the highest circle, where two crossings merge.
     for (const auto& [depth, may] : {std::pair{1e-15, true}, std::pair{1e-9, false}}) {
         const Ray ray{{1.2, -3, 0.5 - depth}, {0.013, 1, 0}, -kInfinity, kInfinity};
         const ExactPatchRoots exact = exact_patch_roots(model.nets, ray);

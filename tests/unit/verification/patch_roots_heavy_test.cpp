@@ -1,6 +1,6 @@
 /// `certified_newton` against 113 bits: random lines, tangents at 1e-1 to 1e-12, lines through
 /// borders and corners. No crossing missed, none invented, t within its bound. By default 10^7
-/// lines a model, a quarter of each kind; ALHAZEN_PATCH_RAYS says how many of each kind instead.
+/// lines a model, a quarter of each kind; ALHAZEN_PATCH_RAYS sets the number of each kind.
 
 #include <gtest/gtest.h>
 

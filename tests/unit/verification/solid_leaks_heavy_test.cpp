@@ -38,7 +38,7 @@ constexpr std::size_t kBlockLines = 1024;
 constexpr std::size_t kBlocksPerScene = 192;
 constexpr std::array<std::uint32_t, 3> kWidths{8, 4, 16};
 
-/// Adds a random shape of the type; false where it is open.
+/// Adds a random shape of the type; false if it is open.
 template <class S>
 bool add_closed_shape(SceneMaker& maker, Random& random, ObjectIndex owner,
                       const Affine& placement) {
@@ -168,7 +168,7 @@ class Leaks {
   private:
     void trace_block(const Aggregate& tested, const Aggregate& brute, std::uint64_t seed,
                      Counts& counts) {
-        // Every other block about one primitive: between small things most lines meet nothing.
+        // Every other block around one primitive, because most lines between small objects miss.
         const PrimitiveTable& table = tested.primitives();
         const Box3 box = seed % 2 == 0 ? tested.box() : table.box(seed / 2 % table.size());
         VerifyRays source(box, nullptr, table, seed);

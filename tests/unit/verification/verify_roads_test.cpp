@@ -1,4 +1,4 @@
-/// Every traversal path is compared, and a wrong answer on any of them is reported.
+/// `verify` compares every traversal, and reports a wrong answer of any of them.
 
 #include "alhazen/verification/verify_roads.h"
 

@@ -79,7 +79,7 @@ var BeamPieces = class {
   rows = /* @__PURE__ */ new Map();
   near = true;
   chosen;
-  // The pieces from the eye to a piece.
+  // The pieces on the way from the eye to a piece.
   chain(piece) {
     const list = [piece];
     for (let at = piece; at.from !== at.id; ) {
@@ -172,7 +172,7 @@ var ConeTree = class {
       root.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
-    root.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. A cone\u2019s radiance is the sum of weight \xD7 colour, and what is left of it times the background."));
+    root.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; the weight is its visible fraction. A cone\u2019s radiance is the sum of weight \xD7 colour, plus what is left of the cone times the background."));
     if (cones.cut) root.append(element("p", { class: "cut" }, "The tree is cut: it has more than 2000 cones."));
     root.append(element("div", { class: "outline" }, element("ul", { "aria-label": "Cones" }, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
@@ -302,11 +302,11 @@ function pathSteps(root, data, path, view) {
     view.draw();
   };
   root.append(
-    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. The light of all rows adds up to the sample.`),
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Throughput is the fraction of the radiance at the origin of the ray that reaches the pixel. The light of all rows adds up to the sample.`),
     scrolling("The path", element(
       "table",
       {},
-      headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+      headRow(["ray", "", "throughput", "hits", "direct light", "event", ""]),
       element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
       element("tfoot", {}, element(
         "tr",
@@ -431,7 +431,7 @@ function isShadow(light) {
   return light !== void 0 && light.kind === "shadow";
 }
 var RayOutline = class {
-  // what the weights are shares of
+  // denominator of the weights
   constructor(root, data, onSelect) {
     this.onSelect = onSelect;
     this.whole = data.samples.length > 1 ? "sample" : "pixel";
@@ -481,7 +481,7 @@ var RayOutline = class {
     if (ray.left) body.append(element("p", {}, ray.given_up ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.` : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
-  // `level`: of the rays that leave it, in the outline.
+  // `level`: level in the outline of the rays that leave it.
   surface(s, level) {
     const box = element("div", { class: "surface" });
     box.append(element(
@@ -586,22 +586,22 @@ var SceneView = class {
   up;
   center = [0, 0, 0];
   radius = 1;
-  // Where the view is: a turn and a rise around the target.
+  // The view: an azimuth and an elevation around the target.
   front = [0, 0, 1];
   side = [1, 0, 0];
   turn = 0;
   rise = 0;
   distance = 1;
   target = [0, 0, 0];
-  // Of the drawing in hand.
+  // Of the current drawing.
   width = 0;
   height = 0;
   near = 0;
   f;
   g;
   hot = [];
-  // The ball that is looked at: around the first surface, as large as what the camera sees near it. What lies far
-  // behind, such as an endless ground, does not count.
+  // The sphere in view: around the first surface, as large as what the camera sees near it. Distant points, such as
+  // those of an unbounded ground, do not count.
   measure() {
     const first = this.data.tree.surfaces[0];
     const points = this.data.points.map((p) => [p[0], p[1], p[2]]);
@@ -671,7 +671,7 @@ var SceneView = class {
     }
     this.g.globalAlpha = 1;
   }
-  // A line cut at the near plane; returns its ends on the canvas, or null.
+  // Clips a line at the near plane; returns its ends on the canvas, or null.
   segment(a, b) {
     let p = this.project(a), q = this.project(b);
     if (p[2] < this.near && q[2] < this.near) return null;
@@ -714,7 +714,7 @@ var SceneView = class {
       if (!this.data.parallel) this.line(this.eye, p, { color, width: 1, alpha: 0.35 });
     });
   }
-  // Where a ray ends: at its last surface, or in the open.
+  // The end of a ray: its last surface, or a point in free space.
   end(ray) {
     if (ray.kind === "shadow") return along(ray, ray.t ?? 0.8 * this.radius);
     const met = ray.surfaces.at(-1);
@@ -806,7 +806,7 @@ var SceneView = class {
       g.globalAlpha = 1;
     }
   }
-  // A cone up to its end: its sides as seen from here, and circles; then those that leave it.
+  // A cone up to its end: its silhouette and circles; then the cones that leave it.
   drawCone(c) {
     const color = this.color(c.kind), parts = c.kind === "shadow" ? [] : c.parts;
     const e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);
@@ -1207,7 +1207,7 @@ function header(data, picture) {
 }
 function otherRenderer({ renderer, draws_at_random, path }) {
   if (renderer === "whitted") return null;
-  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws rays at random for each sample. The tree shows the rays that whitted traces for this pixel: towards points of lights, in mirror directions and through glass. Its colour may differ.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour may differ.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {
@@ -1274,7 +1274,7 @@ var ViewCamera = class _ViewCamera {
   copy() {
     return Object.assign(Object.create(_ViewCamera.prototype), this);
   }
-  /** Whether it is where the camera of the scene is. */
+  /** True if it is where the camera of the scene is. */
   isAt(given) {
     const keys = ["eye", "look", "right", "up"];
     return keys.every((key) => norm(sub(this[key], given[key])) === 0);
@@ -1284,7 +1284,7 @@ var ViewCamera = class _ViewCamera {
     const by = (v) => add(add(scaled(c, v), scaled(s, cross(k, v))), scaled((1 - c) * dot(k, v), k));
     for (const key of ["look", "right", "up"]) this[key] = by(this[key]);
   }
-  // Around the point at `distance`; the pole is not crossed.
+  // Turns around the point at `distance`; the pole is not crossed.
   orbit(dx, dy) {
     const center = add(this.eye, scaled(this.distance, unit(this.look)));
     this.turn(this.world, -dx);
@@ -1334,7 +1334,7 @@ function capital(text) {
 }
 var LightFields = class {
   // since a field got the focus
-  /** `changed` has no values where they are those of the file. */
+  /** `changed` has no values if they are those of the file. */
   constructor(light, id, changed) {
     this.light = light;
     this.changed = changed;
@@ -1436,7 +1436,7 @@ var LightFields = class {
     this.marked = true;
     this.changed(this.isOfFile() ? void 0 : values, mark);
   }
-  // Above 0, and a hole smaller than what is around it.
+  // Positive, and a hole smaller than its surroundings.
   areSizes(sizes) {
     const radius = sizes.find((s) => s.name === "radius")?.value ?? 0;
     return sizes.every(({ name, value }) => name === "inner radius" ? value >= 0 && value < radius : value > 0);
@@ -1449,7 +1449,7 @@ var LightFields = class {
 
 // apps/viewer/page/lights.ts
 var LightList = class {
-  // of those that are open: there may be very many lights
+  // of the open lights only: there may be many
   constructor(listener) {
     this.listener = listener;
   }
@@ -1473,18 +1473,18 @@ var LightList = class {
   buttons = element("div", { class: "row" }, this.all("All on", true), this.all("All off", false), this.blockButton);
   element = element("details", { id: "lights" }, this.summary, this.list, this.buttons, this.block);
   dark = /* @__PURE__ */ new Set();
-  // names
+  // names of lights that are off
   values = /* @__PURE__ */ new Map();
   open = /* @__PURE__ */ new Set();
-  // whose fields are shown
+  // names of lights whose fields are shown
   lights = [];
   boxes = [];
   fields = /* @__PURE__ */ new Map();
-  /** Names of those that are off. */
+  /** Names of the lights that are off. */
   off() {
     return this.boxes.filter((b) => !b.checked).map((b) => b.name);
   }
-  /** Those that are other than in the file. */
+  /** The lights that differ from the file. */
   changes() {
     return this.lights.flatMap((light) => {
       const values = this.values.get(light.name);
@@ -1509,7 +1509,7 @@ var LightList = class {
     for (const [name, fields] of this.fields) fields.show(this.values.get(name));
     this.tell();
   }
-  /** What has the focus, and how far the list is scrolled, to come back to. */
+  /** The focus and the scroll position of the list, to restore them. */
   place() {
     const active = document.activeElement;
     const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset.key : void 0;
@@ -1521,7 +1521,7 @@ var LightList = class {
     const all = [...this.element.querySelectorAll("[data-key]")];
     (all.find((e) => e.dataset.key === key) ?? this.summary).focus({ preventScroll: true });
   }
-  /** What was chosen stays where it still is. */
+  /** Keeps choices that still exist. */
   fill(lights) {
     this.lights = lights;
     this.boxes = lights.map((light) => element("input", {
@@ -1592,7 +1592,7 @@ var LightList = class {
     this.blockButton.setAttribute("aria-expanded", String(!this.block.hidden));
     this.tell();
   }
-  // In the summary, and in the blocks where they are shown.
+  // Updates the summary, and the blocks if they are shown.
   tell() {
     const on = this.boxes.filter((b) => b.checked).length, changes = this.changes();
     const changed = changes.length ? `, ${changes.length} changed` : "";
@@ -1600,7 +1600,7 @@ var LightList = class {
     this.buttons.children[0].toggleAttribute("hidden", this.boxes.length < 2);
     this.buttons.children[1].toggleAttribute("hidden", this.boxes.length < 2);
     if (this.block.hidden) return;
-    if (!changes.length) this.block.value = "// No light is other than in the file.\n";
+    if (!changes.length) this.block.value = "// No light differs from the file.\n";
     else void this.listener.blocks(changes).then((text) => this.block.value = text);
   }
 };
@@ -1612,7 +1612,7 @@ var MOVING = [
   { name: "flat", what: "ray_casting: no shadows, mirrors, glass" }
 ];
 var Controls = class {
-  /** `changed` has what was chosen before, too, unless it goes on with the change before. */
+  /** `changed` gets the previous choices, unless it continues the previous change. */
   constructor(changed, blocks) {
     this.changed = changed;
     this.lights = new LightList({ changed: (which, mark) => this.tell(which, mark), blocks });
@@ -1622,7 +1622,7 @@ var Controls = class {
   fields = /* @__PURE__ */ new Map();
   usual = /* @__PURE__ */ new Map();
   wishes = /* @__PURE__ */ new Set();
-  // numbers that were chosen; others are the usual ones
+  // chosen numbers; others have their defaults
   reasons = /* @__PURE__ */ new Map();
   // why menus have no effect
   last;
@@ -1632,11 +1632,11 @@ var Controls = class {
   number(key) {
     return Number(this.fields.get(key)?.value);
   }
-  /** Undefined where nothing was chosen. */
+  /** Undefined if nothing was chosen. */
   wished(key) {
     return this.wishes.has(key) ? this.number(key) : void 0;
   }
-  /** What it is where nothing is chosen. */
+  /** The value if nothing is chosen. */
   setUsual(key, value) {
     this.usual.set(key, value);
     if (!this.wishes.has(key)) this.set(key, String(value));
@@ -1646,13 +1646,13 @@ var Controls = class {
     if (field) field.value = value;
     this.last = this.settings();
   }
-  /** As a person would. */
+  /** As a user would. */
   choose(key, value) {
     const field = this.fields.get(key);
     if (field) field.value = value;
     field?.dispatchEvent(new Event("change"));
   }
-  /** A menu that has no effect. */
+  /** A menu without effect. */
   disable(key, off, why) {
     const field = this.fields.get(key);
     if (!field) return;
@@ -1670,7 +1670,7 @@ var Controls = class {
     const values = new Map([...this.fields].map(([key, field]) => [key, field.value]));
     return { values, wishes: new Set(this.wishes), lights: this.lights.state() };
   }
-  /** What the scene no longer has stays as it is. */
+  /** Keeps choices that the scene does not have. */
   restore({ values, wishes, lights }) {
     for (const [key, field] of this.fields) {
       const now = field.value;
@@ -1691,7 +1691,7 @@ var Controls = class {
     const field = this.fields.get(key);
     return field instanceof HTMLSelectElement ? [...field.options].map((o) => o.text) : [];
   }
-  // A field that was emptied is as usual again.
+  // An emptied field gets its default again.
   typed(key) {
     const field = this.fields.get(key);
     if (!field) return;
@@ -1702,7 +1702,7 @@ var Controls = class {
     }
     this.tell(key);
   }
-  /** What was chosen stays where it still is. */
+  /** Keeps choices that still exist. */
   fill(scene) {
     const focus = [...this.fields].find(([, field2]) => field2 === document.activeElement)?.[0];
     const place = this.lights.place();
@@ -1813,7 +1813,7 @@ var SILENCE = 4e3;
 var PAUSE = 500;
 var POLICY_VIOLATION = 1008;
 var FrameLink = class {
-  // the last sign of life
+  // time of the last message
   constructor(token, events) {
     this.token = token;
     this.events = events;
@@ -1823,7 +1823,7 @@ var FrameLink = class {
   socket;
   open = false;
   since = 0;
-  /** False where the server is not there. */
+  /** False if the server is not connected. */
   send(message) {
     if (!this.open) return false;
     this.socket?.send(JSON.stringify(message));
@@ -1960,24 +1960,24 @@ var Pace = class {
   cost;
   // mean, at this depth and half the width
   late = [];
-  // the last costs, three at most, at this depth and half the width
+  // the last three costs at most, at this depth and half the width
   ratios = [];
-  // [depth] its cost over that of one less
+  // [depth] ratio of its cost to that of one less
   left;
-  // the depth before this one, until a picture has this
-  /** Another scene or renderer: nothing is known. */
+  // the previous depth, until a picture has this depth
+  /** Forgets all times, for another scene or renderer. */
   forget() {
     this.width = this.depth = this.cost = this.left = void 0;
     this.ratios = [];
     this.late = [];
   }
-  /** Width and depth of the next picture. Where nothing is known an eighth as wide, and two generations. */
+  /** Width and depth of the next picture. Without known times an eighth as wide, and two generations. */
   next(limits) {
     this.width = clamped(this.width ?? limits.full / 8, 48, limits.full / 2);
     this.depth = Math.min(this.depth ?? 2, limits.depth);
     return { width: Math.round(this.width), depth: limits.deepens ? this.depth : limits.depth };
   }
-  /** `cost`: milliseconds since the picture before, or since it was asked for; `depth`: that of the picture. */
+  /** `cost`: milliseconds since the previous picture, or since the request; `depth`: that of the picture. */
   learn(cost, facts, depth, limits) {
     if (this.width === void 0 || this.depth === void 0 || Math.abs(facts.width - this.width) > 0.5 * this.width) return;
     if (limits.deepens && depth !== this.depth) return;
@@ -1989,7 +1989,7 @@ var Pace = class {
     if (limits.deepens) this.choose(limits);
     this.width = Math.min(most, widthFor(this.cost, most), 1.5 * facts.width);
   }
-  /** The first picture of another depth; `wide`: enough to tell what the depth costs. */
+  /** The first picture of another depth; `wide`: wide enough to measure the cost of the depth. */
   compare(whole, wide) {
     const { depth, cost } = this.left, deeper = Math.max(depth, this.depth);
     if (wide && Math.abs(depth - this.depth) === 1) {
@@ -2040,7 +2040,7 @@ var PixelChoice = class {
       explain(this.column.valueAsNumber, this.row.valueAsNumber);
     } }, element("span", { "aria-hidden": "true" }, "pixel"), this.column, this.row, element("button", {}, "Explain"));
   }
-  /** Of a picture of another size it is the one in the middle. */
+  /** For a picture of another size, chooses the pixel in the middle. */
   fit(width, height) {
     if (width === this.width && height === this.height) return;
     [this.width, this.height] = [width, height];
@@ -2062,10 +2062,10 @@ var WIDEST = 4096;
 var MOST_RAW = 15e5;
 var STOPPED = "Reading the file was ended.";
 var NO_ENVIRONMENT = "This renderer shows the background of the scene; those that follow light see an environment.";
-var OTHER_SERVER = "Another server has come in place of this page\u2019s, and the page has no key to it: open the address that `alhazen view` printed.";
+var OTHER_SERVER = "The server was replaced, and this page has no key to the new one: open the address that `alhazen view` printed.";
 var NO_KEY = "This page has no key to the server: open the address that `alhazen view` printed.";
 var Viewer = class {
-  // What tests look at, too.
+  // Tests read these, too.
   client = Math.random().toString(36).slice(2);
   image = element("canvas", {
     class: "picture",
@@ -2080,17 +2080,17 @@ var Viewer = class {
   camera;
   frames = 0;
   level = 0;
-  // of `levels`, that is asked for
+  // index of the requested level
   generation = 0;
   // of the view
   shownGeneration = 0;
   firstPicture;
-  // milliseconds since the page was asked for
+  // milliseconds from the request of the page
   token;
   messages = new Messages(document.getElementById("message"));
   work = new WorkLine();
   status = element("p", { id: "status" });
-  // What readers hear; the numbers of each picture would be too much.
+  // Announced by screen readers; the numbers of each picture would be too much.
   spoken = element("p", { id: "spoken", class: "unseen", role: "status" });
   pixel = new PixelChoice((x, y) => this.explainPixel(x, y));
   block = element("textarea", { id: "block", rows: 6, readonly: true, "aria-label": "Camera of the view", hidden: true });
@@ -2102,12 +2102,12 @@ var Viewer = class {
   asked = /* @__PURE__ */ new Map();
   lastId = 0;
   held;
-  // nothing is asked for while this work lasts
+  // work during which nothing is requested
   explaining;
   halted = false;
   // by Stop, until something changes
   described = "";
-  // of the picture that is shown
+  // of the displayed picture
   shownAt = 0;
   movingShown = [];
   // times
@@ -2158,7 +2158,7 @@ var Viewer = class {
     );
     listen(this.image, this);
   }
-  // Null where the server does not answer, which the link says.
+  // Null if the server does not respond, which the link reports.
   ask(path, wish = {}) {
     return fetch(path, {
       method: "POST",
@@ -2173,7 +2173,7 @@ var Viewer = class {
     return text ?? `// ${error}
 `;
   }
-  // ---- the scene
+  // ---- The scene.
   take(state) {
     const known = this.scene;
     this.messages.say("file", state.error || (state.stopped ? STOPPED : ""));
@@ -2191,7 +2191,7 @@ var Viewer = class {
       this.changed();
     }
   }
-  // The file has changed: the chosen camera by its name, and the view where it still was that camera's.
+  // The file has changed: finds the chosen camera by name, and moves a view that was still that camera's.
   refill(before, scene) {
     const chosen = Number(this.controls.get("camera")), old = before.cameras[chosen];
     const same = scene.cameras.findIndex((c) => c.name === old.name);
@@ -2204,8 +2204,8 @@ var Viewer = class {
     this.controls.fill(scene);
     this.fitRenderer(scene);
   }
-  // Renderers that follow paths have a depth of their own where nothing is chosen; others than those that follow light see
-  // no environment but the background.
+  // Renderers that trace paths have their own default depth; renderers that are not physically based show only the
+  // background of an environment.
   fitRenderer(scene) {
     const renderer = this.renders(this.controls.get("renderer"));
     this.controls.setUsual("depth", renderer?.depth ?? scene.depth);
@@ -2222,7 +2222,7 @@ var Viewer = class {
     if (key === "camera") this.seeChosen();
     else if (key !== "steps") this.changed();
   }
-  // ---- what is asked for
+  // ---- Requests.
   full() {
     return Math.max(64, Math.min(this.scene?.width ?? 0, WIDEST));
   }
@@ -2247,7 +2247,7 @@ var Viewer = class {
       lights: controls.lights.changes()
     };
   }
-  // Only renderers that answer single rays can select pixels; layers are for pixels with rays of their own.
+  // Only renderers that compute single rays can select pixels; layers need rays for each pixel.
   selects() {
     return this.controls.get("moving") === "steady" && !this.controls.get("layer") && !!this.renders(this.controls.get("renderer"))?.selects;
   }
@@ -2260,7 +2260,7 @@ var Viewer = class {
     if (this.controls.get("moving") !== "flat" || wish.layer || !this.renders("ray_casting")) return wish;
     return { ...wish, renderer: "ray_casting" };
   }
-  // [width as a part of the whole, samples] of what follows the moving picture
+  // [width relative to the whole, samples] of the levels after the moving picture
   levels() {
     const samples = this.controls.number("samples");
     return [[0, 1], [1 / 4, 1], [1 / 2, 1], [1, 1], ...samples > 1 ? [[1, samples]] : []];
@@ -2268,7 +2268,7 @@ var Viewer = class {
   done() {
     return this.level >= this.levels().length;
   }
-  // The view is another one: coarse at first, and finer with each picture.
+  // The view has changed: requests a coarse picture, then finer ones.
   changed() {
     if (!this.camera || !this.scene) return;
     if (!this.block.hidden) this.block.value = this.camera.block();
@@ -2283,7 +2283,7 @@ var Viewer = class {
     }
     this.request();
   }
-  // The picture in words.
+  // The description of the picture.
   name() {
     const scene = this.scene, camera = scene.cameras[Number(this.controls.get("camera"))], width = this.full();
     const name = pictureName(scene.scene, camera, !!this.camera?.isAt(camera), this.controls.get("renderer"), this.controls.get("layer"));
@@ -2301,7 +2301,7 @@ var Viewer = class {
     this.asked.set(id, { id, generation: this.generation, level: this.level, wish, begin: performance.now() });
     this.link.send({ ...wish, id, moving, client: this.client, raw: wish.width * wish.height <= MOST_RAW });
   }
-  // ---- what comes
+  // ---- Responses.
   async received(head, body) {
     const asked = this.asked.get(head.id);
     for (const id of this.asked.keys()) if (id <= head.id) this.asked.delete(id);
@@ -2331,7 +2331,7 @@ var Viewer = class {
     if (this.done()) this.spoken.textContent = doneText(head.facts, asked.wish.samples);
     this.request();
   }
-  // Whether a picture has fewer generations than are chosen, or another renderer.
+  // True if a picture has less than the chosen depth, or another renderer.
   isLess(wish, deepest) {
     return (wish.depth ?? deepest) < deepest || wish.renderer !== this.controls.get("renderer");
   }
@@ -2370,7 +2370,7 @@ var Viewer = class {
       scene.memory
     );
   }
-  // ---- what is done with it
+  // ---- Actions.
   move(change, mark) {
     if (!this.camera) return;
     if (mark) this.remember();
@@ -2397,7 +2397,7 @@ var Viewer = class {
     this.pace.forget();
     this.changed();
   }
-  // Ends the frame, the explanation, the reading or the building in hand; what is shown stays.
+  // Ends the running frame, explanation, reading or building; the displayed picture stays.
   stop() {
     this.explaining = this.held = void 0;
     this.halted = true;
@@ -2408,7 +2408,7 @@ var Viewer = class {
     this.messages.say("explain", "");
     this.status.textContent = this.described;
   }
-  // Nothing is asked for until the work is done.
+  // Requests nothing until the work is done.
   async hold(work) {
     const own = this.held = {};
     try {
@@ -2431,7 +2431,7 @@ var Viewer = class {
       setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
     });
   }
-  /** `u`, `v`: parts of the width and the height. */
+  /** `u`, `v`: position relative to width and height. */
   explain(u, v) {
     if (!this.camera) return;
     const width = this.full(), at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
@@ -2441,7 +2441,7 @@ var Viewer = class {
     if (!this.camera) return;
     this.explainSample({ ...this.wish(this.camera, this.full()), samples: this.controls.number("samples"), x, y }, 0);
   }
-  /** `picture`: where the explained picture is not the one in sight. */
+  /** `picture`: set if the explained picture is not the displayed one. */
   explainSample(wish, sample, picture) {
     const { x, y } = wish, own = this.explaining = {};
     this.pixel.show(x, y);

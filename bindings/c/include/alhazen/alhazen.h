@@ -3,18 +3,18 @@
 /* Rays and geometry from C99, with a stable binary interface.
  *
  * Source: the interface of Embree 3 (Wald, Woop, Benthin, Johnson and Ernst, "Embree: A Kernel Framework for Efficient
- * CPU Ray Tracing", SIGGRAPH 2014). A program that keeps to the calls below is ported by renaming rtc to alhazen, RTC
+ * CPU Ray Tracing", SIGGRAPH 2014). A program that uses only the calls below is ported by renaming rtc to alhazen, RTC
  * to Alhazen and RTC_ to ALHAZEN_.
- * Differs: hits are computed in double whatever the vertices are, and are the same bits for any number of threads and
- * any number of rays a call. Ng is a unit vector in world space, within instances too. AlhazenIntersectContext begins
- * with its size and has no filter. Vertices may be double (ALHAZEN_FORMAT_DOUBLE3), rays too
- * (alhazenIntersect1Md). Instances hold no instances.
+ * Differs: hits are computed in double precision for vertices of any format, and are bit-identical for any number of
+ * threads and of rays per call. Ng is a unit vector in world space, also inside instances. AlhazenIntersectContext
+ * begins with its size and has no filter. Vertices may be double (ALHAZEN_FORMAT_DOUBLE3), as may rays
+ * (alhazenIntersect1Md). Instanced scenes must not contain instances.
  *
- * Conventions: t is in [tnear, tfar], in lengths of the direction. On a hit tfar becomes t. Ids are ALHAZEN_INVALID_ID
- * where nothing is hit. Occlusion sets tfar to -infinity. A ray whose mask has no bit in common with that of a geometry
- * does not see it. Objects are counted: New returns one reference, Release gives one back; a scene holds its geometries.
+ * Conventions: t is in [tnear, tfar], in units of the direction's length. On a hit tfar becomes t. Without a hit the
+ * ids are ALHAZEN_INVALID_ID. Occlusion sets tfar to -infinity. A ray sees a geometry only if their masks share a bit.
+ * Objects are reference-counted: New returns one reference, Release drops one; a scene holds its geometries.
  * Errors: no call ends the program. The first error of a thread is kept until alhazenGetDeviceError reads it.
- * Threads: queries of a committed scene may run in many threads; nothing else of the scene may run meanwhile. */
+ * Threads: queries of a committed scene may run in many threads; no other call on the scene may run meanwhile. */
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -37,7 +37,7 @@ extern "C" {
 #define ALHAZEN_INVALID_GEOMETRY_ID ALHAZEN_INVALID_ID
 #define ALHAZEN_MAX_INSTANCE_LEVEL_COUNT 1
 
-/* ---- devices */
+/* ---- Devices */
 
 typedef struct AlhazenDeviceTy* AlhazenDevice;
 typedef struct AlhazenSceneTy* AlhazenScene;
@@ -54,25 +54,25 @@ enum AlhazenError {
     ALHAZEN_ERROR_CANCELLED = 6
 };
 
-/* May call the library; errors of such calls are kept as codes, and not told. */
+/* Called with each error. May call the library; errors of such calls are kept as codes, but not reported. */
 typedef void (*AlhazenErrorFunction)(void* userPtr, enum AlhazenError code, const char* text);
-/* Called once for each amount that a scene takes: before (post false) for its copy of the geometry, after (post true) for
- * the acceleration structure, and with negative bytes when both are given back; false ends alhazenCommitScene with
- * ALHAZEN_ERROR_OUT_OF_MEMORY. Monitors run in the thread of the commit and may ask the scene. */
+/* Called for each allocation of a scene: before (post false) its copy of the geometry, after (post true) the build of
+ * the acceleration structure, and with negative bytes when both are freed. Returning false ends alhazenCommitScene with
+ * ALHAZEN_ERROR_OUT_OF_MEMORY. Monitors run in the thread of the commit and may query the scene. */
 typedef bool (*AlhazenMemoryMonitorFunction)(void* userPtr, ssize_t bytes, bool post);
-/* Called by alhazenCommitScene with the share that is done, from 0 to 1; false ends it with ALHAZEN_ERROR_CANCELLED. The
- * build of the acceleration structure itself is one step. */
+/* Called by alhazenCommitScene with the fraction done, from 0 to 1; returning false ends it with
+ * ALHAZEN_ERROR_CANCELLED. The build of the acceleration structure is a single step. */
 typedef bool (*AlhazenProgressMonitorFunction)(void* userPtr, double done);
 
-/* config: NULL, or "threads=4,accelerator=wide_bvh,quality=high". threads: of a commit, 0 takes all cores. Keys of
- * Embree without a meaning here (verbose, isa, set_affinity, start_threads, hugepages) are passed over. Returns NULL
- * after an error, which alhazenGetDeviceError(NULL) gives. */
+/* Creates a device. config: NULL, or for example "threads=4,accelerator=wide_bvh,quality=high". threads: number used by
+ * a commit; 0 uses all cores. Keys of Embree without a meaning here (verbose, isa, set_affinity, start_threads,
+ * hugepages) are ignored. Returns NULL on an error, which alhazenGetDeviceError(NULL) returns. */
 ALHAZEN_API AlhazenDevice alhazenNewDevice(const char* config);
 ALHAZEN_API void alhazenRetainDevice(AlhazenDevice device);
 ALHAZEN_API void alhazenReleaseDevice(AlhazenDevice device);
-/* The first error of this thread since the last call, for a device, or for alhazenNewDevice (NULL). */
+/* Returns and clears the first error of this thread, for a device or, with NULL, for alhazenNewDevice. */
 ALHAZEN_API enum AlhazenError alhazenGetDeviceError(AlhazenDevice device);
-/* The text of the last error of this thread; "" without one. Valid until the next error of the thread. */
+/* Returns the text of the last error of this thread; "" if there is none. Valid until its next error. */
 ALHAZEN_API const char* alhazenGetDeviceErrorMessage(AlhazenDevice device);
 ALHAZEN_API void alhazenSetDeviceErrorFunction(AlhazenDevice device, AlhazenErrorFunction error, void* userPtr);
 ALHAZEN_API void alhazenSetDeviceMemoryMonitorFunction(AlhazenDevice device, AlhazenMemoryMonitorFunction monitor,
@@ -101,10 +101,10 @@ enum AlhazenDeviceProperty {
     ALHAZEN_DEVICE_PROPERTY_JOIN_COMMIT_SUPPORTED = 129,
     ALHAZEN_DEVICE_PROPERTY_PARALLEL_COMMIT_SUPPORTED = 130
 };
-/* 1 or 0; 0 for a property that is not in the list. */
+/* Returns the version, or 1 or 0 for the other properties; 0 for a property that is not in the list. */
 ALHAZEN_API ssize_t alhazenGetDeviceProperty(AlhazenDevice device, enum AlhazenDeviceProperty property);
 
-/* ---- geometry */
+/* ---- Geometry */
 
 enum AlhazenGeometryType {
     ALHAZEN_GEOMETRY_TYPE_TRIANGLE = 0,
@@ -127,29 +127,29 @@ enum AlhazenBuildQuality {
     ALHAZEN_BUILD_QUALITY_LOW = 0,
     ALHAZEN_BUILD_QUALITY_MEDIUM = 1,
     ALHAZEN_BUILD_QUALITY_HIGH = 2,
-    ALHAZEN_BUILD_QUALITY_REFIT = 3 /* of geometries */
+    ALHAZEN_BUILD_QUALITY_REFIT = 3 /* for geometries */
 };
 
 ALHAZEN_API AlhazenGeometry alhazenNewGeometry(AlhazenDevice device, enum AlhazenGeometryType type);
 ALHAZEN_API void alhazenRetainGeometry(AlhazenGeometry geometry);
 ALHAZEN_API void alhazenReleaseGeometry(AlhazenGeometry geometry);
-/* Memory that several buffers of geometries may share; a geometry holds it. */
+/* Allocates memory that buffers of several geometries may share; each geometry holds a reference. */
 ALHAZEN_API AlhazenBuffer alhazenNewBuffer(AlhazenDevice device, size_t byteSize);
-/* The caller's memory, which must live as long. */
+/* Wraps the caller's memory, which must outlive the buffer. */
 ALHAZEN_API AlhazenBuffer alhazenNewSharedBuffer(AlhazenDevice device, void* ptr, size_t byteSize);
 ALHAZEN_API void* alhazenGetBufferData(AlhazenBuffer buffer);
 ALHAZEN_API void alhazenRetainBuffer(AlhazenBuffer buffer);
 ALHAZEN_API void alhazenReleaseBuffer(AlhazenBuffer buffer);
-/* Items within the buffer; else ALHAZEN_ERROR_INVALID_ARGUMENT. Otherwise as alhazenSetSharedGeometryBuffer. */
+/* As alhazenSetSharedGeometryBuffer, for items inside a buffer; ALHAZEN_ERROR_INVALID_ARGUMENT if they exceed it. */
 ALHAZEN_API void alhazenSetGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type, unsigned int slot,
                                           enum AlhazenFormat format, AlhazenBuffer buffer, size_t byteOffset,
                                           size_t byteStride, size_t itemCount);
-/* The items are read by alhazenCommitScene: item i is at ptr + byteOffset + i * byteStride, which need not be aligned.
- * The memory must live until then. slot is 0. */
+/* Item i is at ptr + byteOffset + i * byteStride, which need not be aligned. alhazenCommitScene reads the items; the
+ * memory must be valid until then. slot must be 0. */
 ALHAZEN_API void alhazenSetSharedGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type,
                                                 unsigned int slot, enum AlhazenFormat format, const void* ptr,
                                                 size_t byteOffset, size_t byteStride, size_t itemCount);
-/* Memory of the geometry for the items, byteStride apart; NULL after an error. */
+/* Allocates memory of the geometry for items byteStride apart; returns NULL on an error. */
 ALHAZEN_API void* alhazenSetNewGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type, unsigned int slot,
                                               enum AlhazenFormat format, size_t byteStride, size_t itemCount);
 ALHAZEN_API void* alhazenGetGeometryBufferData(AlhazenGeometry geometry, enum AlhazenBufferType type,
@@ -158,25 +158,25 @@ ALHAZEN_API void alhazenUpdateGeometryBuffer(AlhazenGeometry geometry, enum Alha
 ALHAZEN_API void alhazenSetGeometryMask(AlhazenGeometry geometry, unsigned int mask);
 ALHAZEN_API void alhazenSetGeometryUserData(AlhazenGeometry geometry, void* userPtr);
 ALHAZEN_API void* alhazenGetGeometryUserData(AlhazenGeometry geometry);
-/* Taken and not needed. */
+/* Accepted for compatibility; has no effect. */
 ALHAZEN_API void alhazenSetGeometryBuildQuality(AlhazenGeometry geometry, enum AlhazenBuildQuality quality);
-/* 1 is the one that is taken. */
+/* timeStepCount must be 1. */
 ALHAZEN_API void alhazenSetGeometryTimeStepCount(AlhazenGeometry geometry, unsigned int timeStepCount);
-/* The scene must be committed before the scene of the instance is. A scene that would hold itself, through others too,
- * is ALHAZEN_ERROR_INVALID_OPERATION, here and in alhazenAttachGeometry. */
+/* The instanced scene must be committed before the scene that contains the instance. A scene that would contain itself,
+ * also indirectly, is ALHAZEN_ERROR_INVALID_OPERATION, here and in alhazenAttachGeometry. */
 ALHAZEN_API void alhazenSetGeometryInstancedScene(AlhazenGeometry geometry, AlhazenScene scene);
-/* timeStep is 0. */
+/* timeStep must be 0. */
 ALHAZEN_API void alhazenSetGeometryTransform(AlhazenGeometry geometry, unsigned int timeStep,
                                              enum AlhazenFormat format, const void* xfm);
 ALHAZEN_API void alhazenGetGeometryTransform(AlhazenGeometry geometry, float time, enum AlhazenFormat format, void* xfm);
 ALHAZEN_API void alhazenEnableGeometry(AlhazenGeometry geometry);
 ALHAZEN_API void alhazenDisableGeometry(AlhazenGeometry geometry);
-/* A geometry is part of the next commit of a scene only when it is committed. */
+/* Only committed geometries take part in the next commit of a scene. */
 ALHAZEN_API void alhazenCommitGeometry(AlhazenGeometry geometry);
 
-/* ---- scenes */
+/* ---- Scenes */
 
-/* Taken and not needed: hits are robust, trees compact, in any case. */
+/* Accepted for compatibility; have no effect: hits are always robust and trees always compact. */
 enum AlhazenSceneFlags {
     ALHAZEN_SCENE_FLAG_NONE = 0,
     ALHAZEN_SCENE_FLAG_DYNAMIC = 1,
@@ -189,7 +189,7 @@ struct AlhazenBounds {
 } ALHAZEN_ALIGN(16);
 
 ALHAZEN_API AlhazenScene alhazenNewScene(AlhazenDevice device);
-/* With a reference, which the caller releases. */
+/* Returns a reference that the caller must release. */
 ALHAZEN_API AlhazenDevice alhazenGetSceneDevice(AlhazenScene scene);
 ALHAZEN_API void alhazenRetainScene(AlhazenScene scene);
 ALHAZEN_API void alhazenReleaseScene(AlhazenScene scene);
@@ -198,33 +198,33 @@ ALHAZEN_API void alhazenSetSceneFlags(AlhazenScene scene, enum AlhazenSceneFlags
 ALHAZEN_API enum AlhazenSceneFlags alhazenGetSceneFlags(AlhazenScene scene);
 ALHAZEN_API void alhazenSetSceneProgressMonitorFunction(AlhazenScene scene, AlhazenProgressMonitorFunction progress,
                                                         void* userPtr);
-/* Returns the smallest free id; ALHAZEN_INVALID_ID after an error. */
+/* Returns the id, the smallest free one; ALHAZEN_INVALID_ID on an error. */
 ALHAZEN_API unsigned int alhazenAttachGeometry(AlhazenScene scene, AlhazenGeometry geometry);
 ALHAZEN_API void alhazenAttachGeometryByID(AlhazenScene scene, AlhazenGeometry geometry, unsigned int geomID);
 ALHAZEN_API void alhazenDetachGeometry(AlhazenScene scene, unsigned int geomID);
-/* Without a reference. Both are safe beside calls that attach and detach. */
+/* Return no reference. Both may run concurrently with calls that attach and detach. */
 ALHAZEN_API AlhazenGeometry alhazenGetGeometry(AlhazenScene scene, unsigned int geomID);
 ALHAZEN_API AlhazenGeometry alhazenGetGeometryThreadSafe(AlhazenScene scene, unsigned int geomID);
-/* Builds, or after an error leaves what was committed before. While another thread commits, it is
+/* Builds the scene; on an error the previous commit stays valid. While another thread commits the scene, the call is
  * ALHAZEN_ERROR_INVALID_OPERATION. */
 ALHAZEN_API void alhazenCommitScene(AlhazenScene scene);
-/* The same, but waits for a commit of another thread and takes its result; threads do not share the work. */
+/* As alhazenCommitScene, but waits for a commit of another thread and uses its result; threads do not share work. */
 ALHAZEN_API void alhazenJoinCommitScene(AlhazenScene scene);
-/* Rounded outward; empty (lower above upper) without geometry. */
+/* Bounds rounded outward; empty (lower above upper) without geometry. */
 ALHAZEN_API void alhazenGetSceneBounds(AlhazenScene scene, struct AlhazenBounds* bounds_o);
 
-/* ---- rays */
+/* ---- Rays */
 
 enum AlhazenIntersectContextFlags {
     ALHAZEN_INTERSECT_CONTEXT_FLAG_NONE = 0,
     ALHAZEN_INTERSECT_CONTEXT_FLAG_INCOHERENT = 0,
-    /* Neighbours go nearly the same way and begin or end near a common point. Never changes a hit. */
+    /* Neighbours have similar directions and start or end near a common point. Never changes a hit. */
     ALHAZEN_INTERSECT_CONTEXT_FLAG_COHERENT = 1,
-    /* Leaves Ng at 0, which takes time to compute. */
+    /* Sets Ng to 0, which saves the time to compute it. */
     ALHAZEN_INTERSECT_CONTEXT_FLAG_NO_NORMALS = 256
 };
 struct AlhazenIntersectContext {
-    size_t structSize; /* of the header that the caller was compiled with */
+    size_t structSize; /* size in the header that the caller was compiled with */
     enum AlhazenIntersectContextFlags flags;
 };
 static inline void alhazenInitIntersectContext(struct AlhazenIntersectContext* context) {
@@ -240,7 +240,7 @@ struct AlhazenRay {
 } ALHAZEN_ALIGN(16);
 struct AlhazenHit {
     float Ng_x, Ng_y, Ng_z;
-    float u, v; /* weights of the second and third vertex; of a sphere 0 */
+    float u, v; /* weights of the second and third vertex; 0 for spheres */
     unsigned int primID, geomID;
     unsigned int instID[ALHAZEN_MAX_INSTANCE_LEVEL_COUNT];
 } ALHAZEN_ALIGN(16);
@@ -268,7 +268,7 @@ ALHAZEN_RAY_PACKET(4)
 ALHAZEN_RAY_PACKET(8)
 ALHAZEN_RAY_PACKET(16)
 
-/* An array for each member, of one length. time, id and flags of rays are not read and may be NULL. */
+/* One array per member, all of the same length. time, id and flags of rays are not read and may be NULL. */
 struct AlhazenRayNp {
     float *org_x, *org_y, *org_z, *tnear;
     float *dir_x, *dir_y, *dir_z, *time, *tfar;
@@ -283,21 +283,21 @@ struct AlhazenRayHitNp {
     struct AlhazenRayNp ray;
     struct AlhazenHitNp hit;
 };
-/* N rays, laid out as in struct AlhazenRay16 where N is 16. */
+/* N rays in the layout of struct AlhazenRay16 for N = 16. */
 struct AlhazenRayN;
 struct AlhazenHitN;
 struct AlhazenRayHitN;
 
-/* Rays in double. */
+/* A ray with its hit in double precision. */
 struct AlhazenRayHitd {
     double org[3], tnear, dir[3], tfar;
     double Ng[3], u, v;
     unsigned int mask, primID, geomID, instID;
 };
 
-/* context may be NULL: the defaults of alhazenInitIntersectContext. Lanes of a packet where valid is not -1 are left
- * as they are. M rays lie byteStride apart; they are traced by the calling thread, from about ten on faster than one
- * by one. */
+/* context may be NULL, for the defaults of alhazenInitIntersectContext. Lanes of a packet whose valid is not -1 are
+ * unchanged. M rays are byteStride apart; the calling thread traces them, from about ten rays on faster than one by
+ * one. */
 ALHAZEN_API void alhazenIntersect1(AlhazenScene scene, struct AlhazenIntersectContext* context,
                                    struct AlhazenRayHit* rayhit);
 ALHAZEN_API void alhazenIntersect4(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
@@ -308,7 +308,7 @@ ALHAZEN_API void alhazenIntersect16(const int* valid, AlhazenScene scene, struct
                                     struct AlhazenRayHit16* rayhit);
 ALHAZEN_API void alhazenIntersect1M(AlhazenScene scene, struct AlhazenIntersectContext* context,
                                     struct AlhazenRayHit* rayhit, unsigned int M, size_t byteStride);
-/* Rays at M addresses; M packets of N rays; N rays in arrays. */
+/* Rays at M addresses (1Mp); M packets of N rays (NM); N rays in arrays (Np). */
 ALHAZEN_API void alhazenIntersect1Mp(AlhazenScene scene, struct AlhazenIntersectContext* context,
                                      struct AlhazenRayHit** rayhit, unsigned int M);
 ALHAZEN_API void alhazenIntersectNM(AlhazenScene scene, struct AlhazenIntersectContext* context,

@@ -8,9 +8,9 @@
 /// B y + C z + D = 0), so that t = (D - S) T with S = n . origin, T = 1 / (n . direction). Every
 /// test is widened by more than the rounding errors, in double, of itself and of the primitives'
 /// tests: a bound only rejects rays that cannot hit.
-/// Conventions: a bound is `Bound::of` one primitive, grows by `include`, and `enter` returns where
-/// a ray enters it: the larger of its entry and ray.t_min, or nothing when the ray misses it or is
-/// past it. `Probe` holds the values computed once per ray.
+/// Conventions: a bound is `Bound::of` one primitive and grows by `include`. `enter` returns where
+/// a ray enters it, at least ray.t_min; empty if the ray misses it or is past it. `Probe` holds
+/// values computed once per ray.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,8 @@ namespace alhazen {
 /// savings of a bound.
 inline constexpr double kBoundSlack = 0x1p-40;
 
-/// Unit directions of K slabs: the axes; then the diagonals of the cube; then those of its faces.
+/// Unit directions of K slabs: the axes, then the diagonals of the cube, then the diagonals of its
+/// faces.
 template <int K>
 struct SlabDirections {
     static_assert(K == 3 || K == 7 || K == 13);
@@ -59,7 +60,7 @@ struct SlabDirections {
     }
 };
 
-/// K slabs; a box for K = 3.
+/// A bound of K slabs; a box for K = 3.
 template <int K>
 struct SlabBound {
     std::array<Interval, K> range;
@@ -142,7 +143,7 @@ struct SphereBound {
         const BoundingSphere sphere = source.sphere(i);
         return {sphere.center, sphere.radius};
     }
-    /// Grows to the smallest sphere around both, a little enlarged.
+    /// Grows to the smallest sphere around both, slightly enlarged.
     void include(const SphereBound& b) {
         const Vec3 between = b.center - center;
         const double distance = length(between);
@@ -175,7 +176,7 @@ struct SphereBound {
             const double grown = bound.radius + room;
             const Vec3 to_center = bound.center - ray_.origin;
             const double along = dot(to_center, unit_);
-            // Measured across the ray: no cancellation for distant origins.
+            // Measured perpendicular to the ray, to avoid cancellation for distant origins.
             const double across2 = length_squared(to_center - along * unit_);
             if (across2 > grown * grown) return std::nullopt;
             const double half = std::sqrt(grown * grown - across2) + room;
@@ -201,7 +202,7 @@ struct EllipsoidBound {
         const Box3 box = source.box(i);
         const Vec3 half = 0.5 * box.size();
         const double widest = max_component(half);
-        // A flat primitive has a thin ellipsoid, a point a tiny one.
+        // The ellipsoid of a flat primitive is thin, that of a point tiny.
         const double least = std::max(1e-9 * widest, std::numeric_limits<double>::min());
         EllipsoidBound bound{box.center(), {}};
         for (int k = 0; k < 3; ++k) bound.axes[k] = std::numbers::sqrt3 * std::max(half[k], least);

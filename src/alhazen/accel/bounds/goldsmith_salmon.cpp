@@ -28,7 +28,7 @@ double goldsmith_salmon_cost(const BoundTree<BoxBound>& tree) {
     const double whole = insertion_area(tree.nodes.front().bound);
     double sum = 0;
     for (const auto& node : tree.nodes) {
-        // All areas are equal when everything is one point.
+        // All areas are 0 if all primitives are one point.
         const double share = whole > 0 ? insertion_area(node.bound) / whole : 1.0;
         sum += static_cast<double>(node.count) * share;
     }

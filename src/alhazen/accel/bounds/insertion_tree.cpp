@@ -59,8 +59,8 @@ InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) {
     Place best;
     double inherited = 0;
     const auto offer = [&](std::uint32_t node, bool as_child, double increase) {
-        // At equal cost, beside the deeper node: coincident boxes make no chain. The first offer is
-        // always taken, also when areas are so large that costs overflow.
+        // At equal cost prefers the deeper node: coincident boxes then make no chain. The first
+        // offer is always taken, even if areas are so large that costs overflow.
         const bool better = as_child ? increase < best.increase : increase <= best.increase;
         if (best.node == kNone || better) best = {node, as_child, increase};
     };

@@ -5,8 +5,8 @@
 /// Source: Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE
 /// CG&A 7(5), 1987; the increments of the cost as given by Haines.
 /// Differs: a node has at most 64 children.
-/// Conventions: the cost is the sum of k A over the inner nodes: that of the source times the area
-/// of the root, less the root's own test.
+/// Conventions: the cost is the sum of k A over the inner nodes: the cost of the source times the
+/// area of the root, without the root's own test.
 
 #include <cstdint>
 #include <vector>
@@ -37,13 +37,13 @@ class InsertionTree {
     struct Node {
         BoxBound bound;
         std::uint32_t parent = kNone;
-        std::uint32_t primitive = kNone;  ///< of a leaf
+        std::uint32_t primitive = kNone;  ///< primitive of a leaf
         std::uint32_t leaves = 1;         ///< primitives below
         std::vector<std::uint32_t> children;
     };
     struct Place {
         std::uint32_t node = kNone;
-        bool as_child = false;  ///< otherwise as its sibling, under a new parent
+        bool as_child = false;  ///< else as its sibling, under a new parent
         double increase = std::numeric_limits<double>::infinity();
     };
 
@@ -62,8 +62,8 @@ class InsertionTree {
     std::uint64_t looked_at_ = 0;
 };
 
-/// Half the surface area plus a small multiple of the squared edges, so that flat boxes are
-/// compared too.
+/// Half the surface area plus a small multiple of the squared edges, so that flat boxes can be
+/// compared.
 [[nodiscard]] double insertion_area(const BoxBound& bound);
 
 }  // namespace alhazen

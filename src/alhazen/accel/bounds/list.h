@@ -104,7 +104,7 @@ class List {
             return a.depth != b.depth ? a.depth < b.depth : a.primitive < b.primitive;
         });
         for (std::size_t i = 0, n = met.size(); i < n; ++i) {
-            // Fetched again each time: a visit may grow the stack and move it.
+            // Fetched in each iteration: a visit may reallocate the stack.
             const Met next = met.begin()[i];
             if (next.depth > visitor.t_max() * frame.per_t) return;
             if (visitor.visit(next.primitive)) return;

@@ -13,15 +13,15 @@
 namespace alhazen {
 namespace {
 
-/// Number of primitives of a node whose bounds are candidates, evenly chosen.
+/// Number of evenly selected primitives of a node whose bounds are candidates.
 constexpr std::size_t kSampled = 256;
-/// Maximum number of successive splits that do not pay, in the hope of later ones.
+/// Maximum number of successive splits that do not reduce the cost by themselves.
 constexpr int kForgivenSplits = 4;
 
 /// A primitive; of a flat polygon, the part in the node.
 struct Piece {
     std::uint32_t primitive;
-    std::vector<Vec3> outline;  ///< empty where it is not a flat polygon
+    std::vector<Vec3> outline;  ///< empty if it is not a flat polygon
 };
 
 struct Plane {
@@ -36,7 +36,7 @@ struct Candidate {
     double least = 0;                  ///< lower bound of the cost
 };
 
-/// The unit normal, or nothing where the cross product vanishes.
+/// The unit normal; empty if the cross product vanishes.
 std::optional<Vec3> unit_normal(const Vec3& a, const Vec3& b) {
     const double scale_a = max_component(abs(a)), scale_b = max_component(abs(b));
     if (!(scale_a > 0.0) || !(scale_b > 0.0)) return std::nullopt;
@@ -82,7 +82,7 @@ class BspBuilder {
         for (const Vec3& p : piece.outline) range.include(dot(normal, p));
         return range;
     }
-    /// The offset in the frame of the cells, with coordinates of the order of 1.
+    /// The offset in the frame of the cells, where coordinates are of order 1.
     [[nodiscard]] double local_offset(const Plane& plane) const {
         return scale_ * (plane.offset - dot(plane.normal, center_));
     }
@@ -95,8 +95,8 @@ class BspBuilder {
         return plane.direction < 3 ? config_.axis_cost : config_.traversal_cost;
     }
     [[nodiscard]] double cost(const Candidate& c, double p_lower, double p_upper) const {
-        // Every direction can cut off empty space: with a bonus for all of them the builder would
-        // do nothing else.
+        // Restricted to axis-aligned planes: any direction can cut off empty space, and with a
+        // bonus for all of them the builder would only do that.
         const bool bonus = c.plane.direction < 3 && (c.lower == 0 || c.upper == 0);
         const double factor = bonus ? config_.empty_factor : 1.0;
         return factor * (step_cost(c.plane) + config_.test_cost * (p_lower * double(c.lower) +
@@ -110,7 +110,7 @@ class BspBuilder {
         candidates.back().least = c.lower < c.upper ? cost(c, 1.0, 0.0) : cost(c, 0.0, 1.0);
     }
 
-    /// Adds planes beside the bounds of pieces, by rank, and planes that cut off empty space.
+    /// Adds planes at the bounds of pieces, by rank, and planes that cut off empty space.
     void add_candidates_across(std::uint32_t k, const std::vector<Piece>& pieces,
                                const ConvexCell& cell, std::vector<Candidate>& candidates) const {
         interruption_point();
@@ -210,7 +210,8 @@ class BspBuilder {
             add_candidates_across(k, pieces, cell, candidates);
         }
         if (config_.polygons) add_polygon_candidates(pieces, candidates);
-        // Most candidates are rejected before their areas are needed.
+        // Sorted by lower bound, so that most candidates are rejected before their areas are
+        // computed.
         std::stable_sort(candidates.begin(), candidates.end(),
                          [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
         Split best;
@@ -349,7 +350,8 @@ Bsp::Config Bsp::configure(SettingsReader& reader) {
     config.directions = kDirections[planes];
     config.polygons = planes == 3;
     config.candidates = reader.count(
-        "candidates", "planes weighed per direction, polygons that contribute planes", 16, 1, 1000);
+        "candidates", "planes evaluated per direction, polygons that contribute planes", 16, 1,
+        1000);
     config.axis_cost =
         reader.number("axis_cost", "cost of a step at an axis-aligned plane", 15, 0.001, 1e6);
     config.traversal_cost =

@@ -9,11 +9,12 @@
 /// Tracing", RT 2007 (`planes=directions7` or `directions13`: few directions, prepared once per
 /// ray, like Kay and Kajiya's slabs).
 /// Differs: nodes of many primitives weigh a fixed number of planes, chosen by rank among those of
-/// evenly chosen primitives; the plane of a polygon is placed beside it, so that the polygon lies
-/// on one side. Primitives that are not flat polygons are not clipped, only removed from cells that
-/// they do not overlap. Rays from so far away that rounding could make them miss a cell are tested
-/// against all primitives.
-/// Complexity: O(n log n) to build, with a large factor.
+/// Differs: nodes of many primitives evaluate a fixed number of planes, selected by rank among
+/// those of evenly selected primitives; the plane of a polygon is placed next to it, so that the
+/// polygon lies on one side. Primitives that are not flat polygons are not clipped, only removed
+/// from cells that they do not overlap. Rays from so far away that rounding could make them miss a
+/// cell are tested against all primitives.
+/// Complexity: O(n log n) to build, with a large constant factor.
 
 #include <array>
 #include <cstdint>

@@ -17,7 +17,7 @@ CellGrid::CellGrid(const Box3& around, const std::array<int, 3>& along) : Padded
 
 CellGrid::CellGrid(const Box3& around, double count, int most) : PaddedBox(around) {
     const Vec3 size = box.size();
-    // Edges of a cube of the volume available to each cell; flat axes have one cell.
+    // Edge length of a cube with the volume available to each cell; flat axes have one cell.
     int flat = 0;
     double volume = 1;
     for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The cells of a regular grid over a box, and the traversal of them by a ray.
+/// The cells of a regular grid over a box, and their traversal by a ray.
 ///
 /// Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
 /// 1987.
@@ -23,9 +23,9 @@ struct CellGrid : PaddedBox {
     Vec3 cell_size, per_cell_size;
 
     CellGrid() = default;
-    /// About `count` cells, as cubical as possible, at most `most` along an axis.
+    /// A grid of about `count` cells, as cubical as possible, at most `most` along an axis.
     CellGrid(const Box3& around, double count, int most);
-    /// The given number of cells along each axis.
+    /// A grid with the given number of cells along each axis.
     CellGrid(const Box3& around, const std::array<int, 3>& along);
 
     [[nodiscard]] std::size_t size() const {
@@ -56,7 +56,7 @@ struct CellGrid : PaddedBox {
 /// The cells that a ray traverses, in order.
 class CellWalk {
   public:
-    /// `outside` when the ray misses the grid up to t_max.
+    /// `outside` if the ray misses the grid up to t_max.
     CellWalk(const CellGrid& grid, const Ray& ray, double t_max) : grid_(grid), ray_(ray) {
         const RaySpan span(grid.box, ray, t_max);
         if (span.empty()) return;
@@ -72,7 +72,7 @@ class CellWalk {
 
     [[nodiscard]] bool outside() const { return outside_; }
     [[nodiscard]] const std::array<int, 3>& cell() const { return cell_; }
-    /// The t at which the ray enters the cell, and that at which it leaves it.
+    /// The t at which the ray enters the cell, and the t at which it leaves it.
     [[nodiscard]] double entry() const { return entry_; }
     [[nodiscard]] double exit() const { return std::min(next_[0], std::min(next_[1], next_[2])); }
 

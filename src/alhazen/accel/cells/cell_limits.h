@@ -1,5 +1,5 @@
 #pragma once
-/// Limits that the structures of cells share.
+/// Common limits of the cell structures.
 
 #include <cstddef>
 
@@ -9,8 +9,8 @@ namespace alhazen {
 inline constexpr int kMostAlongAxis = 1024;
 inline constexpr double kMostCells = 1 << 27;
 
-/// A heap: at least this many primitives that nearly all lie in the same cells, which finer cells
-/// would not separate.
+/// Least size of a heap: overlapping primitives that nearly all lie in the same cells, which finer
+/// cells would not separate.
 inline constexpr std::size_t kHeap = 16;
 inline constexpr double kSameCells = 0.9;
 

@@ -46,7 +46,7 @@ enum class CellSide : std::uint8_t { Low, High, Both };
 }  // namespace
 
 /// Builds depth first. Both methods of finding a plane examine the same candidates with the same
-/// counts, so they find the same plane.
+/// counts and thus find the same plane.
 class KdTreeBuilder {
   public:
     KdTreeBuilder(const BoundsSource& source, KdTree& tree)
@@ -78,8 +78,8 @@ class KdTreeBuilder {
         return s.x * s.y + s.y * s.z + s.z * s.x;
     }
     [[nodiscard]] Box3 widened(const Box3& b) const { return tree_.space_.widened(b); }
-    /// In parts that are merged, for interruptions: no two events are equal, so the order is that
-    /// of one sort.
+    /// Sorts in parts that are merged, to allow interruption: no two events are equal, so the order
+    /// is that of a single sort.
     static void sort(std::vector<Event>& events) {
         constexpr std::size_t kPart = 1 << 16;
         const auto before = [](const Event& a, const Event& b) { return a.before(b); };
@@ -108,7 +108,7 @@ class KdTreeBuilder {
         }
     }
 
-    /// Weighs a plane with these numbers of pieces below, in and above it; improves `best`.
+    /// Evaluates a plane with these numbers of pieces below, in and above it; improves `best`.
     void weigh(const Box3& box, std::uint8_t axis, double position, std::size_t low,
                std::size_t planar, std::size_t high, Split& best) const {
         if (position <= box.lo[axis] || position >= box.hi[axis]) return;
@@ -122,7 +122,7 @@ class KdTreeBuilder {
                              config_.test_cost * (p_low * double(n_low) + p_high * double(n_high)));
         };
         const auto offer = [&](double c, bool planar_low) {
-            // Strict comparison, and one order of candidates: both builders resolve ties alike.
+            // Strict comparison and a fixed order of candidates: both builders resolve ties alike.
             if (c < best.cost) best = {c, position, axis, planar_low};
         };
         offer(cost(low + planar, high), true);
@@ -185,7 +185,7 @@ class KdTreeBuilder {
         return lo >= split.position ? CellSide::High : CellSide::Both;
     }
 
-    /// The part of a piece in the box of a child; empty parts are left out there.
+    /// The part of a piece in the box of a child; empty parts are dropped by the caller.
     [[nodiscard]] Box3 clipped(const ClippedPrimitive& piece, const Box3& box) const {
         Box3 b = widened(source_.clipped_box(piece.primitive, widened(box)));
         for (int k = 0; k < 3; ++k) {
@@ -200,7 +200,7 @@ class KdTreeBuilder {
         std::vector<Event> events;
     };
 
-    /// Distributes the pieces and splices their events: events of whole pieces stay in order, those
+    /// Distributes the pieces and splits their events: events of whole pieces stay in order, those
     /// of clipped pieces are sorted and merged.
     void deal(const std::vector<ClippedPrimitive>& pieces, const std::vector<Event>& events,
               const Split& split, const Box3& low_box, const Box3& high_box, Half& low,

@@ -7,7 +7,7 @@
 /// Visual Computer 6, 1990 (the cost); Wald and Havran, "On Building Fast kd-Trees for Ray Tracing,
 /// and on Doing that in O(N log N)", RT 2006 (the builder); Havran, "Heuristic Ray Shooting
 /// Algorithms", 2000, section 4 (the traversal with a stack).
-/// Differs: every box is widened a little, so that rounding cannot make a ray miss a cell; rays
+/// Differs: every box is slightly widened, so that rounding cannot make a ray miss a cell; rays
 /// from so far away that it could are tested against all primitives.
 /// Complexity: O(n log n) to build; `build=n2` finds the same tree, bit for bit, in O(n^2).
 
@@ -53,7 +53,7 @@ class KdTree {
     };
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
-    /// The root's box, a little wider than its contents.
+    /// The root's box, slightly wider than its contents.
     [[nodiscard]] const Box3& box() const { return space_.box; }
     /// The expected cost, by the heuristic, of a ray that intersects the root's box.
     [[nodiscard]] double expected_cost() const { return expected_cost_; }

@@ -20,7 +20,7 @@ class Mailbox {
     /// A mailbox for one ray.
     Mailbox() : ray_(++table().last_ray) {}
 
-    /// True when the primitive is not recorded; records it.
+    /// True if the primitive is not recorded yet; records it.
     [[nodiscard]] bool is_new(std::uint32_t primitive) {
         Entry& entry = table().entries[(primitive * 0x9E3779B1u) >> (32 - kBits)];
         if (entry.ray == ray_ && entry.primitive == primitive) return false;
@@ -46,7 +46,7 @@ class Mailbox {
     std::uint64_t ray_;
 };
 
-/// Tests the primitives of a cell; returns true when the visitor stops. Without `remembers` the
+/// Tests the primitives of a cell; returns true if the visitor stops. Without `remembers` the
 /// mailbox is not used.
 template <class Visitor, class Stats>
 bool visit_entries(std::span<const std::uint32_t> entries, bool remembers, Mailbox& mailbox,

@@ -11,15 +11,15 @@
 namespace alhazen {
 namespace {
 
-/// The cost of a step to a cell, in tests of primitives.
+/// The cost of a step to a cell, in units of a primitive test.
 constexpr double kStepCost = 0.5;
-/// A grid must save at least a quarter of the cost to be worth its memory.
+/// Largest relative cost of a grid: it must save a quarter to be worth its memory.
 constexpr double kSaving = 0.75;
 
 constexpr std::size_t kCellsAroundHeap = 8;
 
-/// The numbers of cells along each axis that make about `count` cells, as cubical as possible; flat
-/// axes have one.
+/// The numbers of cells along each axis for about `count` cells, as cubical as possible; flat axes
+/// have one.
 std::array<std::uint32_t, 3> resolution(const Vec3& size, double count, double least_edge) {
     const double widest = max_component(size);
     int flat = 0;
@@ -62,7 +62,7 @@ class NestedGridBuilder {
   private:
     using Cell = NestedGrid::Cell;
 
-    /// A grid that is not yet stored: its planes, and the lists of its cells.
+    /// A grid before it is stored: its planes, and the lists of its cells.
     struct Draft {
         std::array<std::vector<double>, 3> planes;
         std::array<std::uint32_t, 3> cells{};
@@ -160,8 +160,8 @@ class NestedGridBuilder {
         return draft;
     }
 
-    /// Whether the primitives are so large in the box that a ray through it comes near most of them
-    /// anyway. Decided before a grid is made.
+    /// True if the primitives are so large relative to the box that a ray through it passes close
+    /// to most of them anyway. Evaluated before a grid is made.
     [[nodiscard]] bool fill(const std::vector<std::uint32_t>& inside, const Box3& box) const {
         double met = 0;
         for (const std::uint32_t i : inside) {
@@ -178,8 +178,8 @@ class NestedGridBuilder {
         return planes;
     }
 
-    /// Planes with equal numbers of primitives' centers between them, as far as cells are thick
-    /// enough.
+    /// Planes with equal numbers of primitives' centers between them, as far as the minimum
+    /// thickness of cells permits.
     [[nodiscard]] std::vector<double> balanced_planes(const std::vector<std::uint32_t>& inside,
                                                       const Box3& box, int axis,
                                                       std::uint32_t cells) const {
@@ -219,7 +219,7 @@ class NestedGridBuilder {
                 const int axis = static_cast<int>(k);
                 ends[0][k] = cell_of(b.lo[axis]);
                 ends[1][k] = cell_of(b.hi[axis]);
-                // On a plane: the cell below also contains it.
+                // On a plane, the cell below contains it as well.
                 if (ends[0][k] > 0 && planes[ends[0][k]] == b.lo[axis]) --ends[0][k];
             }
             const bool one = ends[0] == ends[1];
@@ -229,21 +229,22 @@ class NestedGridBuilder {
         }
     }
 
-    /// Whether the nonempty cells hold nearly all of the primitives: these overlap, and finer cells
-    /// would only copy their list.
+    /// True if the nonempty cells contain nearly all of the primitives: these overlap, and finer
+    /// cells would only copy their list.
     static bool parts_nothing(const Draft& draft, std::size_t count) {
         std::size_t used = 0;
         for (std::size_t c = 0; c + 1 < draft.starts.size(); ++c) {
             used += draft.starts[c + 1] > draft.starts[c];
         }
-        // In a few cells the primitives may be a small heap in a large box, which is worth finding.
+        // If few cells are used, the primitives may be a small heap in a large box, which is worth
+        // separating.
         if (used <= kCellsAroundHeap) return false;
         return static_cast<double>(draft.entries.size()) >=
                kSameCells * static_cast<double>(used) * static_cast<double>(count);
     }
 
-    /// Whether a ray that intersects the box is expected to cost less with the grid than with the
-    /// list: it intersects a cell with the probability of their areas.
+    /// True if the expected cost of a ray that intersects the box is lower with the grid than with
+    /// the list: the probability of intersecting a cell is the ratio of the areas.
     static bool pays(const Draft& draft, std::size_t count, const Box3& box) {
         if (count >= kHeap && parts_nothing(draft, count)) return false;
         double cost = 0;

@@ -1,16 +1,16 @@
 #pragma once
-/// Nested grids: a cell with many primitives is divided by a grid of its own, where that pays.
+/// Nested grids: a cell with many primitives is divided by its own grid, if that lowers the cost.
 ///
 /// Source: Jevans and Wyvill, "Adaptive Voxel Subdivision for Ray Tracing", Graphics Interface 1989
 /// (grids in cells); Cazals, Drettakis and Puech, "Filtering, Clustering and Hierarchy
 /// Construction", Eurographics 1995 (the reason: scenes of unequal density); Dippe and Swensen, "An
 /// Adaptive Subdivision Algorithm and Parallel Architecture for Realistic Image Synthesis",
 /// SIGGRAPH 1984 (`planes=balanced`: planes that balance the load).
-/// Differs: few primitives stay a list. A cell also keeps its list where, by the areas of its
-/// cells, a grid would not save tests, or where all nonempty cells would hold the same, overlapping
+/// Differs: few primitives stay a list. A cell also keeps its list if, by the areas of its cells, a
+/// grid would not save tests, or if all nonempty cells would contain the same, overlapping
 /// primitives. Dippe and Swensen move the corners of cells during rendering; here whole planes are
 /// placed once, at equal shares of the primitives' centers along their axis. The clusters of Cazals
-/// et al. are not searched for: recursion finds them.
+/// et al. are found by the recursion, without a search.
 /// Conventions: cells are numbered x + nx (y + ny z) in their grid; traversal is that of Amanatides
 /// and Woo (accel/cells/cell_grid.h), with planes looked up, not computed.
 
@@ -34,7 +34,7 @@ class NestedGrid {
     struct Config {
         double density = 3;     ///< cells per primitive of a grid
         int max_depth = 3;      ///< nesting depth
-        int leaf_size = 8;      ///< at most this many primitives stay a list
+        int leaf_size = 8;      ///< lists of at most this size are not divided
         bool balanced = false;  ///< planes at equal shares of the primitives, not equally spaced
         bool mailbox = true;
     };
@@ -89,7 +89,7 @@ class NestedGrid {
         [[nodiscard]] double exit() const {
             return std::min(at.next[0], std::min(at.next[1], at.next[2]));
         }
-        /// False when the step leaves the grid.
+        /// False if the step leaves the grid.
         [[nodiscard]] bool step();
         void set_next(std::size_t axis);
     };
@@ -141,7 +141,7 @@ inline bool NestedGrid::Walk::step() {
     const std::size_t k =
         next[0] <= next[1] ? (next[0] <= next[2] ? 0 : 2) : (next[1] <= next[2] ? 1 : 2);
     at.entry = next[k];
-    // Below zero it wraps around and is outside of the grid as well.
+    // Below zero it wraps around, which is outside of the grid as well.
     at.cell[k] += ray.direction[static_cast<int>(k)] > 0.0 ? 1u : 0xFFFFFFFFu;
     if (at.cell[k] >= made.grids_[at.grid].cells[k]) return false;
     set_next(k);
@@ -170,7 +170,7 @@ void NestedGrid::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         }
         const std::span entries(entries_.data() + cell.index, cell.count);
         if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
-        // A hit beyond the cell may lie behind another one in a cell before it.
+        // A hit beyond the cell may lie behind another one in an earlier cell.
         if (visitor.t_max() < walk.exit()) return;
         while (!walk.step()) {
             if (outer.empty()) return;

@@ -19,14 +19,14 @@ namespace alhazen {
 class Octree {
   public:
     static constexpr const char* kName = "octree";
-    static constexpr const char* kDescription = "cells divided at their middles; four traversals";
+    static constexpr const char* kDescription = "cells halved along each axis; four traversals";
     static constexpr bool kVisitsRepeatedly = true;
 
     enum class Walk : std::uint8_t { PointLocation, NeighborFinding, Smart, Parametric };
     struct Config {
         Walk walk = Walk::Parametric;
-        int max_depth = 0;  ///< 0: three levels more than a full tree of the primitives
-        int leaf_size = 1;  ///< primitives in a cell that is not divided
+        int max_depth = 0;  ///< 0: three levels more than a full tree over the primitives
+        int leaf_size = 1;  ///< largest number of primitives in an undivided cell
         bool mailbox = true;
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
@@ -59,8 +59,8 @@ class Octree {
     [[nodiscard]] std::size_t memory_bytes() const { return cells_.memory_bytes(); }
 
   private:
-    /// Tests a leaf. True when the ray is done: stopped, or its nearest hit lies in the cell (a hit
-    /// beyond it may lie behind others).
+    /// Tests a leaf. True if the ray is done: stopped, or its nearest hit lies in the cell (a hit
+    /// beyond the cell may lie behind others).
     template <class Visitor, class Stats>
     bool test(std::uint32_t leaf, double exit, Mailbox& mailbox, Visitor& visitor,
               Stats stats) const {

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The first levels cut off the empty space around a heap.
+/// Number of first levels, which cut off the empty space around a heap.
 constexpr int kLevelsAroundHeaps = 3;
 
 }  // namespace
@@ -19,7 +19,7 @@ OctreeCells::OctreeCells(const BoundsSource& source, int max_depth, int leaf_siz
     : space_(source), max_depth_(max_depth) {
     if (source.size() == 0) return;
     Box3& box = space_.box;
-    // Cells as flat as the rounding would divide adjacent primitives.
+    // Cells as thin as the rounding would divide adjacent primitives.
     const double least = std::max(1e-6 * max_component(box.size()), 4 * space_.pad);
     for (int k = 0; k < 3; ++k) {
         if (box.hi[k] - box.lo[k] < least) box.hi[k] = box.lo[k] + least;

@@ -4,9 +4,9 @@
 ///
 /// Source: Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984.
 /// Differs: children are consecutive and found by index, not by hashing their names. A cell is not
-/// divided further where the lists of its children would together be more than five times as long
-/// as its own, as its primitives fill it; nor where sixteen or more of them lie in the same
-/// children, as they overlap.
+/// divided further if the lists of its children would together be more than five times as long as
+/// its own, since its primitives fill it; nor if sixteen or more of them lie in the same children,
+/// since they overlap.
 /// Conventions: an axis of the root is 2^max_depth units long. Octant bit k is set for the upper
 /// half along axis k. Primitives are stored in every leaf within `pad` of them.
 
@@ -68,7 +68,7 @@ class OctreeCells {
         return octant;
     }
 
-    /// Whether the ray starts so near that rounding errors stay far below `pad`.
+    /// True if the ray starts so near that rounding errors stay far below `pad`.
     [[nodiscard]] bool covers(const Ray& ray) const { return space_.covers(ray); }
     [[nodiscard]] std::size_t memory_bytes() const {
         return nodes_.capacity() * sizeof(Node) + entries_.capacity() * sizeof(std::uint32_t);

@@ -36,7 +36,7 @@ class OctreeRay {
     [[nodiscard]] bool moves(int axis) const { return moves_[axis]; }
     [[nodiscard]] bool upward(int axis) const { return ray_.direction[axis] > 0.0; }
     [[nodiscard]] double origin(int axis) const { return ray_.origin[axis]; }
-    /// The t at which the ray crosses a plane; infinite where it runs parallel to it.
+    /// The t at which the ray crosses a plane; infinite if parallel to it.
     [[nodiscard]] double at_plane(int axis, std::int32_t unit) const {
         if (!moves_[axis]) return std::numeric_limits<double>::infinity();
         return (cells_.plane(axis, unit) - ray_.origin[axis]) * span_.inverse[axis];
@@ -101,7 +101,7 @@ std::uint32_t descend(const OctreeCells& cells, std::uint32_t node, const Octree
 inline std::uint32_t reflected(std::uint32_t octant, int axis) {
     return octant ^ 1u << axis;
 }
-/// Whether an octant touches the face of its parent across `axis`: Samet's table adjacent.
+/// True if an octant touches the face of its parent across `axis`: Samet's table adjacent.
 inline bool adjacent(std::uint32_t octant, int axis, bool upper_face) {
     return (octant >> axis & 1u) == (upper_face ? 1u : 0u);
 }
@@ -121,8 +121,8 @@ void walk_by_point_location(const OctreeCells& cells, const OctreeRay& ray, Stat
     }
 }
 
-/// Goes up from a leaf to the nearest ancestor that contains the face inside, across it, and down
-/// again by the mirrored path as far as nodes exist on it, then by the point.
+/// Ascends from a leaf to the nearest ancestor that contains the face inside, crosses it, and
+/// descends by the mirrored path as far as nodes exist on it, then by the point.
 template <class Stats, class Visit>
 void walk_by_neighbors(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Visit&& visit) {
     OctreeCells::Units at = ray.units_at(ray.enter(), cells.nodes().front());
@@ -220,7 +220,7 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
                                                 : (leaves[1] <= leaves[2] ? 1 : 2);
         const auto a = static_cast<std::size_t>(axis);
         now = std::max(now, leaves[a]);
-        // Vertical: up to where the face lies inside the parent.
+        // Vertical: ascends to where the face lies inside the parent.
         while (node != 0 &&
                octree_detail::adjacent(cells.nodes()[node].octant, axis, ray.upward(axis))) {
             up();
@@ -231,7 +231,7 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
         node = cells.nodes()[n.parent].first + octree_detail::reflected(n.octant, axis);
         leaves[a] += step[a];
         stats.nodes(1);
-        // Down: along every axis into the half that contains the ray now.
+        // Descends: along every axis into the half that contains the ray.
         while (!cells.nodes()[node].leaf) {
             std::uint32_t octant = 0;
             for (int k = 0; k < 3; ++k) {
@@ -264,7 +264,7 @@ class ParametricWalk {
         }
     }
 
-    /// True when the visit ended the traversal.
+    /// True if the visit ended the traversal.
     bool walk(std::uint32_t index, const Vec3& t0, const Vec3& t1) {
         stats_.nodes(1);
         const OctreeCells::Node& node = cells_.nodes()[index];

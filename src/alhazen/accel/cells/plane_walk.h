@@ -4,7 +4,7 @@
 ///
 /// Source: Havran, "Heuristic Ray Shooting Algorithms", 2000, section 4 (the traversal with a
 /// stack).
-/// Differs: visits both sides where the ray runs within the rounding margin of a plane.
+/// Differs: visits both sides if the ray runs within the rounding margin of a plane.
 /// Conventions: the lower child of a node follows it, the upper one is at `index`.
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace alhazen {
 
 /// The distance of a ray from a plane along its normal, and its inverse speed in that direction;
-/// infinite where it runs parallel to the plane.
+/// infinite if parallel to the plane.
 struct FromPlane {
     double distance, inverse;
 };
@@ -39,7 +39,8 @@ void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, do
     stack.push({0, span.begin, span.end});
     while (!stack.empty()) {
         RaySegment at = stack.pop();
-        // Not the end: for a ray that runs in a plane, nearer segments may lie deeper in the stack.
+        // Continues the loop: for a ray that runs in a plane, nearer segments may lie deeper in the
+        // stack.
         if (at.begin > visitor.t_max()) continue;
         for (;;) {
             const Node& node = nodes[at.node];

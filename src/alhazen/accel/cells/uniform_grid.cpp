@@ -6,7 +6,7 @@
 namespace alhazen {
 namespace {
 
-/// Throws Error (Usage) for too many cells. 0: by the density.
+/// Throws Error (Usage) for too many cells. 0: determined by the density.
 void check_cell_count(const std::array<int, 3>& cells) {
     double count = 1;
     for (const int n : cells) count *= std::max(n, 1);

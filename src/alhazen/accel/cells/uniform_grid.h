@@ -27,10 +27,11 @@ class UniformGrid {
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         double density = 3;          ///< cells per primitive
-        std::array<int, 3> cells{};  ///< number along each axis; 0: by the density
+        std::array<int, 3> cells{};  ///< number along each axis; 0: determined by the density
         bool by_boxes = false;       ///< store a primitive in all cells that its box overlaps
         bool mailbox = true;         ///< test a primitive in many cells once per ray
-        bool hit_in_cell = true;     ///< end only at hits inside the cell; false shows the errors
+        bool hit_in_cell =
+            true;  ///< end only at hits inside the cell; false demonstrates the errors
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
 
@@ -51,7 +52,7 @@ class UniformGrid {
             const std::span entries(entries_.data() + starts_[cell],
                                     starts_[cell + 1] - starts_[cell]);
             if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
-            // A hit beyond the cell may lie behind another one in a cell before it.
+            // A hit beyond the cell may lie behind another one in an earlier cell.
             const double known = config_.hit_in_cell ? walk.exit() : t_max;
             if (visitor.t_max() < known) return;
         }
@@ -66,7 +67,7 @@ class UniformGrid {
     Config config_;
     CellGrid grid_;
     std::uint32_t primitives_ = 0;
-    std::vector<std::uint32_t> starts_;   ///< [cell], with an end: its part of `entries_`
+    std::vector<std::uint32_t> starts_;   ///< [cell], and one more: its part of `entries_`
     std::vector<std::uint32_t> entries_;  ///< primitives, by cell
 };
 static_assert(Accelerator<UniformGrid>);

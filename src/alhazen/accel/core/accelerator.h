@@ -1,12 +1,13 @@
 #pragma once
 /// The interface of all accelerators. To add one: CONTRIBUTING.md.
 ///
-/// An accelerator has bounds and ids only, no shapes: the visitor tests the primitives. It may only
-/// skip primitives that a ray cannot hit, so every accelerator gives the same hits. Visitor:
-/// `double t_max()` is the remaining length of the ray (it shrinks as hits are found; primitives at
-/// exactly t_max must still be visited), `bool visit(std::uint32_t primitive)` tests one primitive
-/// and returns true to stop. An accelerator that may visit a primitive more than once per ray
-/// declares `kVisitsRepeatedly = true`. A visitor may tell the kind of its query (`asks_for()`).
+/// An accelerator knows bounds and ids only, no shapes: the visitor tests the primitives. It may
+/// only skip primitives that a ray cannot hit, so that every accelerator gives the same hits.
+/// Visitor: `double t_max()` is the remaining length of the ray (it shrinks as hits are found;
+/// primitives at exactly t_max must still be visited), `bool visit(std::uint32_t primitive)` tests
+/// one primitive and returns true to stop. An accelerator that may visit a primitive more than once
+/// per ray declares `kVisitsRepeatedly = true`. A visitor may declare the kind of its query
+/// (`asks_for()`).
 
 #include <concepts>
 #include <cstddef>
@@ -24,10 +25,10 @@ enum class AsksFor {
     AllHits,    ///< every primitive that is hit
     Closest,    ///< the nearest hit
     AnyHit,     ///< whether there is a hit
-    AnyBlocker  ///< whether light is blocked; otherwise every primitive that is hit
+    AnyBlocker  ///< whether light is blocked; else every primitive that is hit
 };
 
-/// The visitor used to check the concept.
+/// An archetype of a visitor, to check the concept.
 struct ArchetypeVisitor {
     [[nodiscard]] double t_max() const;
     bool visit(std::uint32_t primitive);
@@ -39,7 +40,7 @@ concept Accelerator = requires(const A& accelerator, const BoundsSource& source,
                                ArchetypeVisitor& visitor, NoStats stats, SettingsReader& reader) {
     { A::kName } -> std::convertible_to<const char*>;         // as on the command line
     { A::kDescription } -> std::convertible_to<const char*>;  // one line for the user
-    /// Reads every setting.
+    /// Reads all settings.
     { A::configure(reader) } -> std::same_as<typename A::Config>;
     { A::build(source, config) } -> std::same_as<A>;
     { accelerator.traverse(ray, visitor, stats) } -> std::same_as<void>;

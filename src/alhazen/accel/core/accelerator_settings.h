@@ -1,6 +1,5 @@
 #pragma once
-/// Settings of accelerators as users write them: `name=value`, each checked and described in one
-/// place.
+/// Textual settings of accelerators: `name=value`, each checked and described in one place.
 ///
 /// An accelerator declares its settings by reading them (`A::configure`); the recorded calls are
 /// the list that `alhazen list accelerators` prints.
@@ -39,7 +38,7 @@ class SettingsReader {
     [[nodiscard]] std::size_t choice(const char* name, const char* what, std::size_t fallback,
                                      std::span<const char* const> names);
 
-    /// Throws Error(Usage) when a setting was given that was not read.
+    /// Throws Error(Usage) if a setting was given that was not read.
     void finish() const;
     [[nodiscard]] const std::vector<SettingDescription>& described() const { return described_; }
 

@@ -10,8 +10,8 @@
 
 namespace alhazen {
 
-/// The corners, in order, of a primitive that is a flat convex polygon and nothing else (a
-/// triangle).
+/// The corners, in order, of a primitive that is a flat convex polygon (a triangle); empty for
+/// others.
 [[nodiscard]] inline std::vector<Vec3> outline_of(const BoundsSource& source, std::size_t i) {
     const auto corners = source.triangle(i);
     return corners ? std::vector<Vec3>(corners->begin(), corners->end()) : std::vector<Vec3>{};

@@ -38,7 +38,7 @@ struct PaddedBox {
     [[nodiscard]] Box3 widened(const Box3& b) const {
         return {b.lo - Vec3{pad, pad, pad}, b.hi + Vec3{pad, pad, pad}};
     }
-    /// Whether the ray starts so near that rounding errors stay far below `pad`.
+    /// True if the ray starts so near that rounding errors stay far below `pad`.
     [[nodiscard]] bool covers(const Ray& ray) const {
         return max_component(abs(ray.origin)) <= 0x1p44 * pad;
     }
@@ -46,13 +46,13 @@ struct PaddedBox {
 
 /// The part of a ray inside a box.
 struct RaySpan {
-    double begin, end;  ///< begin > end where the ray misses the box
-    Vec3 inverse;       ///< of the direction; infinite where the ray is perpendicular to the axis
+    double begin, end;  ///< begin > end if the ray misses the box
+    Vec3 inverse;       ///< of the direction; infinite if perpendicular to the axis
 
     RaySpan(const Box3& box, const Ray& ray, double t_max) : begin(ray.t_min), end(t_max) {
         for (int k = 0; k < 3; ++k) {
             inverse[k] = 1.0 / ray.direction[k];
-            // Also for components so small that the inverse overflows.
+            // Includes components so small that the inverse overflows.
             if (std::isinf(inverse[k])) {
                 if (ray.origin[k] < box.lo[k] || ray.origin[k] > box.hi[k]) {
                     begin = std::numeric_limits<double>::infinity();

@@ -1,8 +1,8 @@
 #pragma once
-/// Memory of a traversal's stack or heap, kept by each thread from ray to ray.
+/// Per-thread memory of a traversal's stack or heap, reused from ray to ray.
 ///
 /// A traversal may start inside another one on the same thread (an instance in a leaf): each uses
-/// the part of the memory above those around it.
+/// the part of the memory above those of the enclosing traversals.
 
 #include <cstddef>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// Statistics of a traversal, counted by a policy that costs nothing when it is off.
+/// Statistics of a traversal, counted by a policy without cost when disabled.
 ///
 /// Names follow Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999.
 
@@ -69,7 +69,7 @@ struct NoStats {
     [[nodiscard]] TraversalStats* sink() const { return nullptr; }
 };
 
-/// Calls `body(policy)` with the counting policy for `stats`, or with NoStats when it is null.
+/// Calls `body(policy)` with the counting policy for `stats`, or with NoStats if it is null.
 template <class Body>
 decltype(auto) with_stats(TraversalStats* stats, Body&& body) {
     if (stats != nullptr) return body(CountingStats{stats});

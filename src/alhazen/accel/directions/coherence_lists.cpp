@@ -147,7 +147,7 @@ const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
     const std::size_t bytes = sizeof(List) + made->capacity() * sizeof(Candidate);
     if (known != nullptr) return known;
     if (used_ + bytes > most_bytes_) {
-        // Otherwise every ray of this cell would make the list again, in vain.
+        // Otherwise every ray of this cell would compute the list again.
         full_ = true;
         return nullptr;
     }

@@ -6,11 +6,11 @@
 /// Computer Graphics International 1987: a ray from a sphere of radius r1 intersects another one of
 /// radius r2 at distance d only when its angle with the line between the centers is at most
 /// asin((r1 + r2) / d).
-/// Differs: stated in accel/directions/ray_coherence.h.
+/// Differs: see accel/directions/ray_coherence.h.
 /// Conventions: origins are the primitives, then the lights. Lists are ascending by the least
 /// distance between the two spheres.
-/// Threads: `find` may be called from many threads; lists do not depend on the order of calls,
-/// unless memory runs out.
+/// Threads: `find` may be called concurrently; lists are independent of the order of calls, unless
+/// memory runs out.
 
 #include <array>
 #include <atomic>
@@ -43,7 +43,7 @@ class CoherenceLists {
     CoherenceLists& operator=(const CoherenceLists&) = delete;
 
     struct Origin {
-        std::optional<std::uint32_t> primitive;  ///< none where the point is in no sphere
+        std::optional<std::uint32_t> primitive;  ///< empty if the point is in no sphere
         std::uint32_t tested = 0;                ///< number of spheres examined
     };
     /// The primitive with the smallest sphere that contains the point.
@@ -51,7 +51,7 @@ class CoherenceLists {
     [[nodiscard]] std::uint32_t origin_of_light(std::size_t light) const {
         return static_cast<std::uint32_t>(primitives_ + light);
     }
-    /// Null when no memory is left for the list.
+    /// Null if no memory is left for the list.
     [[nodiscard]] const List* find(std::uint32_t origin, const Vec3& direction) const;
 
     [[nodiscard]] std::size_t memory_bytes() const { return used_; }
@@ -69,7 +69,7 @@ class CoherenceLists {
     [[nodiscard]] const DirectionCube& cube_of(std::uint32_t origin) const {
         return origin < primitives_ ? cube_ : light_cube_;
     }
-    /// Null when no memory is left.
+    /// Null if no memory is left.
     [[nodiscard]] Slot* slot_of(std::uint32_t origin, std::size_t cell) const;
     template <class T>
     [[nodiscard]] T* made_at(std::atomic<T*>& place, std::size_t count,
@@ -91,7 +91,7 @@ class CoherenceLists {
     mutable std::vector<std::unique_ptr<Block[]>> made_blocks_;
     mutable std::vector<std::unique_ptr<const List>> made_lists_;
     mutable std::atomic<std::size_t> used_{0}, lists_made_{0}, candidates_made_{0};
-    mutable std::atomic<bool> full_{false};  ///< memory is used up: no more lists are made
+    mutable std::atomic<bool> full_{false};  ///< memory is used up: no further lists are made
 };
 
 }  // namespace alhazen

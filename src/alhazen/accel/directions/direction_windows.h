@@ -28,8 +28,8 @@ class DirectionWindows {
     /// Ranges of u and v on a face.
     using Slopes = std::array<Interval, 2>;
 
-    /// The slopes of the points of a box on a face; nothing where none are visible. A box around
-    /// the point has all slopes.
+    /// The slopes of the points of a box on a face; empty if none are visible. A box around the
+    /// point has all slopes.
     [[nodiscard]] static std::optional<Slopes> slopes_of(const Box3& box, int face) {
         const Interval along = range(box, face / 2, face % 2 != 0);
         if (!(along.hi > 0.0)) return std::nullopt;
@@ -127,14 +127,14 @@ class DirectionWindows {
         int face;
         std::array<std::array<int, 2>, 2> ends;
     };
-    /// The cells that overlap the slopes; nothing outside of the rectangles.
+    /// The cells that overlap the slopes; empty outside of the rectangles.
     [[nodiscard]] std::optional<Cells> cells_of(const Slopes& slopes, int face) const {
         const Face& f = faces_[static_cast<std::size_t>(face)];
         Cells cells{face, {}};
         for (std::size_t side = 0; side < 2; ++side) {
             const Interval within = {f.slopes[side].lo - kSlack, f.slopes[side].hi + kSlack};
             if (intersection(slopes[side], within).empty()) return std::nullopt;
-            // A bound that rounding moves to the other side belongs to both.
+            // A bound that rounding could move across belongs to both cells.
             const double slack = kSlack * f.per_slope[side];
             const double lo = (slopes[side].lo - f.slopes[side].lo) * f.per_slope[side] - slack;
             const double hi = (slopes[side].hi - f.slopes[side].lo) * f.per_slope[side] + slack;

@@ -71,7 +71,7 @@ class LightBufferBuilder {
         });
         for (const Entry& entry : entries_) {
             LightBuffer::Cell& cell = cells_[entry.cell];
-            // Nothing is lit behind the polygon that fills the cell.
+            // Nothing behind the polygon that fills the cell is lit.
             if (entry.begin > cell.filled_to) continue;
             if (cell.count++ == 0) cell.first = static_cast<std::uint32_t>(made_.entries_.size());
             made_.entries_.push_back(entry.body);
@@ -121,8 +121,8 @@ class LightBufferBuilder {
         return {range.lo - place, range.hi - place};
     }
 
-    /// The sides of a plane through the light, a u + b v = w on a face, on which a primitive has
-    /// points: above, below, or both.
+    /// Whether a primitive has points above and below a plane through the light, a u + b v = w on a
+    /// face.
     struct Sides {
         bool above, below;
     };
@@ -187,7 +187,7 @@ class LightBufferBuilder {
         return std::max(0.0, (1.0 - 1e-12) * part * std::sqrt(square) - room_);
     }
 
-    /// Whether a primitive is separated from a cell along one of its diagonals.
+    /// True if a primitive is separated from a cell along one of its diagonals.
     [[nodiscard]] bool is_beside(std::uint32_t i, int face,
                                  const DirectionWindows::Slopes& at) const {
         const auto& [u, v] = at;
@@ -215,10 +215,10 @@ class LightBufferBuilder {
     }
 
     /// How much of a cell the outline covers, by the planes through the light and its edges. A ray
-    /// passes within the deviation of a line from the light: the polygon misses, or fills, a cell
-    /// when that holds for all of these lines.
+    /// lies within the deviation of a line from the light: the polygon misses, or fills, a cell
+    /// only if it does so for all of these lines.
     [[nodiscard]] Cover cover_of(double begin, const Corners& corners) const {
-        // At the polygon, points of the cell are at least this far along its corners.
+        // At the polygon, points of the cell are at least this far along the cell's corners.
         const double depth = begin / std::sqrt(3.0);
         bool full = true;
         const std::size_t n = outline_.size();
@@ -240,8 +240,8 @@ class LightBufferBuilder {
         return full && is_steep(corners) ? Cover::Full : Cover::Part;
     }
 
-    /// Whether rays of the cell reach the polygon steeply enough that their deviation at the light
-    /// does not matter.
+    /// True if rays of the cell reach the polygon at an angle so steep that their deviation at the
+    /// light is negligible.
     [[nodiscard]] bool is_steep(const Corners& corners) const {
         const Vec3 normal = outline_normal();
         const double size = length(normal);
@@ -264,7 +264,8 @@ class LightBufferBuilder {
         for (const Vec3& corner : corners) {
             end = std::max(end, std::abs(height / dot(normal, corner)) * length(corner));
         }
-        // The margin covers how much later a deviating ray reaches the most slanted polygon.
+        // The margin allows for the additional distance at which a deviating ray reaches an oblique
+        // polygon.
         const double filled_to = (1.0 + 1e-9) * end + 16 * room_;
         if (!(filled_to < cell.filled_to)) return;
         cell.filled_to = filled_to;
@@ -272,7 +273,7 @@ class LightBufferBuilder {
         cell.filler = i;
     }
 
-    /// Share of all visible directions.
+    /// Fraction of all visible directions.
     static constexpr double kLarge = 0.01;
     static constexpr double kMostCells = 1 << 21;
     static constexpr int kMostInRow = 4096;
@@ -285,7 +286,7 @@ class LightBufferBuilder {
     DirectionWindows windows_;
     std::vector<Entry> entries_;
     std::vector<LightBuffer::Cell> cells_;
-    std::vector<Vec3> outline_;  ///< of the current polygon, relative to the light
+    std::vector<Vec3> outline_;  ///< outline of the current polygon, relative to the light
 };
 
 LightBuffer::Config LightBuffer::configure(SettingsReader& reader) {

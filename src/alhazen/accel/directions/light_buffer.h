@@ -7,11 +7,11 @@
 /// Differs: divides only the rectangle of a face in which the scene is visible, into cells by the
 /// number of primitives, and the rectangle of all but the largest primitives once more. Lists are
 /// made from half-spaces around the rows, columns and diagonals of a face and, for flat polygons,
-/// their edges, not by scan conversion. A ray is a shadow ray when its query is for blocked light
-/// and it ends at a light that the scene names; it carries no mark. Only flat convex polygons can
-/// fill a cell. There is one last occluder per light and thread, not per node of the tree of rays.
-/// Directional lights have no buffer: their rays, and all other rays, are traced by the fallback
-/// accelerator (`others`).
+/// their edges, not by scan conversion. A ray is recognised as a shadow ray if its query is for
+/// blocked light and it ends at a light of the scene; it carries no mark. Only flat convex polygons
+/// can fill a cell. There is one last occluder per light and thread, not per node of the tree of
+/// rays. Directional lights have no buffer: their rays, and all other rays, are traced by the
+/// fallback accelerator (`others`).
 /// Conventions: lists are ascending by the distance from the light at which a primitive begins in
 /// the cell. A list ends at the polygon that fills its cell: nothing behind it is lit.
 /// Complexity and threads: lists are made while building, O(n + cells) per light, and more for
@@ -29,8 +29,8 @@
 
 namespace alhazen {
 
-/// The primitive that last blocked a ray to each light, for one thread. Lights may share an entry;
-/// its content is only a guess.
+/// The primitive that last blocked a ray to each light, for one thread. Lights may share an entry,
+/// whose content is only a guess.
 class LastOccluders {
   public:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -62,12 +62,12 @@ class LightBuffer {
         std::uint32_t first = 0;  ///< index of its first entry, over all lights
         std::uint32_t count = 0;
         std::uint32_t filler = LastOccluders::kNone;  ///< the primitive that fills it
-        /// Its range of distances from the light; infinite where no polygon fills the cell.
+        /// The polygon's range of distances from the light; infinite if no polygon fills the cell.
         double filled_from = std::numeric_limits<double>::infinity();
         double filled_to = std::numeric_limits<double>::infinity();
     };
-    /// Small primitives have windows with cells of their own: large primitives would leave them few
-    /// cells.
+    /// Small primitives have separate windows with their own cells: otherwise large primitives
+    /// would leave them few cells.
     struct Light {
         struct Windows {
             DirectionWindows directions;
@@ -99,7 +99,7 @@ class LightBuffer {
   private:
     friend class LightBufferBuilder;
 
-    /// Null where nothing is visible.
+    /// Null if nothing is visible.
     [[nodiscard]] const Cell* cell_of(const Light& light, const Vec3& direction) const {
         for (const Light::Windows* windows : {&light.small, &light.all}) {
             const std::size_t cell = windows->directions.cell_of(direction);

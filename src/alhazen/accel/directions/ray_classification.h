@@ -8,13 +8,15 @@
 /// Differs: finds the candidates of a class by five planes around its beam and the extents along
 /// their normals of flat polygons, or of the box and sphere of other primitives, and by the sides
 /// on which its rays pass the edges of polygons; Arvo and Kirk use cones or linear programs. Lists
-/// are not cut off behind blockers: primitives behind a hit are not tested anyway. Back faces are
-/// not left out: other queries would notice. When the memory is used up, all classes are discarded
-/// and made again as rays come (the source discards those not used lately). A thread caches its
-/// last 16 classes for each of the six directions, separately for closest and any hits. Rays from
-/// so far away that rounding could lead outside of their class are tested against all primitives.
-/// Complexity and threads: classes are divided as rays come to them, by all threads at once; a ray
-/// costs the depth of its class, or nothing where the class is cached.
+/// on which its rays pass the edges of polygons; Arvo and Kirk use cones or linear programs. Lists
+/// are not truncated behind blockers, since primitives behind a hit are not tested anyway. Back
+/// faces are not omitted, as other queries need them. When the memory is used up, all classes are
+/// discarded and made again on demand (the source discards the least recently used). A thread
+/// caches its last 16 classes for each of the six directions, separately for closest and any hits.
+/// Rays from so far away that rounding could lead outside of their class are tested against all
+/// primitives.
+/// Complexity and threads: classes are divided on demand, by all threads concurrently; a ray costs
+/// the depth of its class, or nothing if the class is cached.
 
 #include <cstddef>
 #include <memory>
@@ -58,14 +60,14 @@ class RayClassification {
         const int direction = classified.direction;
         const double sign = direction % 2 == 0 ? 1.0 : -1.0;
         for (const std::uint32_t i : *found.list) {
-            // The rest of the list begins behind the hit.
+            // The remaining candidates begin behind the hit.
             const double reached = sign * ray.at(visitor.t_max())[direction / 2];
             if (classes_->begin_along(i, direction) > reached + space.pad) return;
             if (visitor.visit(i)) return;
         }
     }
 
-    /// Grows while rays are traced.
+    /// Increases while rays are traced.
     [[nodiscard]] std::size_t memory_bytes() const {
         return classes_ == nullptr ? 0 : classes_->memory_bytes();
     }

@@ -3,12 +3,12 @@
 ///
 /// Source: Ohta and Maekawa, "Ray Coherence Theorem and Constant Time Ray Tracing Algorithm",
 /// Computer Graphics International 1987.
-/// Differs: makes the lists of a primitive as rays come, not beforehand for all pairs; finds the
-/// start of a ray by a grid over the spheres, not from the previous ray. Every primitive is
-/// represented by its bounding sphere. Shadow rays to a light that the scene names are looked up
-/// from the light, whose sphere is a point. Rays that start in no sphere (eye rays), and all rays
-/// when the memory for lists is used up or there are too many primitives, are traced by the
-/// fallback accelerator (`others`).
+/// Differs: makes the lists of a primitive on demand, not beforehand for all pairs; finds the start
+/// of a ray by a grid over the spheres, not from the previous ray. Every primitive is represented
+/// by its bounding sphere. Shadow rays to a light of the scene use the lists of the light, whose
+/// sphere is a point. Rays that start in no sphere (eye rays), and all rays when the memory for
+/// lists is used up or there are too many primitives, are traced by the fallback accelerator
+/// (`others`).
 /// Complexity and threads: a new list costs O(n); see accel/directions/coherence_lists.h.
 
 #include <cstdint>
@@ -27,9 +27,8 @@ class RayCoherence {
         "lists for the directions from every primitive and light";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        int resolution =
-            0;             ///< of a face of the cube of directions; 0: by the number of primitives
-        int most = 20000;  ///< with more primitives the fallback accelerator traces all rays
+        int resolution = 0;  ///< cells along an edge of the cube; 0: by the number of primitives
+        int most = 20000;    ///< with more primitives the fallback accelerator traces all rays
         int memory_mib = 256;
         FallbackAccelerator::Kind others = FallbackAccelerator::Kind::Hierarchy;
     };
@@ -56,11 +55,11 @@ class RayCoherence {
         others_.traverse(ray, visitor, stats);
     }
 
-    /// Grows while rays are traced.
+    /// Increases while rays are traced.
     [[nodiscard]] std::size_t memory_bytes() const {
         return others_.memory_bytes() + (lists_ == nullptr ? 0 : lists_->memory_bytes());
     }
-    /// Null where there are no lists.
+    /// Null if there are no lists.
     [[nodiscard]] const CoherenceLists* lists() const { return lists_.get(); }
 
   private:

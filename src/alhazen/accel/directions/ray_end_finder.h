@@ -1,8 +1,8 @@
 #pragma once
 /// Finds the known end (light) at which a ray ends.
 ///
-/// Conventions: a ray ends at a light when its line passes within `room` of it and the ray extends
-/// behind it by at most that much. Ends at infinity are ignored.
+/// Conventions: a ray ends at a light if its line passes within `room` of the light and it extends
+/// behind it by at most that distance. Lights at infinity are ignored.
 
 #include <cmath>
 #include <optional>
@@ -16,7 +16,7 @@ namespace alhazen {
 class RayEndFinder {
   public:
     RayEndFinder() = default;
-    /// Takes the first `most` ends that are near enough to the primitives for double precision.
+    /// Uses the first `most` ends that are near enough to the primitives for double precision.
     RayEndFinder(const BoundsSource& source, const PaddedBox& space, std::size_t most)
         : room_(space.pad) {
         for (const RayEnd& end : source.ray_ends()) {
@@ -34,7 +34,7 @@ class RayEndFinder {
         double start, stop;  ///< distances of both ends of the ray from the light
     };
     [[nodiscard]] std::optional<Found> find(const Ray& ray) const {
-        // Scaled, so that squares neither over- nor underflow.
+        // Scaled, so that squares neither overflow nor underflow.
         const double scale = max_component(abs(ray.direction));
         const Vec3 d = ray.direction / scale;
         const double length2 = dot(d, d);
@@ -49,7 +49,7 @@ class RayEndFinder {
         }
         return std::nullopt;
     }
-    /// The same for any-hit and any-blocker queries; nothing for other queries.
+    /// The same for any-hit and any-blocker queries; empty for other queries.
     template <class Visitor>
     [[nodiscard]] std::optional<Found> find_for(const Ray& ray, const Visitor& visitor) const {
         const AsksFor asked = asks_for(visitor);

@@ -23,9 +23,9 @@ class Beam {
         }
     }
 
-    /// Whether all rays pass outside of one edge of a flat convex polygon. The side on which a ray
-    /// passes a line is linear in its origin and in its direction, so its extremes are at corners;
-    /// it has one sign for all edges where a ray passes inside.
+    /// True if all rays pass outside of one edge of a flat convex polygon. The side on which a ray
+    /// passes a line is linear in its origin and in its direction, so that its extremes are at
+    /// corners; a ray through the polygon passes all edges on the same side.
     [[nodiscard]] bool passes_beside(std::span<const Vec3> outline) const {
         const std::size_t n = outline.size();
         Vec3 area;
@@ -39,7 +39,7 @@ class Beam {
             front += facing > least;
             back += facing < -least;
         }
-        // Undecided where some rays see the polygon edge-on.
+        // Undecided if some rays see the polygon edge-on.
         if (front != 4 && back != 4) return false;
         const double sign = front == 4 ? 1.0 : -1.0;
         for (std::size_t i = 0; i < n; ++i) {
@@ -67,8 +67,8 @@ class Beam {
 
 }  // namespace
 
-/// The hypercubes that a thread used last, several per direction: as many as the rays of a row of
-/// pixels pass through, so that the next row finds them.
+/// The hypercubes that a thread used last, several per direction: as many as a row of pixels
+/// traverses, so that the next row finds them.
 struct RayHypercubes::Recent {
     static constexpr std::size_t kEach = 16;
     struct Entry {
@@ -153,8 +153,8 @@ RayHypercubes::List RayHypercubes::meeting(const List& parent, int direction,
     const double sign = direction % 2 == 0 ? 1.0 : -1.0;
     const Box3 voxel = space_.widened(
         {{cube.lo[0], cube.lo[1], cube.lo[2]}, {cube.hi[0], cube.hi[1], cube.hi[2]}});
-    // The rays stay on one side of five planes: behind all of them, and beside them, where the
-    // slope of the plane is that of the outermost rays.
+    // All rays stay on one side of five planes: one behind the beam, and four beside it, with the
+    // slopes of the outermost rays.
     struct HalfSpace {
         Vec3 normal;
         double steepness, least;

@@ -1,14 +1,14 @@
 #pragma once
-/// The subdivided space of rays: six trees of hypercubes, one per dominant direction, made as rays
-/// come. A hypercube has a list of the primitives that its rays may intersect.
+/// The subdivided space of rays: six trees of hypercubes, one per dominant direction, created on
+/// demand. A hypercube has a list of the primitives that its rays may intersect.
 ///
 /// Source: Arvo and Kirk, "Fast Ray Tracing by Ray Classification", SIGGRAPH 1987.
-/// Differs: stated in accel/directions/ray_classification.h.
+/// Differs: see accel/directions/ray_classification.h.
 /// Conventions: direction 2 k is towards the upper end of axis k, 2 k + 1 towards the lower end.
 /// With axes k, k + 1, k + 2 (cyclic) a ray is (x, y, z; u, v): its origin and its slopes along the
 /// other two axes relative to the dominant one.
-/// Threads: `find` may be called from many threads; lists do not depend on the order of calls,
-/// unless memory runs out.
+/// Threads: `find` may be called concurrently; lists are independent of the order of calls, unless
+/// memory runs out.
 
 #include <array>
 #include <atomic>
@@ -85,7 +85,7 @@ class RayHypercubes {
     [[nodiscard]] std::size_t nodes_made() const { return std::atomic_load(&trees_)->nodes_made; }
 
   private:
-    /// Of the 32 children of a hypercube only those reached by rays exist: few.
+    /// Of the 32 children of a hypercube only those reached by rays are created.
     struct Node {
         std::atomic<const List*> list{nullptr};  ///< null: not computed yet
         std::atomic<Node*> first_child{nullptr};
@@ -95,7 +95,7 @@ class RayHypercubes {
     struct Recent;
     struct Trees {
         explicit Trees(std::size_t bytes) : used(bytes) {}
-        /// Unique over all time: identifies entries of the threads' caches.
+        /// Never reused: identifies entries of the threads' caches.
         std::uint64_t id = new_id();
         std::array<Node, 6> roots;
         std::mutex making;
@@ -108,7 +108,7 @@ class RayHypercubes {
     [[nodiscard]] Hypercube root() const;
     /// The candidates of `parent` for the rays of a hypercube, in the same order.
     [[nodiscard]] List meeting(const List& parent, int direction, const Hypercube& cube) const;
-    /// Null when no memory is left.
+    /// Null if no memory is left.
     [[nodiscard]] Node* child_of(Trees& trees, Node& node, std::uint32_t index) const;
     [[nodiscard]] const List* list_of(Trees& trees, Node& child, const List& parent, int direction,
                                       const Hypercube& cube, bool last) const;
@@ -116,18 +116,18 @@ class RayHypercubes {
         const List* list;
         Hypercube cube;
         int depth;
-        bool whole;  ///< false where no memory was left to divide further
+        bool whole;  ///< false if no memory was left to divide further
     };
     [[nodiscard]] Leaf descend(Trees& trees, const ClassifiedRay& ray) const;
-    /// New trees instead of full ones, unless another thread has made them.
+    /// Replaces full trees by new ones, unless another thread has done so.
     [[nodiscard]] std::shared_ptr<Trees> begin_anew(const std::shared_ptr<Trees>& full) const;
 
     PaddedBox space_;
     BoundingProxies bodies_;
     Limits limits_;
     std::array<List, 6> everything_;
-    std::size_t least_bytes_ = 0;  ///< of these lists
-    /// Threads inside the old trees keep them until they are done.
+    std::size_t least_bytes_ = 0;  ///< memory of these lists
+    /// Threads that use replaced trees keep them alive.
     mutable std::shared_ptr<Trees> trees_;
 };
 

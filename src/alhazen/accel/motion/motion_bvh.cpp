@@ -10,28 +10,29 @@ namespace alhazen {
 
 namespace {
 
-/// Of the size of the scene and the distance of the origin, for what a plane of a box is off by:
-/// seven roundings and that of the time (the change, its product with the time, the sum; the
-/// inverse, its product with the origin, that with the plane, the difference), each by 2^-24 of at
-/// most 2 (1 + distance).
+/// Margin, relative to the size of the scene and the distance of the origin, for the error of a
+/// box's plane: seven roundings and that of the time (the change, its product with the time, the
+/// sum; the inverse, its product with the origin, that with the plane, the difference), each by
+/// 2^-24 of at most 2 (1 + distance).
 constexpr double kMargin = 0x1p-20;
-/// Of the offset of the frame, for the rounding of local coordinates and of the tests in double.
+/// Margin, relative to the offset of the frame, for the rounding of local coordinates and of the
+/// tests in double.
 constexpr double kExactMargin = 0x1p-38;
 /// Lower bound of a direction's components relative to the largest one.
 constexpr double kLeastDirection = 0x1p-60;
-/// From farther away, or with another scale, a ray enters every box: exponents could leave the
+/// Rays from farther away, or with another scale, enter every box, as exponents could leave the
 /// range of float.
 constexpr double kFarthest = 0x1p40;
 constexpr double kLeastScale = 1e-200, kMostScale = 1e200;
-/// Far outside of the frame, and well before kNowhere.
+/// A coordinate far outside of the frame, and well below kNowhere.
 constexpr float kOutside = 1e20f;
-/// Coordinates beyond it are taken as unbounded.
+/// Larger coordinates count as unbounded.
 constexpr double kReach = 1e150;
 
-/// No ray meets a box from here to its negative. Finite: it is interpolated.
+/// A box from here to its negative is met by no ray. Finite, because it is interpolated.
 constexpr float kNowhere = 1e30f;
 
-/// A node of the binary tree with its boxes at both ends.
+/// A node of the binary tree with its boxes at shutter open and close.
 struct EndBoxes {
     FloatBox open, close;
     void include(const EndBoxes& b) {
@@ -40,7 +41,7 @@ struct EndBoxes {
     }
 };
 
-/// Makes the wide nodes.
+/// Converts the binary tree to wide nodes.
 class Collapse {
   public:
     Collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
@@ -78,7 +79,7 @@ class Collapse {
     }
 
   private:
-    /// Depth is bounded by the builder.
+    /// Recursive; the builder bounds the depth.
     const EndBoxes& find_boxes(std::uint32_t index) {
         const BinaryNode& node = binary_.nodes[index];
         EndBoxes box;
@@ -102,7 +103,7 @@ class Collapse {
         return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
     }
 
-    /// Its descendants, the largest opened first, up to the width.
+    /// Descendants of a node, up to the width, by repeatedly opening the largest.
     [[nodiscard]] std::vector<std::uint32_t> opened(std::uint32_t root) const {
         std::vector<std::uint32_t> children{root};
         while (children.size() < MotionBvh::kWidth) {

@@ -1,15 +1,15 @@
 #pragma once
-/// A tree of boxes around things that move while the shutter is open, with eight children per node.
+/// A bounding volume hierarchy over moving objects, with eight children per node.
 ///
 /// Source: Christensen, Fong, Laur and Batali, "Ray Tracing for the Movie 'Cars'", RT 2006, and
 /// Glassner, "Spacetime Ray Tracing for Animation", IEEE CG&A 8(2), 1988 (bounds at both ends of
 /// the shutter, interpolated at the time of the ray).
-/// Differs: each end of a node has the box of its things at that end; what does not move linearly
-/// is widened at both ends (MovingBox::widen_to). The tree is built by the binary builder of
+/// Differs: each end of a node has the box of its objects at that end; boxes of nonlinear motion
+/// are widened at both ends (MovingBox::widen_to). The tree is built by the binary builder of
 /// wide_bvh over the boxes at half time, then collapsed. The boxes of a node are interpolated and
-/// tested together, in float with a margin for all rounding; no hit depends on it.
-/// Conventions: times from 0 to 1. A thing is its number among the boxes given.
-/// Complexity and threads: O(n log n) to build. Const functions may be called from many threads.
+/// tested together, in float with a margin for all rounding; hits do not depend on it.
+/// Conventions: times from 0 to 1. An object ("thing") is its index among the given boxes.
+/// Complexity and threads: O(n log n) to build. Const functions may be called concurrently.
 
 #include <cstdint>
 #include <limits>
@@ -30,20 +30,22 @@ class MotionBvh {
     static constexpr std::uint32_t kLeafBit = 1u << 31;
 
     struct alignas(64) Node {
-        /// [lo, hi][axis][child] when the shutter opens, and how far it moves until it closes;
-        /// unused children have an empty box.
+        /// [lo, hi][axis][child] at shutter open, and the change until it closes; unused children
+        /// have an empty box.
         float open[2][3][kWidth];
         float change[2][3][kWidth];
-        std::uint32_t child[kWidth];  ///< a node, or a thing with kLeafBit
+        std::uint32_t child[kWidth];  ///< a node, or an object's index with kLeafBit
     };
-    /// A ray in the frame of the tree, with the largest component of its direction scaled to 1:
-    /// it meets the plane at x where `inverse` x - `near` (or `far`), its origin moved by a margin
-    /// on either side.
+    /// A ray in the frame of the tree, with the largest component of its direction scaled to 1. It
+    /// meets the plane at x where `inverse` x - `near` (or `far`), its origin moved by a margin on
+    /// either side.
     struct RaySlabs {
         float inverse[3], near[3], far[3];
-        std::uint32_t near_side[3];  ///< 0: it enters boxes at their lower side; 1: at the upper
+        std::uint32_t
+            near_side[3];  ///< 0: it enters boxes at their lower side; 1: at the upper side
         float time, t_min;
-        double scale;  ///< of distances: those of the ray times this; NaN: any box is entered
+        double
+            scale;  ///< factor from distances of the ray to those here; NaN: all boxes are entered
 
         [[nodiscard]] float reach(double t_max) const {
             const double most = scale * t_max;
@@ -51,10 +53,10 @@ class MotionBvh {
         }
         static constexpr double kFar = 1e30;
     };
-    /// Which of the things that a ray may hit come first.
+    /// The order in which objects are visited.
     enum class Order { NearFirst, Any };
-    /// `visit(context, thing, reach)` for all that the ray may hit until it returns true. `reach`:
-    /// how far the ray goes, in distances of the slabs; `visit` may shrink it.
+    /// `visit(context, thing, reach)` is called for all objects that the ray may hit until it
+    /// returns true. `reach`: end of the ray, in distances of the slabs; `visit` may reduce it.
     using Visit = bool (*)(void* context, std::uint32_t thing, float& reach);
     using Traversal = void (*)(const Node* nodes, const RaySlabs&, float reach, Visit,
                                void* context, TraversalStats*);
@@ -66,8 +68,8 @@ class MotionBvh {
     /// Ignores empty boxes.
     explicit MotionBvh(std::span<const MovingBox> boxes);
 
-    /// Calls `visit(thing)` for all that the ray may hit at `time` up to `t_max()` until it returns
-    /// true.
+    /// Calls `visit(thing)` for all objects that the ray may hit at `time` up to `t_max()`, until
+    /// it returns true.
     template <Order kOrder, class Reach, class Visitation, class Stats>
     void traverse(const Ray& ray, double time, Reach&& t_max, Visitation&& visit,
                   Stats stats) const;
@@ -85,7 +87,7 @@ class MotionBvh {
     LocalFrame frame_;
 };
 
-/// For the chosen instruction set.
+/// The kernels of the chosen instruction set.
 [[nodiscard]] MotionBvh::Traversals motion_bvh_traversals();
 
 template <MotionBvh::Order kOrder, class Reach, class Visitation, class Stats>
@@ -100,7 +102,7 @@ void MotionBvh::traverse(const Ray& ray, double time, Reach&& t_max, Visitation&
         const RaySlabs& ray;
         std::remove_reference_t<Reach>& t_max;
         std::remove_reference_t<Visitation>& visit;
-        double known;  ///< t_max as it was
+        double known;  ///< the last value of t_max
     } visitor{slab_ray, t_max, visit, t_max()};
     const Visit call = [](void* context, std::uint32_t thing, float& reach) {
         Visitor& to = *static_cast<Visitor*>(context);

@@ -29,13 +29,14 @@ struct RayLanesOf {
     }
 };
 
-/// A side of the boxes at the time of the ray.
+/// Planes of one side of the boxes at the time of the ray.
 HWY_INLINE Floats plane_at(const MotionBvh::Node& node, std::size_t side, std::size_t axis,
                            const Floats& time) {
     return mul_add(time, load_lanes(node.change[side][axis]), load_lanes(node.open[side][axis]));
 }
 
-/// Which children the ray meets up to `reach`: bit i for child i; `entries`: where it enters.
+/// The set of children that the ray meets up to `reach` (bit i for child i); `entries`: distances
+/// of entry.
 HWY_INLINE std::uint32_t met_children(const MotionBvh::Node& node, const RayLanesOf& ray,
                                       const std::uint32_t* near_side, float t_min, float reach,
                                       float* entries) {
@@ -51,10 +52,10 @@ HWY_INLINE std::uint32_t met_children(const MotionBvh::Node& node, const RayLane
     return bits_of(enter <= exit);
 }
 
-/// Levels of the tree: binary ones up to 48, where sets are halved from then on.
+/// Bound of the levels of the tree: binary ones up to 48, from which sets are halved.
 constexpr std::size_t kMostLevels = 80;
 
-/// `Ordered`: near children first; else as they come, which costs less.
+/// `Ordered`: near children first; else in stored order, which is cheaper.
 template <bool Ordered>
 void traverse_motion(const MotionBvh::Node* nodes, const MotionBvh::RaySlabs& ray, float reach,
                      MotionBvh::Visit visit, void* context, TraversalStats* stats) {
@@ -82,7 +83,7 @@ void traverse_motion(const MotionBvh::Node* nodes, const MotionBvh::RaySlabs& ra
             [[maybe_unused]] const std::size_t before = count;
             for (; met != 0; met &= met - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(met));
-                // The nearest last: insertion into the few that this node has added.
+                // Sorted so that the nearest is last: insertion into the few entries of this node.
                 std::size_t at = count++;
                 if constexpr (Ordered) {
                     for (; at > before && waiting[at - 1].enter < entries[i]; --at) {

@@ -10,11 +10,11 @@ namespace alhazen {
 
 namespace {
 
-/// Of the coordinates: what a motion that counts as even may leave its line by. Bounds of points
-/// are padded by 1e-13.
+/// Largest deviation of a slide from its line, relative to the coordinates. Bounds of points are
+/// padded by 1e-13.
 constexpr double kEven = 1e-12;
 
-/// True where the line of the ray passes the ball by for certain; rounding is far below the margin.
+/// True if the line of the ray certainly misses the ball; rounding is far below the margin.
 bool passes_by(const Ray& ray, const Sphere& ball) {
     constexpr double kMargin = 1e-12;
     const Vec3 f = ray.origin - ball.center;
@@ -59,8 +59,8 @@ MotionAggregate::Mover MotionAggregate::mover_of(const Instance& instance) {
     return mover;
 }
 
-/// A motion is even where the bounds of points, which hold at every time, are the points: four of
-/// them, for all that is affine. `inner`: not empty.
+/// A motion is a slide if the moving bounds of points, which hold at every time, are the points
+/// themselves at both ends; four points suffice for affine maps. `inner`: bounds of the content.
 std::optional<MotionAggregate::Slide> MotionAggregate::slide_of(const TransformMotion& motion,
                                                                 const Box3& inner) {
     const Affine open = motion.at(0.0).outer_from_inner, close = motion.at(1.0).outer_from_inner;

@@ -1,11 +1,12 @@
 #pragma once
-/// An aggregate of things that move while the shutter is open, beside one of all that rests.
+/// An aggregate of primitives that move while the shutter is open, and of one aggregate of all
+/// primitives at rest.
 ///
-/// Conventions: those of Aggregate; RayQuery::time says when a ray meets it. The table holds meshes
-/// whose vertices move, instances that move or hold something that does, and the resting rest as
-/// one instance without a placement. Bounds of the table are those of the moment at which the
-/// shutter opens; the bounds of the aggregate hold at every time.
-/// Differs: everything around a moving thing is a MotionAggregate, so other aggregates need no
+/// Conventions: those of Aggregate; RayQuery::time is the time of a ray. The table holds meshes
+/// with moving vertices, instances that move or contain moving primitives, and all primitives at
+/// rest as one instance without a placement. Bounds of the table are those when the shutter opens;
+/// the bounds of the aggregate hold at every time.
+/// Differs: every aggregate that contains moving primitives is a MotionAggregate; others need no
 /// time.
 
 #include <memory>
@@ -18,7 +19,7 @@ namespace alhazen {
 
 class MotionAggregate final : public Aggregate {
   public:
-    /// `table`: finished; `resting`: its instance that rests, if there is one.
+    /// `table`: finished; `resting`: index of the instance at rest, if there is one.
     MotionAggregate(PrimitiveTable table, std::optional<std::size_t> resting);
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
@@ -42,16 +43,17 @@ class MotionAggregate final : public Aggregate {
                            Coherence coherence) const override;
 
   private:
-    /// A motion without turn or stretch, evenly along a line: its translation at both ends.
+    /// A motion at constant speed along a line, without rotation or scaling: its translations at
+    /// both ends.
     struct Slide {
         Vec3 from, to;
     };
-    /// What the leaves of the tree need of an instance, in one place.
+    /// The data of an instance for the leaves of the tree.
     struct Mover {
-        std::optional<Slide> slide;  ///< how it moves, where it slides
-        /// What it holds, where it is one sphere with nothing around it.
+        std::optional<Slide> slide;  ///< its motion, if it is a slide
+        /// Its content, if that is a single sphere without a placement, visible to all rays.
         std::optional<Sphere> ball;
-        const PrimitiveTable* lone = nullptr;  ///< of the one shape that it holds
+        const PrimitiveTable* lone = nullptr;  ///< table of its content, if that is a single shape
     };
 
     [[nodiscard]] MovingBox box_of(std::uint32_t primitive) const;
@@ -60,7 +62,7 @@ class MotionAggregate final : public Aggregate {
                                                        const Box3& inner);
     /// The ray in the frame of an instance.
     [[nodiscard]] Ray inner_ray_of(std::size_t instance, const Ray& ray, double time) const;
-    /// All that rests, where there is such.
+    /// The instance at rest, which must exist.
     [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) < table_.first(kInstanceKind);
@@ -74,8 +76,8 @@ class MotionAggregate final : public Aggregate {
     /// The nearest hit in an instance; `ray` is in its frame.
     bool closest_in(std::size_t instance, const Ray& ray, Hit& hit, RayQuery query) const;
     [[nodiscard]] bool occluded_in(std::size_t instance, const Ray& ray, RayQuery query) const;
-    /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, index, inner_ray)` for all that the
-    /// ray may hit, until that returns true.
+    /// Calls `on_triangle(id, shape_hit)` for moving triangles and `on_instance(id, index,
+    /// inner_ray)` for instances that the ray may hit, until a call returns true.
     template <MotionBvh::Order kOrder, class Reach, class OnTriangle, class OnInstance>
     void visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                OnInstance&& on_instance) const;
@@ -83,7 +85,7 @@ class MotionAggregate final : public Aggregate {
     PrimitiveTable table_;
     std::vector<Mover> movers_;  ///< [instance]
     std::optional<PrimitiveId> resting_;
-    bool rests_alone_ = false;  ///< one shape rests, for which there is no test in lanes
+    bool rests_alone_ = false;  ///< a single shape is at rest, which has no SIMD test
     MovingBox box_;
     MotionBvh tree_;
 };

@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// With more polygons only the pixels around are divided.
+/// In scenes with more polygons only the pixels around are divided.
 constexpr std::size_t kFewPolygons = 2000;
 constexpr int kPixelsAround = 12;
 constexpr std::size_t kMostParts = 600;
@@ -66,7 +66,7 @@ class BeamExplainer {
           e_(e) {}
 
     void explain() {
-        // Those of the pixel first, in case there are too many; then in the order of the tree.
+        // Pieces of the pixel first, in case there are too many; then in the order of the tree.
         std::vector<std::uint32_t> wanted, others;
         for (std::uint32_t k = 0; k < tree_.pieces.size(); ++k) {
             const bool here = tree_.pieces[k].seen.region.bounds().meets(pixel_.bounds());
@@ -119,7 +119,7 @@ class BeamExplainer {
     [[nodiscard]] std::string name(std::uint32_t facet) const {
         return part_name(*job_.description, scene_.sources[scene_.facets[facet].source].part);
     }
-    /// By the rule of the renderer.
+    /// Containment by the rule of the renderer.
     [[nodiscard]] bool holds_sample(const PolygonSet& region) {
         if (region.empty()) return false;
         std::vector<BeamSample> samples;
@@ -132,7 +132,7 @@ class BeamExplainer {
     const BeamTree& tree_;
     const BeamFrame& frame_;
     PolygonSet pixel_;
-    Vec2 sample_;  ///< in the window
+    Vec2 sample_;  ///< position in the window
     BeamShading shading_;
     std::vector<double> crossings_;
     BeamExplanation& e_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostCones = 2000;
 
-/// Builds the tree.
+/// Builds the tree from the events of the renderer.
 class ConeRecorder final : public ConeWatcher {
   public:
     explicit ConeRecorder(const SceneDescription& description) : description_(description) {}
@@ -49,7 +49,7 @@ class ConeRecorder final : public ConeWatcher {
         open_.pop_back();
         node.left = left;
         node.radiance = radiance;
-        // Where a part of the cone goes on, so does what is drawn of it.
+        // A cone that is mostly covered is drawn up to its last piece.
         if (!node.parts.empty() && left < 0.5) node.length = node.parts.back().t;
         add(std::move(node));
     }
@@ -79,7 +79,7 @@ class ConeRecorder final : public ConeWatcher {
     }
 
     const SceneDescription& description_;
-    std::vector<ConeNode> open_;  ///< from the eye to the cone that is traced
+    std::vector<ConeNode> open_;  ///< from the eye to the cone being traced
     std::size_t count_ = 0;
     ConeExplanation result_;
 };

@@ -17,7 +17,7 @@ export const norm = (a: Vec3) => Math.hypot(a[0], a[1], a[2]);
 export const unit = (a: Vec3) => scaled(1 / (norm(a) || 1), a);
 export const along = (ray: Line, t: number) => add(ray.origin, scaled(t, ray.direction));
 
-// Four significant digits; JSON has null for what is not finite.
+// Four significant digits; JSON represents non-finite numbers by null.
 export function number(x: number | null | undefined) {
   if (x === null || x === undefined) return "\u221e";
   if (x === 0) return "0";
@@ -53,20 +53,20 @@ export function element(name: string, attributes: Attributes = {}, ...children: 
   made.append(...children.filter(c => c !== null && c !== undefined));
   return made;
 }
-// A patch of a colour. Set by the style object: the page's policy forbids style attributes.
+// A patch of a colour. Uses the style object, as the page's policy forbids style attributes.
 export function swatch(color: Vec3) {
   const made = element("span", {class: "swatch", "aria-hidden": "true"});
   made.style.background = css(color);
   return made;
 }
-// Of a list whose items may hold lists: `level` from 1.
+// A list item; `level` of nested lists counts from 1.
 export function listItem(level: number, ...children: Child[]) {
   return element("li", {"aria-level": level}, ...children);
 }
 export function scrollBehavior(): ScrollBehavior {
   return matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth";
 }
-// A table of its own width, which scrolls by itself.
+// A table that scrolls horizontally by itself.
 export function scrolling(name: string, table: HTMLTableElement) {
   return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": name}, table);
 }

@@ -1,4 +1,4 @@
-// The pieces of beam_tracing around a pixel: polygons of the picture, and what each adds to the pixel.
+// The pieces of beam_tracing around a pixel: polygons of the picture, with their contributions to the pixel.
 
 import {element, headRow, number, scrolling, swatch, triple} from "./basics";
 import type {Pair} from "./basics";
@@ -34,7 +34,7 @@ class BeamPieces {
       element("div", {class: "disc"}, element("div", {}, this.svg, zoom), this.table(of_pixel)));
     this.draw();
   }
-  // The pieces from the eye to a piece.
+  // The pieces on the way from the eye to a piece.
   private chain(piece: BeamPiece) {
     const list = [piece];
     for (let at = piece; at.from !== at.id;) {

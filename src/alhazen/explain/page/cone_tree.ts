@@ -1,4 +1,4 @@
-// The cones behind a pixel: what each covers, as a disc, a table and in space.
+// The cones of a pixel, with what each covers: as discs, as tables and in space.
 
 import {css, element, headRow, listItem, number, scrolling, swatch, triple} from "./basics";
 import type {Cone, Cones, SeeingCone, Unavailable} from "./explanation_data";
@@ -6,7 +6,7 @@ import type {SceneView} from "./scene_view";
 
 const CONE_NAMES = {eye: "cone of the pixel", reflection: "reflected cone", refraction: "refracted cone"};
 
-/** `from`: the object that it leaves, if any. A large piece asks for each light in parts. */
+/** `from`: the object that it leaves, if any. A large piece samples each light in parts. */
 function nameOf(c: Cone, from: string | undefined) {
   const whence = from === undefined ? "" : ` from \u2018${from}\u2019`;
   if (c.kind !== "shadow") return CONE_NAMES[c.kind] + whence;
@@ -20,8 +20,8 @@ export class ConeTree {
       root.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
-    root.append(element("p", {class: "soft"}, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. " +
-      "A cone\u2019s radiance is the sum of weight \u00d7 colour, and what is left of it times the background."));
+    root.append(element("p", {class: "soft"}, "By cone_tracing: each piece covers a share of its cone; the weight is its visible fraction. " +
+      "A cone\u2019s radiance is the sum of weight \u00d7 colour, plus what is left of the cone times the background."));
     if (cones.cut) root.append(element("p", {class: "cut"}, "The tree is cut: it has more than 2000 cones."));
     root.append(element("div", {class: "outline"}, element("ul", {"aria-label": "Cones"}, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
@@ -55,7 +55,7 @@ export class ConeTree {
           element("td", {}, number(c.left)), element("td"), element("td"))))));
   }
 }
-// The disc of a cone; each piece as a disc of its size around its middle.
+// The disc of a cone; each piece is a disc of its size around its middle.
 function coneDisc(c: SeeingCone) {
   const svg = element("svg:svg", {class: "pixel", viewBox: "-1.15 -1.15 2.3 2.3", role: "img",
     "aria-label": `A cone with ${c.parts.length} pieces`}, element("svg:circle", {class: "frame", cx: 0, cy: 0, r: 1}));

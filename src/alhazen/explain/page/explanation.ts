@@ -1,4 +1,4 @@
-// The page of `alhazen explain`: shows the data that are in it.
+// The page of `alhazen explain`: shows the data that the page contains.
 
 import type {Explanation} from "./explanation_data";
 import {showExplanation} from "./explanation_view";

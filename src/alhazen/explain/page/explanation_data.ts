@@ -1,4 +1,4 @@
-// The JSON of an explanation (explanation_json.cpp, method_json.cpp) as types. What is not finite is null there.
+// The JSON of an explanation (explanation_json.cpp, method_json.cpp) as types. Non-finite numbers are null.
 
 import type {Pair, Vec3} from "./basics";
 
@@ -8,7 +8,7 @@ export interface Crossing {
   t: number;
   object: string;
 }
-/** What a light adds to a point, and the shadow ray to it. */
+/** The contribution of a light to a point, and the shadow ray to it. */
 export interface LightTerm {
   light: string;
   cosine: number;
@@ -59,7 +59,7 @@ export interface TreeRay {
   weight: Vec3;
   in_pixel: Vec3;
   escaped: boolean;
-  given_up?: boolean;  // `left` of it had passed as many surfaces as a ray may
+  given_up?: boolean;  // `left` had passed the largest number of surfaces
   left?: Vec3;
   surfaces: SurfacePoint[];
 }
@@ -134,7 +134,7 @@ export interface ShadowCone extends AnyCone {
   kind: "shadow";
   through: Vec3;
   light: string;
-  part: number;  // from 1 on, of `part_count`
+  part: number;  // from 1, of `part_count`
   part_count: number;
   weight: number;  // of the part
 }
@@ -177,7 +177,7 @@ export interface Beams {
   pieces: BeamPiece[];
 }
 
-/** A ray of a path, and what happened at its end; colours are in the pixel. Without an object it meets no surface. */
+/** A ray of a path and the event at its end; colours are in the pixel. Without an object it hits no surface. */
 export interface PathVertex {
   kind: Exclude<RayKind, "shadow">;
   origin: Vec3;
@@ -213,7 +213,7 @@ export type ScenePoint = [number, number, number, number, number, number];
 export interface Explanation {
   scene: string;
   renderer: string;          // of the picture
-  draws_at_random: boolean;  // it does
+  draws_at_random: boolean;  // true if the renderer is stochastic
   width: number;
   height: number;
   x: number;

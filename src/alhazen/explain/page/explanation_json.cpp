@@ -18,7 +18,7 @@ const std::string& name_in(const std::vector<std::string>& names, std::size_t i)
     return i < names.size() ? names[i] : kNone;
 }
 
-/// Writes the tree, and numbers its rays.
+/// Writes the tree and numbers its rays.
 class TreeWriter {
   public:
     explicit TreeWriter(const Explanation& e) : e_(e) {}

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// JSON that cannot end the element it stands in.
+/// Escapes JSON so that it cannot end the enclosing HTML element.
 std::string in_element(std::string json) {
     std::string safe;
     safe.reserve(json.size());

@@ -1,9 +1,9 @@
 #pragma once
-/// An explanation as one HTML file that opens offline.
+/// An explanation as one HTML file that can be opened offline.
 ///
-/// Conventions: the file is self-contained: the data are JSON, style and script are inline, the
-/// picture is a data URI, and its content security policy forbids every request. Text reaches the
-/// page as text only, never as markup.
+/// Conventions: the file is self-contained: data are JSON, style and script are inline, the picture
+/// is a data URI, and its content security policy forbids every request. Text is inserted as text
+/// only, never as markup.
 
 #include <string>
 #include <string_view>
@@ -14,8 +14,8 @@ namespace alhazen {
 
 [[nodiscard]] std::string explanation_page(const Explanation& explanation);
 
-/// The bundle of page/*.ts (scripts/page), which shows the data that are in the page, and its
-/// style.
+/// Style and script (the bundle of page/*.ts made by scripts/page), which show the data in the
+/// page.
 extern const std::string_view kExplanationStyle;
 extern const std::string_view kExplanationScript;
 

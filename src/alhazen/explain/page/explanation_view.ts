@@ -78,14 +78,14 @@ function header(data: Explanation, picture: string | null) {
   }
   return head;
 }
-// The tree is that of whitted, whoever made the picture.
+// The tree is that of whitted, whichever renderer made the picture.
 function otherRenderer({renderer, draws_at_random, path}: Explanation) {
   if (renderer === "whitted") return null;
   return element("p", {class: "cut", id: "other"}, draws_at_random
-    ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends ` +
-      "for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one." +
+    ? `The picture is by ${renderer}, which draws rays at random for each sample. The tree shows the rays that whitted traces ` +
+      "for this pixel: towards points of lights, in mirror directions and through glass. Its colour may differ." +
       (path ? " One path of the picture follows below the tree." : "")
-    : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
+    : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour may differ.`);
 }
 function legend(data: Explanation, view: () => SceneView) {
   const shadows = element("input", {type: "checkbox", checked: true, change: () => {

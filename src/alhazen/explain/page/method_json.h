@@ -20,7 +20,7 @@ inline nlohmann::ordered_json to_json(const Vec3& v) {
 inline nlohmann::ordered_json to_json(const Rgb& c) {
     return {c.r, c.g, c.b};
 }
-/// Six digits: of what is only drawn.
+/// Rounds to six digits, for data that are only drawn.
 inline double rounded(double x) {
     return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : 0.0;
 }

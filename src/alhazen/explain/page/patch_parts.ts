@@ -1,4 +1,4 @@
-// How patches are subdivided for the eye ray: the parts of the unit square, level by level.
+// The subdivision of patches for the eye ray: the parts of the unit square, level by level.
 
 import {element, number} from "./basics";
 import type {Explanation, PatchSubdivision} from "./explanation_data";

@@ -1,4 +1,4 @@
-// One path of path_tracing: what it carries from surface to surface, what it comes upon, and what lights send.
+// A path of path_tracing: its throughput from surface to surface, emission it meets, and light samples.
 
 import {add, along, element, headRow, norm, number, scaled, scrolling, swatch, triple, unit} from "./basics";
 import type {Vec3} from "./basics";
@@ -20,9 +20,9 @@ export function pathSteps(root: HTMLElement, data: Explanation, path: PathData, 
   };
   root.append(
     element("p", {class: "soft"}, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. ` +
-      "Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. " +
+      "Throughput is the fraction of the radiance at the origin of the ray that reaches the pixel. " +
       "The light of all rows adds up to the sample."),
-    scrolling("The path", element("table", {}, headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+    scrolling("The path", element("table", {}, headRow(["ray", "", "throughput", "hits", "direct light", "event", ""]),
       element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
       element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 5}, "sum"),
         element("td", {}, `(${triple(path.radiance)})`), element("td", {}, swatch(path.radiance)))))),

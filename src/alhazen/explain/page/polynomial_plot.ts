@@ -1,5 +1,5 @@
-// The polynomial that the ray makes of an algebraic surface, with its Bernstein coefficients as a control polygon and
-// its roots.
+// The polynomial of an algebraic surface along the ray, with its Bernstein coefficients as a control polygon and its
+// roots.
 
 import {element, number} from "./basics";
 import type {Explanation, PolynomialOnRay} from "./explanation_data";
@@ -16,7 +16,7 @@ function polynomialPlot(p: PolynomialOnRay) {
   const w = 360, h = 170, n = p.degree, count = 160;
   const values = Array.from({length: count + 1}, (_, i) => bernsteinValue(p.bernstein, i / count));
   const size = Math.max(...p.bernstein.map(Math.abs)) || 1;
-  // Of high degrees the coefficients are far larger than what lies between the roots: asinh shows both.
+  // Coefficients of high degrees are far larger than the values between the roots: asinh shows both.
   const bent = (v: number) => n > 2 ? Math.asinh(50 * v / size) / Math.asinh(50) : v / size;
   const y = (v: number) => h / 2 - (h / 2 - 8) * bent(v);
   const x = (u: number) => 8 + (w - 16) * u;
@@ -29,7 +29,7 @@ function polynomialPlot(p: PolynomialOnRay) {
     element("svg:polyline", {class: "polygon", points: polygon}),
     element("svg:path", {class: "curve", d: path}));
   p.bernstein.forEach((b, i) => svg.append(element("svg:circle", {class: "control", cx: x(i / n), cy: y(b), r: 3})));
-  p.roots.forEach((t, i) => {  // labels above and below by turns
+  p.roots.forEach((t, i) => {  // labels alternate above and below
     const u = (t - p.from) / (p.to - p.from);
     svg.append(element("svg:circle", {class: "root", cx: x(u), cy: h / 2, r: 5}));
     svg.append(element("svg:text", {x: x(u), y: i % 2 ? h / 2 + 20 : h / 2 - 10}, number(t)));

@@ -1,11 +1,11 @@
-// The tree of rays as an outline that folds: each ray, each surface that it meets, and the shading equation there, term
+// The tree of rays as a collapsible outline: each ray, each surface that it hits, and the shading equation there, term
 // by term.
 
 import {KINDS, element, headRow, listItem, number, scrollBehavior, scrolling, swatch, triple} from "./basics";
 import type {Vec3} from "./basics";
 import type {Explanation, LightTerm, OnwardTerm, SurfacePoint, TreeRay} from "./explanation_data";
 
-// A line of the equation: its value, and the light that it is of.
+// A line of the equation: its value, and its light.
 type Row = (name: string, how: string, value: Vec3 | null | undefined, light?: LightTerm) => void;
 
 const REASONS: Record<string, string> = {
@@ -14,7 +14,7 @@ const REASONS: Record<string, string> = {
   total_reflection: "total internal reflection: Snell\u2019s law has no solution",
   not_traced: "this scene\u2019s conventions trace none"};
 
-// A light's term as a ray to draw: where it is blocked it ends there, and `distance` is that of the light.
+// A light's term as a ray to draw: it ends where it is blocked; `distance` is that of the light.
 export interface ShadowRay extends LightTerm {
   kind: "shadow";
   blocked: boolean;
@@ -23,7 +23,7 @@ export interface ShadowRay extends LightTerm {
 export type AnyRay = TreeRay | ShadowRay;
 type Select = (ray: AnyRay, reveal?: boolean) => void;
 
-// All rays of the tree, shadow rays included, outermost first; each light gets the fields that drawing needs.
+// All rays of the tree, shadow rays included, outermost first; sets the fields of lights that drawing needs.
 export function raysOf(tree: TreeRay) {
   const list: AnyRay[] = [];
   const visit = (ray: TreeRay) => {
@@ -49,7 +49,7 @@ function isShadow(light: LightTerm | undefined): light is ShadowRay {
 
 export class RayOutline {
   private readonly places = new Map<AnyRay, HTMLElement>();
-  private readonly whole: string;  // what the weights are shares of
+  private readonly whole: string;  // denominator of the weights
 
   constructor(root: HTMLElement, data: Explanation, private readonly onSelect: Select) {
     this.whole = data.samples.length > 1 ? "sample" : "pixel";
@@ -89,7 +89,7 @@ export class RayOutline {
     return body;
   }
 
-  // `level`: of the rays that leave it, in the outline.
+  // `level`: level in the outline of the rays that leave it.
   private surface(s: SurfacePoint, level: number) {
     const box = element("div", {class: "surface"});
     box.append(element("p", {}, element("b", {}, `\u2018${s.object}\u2019`),

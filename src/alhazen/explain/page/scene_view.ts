@@ -1,5 +1,5 @@
 // The rays of a pixel in space: points of the scene, the frame of the picture, the tree of rays, and the steps of an
-// accelerator. Drag, wheel and keys turn it; a click selects a ray.
+// accelerator. Drag, wheel and keys turn the view; a click selects a ray.
 
 import {add, along, cross, dot, norm, scaled, sub, unit} from "./basics";
 import type {Pair, Vec3} from "./basics";
@@ -37,14 +37,14 @@ export class SceneView {
   private readonly up: Vec3;
   private center: Vec3 = [0, 0, 0];
   private radius = 1;
-  // Where the view is: a turn and a rise around the target.
+  // The view: an azimuth and an elevation around the target.
   private front: Vec3 = [0, 0, 1];
   private side: Vec3 = [1, 0, 0];
   private turn = 0;
   private rise = 0;
   private distance = 1;
   private target: Vec3 = [0, 0, 0];
-  // Of the drawing in hand.
+  // Of the current drawing.
   private width = 0;
   private height = 0;
   private near = 0;
@@ -66,8 +66,8 @@ export class SceneView {
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
-  // The ball that is looked at: around the first surface, as large as what the camera sees near it. What lies far
-  // behind, such as an endless ground, does not count.
+  // The sphere in view: around the first surface, as large as what the camera sees near it. Distant points, such as
+  // those of an unbounded ground, do not count.
   private measure() {
     const first = this.data.tree.surfaces[0];
     const points = this.data.points.map((p): Vec3 => [p[0], p[1], p[2]]);
@@ -141,7 +141,7 @@ export class SceneView {
     }
     this.g.globalAlpha = 1;
   }
-  // A line cut at the near plane; returns its ends on the canvas, or null.
+  // Clips a line at the near plane; returns its ends on the canvas, or null.
   private segment(a: Vec3, b: Vec3): Segment | null {
     let p = this.project(a), q = this.project(b);
     if (p[2] < this.near && q[2] < this.near) return null;
@@ -185,7 +185,7 @@ export class SceneView {
       if (!this.data.parallel) this.line(this.eye, p, {color, width: 1, alpha: 0.35});
     });
   }
-  // Where a ray ends: at its last surface, or in the open.
+  // The end of a ray: its last surface, or a point in free space.
   private end(ray: AnyRay) {
     if (ray.kind === "shadow") return along(ray, ray.t ?? 0.8 * this.radius);
     const met = ray.surfaces.at(-1);
@@ -273,7 +273,7 @@ export class SceneView {
     }
   }
 
-  // A cone up to its end: its sides as seen from here, and circles; then those that leave it.
+  // A cone up to its end: its silhouette and circles; then the cones that leave it.
   private drawCone(c: Cone) {
     const color = this.color(c.kind), parts = c.kind === "shadow" ? [] : c.parts;
     const e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);

@@ -1,5 +1,5 @@
-// The spans of the solids along the ray as bars, and how the operators of a constructive solid combine them: the table
-// of Roth, stretch by stretch.
+// The spans of the solids along the ray as bars, and their combination by the operators of a CSG solid: the table of
+// Roth, span by span.
 
 import {element, headRow, number, scrolling} from "./basics";
 import type {Pair} from "./basics";
@@ -65,7 +65,7 @@ function axis(range: Pair) {
   return element("div", {class: "bar axis"}, element("span"), element("div", {class: "marks soft"}, ...marks), element("span"));
 }
 
-// Each stretch between two changes: inside or outside of each operand, and of the result.
+// Each span between two changes: inside or outside each operand, and the result.
 function rothTable(node: Combination, operator: keyof typeof SIGNS, operands: Combination[]) {
   const changes = [...new Set(operands.flatMap(o => o.spans.flat()).filter(isFinite))].sort((a, b) => a - b);
   const inside = (spans: Span[], a: number, b: number) =>

@@ -56,7 +56,7 @@ export class TraversalSteps {
     if (this.timer !== undefined) return this.stop();
     if (Number(this.range.value) >= this.steps.length) this.range.value = "0";
     this.playButton.textContent = "Stop";
-    this.text.ariaLive = "off";  // readers hear the last step
+    this.text.ariaLive = "off";  // screen readers announce the last step
     this.timer = setInterval(() => {
       this.range.value = String(Number(this.range.value) + 1);
       this.show();

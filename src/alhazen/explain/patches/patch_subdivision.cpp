@@ -34,7 +34,7 @@ bool box_meets(const Box3& box, const Ray& ray) {
     return from <= to;
 }
 
-/// Breadth first, so that what is cut off is the finest.
+/// Subdivides breadth first, so that the limit cuts off the finest parts.
 void subdivide(const BezierNet& whole, const Ray& ray, PatchSubdivision& result) {
     struct Waiting {
         BezierNet net;
@@ -76,7 +76,7 @@ class PatchFinder {
     PatchFinder(const LoadedScene& loaded, std::vector<PatchSubdivision>& found)
         : loaded_(loaded), found_(found) {}
 
-    /// `ray`: in the frame of the table. Recursion ends with the nesting of instances.
+    /// Visits a table; `ray` is in its frame. Recursion ends with the nesting of instances.
     void look(const PrimitiveTable& table, const Ray& ray) {
         std::apply([&](const auto&... column) { (look_at(table, column, ray), ...); },
                    table.columns);
@@ -87,7 +87,7 @@ class PatchFinder {
         }
     }
 
-    /// Keeps the `most` that matter, and divides them.
+    /// Keeps the first `most` patches, and subdivides them.
     void finish(std::size_t most) {
         std::vector<std::size_t> order(found_.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

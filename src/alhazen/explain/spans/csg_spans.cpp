@@ -6,7 +6,7 @@ namespace alhazen {
 
 namespace {
 
-/// Table 15.2: whether a stretch of the ray is inside.
+/// Table 15.2: whether a span of the ray is inside.
 bool is_inside(Combine combine, bool left, bool right) {
     if (combine == Combine::Intersection) return left && right;
     if (combine == Combine::Difference) return left && !right;

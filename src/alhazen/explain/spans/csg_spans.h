@@ -1,12 +1,13 @@
 #pragma once
-/// How the operators of a constructive solid combine the spans of its leaves along one ray.
+/// The spans of the leaves of a CSG solid along one ray, and their combination by its operators.
 ///
 /// Source: Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982; Foley, van Dam, Feiner and
 /// Hughes, "Computer Graphics", 2nd ed., table 15.2 (the classification of each stretch of the ray
 /// by the two sides of an operator).
-/// Differs: keeps the spans of every node, to be shown; an operator of many operands is applied
-/// pairwise, from the first on; crossings closer than the tolerance of CsgSolid are one, at the t
-/// of the first. Conventions: t is that of the ray; spans are clipped to [0, infinity).
+/// Differs: keeps the spans of every node, for display; an operator of many operands is applied
+/// pairwise from the first on; crossings closer than the tolerance of CsgSolid are one, at the t of
+/// the first.
+/// Conventions: t is that of the ray; spans are clipped to [0, infinity).
 
 #include <cstdint>
 #include <string>
@@ -17,34 +18,34 @@
 
 namespace alhazen {
 
-/// A stretch of a ray: from < to.
+/// A span of a ray: from < to.
 struct TSpan {
     double from = 0, to = 0;
     friend bool operator==(const TSpan&, const TSpan&) = default;
 };
 
-/// A leaf or an operator of a solid, and where the ray is inside of it.
+/// A leaf or an operator of a solid, and the spans of the ray inside it.
 struct CsgSpanNode {
-    std::string name;  ///< of a leaf
+    std::string name;  ///< for a leaf
     bool is_leaf = false;
-    Combine combine = Combine::Union;  ///< of an operator
+    Combine combine = Combine::Union;  ///< for an operator
     std::vector<TSpan> spans;
     std::vector<CsgSpanNode> operands;
 };
 
-/// The spans of a combination, both ascending and without overlaps.
+/// The spans of a combination. Arguments and result are ascending and without overlaps.
 [[nodiscard]] std::vector<TSpan> combined(Combine combine, const std::vector<TSpan>& left,
                                           const std::vector<TSpan>& right);
 
-/// `ray`: in the frame of the solid. `name_of(primitive)`: of a leaf.
+/// The spans of all nodes. `ray`: in the frame of the solid. `name_of(primitive)`: name of a leaf.
 template <class NameOf>
 [[nodiscard]] CsgSpanNode csg_spans(const CsgSolid& solid, const Ray& ray, const NameOf& name_of);
 
-// ---- details
+// ---- Details.
 
 [[nodiscard]] std::vector<TSpan> leaf_spans(const CsgSolid& solid, std::uint32_t leaf,
                                             const Ray& ray);
-/// Moves ends that are at most `tau` behind the first of them to it, in all leaves below `root`.
+/// Moves ends within `tau` after another to the first of them, in all leaves below `root`.
 void close_ranks(CsgSpanNode& root, double tau);
 /// Sets the spans of the operators from those of the leaves.
 void combine(CsgSpanNode& root);

@@ -7,7 +7,7 @@
 
 namespace alhazen {
 
-/// Numbered as Surface::part; of an instance, the part that placed it.
+/// Number of the part, as in Surface::part; for an instance, of the part that placed it.
 [[nodiscard]] std::uint32_t part_of_primitive(const PrimitiveTable& table, PrimitiveId id);
 
 }  // namespace alhazen

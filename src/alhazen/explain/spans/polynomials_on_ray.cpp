@@ -16,13 +16,13 @@ namespace alhazen {
 
 namespace {
 
-/// An equation in a frame.
+/// An equation in a local frame.
 struct LocalEquation {
     std::string text;
     SolidFrame frame;
 };
 
-/// The sum of the terms whose coefficients are not 0.
+/// Builds the text of a sum of terms, without those whose coefficients are 0.
 class ExpressionText {
   public:
     void add(double coefficient, const char* term) {
@@ -57,7 +57,7 @@ std::string text_of(const QuadricForm& f) {
     return text.take();
 }
 
-/// The quadric of a truncated general cone is that of one case only.
+/// Excludes the truncated general cone, whose quadric covers only one of its cases.
 template <class Shape>
 concept QuadricShape = !std::same_as<Shape, Tgc> && requires(const Shape& shape) {
     shape.solid.quadric.form();
@@ -83,7 +83,7 @@ LocalEquation equation_of(const Algebraic& surface) {
     return {surface.expression, SolidFrame()};
 }
 
-/// The range of t in a box; empty where the line misses it.
+/// The range of t in a box; empty if the line misses it.
 Interval range_in(const Box3& box, const Ray& ray) {
     Interval range{-kInfinity, kInfinity};
     for (int k = 0; k < 3; ++k) {
@@ -104,7 +104,7 @@ class Finder {
     Finder(const LoadedScene& loaded, std::vector<PolynomialOnRay>& found)
         : loaded_(loaded), found_(found) {}
 
-    /// `ray`: in the frame of the table. Recursion ends with the nesting of instances.
+    /// Visits a table; `ray` is in its frame. Recursion ends with the nesting of instances.
     void look(const PrimitiveTable& table, const Ray& ray) {
         std::apply([&](const auto&... column) { (look_at(table, column, ray), ...); },
                    table.columns);
@@ -144,7 +144,7 @@ class Finder {
         }
     }
 
-    /// Crossings of the surface itself: part 0.
+    /// Sets the crossings of the surface itself (part 0).
     template <class Shape>
     static void set_roots(const Shape& shape, const Ray& ray, PolynomialOnRay& p) {
         ShapeHit hits[Shape::kMaxHits];
@@ -157,10 +157,10 @@ class Finder {
         }
     }
 
-    /// False where the polynomial is constant, or the range not finite.
+    /// False if the polynomial is constant or the range not finite.
     static bool set_coefficients(const LocalEquation& equation, Interval range, const Ray& ray,
                                  PolynomialOnRay& p) {
-        constexpr double kRoom = 0.15;  // to see the roots from both sides
+        constexpr double kRoom = 0.15;  // margin, so that roots are visible from both sides
         if (!std::isfinite(range.lo)) range.lo = p.roots.empty() ? 0.0 : p.roots.front() - 1.0;
         if (!std::isfinite(range.hi)) range.hi = p.roots.empty() ? 10.0 : p.roots.back() + 1.0;
         const double room = kRoom * (range.hi - range.lo);

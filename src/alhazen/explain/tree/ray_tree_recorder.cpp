@@ -74,7 +74,7 @@ void RayTreeRecorder::meet(const ShadingPoint& point, double t, const Path& path
     level(depth).met.push_back(std::move(node));
 }
 
-/// The factor of `unshadowed_terms`: with no emission and an ambient term of 1.
+/// The factor of `unshadowed_terms` for no emission and an ambient term of 1.
 void RayTreeRecorder::set_ambient(const ShadingPoint& point, SurfaceNode& node) {
     static constexpr std::array<Rgb, 1> kOne{Rgb{1, 1, 1}};
     bare_.own = *point.material;
@@ -95,7 +95,7 @@ LightTerm RayTreeRecorder::term_of(const SeenLight& seen, const ShadingPoint& po
     term.cosine = seen.cosine;
     term.intensity = seen.light.intensity;
     term.diffuse = seen.cosine * point.material->diffuse;
-    bare_.own.diffuse = Rgb{};  // the rest of `bare_` is that of `set_ambient`
+    bare_.own.diffuse = Rgb{};  // the rest of `bare_` is set by `set_ambient`
     term.highlight = reflected_fraction(conventions_, bare_, seen.light, seen.cosine);
     term.cast = conventions_.shadow_tint != ShadingConventions::ShadowTint::None &&
                 !seen.light.intensity.is_black();

@@ -1,12 +1,12 @@
 #pragma once
-/// Records the tree of rays while the estimator of recursive ray tracing computes it.
+/// Records the tree of rays while the estimator of Whitted ray tracing computes it.
 ///
 /// Conventions: a `Chance` of RecursiveEstimator (renderers/whitted/recursive_estimator.h) that
-/// draws nothing and watches: rays and surfaces are those of the renderer `whitted`. The
-/// transmittance of each shadow ray, which the renderer only adds up, is asked for again by the
-/// same ShadowBatch, one ray at a time.
-/// A tree of too many rays, or a stop from outside, ends the estimator through the flag of its job;
-/// what was recorded is then a part of a tree. Threads: used by one.
+/// draws nothing and only observes: rays and surfaces are those of the renderer `whitted`. The
+/// transmittance of each shadow ray, of which the renderer keeps only sums, is computed again by
+/// the same ShadowBatch, one ray at a time. A tree of too many rays, or a stop by the user, ends
+/// the estimator through the stop flag of its job; the recorded tree is then incomplete.
+/// Threads: used by one thread.
 
 #include <cstddef>
 #include <vector>
@@ -21,7 +21,7 @@ class RayTreeRecorder : public NoChance {
   public:
     explicit RayTreeRecorder(const RenderJob& job);
 
-    // ---- called by the estimator (TreeWatcher)
+    // ---- Called by the estimator (TreeWatcher).
     void use(ExactOptics& optics) { shadows_.use(optics); }
     void begin_rays(const GenerationPart& part, int depth);
     void see_light(std::size_t number, const LightSample& light, double cosine);
@@ -38,20 +38,20 @@ class RayTreeRecorder : public NoChance {
         enough_ = &enough;
         stop_ = stop;
     }
-    /// Whether there were more rays than the limit, shadow rays included.
+    /// True if there were more rays than the limit, shadow rays included.
     [[nodiscard]] bool has_too_many() const { return count_ > most_; }
 
-    /// The rays of the last call of `trace`; leaves none behind.
+    /// Moves the rays of the last call of `trace` out.
     [[nodiscard]] std::vector<RayNode> take();
 
   private:
-    /// The rays of the generation that is being traced, and the surfaces of those that wait.
+    /// The rays of the current generation, and the surfaces of pending ones.
     struct Level {
         std::vector<RayNode> rays;
-        std::size_t base = 0;  ///< of the part that is being traced
+        std::size_t base = 0;  ///< first ray of the current part
         std::vector<SurfaceNode> met;
     };
-    /// A light of the surface that is being shaded.
+    /// A light of the surface being shaded.
     struct SeenLight {
         std::size_t number;
         LightSample light;
@@ -69,10 +69,10 @@ class RayTreeRecorder : public NoChance {
 
     const Scene& scene_;
     const ShadingConventions& conventions_;
-    RayCounters counters_;  ///< of the repeated shadow rays; not used
+    RayCounters counters_;  ///< of the repeated shadow rays; unused
     ShadowBatch shadows_;
     std::vector<Rgb> ambient_;
-    ShadingPoint bare_;  ///< a point with one term left
+    ShadingPoint bare_;  ///< a point with a single term
     std::vector<SeenLight> seen_;
     std::vector<Level> levels_;
     std::size_t count_ = 0, most_ = static_cast<std::size_t>(-1);

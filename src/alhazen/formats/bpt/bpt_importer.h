@@ -1,5 +1,5 @@
 #pragma once
-/// A file of Bezier patches as a scene: docs/reference/formats/bpt.md.
+/// Importer of Bezier patch files: docs/reference/formats/bpt.md.
 
 #include "alhazen/formats/core/importer.h"
 

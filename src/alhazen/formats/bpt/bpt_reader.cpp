@@ -10,10 +10,10 @@ namespace alhazen {
 namespace {
 
 constexpr int kMaxBptErrors = 50;
-/// Patches of larger degrees are not skipped by their number of points.
+/// Largest degree for which a rejected patch is skipped by its number of points.
 constexpr std::int64_t kMaxSkippedDegree = 1000;
 
-/// Moves to the next number or comment of this line; false at its end.
+/// Moves to the next number of this line; false at a comment or at its end.
 bool to_bpt_value(TextCursor& cursor) {
     return cursor.skip_blanks() && cursor.peek() != '#';
 }
@@ -27,7 +27,7 @@ int values_in_line(TextCursor cursor) {
     return count;
 }
 
-/// Two integers alone on the line.
+/// True if the line holds two integers and nothing else.
 bool is_degree_line(TextCursor cursor) {
     std::int64_t value = 0;
     return values_in_line(cursor) == 2 && to_bpt_value(cursor) && cursor.integer(value) &&
@@ -93,7 +93,7 @@ class BptReader {
         where_ = cursor_.location(file_);
         if (values_in_line(cursor_) == 3) {
             error("expected the two degrees of patch " + std::to_string(patch_) +
-                  ", found a point: the patch before has more points than its degrees ask for");
+                  ", found a point: the patch before has more points than its degrees require");
             skip_to_degrees();
             return;
         }
@@ -121,7 +121,8 @@ class BptReader {
         group_of(std::uint32_t(degrees[0]), std::uint32_t(degrees[1])).welder.add(points_);
     }
 
-    /// False after an error; the cursor is then at a place where reading can continue.
+    /// Reads the points of a patch. False after an error; the cursor is then where reading can
+    /// continue.
     bool read_points(std::int64_t count, bool keep) {
         points_.clear();
         bool good = true;
@@ -129,7 +130,7 @@ class BptReader {
             const bool more = cursor_.skip_to_word("#");
             if (!more || is_degree_line(cursor_)) {
                 error("patch " + std::to_string(patch_) + " has " + std::to_string(k) +
-                      " points; its degrees ask for " + std::to_string(count));
+                      " points; its degrees require " + std::to_string(count));
                 return false;
             }
             Vec3 point;
@@ -162,7 +163,7 @@ class BptReader {
 
     void skip_to_degrees() {
         while (cursor_.skip_to_word("#") && !is_degree_line(cursor_)) cursor_.skip_line();
-        // Where the file ends here, the number of patches tells nothing new.
+        // If the file ends here, an error about the number of patches would be redundant.
         if (cursor_.at_end()) count_ = 0;
     }
 

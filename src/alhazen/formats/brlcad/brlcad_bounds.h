@@ -1,10 +1,10 @@
 #pragma once
-/// Bounding boxes of the objects of a scene description, before it is compiled.
+/// Bounding boxes of the objects of a scene description, before compilation.
 ///
 /// Source: BRL-CAD, manual page of `rt`: the view is fitted to the box of the model.
-/// Conventions: of the parts of an object and of the operands of a union only bounded ones count.
-/// The box of an intersection is the intersection of its operands' boxes; the box of a difference
-/// is that of its first operand.
+/// Conventions: unbounded parts of an object and unbounded operands of a union are ignored. The box
+/// of an intersection is the intersection of its operands' boxes; the box of a difference is that
+/// of its first operand.
 
 #include <optional>
 #include <vector>
@@ -16,10 +16,10 @@ namespace alhazen {
 
 class BrlcadBounds {
   public:
-    /// The scene must not change during the lifetime; no object may contain itself.
+    /// Preconditions: the scene does not change during the lifetime; no object contains itself.
     explicit BrlcadBounds(const SceneDescription& scene);
     [[nodiscard]] Box3 of(ObjectIndex object);
-    /// In the frame of the object with the part.
+    /// The box in the frame of the object that has the part.
     [[nodiscard]] Box3 of(const Part& part);
 
   private:

@@ -256,7 +256,7 @@ void BrlcadBuilder::add_regions(const BrlcadTree& tree, std::uint32_t index,
         node.op == BrlcadOperator::Intersection ? Combine::Intersection : Combine::Difference;
     cut_regions(tree, operands.subspan(1), combine, first, regions);
     if (node.op != BrlcadOperator::ExclusiveOr) return;
-    // Exclusive or: also the second operand without the first.
+    // Exclusive or: adds the second operand without the first.
     const std::size_t second = regions.size();
     add_regions(tree, operands[1], state, regions);
     cut_regions(tree, operands.first(1), combine, second, regions);

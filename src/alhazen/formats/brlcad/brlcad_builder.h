@@ -3,12 +3,12 @@
 ///
 /// Source: BRL-CAD, "MGED User's Manual", on regions and attributes inherited from combinations;
 /// manual page of `rt` on air.
-/// Differs: a region with an unsupported solid, a member without a place or a combination that
+/// Differs: a region with an unsupported solid, a member without a transform or a combination that
 /// contains itself is omitted as a whole, with a warning, so that no wrong shape appears.
-/// Conventions: a region is one solid of one material, also on the surfaces of cuts. Operators
-/// above the regions apply to each region of their left operand, which keeps its material. A solid
-/// outside any region forms a region of its own. Complexity: each object is made once per material;
-/// operators above regions copy the regions below them.
+/// Conventions: a region is one solid of one material, which also covers the surfaces of cuts.
+/// Operators above the regions apply to each region of their left operand, which keeps its
+/// material. A solid outside any region forms a region of its own. Complexity: each object is built
+/// once per material; operators above regions copy the regions below them.
 
 #include <map>
 #include <optional>
@@ -28,7 +28,8 @@ class BrlcadBuilder {
   public:
     BrlcadBuilder(const BrlcadDatabase& database, const ImportSource& source,
                   SceneDescription& scene, BrlcadMaterials& materials, Diagnostics& diagnostics);
-    /// Makes the root from the objects of these names; without names, from all top-level objects.
+    /// Builds the root from the objects of these names or, without names, from all top-level
+    /// objects.
     void build(std::span<const std::string> names);
 
   private:
@@ -81,7 +82,7 @@ class BrlcadBuilder {
     void cut_regions(const BrlcadTree& tree, std::span<const std::uint32_t> others, Combine combine,
                      std::size_t first, Regions& regions);
     std::optional<PlacedRegion> region(const BrlcadObject& object, const BrlcadState& state);
-    /// Of the first solid of a region: see brlcad_pattern_unit.
+    /// The pattern unit of the first solid of a region: see brlcad_pattern_unit.
     [[nodiscard]] Vec2 pattern_unit(const BrlcadObject& object) const;
     [[nodiscard]] bool is_drawn(const BrlcadCombination& comb);
 

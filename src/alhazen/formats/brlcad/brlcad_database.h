@@ -2,10 +2,10 @@
 /// A BRL-CAD database as read from text: solids and combinations by name.
 ///
 /// Source: BRL-CAD, "MGED User's Manual", and the text output of its program `g2asc`.
-/// Differs: attributes of other programs are dropped (materials of the ballistic codes, lines of
+/// Differs: attributes for other programs are dropped (materials of the ballistic codes, lines of
 /// sight).
-/// Conventions: millimetres. What cannot be read is a warning; a solid or combination of it is kept
-/// as BrlcadUnsupported, so that nothing is shown that lacks it in silence.
+/// Conventions: millimetres. Unreadable content is a warning; its solid or combination is kept as
+/// BrlcadUnsupported, so that no object silently lacks it.
 
 #include <optional>
 #include <string>
@@ -21,11 +21,11 @@
 namespace alhazen {
 
 struct BrlcadCombination {
-    bool region = false;  ///< one solid of one material; else a group of regions or a part of one
+    bool region = false;  ///< a solid of one material; false: a group of regions or a part of one
     int region_id = 0;
     int air = 0;               ///< nonzero: filled with air, not drawn
     std::optional<Rgb> color;  ///< 0..1
-    std::string shader;        ///< with its parameters; empty: none
+    std::string shader;        ///< with its parameters; empty if there is none
     bool inherit = false;      ///< colour and shader override those of all members
     BrlcadTree tree;
 };
@@ -36,7 +36,7 @@ struct BrlcadObject {
     BrlcadPlace place;
 };
 
-/// Colour of the regions with an id in first..last.
+/// The colour of the regions whose id is in first..last.
 struct BrlcadRegionColor {
     int first = 0, last = 0;
     Rgb color;
@@ -48,8 +48,8 @@ struct BrlcadDatabase {
     std::vector<BrlcadObject> objects;
     std::unordered_map<std::string, std::size_t> by_name;
     std::vector<BrlcadRegionColor> region_colors;
-    std::size_t faults = 0;      ///< things that could not be read
-    bool told_rounding = false;  ///< warned of a rounded matrix
+    std::size_t faults = 0;      ///< number of items that could not be read
+    bool told_rounding = false;  ///< a warning about a rounded matrix was given
 
     [[nodiscard]] FileLocation at(const BrlcadPlace& place) const {
         return {file, place.line, place.column};
@@ -62,10 +62,10 @@ struct BrlcadDatabase {
         const auto found = by_name.find(name);
         return found == by_name.end() ? nullptr : &objects[found->second];
     }
-    /// Adds an object. Warns of members without a place, once of rounded matrices, and of a
-    /// duplicate name, whose first object is kept.
+    /// Adds an object. Warns of members without a transform, once of rounded matrices, and of a
+    /// duplicate name, for which the first object is kept.
     void add(BrlcadObject object, Diagnostics& diagnostics);
-    /// Warns of something that cannot be read.
+    /// Warns of unreadable content.
     void fault(const FileLocation& where, const std::string& message, Diagnostics& diagnostics) {
         ++faults;
         diagnostics.warning(where, message);

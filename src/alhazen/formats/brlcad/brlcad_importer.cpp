@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// What BRL-CAD's pictures mean.
+/// The conventions of BRL-CAD's pictures.
 Conventions brlcad_conventions() {
     Conventions c;
     c.shading.highlight = ShadingConventions::Highlight::Schlick;
@@ -23,7 +23,7 @@ Conventions brlcad_conventions() {
     return c;
 }
 
-/// That of `rt`: blue 1 of 255 tells it from black surfaces.
+/// The background of `rt`: blue 1 of 255 distinguishes it from black surfaces.
 constexpr Rgb kBackground{0, 0, 1.0 / 255.0};
 
 /// Size limit of view scripts.

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMaxLights = 1000;
 /// Ambient light of `rt`, which comes from the eye.
 constexpr double kAmbient = 0.4;
-/// Share of full light that the brightest light has.
+/// Fraction of full light of the brightest light.
 constexpr double kBrightest = 1.0 / (1.0 + 0.5 * kAmbient);
 
 class LightFinder {
@@ -47,7 +47,7 @@ class LightFinder {
     }
 
   private:
-    /// The light of a part that is a shape or a solid of shapes; else null.
+    /// The light of a part that is a shape or a solid of shapes; null otherwise.
     const BrlcadLight* light_of(const Part& part) {
         const auto* child = std::get_if<ObjectIndex>(&part.what);
         if (child == nullptr) return materials_.light(part.material);
@@ -56,7 +56,7 @@ class LightFinder {
         return light_of(object.parts[0]);
     }
 
-    /// Of the first solid of a part.
+    /// The transform of the first solid of a part.
     Affine object_from_first(const Part& part) {
         Affine transform = part.object_from_part;
         const auto* child = std::get_if<ObjectIndex>(&part.what);
@@ -87,7 +87,8 @@ class LightFinder {
     std::vector<std::optional<bool>> holds_;
 };
 
-/// Fractions of full light: those of the file, or by the intensity, the brightest kBrightest.
+/// Fractions of full light: those of the file; otherwise by intensity, where the brightest light
+/// has kBrightest.
 class Fractions {
   public:
     explicit Fractions(const BrlcadMaterials& materials) {
@@ -125,7 +126,7 @@ Light make_light(const LightFinder::Found& found, double fraction) {
     return light;
 }
 
-/// The light that `rt` adds to a model without any: white, beside the eye, without shadows.
+/// Adds the light of `rt` for a model without lights: white, beside the eye, without shadows.
 void add_implicit_light(SceneDescription& scene) {
     if (scene.cameras.empty()) return;
     const auto* camera = std::get_if<OrthographicCamera>(&scene.cameras[0].camera);
@@ -156,11 +157,11 @@ void add_brlcad_lights(SceneDescription& scene, const BrlcadMaterials& materials
     for (const auto& one : found) {
         scene.lights.push_back(
             {one.part->name, make_light(one, fractions.of(*one.light)), one.part->location});
-        // Its source is inside: what is seen of it lets all light through.
+        // The source is inside its visible solid, which therefore casts no shadows.
         if (one.light->shown) one.part->visible_to = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
     }
     for (const auto& [id, light] : materials.lights()) {
-        // Half of its brightness falls with the view, as the ambient light does.
+        // Half of its brightness depends on the view direction, as the ambient light does.
         Material& material = scene.materials[static_cast<std::size_t>(id)].material;
         const Rgb brightness = fractions.of(light) * light.color;
         const bool shines =

@@ -86,7 +86,7 @@ BrlcadLight light_of(const BrlcadShader& shader, const Rgb& color) {
     return light;
 }
 
-/// The region's colour and what its patterns make of it.
+/// The colour of a region and its patterns.
 struct Base {
     Rgb color;
     TextureId texture = kNoTexture;
@@ -147,14 +147,17 @@ Material BrlcadMaterials::make(const std::vector<BrlcadShader>& shaders, const R
         if (shader.name == "light") {
             tell_unknown(shader, kLightParameters, place);
             if (shader.number("shadows", "s").value_or(1.0) == 0.0) {
-                tell_once("a light without shadows casts them here", place);
+                tell_once("lights without shadows are not supported: this one casts shadows",
+                          place);
             }
             if (shader.number("shadows", "s").value_or(1.0) > 1.0) {
-                tell_once("the soft shadows of a light are hard: it shines from its middle", place);
+                tell_once(
+                    "soft shadows are not supported: the light is a point light at its centre",
+                    place);
             }
             light = light_of(shader, color);
-            // Not seen, and transparent to its own light. add_brlcad_lights says how
-            // bright it is.
+            // Invisible, and transparent to its own light. add_brlcad_lights sets its brightness if
+            // it is visible.
             Material material;
             material.transmissive.color = {1, 1, 1};
             return material;
@@ -176,7 +179,7 @@ Material BrlcadMaterials::make(const std::vector<BrlcadShader>& shaders, const R
         apply(shader, *phong);
     }
     if (phong || base.texture == kNoTexture) return phong_material(phong.value_or(Phong{}), base);
-    // A pattern by itself shows its colours whatever the light.
+    // A pattern alone emits its colours, independent of lights.
     Material material;
     material.emission = base.times(1.0);
     return material;

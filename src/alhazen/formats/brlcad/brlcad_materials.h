@@ -3,9 +3,9 @@
 ///
 /// Source: BRL-CAD, manual pages of `rt` and of its shaders for names and values of their
 /// parameters.
-/// Differs: patterns (checker, testmap, cloud) lie in the texture coordinates of our shapes; an
-/// environment is one colour; textures and bumps become plain plastic, with a warning. The solid of
-/// a light does not block its own light.
+/// Differs: patterns (checker, testmap, cloud) use the texture coordinates of Alhazen's shapes; an
+/// environment is a single colour; textures and bumps become plain plastic, with a warning. The
+/// solid of a light does not occlude its own light.
 /// Conventions: colours 0..1, linear as in BRL-CAD's images.
 
 #include <map>
@@ -37,13 +37,13 @@ struct BrlcadState {
     }
 };
 
-/// Light source of a region with the shader `light`.
+/// The light of a region with the shader `light`.
 struct BrlcadLight {
     Rgb color;
     double intensity = 1;
-    double fraction = -1;        ///< of full light; <= 0: by the intensity
-    double angle_deg = 180;      ///< half that of its beam
-    std::optional<Vec3> target;  ///< a point in the beam's axis; none: -z of the light's solid
+    double fraction = -1;        ///< of full light; <= 0: by intensity
+    double angle_deg = 180;      ///< half the angle of its beam
+    std::optional<Vec3> target;  ///< a point on the beam's axis; none: -z of the light's solid
     bool shown = true;
     bool infinite = false;  ///< directional, at infinity
 };
@@ -54,12 +54,13 @@ class BrlcadMaterials {
                     Diagnostics& diagnostics)
         : database_(database), scene_(scene), diagnostics_(diagnostics) {}
 
-    /// The material of a region in that state. A region without a colour has that of the colour
-    /// table for its `region_id`; 0 outside regions. `unit`: length of a pattern in the texture
-    /// coordinates of the region's shapes.
+    /// The material of a region in that state. A region without a colour has the colour of the
+    /// colour table for its `region_id`, which is 0 outside regions. `unit`: length of a pattern in
+    /// the texture coordinates of the region's shapes.
     MaterialId of(const BrlcadState& state, int region_id, const Vec2& unit,
                   const BrlcadPlace& place);
-    /// True for a region with the shader envmap: it is no solid, and the first is the background.
+    /// True for a region with the shader envmap, which is not a solid; the first one sets the
+    /// background.
     bool takes_environment(const BrlcadState& state, int region_id, const BrlcadPlace& place);
     [[nodiscard]] const BrlcadLight* light(MaterialId material) const {
         const auto found = lights_.find(material);
@@ -81,7 +82,7 @@ class BrlcadMaterials {
     Diagnostics& diagnostics_;
     std::map<std::tuple<double, double, double, std::string, double, double>, MaterialId> known_;
     std::map<MaterialId, BrlcadLight> lights_;
-    std::set<std::string> told_;  ///< warnings
+    std::set<std::string> told_;  ///< warnings already given
     bool has_environment_ = false;
 };
 

@@ -25,7 +25,7 @@ Rgb mean_of(const Image& image) {
     return (1.0 / (static_cast<double>(image.width) * image.height)) * sum;
 }
 
-/// Two colours, the first at the origin; a square is 1 / s.
+/// Squares of two colours, the first at the origin; the side of a square is 1 / s.
 BrlcadPattern checker(const BrlcadShader& shader) {
     const auto color = [&](const char* name, double otherwise) {
         const Rgb c = shader.three(name).value_or(Rgb{otherwise, otherwise, otherwise});
@@ -42,7 +42,7 @@ BrlcadPattern checker(const BrlcadShader& shader) {
     return pattern;
 }
 
-/// Red grows with u, blue with v.
+/// An image whose red grows with u, its blue with v.
 BrlcadPattern test_map() {
     constexpr int kSide = 256;
     BrlcadPattern pattern;
@@ -56,7 +56,7 @@ BrlcadPattern test_map() {
     return pattern;
 }
 
-/// Gardner's product of two sums of four sines each, which shift each other, from 0 to 1.
+/// Gardner's product of two sums of four sines each, which shift each other's phase; in 0 to 1.
 double gardner(double u, double v) {
     constexpr double kQuarter = 0.5 * kPi;
     double frequency_u = 4.0 * kPi, frequency_v = 2.0 * kPi;

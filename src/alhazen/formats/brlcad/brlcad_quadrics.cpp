@@ -87,7 +87,8 @@ std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid) {
           length(solid.axis) > 0.0)) {
         return std::nullopt;
     }
-    // Unit: the radius of the circle. The semi-axis c has the component cz along the axis.
+    // Unit of length: the radius of the circle. The semi-axis c has the component cz along the
+    // axis.
     const Vec3 axis = normalize(solid.axis);
     const double c = length(solid.c) / solid.major;
     const double m = solid.minor / solid.major;

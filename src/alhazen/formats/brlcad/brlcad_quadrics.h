@@ -3,7 +3,7 @@
 ///
 /// Source: BRL-CAD, the definitions of rpc, rhc, epa, ehy, hyp and eto in the manual page of MGED's
 /// command `in`.
-/// Differs: each is a general quadric (or a polynomial of degree 4) clipped to a box of unit size
+/// Differs: each is a general quadric (or a polynomial of degree 4), clipped to a box of unit size
 /// and placed by a transform.
 /// Conventions: the asymptotes of a hyperbola intersect at the distance c above the apex.
 
@@ -28,7 +28,7 @@ struct BrlcadQuartic {
     Affine solid_from_shape;
 };
 
-/// None if the ellipse reaches the axis or has no area.
+/// The quartic of the solid; none if the ellipse reaches the axis or has no area.
 [[nodiscard]] std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid);
 
 }  // namespace alhazen

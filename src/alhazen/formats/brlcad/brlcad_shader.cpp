@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Names that begin a shader within a stack, where nothing else separates it from the one before.
+/// Names that begin a shader within a stack, where nothing else separates it from the previous one.
 constexpr std::array<std::string_view, 26> kShaderNames{
     "air",    "brdf",     "bump", "bwtexture", "camo",  "checker", "cloud",   "cook",  "default",
     "envmap", "fakestar", "fire", "flat",      "gauss", "glass",   "gravel",  "light", "mirror",
@@ -75,7 +75,7 @@ std::vector<BrlcadShader> read_brlcad_shaders(const std::string& text) {
             begins = true;
         } else if (begins || (in_list && is_shader_name(word))) {
             shaders.push_back({word, {}});
-            // What stands in a stack or behind envmap is a shader again.
+            // The next word in a stack or after envmap begins another shader.
             begins = word == "stack" || word == "envmap";
         } else if (const auto value = number_of(word); !value) {
             shaders.back().parameters.push_back({word, {}});

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Adds a piece if its shape is valid; else sets the reason.
+/// Adds a piece if its shape is valid; otherwise sets the reason.
 template <class S>
 void add(BrlcadPieces& pieces, S shape, const Affine& solid_from_shape = {}) {
     Diagnostics findings;
@@ -51,7 +51,7 @@ struct Maker {
         tgc.axis_b = given.b;
         tgc.axis_c = given.c;
         tgc.axis_d = given.d;
-        // Only the lengths of the upper semi-axes count; they are parallel to those of the base.
+        // Only the lengths of the upper semi-axes are used; they are parallel to those of the base.
         if (length(given.a) > 0.0) tgc.axis_c = as_long_as(given.a, given.c);
         if (length(given.b) > 0.0) tgc.axis_d = as_long_as(given.b, given.d);
         add(made, tgc);

@@ -1,5 +1,5 @@
 #pragma once
-/// Exact shapes of the solids of BRL-CAD.
+/// Converts the solids of BRL-CAD to exact shapes.
 ///
 /// Source: BRL-CAD, the definitions of its solids in the manual page of MGED's command `in`.
 /// Differs: slightly non-planar faces of an arb8 are handled as in `polyhedron.h`; a plate-mode bot
@@ -19,17 +19,17 @@ struct BrlcadPiece {
     Affine solid_from_piece;
 };
 
-/// Pieces with the solid as their union.
+/// Pieces whose union is the solid.
 struct BrlcadPieces {
     std::vector<BrlcadPiece> pieces;
-    bool closed = true;   ///< bounds a volume
+    bool closed = true;   ///< true if the solid bounds a volume
     std::string refused;  ///< reason if there are no pieces
 };
 
 [[nodiscard]] BrlcadPieces brlcad_pieces(const BrlcadSolid& solid);
 
-/// Length of one pattern, from 0 to 1 in BRL-CAD's texture coordinates, in those of the solid's
-/// shape: the largest face of an arb8, 5 m of a half space, else 1.
+/// Length of one pattern (0 to 1 in BRL-CAD's texture coordinates) in the texture coordinates of
+/// the solid's shape: the largest face of an arb8, 5 m for a half space, else 1.
 [[nodiscard]] Vec2 brlcad_pattern_unit(const BrlcadSolid& solid);
 
 }  // namespace alhazen

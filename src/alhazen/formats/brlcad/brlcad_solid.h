@@ -4,7 +4,7 @@
 /// Source: BRL-CAD, "MGED Quick Reference" and the text output of its program `g2asc`.
 /// Differs: both versions use the same structures. arb4 to arb8 have eight points each, spheres are
 /// ellipsoids, all cylinders and cones are `tgc`.
-/// Conventions: millimetres.
+/// Conventions: lengths in millimetres.
 
 #include <array>
 #include <memory>
@@ -22,7 +22,7 @@ struct BrlcadArb8 {
     std::array<Vec3, 8> corners;
 };
 
-/// Centre and semi-axes.
+/// An ellipsoid: centre and semi-axes.
 struct BrlcadEllipsoid {
     Vec3 center, a, b, c;
 };
@@ -38,7 +38,7 @@ struct BrlcadTorus {
     double major = 0, minor = 0;
 };
 
-/// All p with dot(normal, p) <= distance.
+/// The points p with dot(normal, p) <= distance.
 struct BrlcadHalfSpace {
     Vec3 normal;
     double distance = 0;
@@ -67,8 +67,8 @@ struct BrlcadConicDome {
     bool hyperbolic = false;
 };
 
-/// The revolution about `axis` of an ellipse with semi-axis `c` and a perpendicular one of length
-/// `minor`.
+/// The solid of revolution about `axis` of an ellipse with semi-axis `c` and a perpendicular one of
+/// length `minor`.
 struct BrlcadEllipticTorus {
     Vec3 center, axis, c;
     double major = 0, minor = 0;
@@ -86,7 +86,7 @@ struct BrlcadSuperellipsoid {
     double north = 1, east = 1;
 };
 
-/// All p with dot(normal, p) <= distance for each plane.
+/// The points p with dot(normal, p) <= distance for every plane.
 struct BrlcadPolyhedron {
     std::vector<BrlcadHalfSpace> planes;
 };
@@ -94,11 +94,11 @@ struct BrlcadPolyhedron {
 /// A mesh of an ars or bot.
 struct BrlcadMesh {
     std::shared_ptr<TriangleMesh> mesh;
-    bool solid = true;   ///< else a surface
+    bool solid = true;   ///< false: a surface
     bool plate = false;  ///< a surface with a thickness, which is dropped
 };
 
-/// A solid that is not read.
+/// A solid that the importer does not support.
 struct BrlcadUnsupported {
     std::string reason = "has an unsupported type";
 };

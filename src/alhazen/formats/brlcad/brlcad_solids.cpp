@@ -103,7 +103,7 @@ BrlcadBuilder::Operand BrlcadBuilder::combined(Combine combine, std::vector<Part
     object.location = database_.at(place);
     for (const Part& part : parts) {
         if (!is_surface(part)) continue;
-        // Surfaces support only union: they bound no volume to cut.
+        // Surfaces support only union: they bound no volume that could be cut.
         if (combine != Combine::Union) {
             unread_ = "'" + part.name + "' is a surface and bounds no volume";
             return {Outcome::Unread, {}};

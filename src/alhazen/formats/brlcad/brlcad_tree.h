@@ -26,7 +26,7 @@ struct BrlcadNode {
     std::vector<std::uint32_t> operands;  ///< of Difference: the first minus the others
     std::string member;                   ///< of Leaf: the name of the placed object
     Affine comb_from_member;
-    LastRow last_row = LastRow::Exact;  ///< of the matrix; Perspective: the member has no place
+    LastRow last_row = LastRow::Exact;  ///< of the matrix; Perspective: the member has no transform
     BrlcadPlace place;
 };
 
@@ -37,7 +37,7 @@ class BrlcadTree {
 
     std::uint32_t add_leaf(std::string member, const Affine& comb_from_member,
                            const BrlcadPlace& place);
-    /// The same with the matrix of the file. One without an inverse gives no place either.
+    /// Adds a leaf with the matrix of the file. A matrix without an inverse gives no transform.
     std::uint32_t add_leaf(std::string member, const std::array<double, 16>& matrix,
                            const BrlcadPlace& place);
     /// Joins two nodes under an operator, which takes ownership of them. Either may be kEmpty.

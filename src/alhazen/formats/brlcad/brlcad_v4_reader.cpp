@@ -139,7 +139,7 @@ void BrlcadV4Reader::read_record(bool lost) {
     if (kind == "w") return read_pipe();
     if (kind == "D") return read_spline();
     if (kind == "c") return read_unsupported("cline");
-    // The rest of a record that could not be read is no second fault.
+    // The rest of an unreadable record is not reported as a second fault.
     record_failed_ = true;
     if (lost) return;
     database_.fault(database_.at(record_),
@@ -230,7 +230,7 @@ void BrlcadV4Reader::read_member() {
         }
     }
     if (op == BrlcadOperator::Leaf || !name(member) || !numbers(matrix)) {
-        // A member without a place: what it is part of is not shown without it.
+        // A member without a transform: the object that contains it is omitted.
         matrix.fill(0.0);
         if (member.empty()) member = "?";
         op = BrlcadOperator::Union;

@@ -3,8 +3,8 @@
 ///
 /// Source: BRL-CAD, the text output of its program `g2asc` for databases of version 4.
 /// Differs: numbers documented as unused may be missing.
-/// Conventions: a fault in a record is a warning; reading continues after it, and the object of the
-/// record is unsupported. A file that ends within a record is an error.
+/// Conventions: a fault in a record is a warning; reading continues after the record, whose object
+/// is unsupported. A file that ends within a record is an error.
 
 #include <cstdint>
 #include <span>
@@ -25,7 +25,7 @@ class BrlcadV4Reader {
     [[nodiscard]] static bool recognise(std::string_view text);
 
   private:
-    void read_record(bool lost);  ///< lost: the record before could not be read
+    void read_record(bool lost);  ///< lost: the previous record could not be read
     void read_ident();
     void read_solid();
     void read_combination();
@@ -46,7 +46,7 @@ class BrlcadV4Reader {
     void add_solid(std::string name, BrlcadSolid solid, const BrlcadPlace& place);
     bool read_ars_points(std::size_t count, std::vector<Vec3>& points);
     bool read_bot_faces(bool thick, std::size_t count, TriangleMesh& mesh);
-    /// Moves behind the first word of the next line if it is `kind`; else stays.
+    /// Moves behind the first word of the next line if it is `kind`; otherwise stays.
     bool go_to_next(std::string_view kind);
     /// Counts `count` elements against the limit of the file.
     void check_room(std::int64_t count);

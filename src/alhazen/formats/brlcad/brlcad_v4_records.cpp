@@ -1,4 +1,4 @@
-// Records of version 4 of several lines, or of solids with few numbers.
+// Records of version 4 that span several lines, or describe solids with few numbers.
 
 #include <array>
 
@@ -87,7 +87,7 @@ void BrlcadV4Reader::read_ars() {
         check_room(per_curve);
         if (!read_ars_points(static_cast<std::size_t>(per_curve), points)) return;
     }
-    // All points but the first are relative to it.
+    // All points except the first are relative to the first.
     for (std::size_t i = 1; i < points.size(); ++i) points[i] = points[0] + points[i];
     add_solid(std::move(solid_name),
               {"ars", brlcad_ars(points, static_cast<std::size_t>(curves),

@@ -43,7 +43,7 @@ BrlcadSolid brlcad_v4_solid(std::int64_t type, const std::array<double, 24>& s) 
         case kEllipsoid:
             return {"ell", BrlcadEllipsoid{v[0], v[1], v[2], v[3]}};
         case kArb8: {
-            // All corners but the first are relative to it.
+            // All corners except the first are relative to the first.
             for (std::size_t i = 1; i < 8; ++i) v[i] = v[0] + v[i];
             return {"arb8", BrlcadArb8{v}};
         }

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// The integer of a word; none for other words.
+/// The integer of a word; none if the word is not an integer.
 std::optional<int> whole_number(const TclWord& word) {
     TextCursor cursor(word.text);
     std::int64_t value = 0;
@@ -103,7 +103,7 @@ void BrlcadV5Reader::read_command(std::span<const TclWord> words) {
         if (words.size() > 1) database_.title = tcl_value(words[1]);
         return;
     }
-    if (command == "units") return;  // for display in BRL-CAD's programs only
+    if (command == "units") return;  // only for display in BRL-CAD's programs
     if (command == "dbbinary" || command == "bo") {
         diagnostics_.warning(location(words[0]),
                              "'" + std::string(command) + "' (binary data) is not read");

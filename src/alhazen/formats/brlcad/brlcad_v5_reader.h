@@ -4,8 +4,8 @@
 /// Source: BRL-CAD, the text output of its program `g2asc`, and the documentation of the MGED
 /// commands put, attr, title, units and color.
 /// Differs: Tcl is not evaluated; other commands are rejected.
-/// Conventions: a fault within a command is a warning; reading continues after it, and the object
-/// of the command is unsupported. Invalid Tcl is an error.
+/// Conventions: a fault within a command is a warning; reading continues after the command, whose
+/// object is unsupported. Invalid Tcl is an error.
 
 #include <map>
 #include <span>
@@ -58,8 +58,8 @@ class BrlcadV5Reader {
                                                TextPlaces& places, const std::string& file,
                                                std::uint64_t max_elements);
 
-/// Reads a list of at most `most` numbers, which may be nested lists. Throws Error (Scene) for
-/// other content.
+/// Reads a list, possibly nested, of at most `most` numbers. Throws Error (Scene) for other
+/// content.
 [[nodiscard]] std::vector<double> tcl_numbers(std::string_view list, std::size_t most);
 
 }  // namespace alhazen

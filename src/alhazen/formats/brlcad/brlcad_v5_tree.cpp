@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// Reads a tree without recursion, since files have chains of thousands of operators.
+/// Reads a tree without recursion: files may have chains of thousands of operators.
 class TreeReader {
   public:
     TreeReader(std::string_view text, TextPlaces& places, const std::string& file)

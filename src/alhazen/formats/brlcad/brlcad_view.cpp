@@ -84,7 +84,7 @@ class ViewReader {
     ViewReader(std::string_view text, const std::string& file, const Box3& box,
                Diagnostics& diagnostics)
         : file_(file), fit_(box), diagnostics_(diagnostics) {
-        // A shell script has the input for `rt` in a here-document.
+        // A shell script contains the input for `rt` in a here-document.
         std::int64_t line = 1;
         const std::size_t document = text.find("<<");
         if (document != std::string_view::npos) {

@@ -28,18 +28,18 @@ struct BrlcadFrame {
 [[nodiscard]] BrlcadFrame brlcad_frame(double azimuth_deg, double elevation_deg);
 
 /// The named views of BRL-CAD for a model in `box`, each as wide as the diagonal of the box. The
-/// first has azimuth 35, elevation 25, the default of `rt`. None for a box without volume.
+/// first has azimuth 35 and elevation 25, the default of `rt`. Empty for a box without volume.
 [[nodiscard]] std::vector<CameraDescription> brlcad_cameras(const Box3& box,
                                                             const FileLocation& where);
 
-/// Reads one camera per frame of a script; skips text before a shell's "<<EOF". `file`: name for
-/// messages; `box`: fits views without size or eye.
+/// Reads one camera per frame of a script; skips the text before a shell's "<<EOF". `file`: name
+/// for messages; `box`: used to fit views without size or eye.
 [[nodiscard]] std::vector<CameraDescription> read_brlcad_views(std::string_view text,
                                                                const std::string& file,
                                                                const Box3& box,
                                                                Diagnostics& diagnostics);
 
-/// The background that the shell command of a saved view gives `rt` (-C red/green/blue).
+/// The background colour that the shell command of a saved view passes to `rt` (-C red/green/blue).
 [[nodiscard]] std::optional<Rgb> brlcad_view_background(std::string_view text);
 
 }  // namespace alhazen

@@ -5,7 +5,8 @@
 
 namespace alhazen {
 
-/// Pictures are sRGB, attenuation is not clamped, the air's index is 1.
+/// The conventions: pictures are sRGB, attenuation is not clamped, the refractive index of air is
+/// 1.
 [[nodiscard]] Conventions default_conventions();
 
 }  // namespace alhazen

@@ -3,7 +3,7 @@
 ///
 /// Conventions: row-major, for column vectors. The last number divides all others. A last row that
 /// is then (0, 0, 0, 1) up to kLastRowRounding is taken as exactly that: editors compose and invert
-/// matrices in floating point and write what comes out.
+/// matrices in floating point and write the rounded result.
 
 #include <array>
 #include <cmath>
@@ -15,11 +15,11 @@ namespace alhazen {
 
 enum class LastRow : std::uint8_t {
     Exact,        ///< (0, 0, 0, w)
-    Rounded,      ///< (0, 0, 0, w) but for rounding
-    Perspective,  ///< not that of an affine transform, or with w = 0
+    Rounded,      ///< (0, 0, 0, w) up to rounding
+    Perspective,  ///< not that of an affine transform, or w = 0
 };
 
-/// Bound of the first three numbers of the last row relative to its last.
+/// Bound on the first three numbers of the last row, relative to the fourth.
 inline constexpr double kLastRowRounding = 1e-5;
 
 struct HomogeneousMatrix {
@@ -31,7 +31,7 @@ struct HomogeneousMatrix {
         const double bound = kLastRowRounding * std::fabs(w);
         bool exact = true;
         for (std::size_t i = 12; i < 15; ++i) {
-            if (!(std::fabs(m[i]) <= bound)) return;  // NaN, too
+            if (!(std::fabs(m[i]) <= bound)) return;  // also for NaN
             exact = exact && m[i] == 0.0;
         }
         if (w == 0.0) return;

@@ -52,10 +52,10 @@ class Importer {
     [[nodiscard]] virtual const char* description() const = 0;  ///< one line
     /// Confidence that the bytes are of this format: 0 none, 1 by suffix only, 2 by content.
     [[nodiscard]] virtual int recognise(const ImportSource& source) const = 0;
-    /// True when the importer creates only the objects of `ImportOptions::objects`; otherwise they
-    /// are selected after import.
+    /// True if the importer creates only the objects of `ImportOptions::objects`; if false, they
+    /// are selected after the import.
     [[nodiscard]] virtual bool chooses_objects() const { return false; }
-    /// True when the format supports `ImportOptions::view_script`.
+    /// True if the format supports `ImportOptions::view_script`.
     [[nodiscard]] virtual bool reads_view_scripts() const { return false; }
     /// Imports all readable content. Findings go to `diagnostics`; the result is valid only without
     /// errors. Throws Error only for limits (Resource) and unreadable files.

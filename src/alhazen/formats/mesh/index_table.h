@@ -2,8 +2,8 @@
 /// Numbers keys in the order of their first use: a hash table with linear probing; the caller
 /// stores the keys in a list.
 ///
-/// Conventions: hashes are seeded differently per run and per table, so no file can be crafted
-/// whose keys all collide. The numbering does not depend on the seed.
+/// Conventions: hashes are seeded differently for each run and each table, so that no file can be
+/// crafted whose keys all collide. The numbering does not depend on the seed.
 /// Complexity: O(1) expected per call; two to four slots of 4 bytes per key.
 
 #include <bit>
@@ -22,14 +22,14 @@ class IndexTable {
     explicit IndexTable(std::size_t expected = 0)
         : slots_(std::bit_ceil(2 * expected + 16), kNone), seed_(new_seed()) {}
 
-    /// Hash of a key that consists of these words.
+    /// The hash of a key made of these words.
     [[nodiscard]] std::uint64_t hash(std::initializer_list<std::uint64_t> words) const {
         std::uint64_t hash = seed_;
         for (const std::uint64_t word : words) hash = mix64(hash ^ word);
         return hash;
     }
 
-    /// The number of the key with this hash: the existing number below `count` for which
+    /// Returns the number of the key with this hash: the number below `count` for which
     /// `is_key(number)` holds, otherwise `count`; the caller then appends the key to its list.
     /// `hash_of(number)` returns the hashes of existing keys.
     template <class IsKey, class HashOf>

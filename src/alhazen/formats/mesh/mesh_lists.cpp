@@ -24,7 +24,7 @@ bool read_index(TextNode value, std::string_view what, std::size_t vertices,
     return false;
 }
 
-/// Reads all elements even after an error, to report every finding.
+/// Reads all elements even after an error, to report all errors.
 template <class T>
 bool read_all(TextNode list, std::string_view what, const ValueReader& values,
               std::vector<T>& out) {

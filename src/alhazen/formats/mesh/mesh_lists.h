@@ -1,5 +1,5 @@
 #pragma once
-/// Lists of points, faces, normals and texture coordinates in both text formats.
+/// Lists of points, faces, normals and texture coordinates of the text formats.
 ///
 /// Conventions: each function reports errors with their location and returns false; vertex arrays
 /// must have one entry per position.

@@ -7,8 +7,8 @@ namespace alhazen {
 
 namespace {
 
-/// Normalises `v`; false when it has no direction. Scales first, so that squares neither underflow
-/// nor overflow.
+/// Normalises `v`; false if it has no direction. Scales first, so that squares do not over- or
+/// underflow.
 bool make_unit(Vec3& v) {
     const double scale = max_component(abs(v));
     if (!is_finite(v) || scale == 0.0) return false;
@@ -18,7 +18,8 @@ bool make_unit(Vec3& v) {
     return true;
 }
 
-/// The sum over the triangles at `place_of[vertex]` of their normals times twice their areas.
+/// [place] The sum, over the triangles at `place_of[vertex]`, of their normals times twice their
+/// areas.
 std::vector<Vec3> weighted_normals(const TriangleMesh& mesh,
                                    const std::vector<std::uint32_t>& place_of, std::size_t places) {
     std::vector<Vec3> sums(places);

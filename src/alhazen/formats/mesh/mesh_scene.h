@@ -16,20 +16,21 @@ namespace alhazen {
 [[nodiscard]] SceneDescription make_mesh_scene(const ImportSource& source, const char* format,
                                                UpAxis up);
 
-/// Matte grey, 0.7; white for a mesh with vertex colours, which then appear unchanged.
+/// Matte grey, 0.7; white for a mesh with vertex colours, which then are unchanged.
 [[nodiscard]] Material default_mesh_material(bool colored = false);
 
 /// Adds a mesh as a part of the root; `name` names the mesh and the part.
 void add_mesh(SceneDescription& scene, TriangleMesh mesh, std::string name, MaterialId material,
               const FileLocation& where);
 
-/// Reports the error of a file with vertices only, or without any content.
+/// Reports the error of a file that has only vertices, or no content.
 void report_no_faces(const ImportSource& source, std::size_t points, Diagnostics& diagnostics);
 
-/// Reports UTF-16 text, empty files and files with bytes that occur in no text; then false.
+/// Reports UTF-16 text, empty files and files with bytes that occur in no text, and returns false
+/// for them.
 bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics);
 
-/// True when the file name ends with `suffix` (including its dot), ignoring case.
+/// True if the file name ends with `suffix` (including its dot), ignoring case.
 [[nodiscard]] bool has_suffix(const std::filesystem::path& path, std::string_view suffix);
 
 }  // namespace alhazen

@@ -23,7 +23,7 @@ std::array<std::uint32_t, 3> placed(const std::array<std::uint32_t, 3>& t, bool 
     return mirrored ? std::array{t[0], t[2], t[1]} : t;
 }
 
-/// Transformed normal of a placed mesh; zero where it has no direction.
+/// The normal of a placed mesh; zero if it has no direction.
 Vec3 placed_normal(const Mat3& mesh_from_file, const Vec3& normal) {
     const Vec3 n = transpose_times(mesh_from_file, normal);
     const double size = length(n);
@@ -65,7 +65,7 @@ void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
         }
         return;
     }
-    // A flat mesh among smooth ones: each triangle gets vertices of its own.
+    // A flat mesh among smooth ones: each triangle gets its own vertices.
     for (const auto& t : mesh.triangles) {
         const std::uint32_t first = std::uint32_t(out.positions.size());
         const Vec3& p = mesh.positions[t[0]];

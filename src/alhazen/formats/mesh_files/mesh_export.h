@@ -1,11 +1,11 @@
 #pragma once
-/// Triangle meshes as bytes of mesh files: PLY for the library, PLY, OBJ and STL for export.
+/// Triangle meshes as bytes of mesh files: PLY for the library, and PLY, OBJ and STL for export.
 ///
 /// Conventions: binary little-endian PLY, text OBJ, binary STL. Numbers keep all bits where the
-/// format has the capacity: PLY uses float for arrays whose values are floats, otherwise double;
-/// OBJ uses the shortest decimals that read back equal; STL has floats only, so positions are
-/// rounded. Placements apply to positions, normals and tangents; a mirroring placement also
-/// reverses the triangle orientation, so that the outside stays outside. Property names:
+/// format permits: PLY uses float for arrays whose values are floats, otherwise double; OBJ uses
+/// the shortest decimals that read back equal; STL has floats only, so positions are rounded.
+/// Placements apply to positions, normals and tangents; a mirroring placement also reverses the
+/// triangle orientation, so that the outside stays outside. Property names:
 /// docs/reference/formats/ply.md.
 
 #include <span>
@@ -18,7 +18,7 @@
 
 namespace alhazen {
 
-/// A mesh as one object of a file.
+/// A mesh as an object of a file.
 struct NamedMesh {
     std::string name;
     const TriangleMesh* mesh = nullptr;  ///< never null
@@ -26,14 +26,14 @@ struct NamedMesh {
     std::string material;                ///< OBJ: name for `usemtl`; empty: none
 };
 
-/// One mesh unchanged; read_ply returns every array bit for bit.
+/// A single mesh, unchanged; read_ply returns every array bit for bit.
 [[nodiscard]] std::string ply_bytes(const TriangleMesh& mesh);
-/// All meshes as one. Arrays that only some meshes have are filled with defaults: white, face
+/// All meshes merged. Arrays that only some meshes have are filled with defaults: white, face
 /// normals, zero texture coordinates. Tangents and vertex materials are omitted. Throws Error
 /// (Resource) beyond 2^32 - 1 vertices.
 [[nodiscard]] std::string ply_bytes(std::span<const NamedMesh> meshes);
 
-/// One `o` per mesh. `mtllib` names the material file; empty: none.
+/// Text with one `o` per mesh. `mtllib`: name of the material file; empty: none.
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
 /// A texture that accompanies an MTL file.
@@ -41,8 +41,8 @@ struct MtlTexture {
     std::string file;  ///< image file, relative to the MTL file; empty: the map is omitted
     ImageTexture settings;
 };
-/// The MTL file of these materials, by name; `textures` [texture]. Appends a line to `lost` for
-/// each kind of property that MTL cannot express.
+/// The MTL file of these materials; `textures` [texture]. Appends a line to `lost` for each kind of
+/// property that MTL cannot express.
 [[nodiscard]] std::string mtl_text(std::span<const Material> materials,
                                    std::span<const MtlTexture> textures,
                                    std::vector<std::string>& lost);

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Lost properties: each kind once, with its count and first occurrence.
+/// Lost properties: one entry for each kind, with its count and first occurrence.
 class Losses {
   public:
     void add(const std::string& what, const std::string& material) {
@@ -67,7 +67,7 @@ class MtlWriter {
         const bool mirror = !is_black(m.reflective);
         color("Ka", "map_Ka", m.ambient);
         color("Kd", "map_Kd", m.diffuse);
-        // One colour serves the highlight and the reflection.
+        // MTL has a single colour for the highlight and the reflection.
         const bool highlight = !is_black(m.specular);
         if (mirror && highlight &&
             (m.specular.color != m.reflective.color ||
@@ -111,7 +111,7 @@ class MtlWriter {
     static bool is_black(const ColorInput& c) {
         return c.texture == kNoTexture && c.color.is_black();
     }
-    /// `map_word` null: no such statement exists.
+    /// `map_word` null: MTL has no such statement.
     void color(const char* word, const char* map_word, const ColorInput& input) {
         out_ += word;
         for (const double c : {input.color.r, input.color.g, input.color.b}) {
@@ -188,7 +188,7 @@ class MtlWriter {
 
     std::span<const MtlTexture> textures_;
     Losses& losses_;
-    std::string name_;  ///< of the current material
+    std::string name_;  ///< name of the current material
     std::string out_;
 };
 

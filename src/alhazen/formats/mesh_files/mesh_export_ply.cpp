@@ -1,4 +1,4 @@
-// One mesh as PLY. Scenes are converted to this format; it keeps all bits.
+// A mesh as PLY, with all bits of its numbers; the format to which scenes are converted.
 
 #include <algorithm>
 #include <bit>
@@ -15,8 +15,8 @@ namespace alhazen {
 
 namespace {
 
-/// True when a float holds the value exactly. Compares bits: g++ 12 at -O2 replaces
-/// double(float(x)) by x where two of them are adjacent. Floats below 2^-126 count as inexact.
+/// True if a float holds the value exactly. Compares bits: g++ 12 at -O2 replaces double(float(x))
+/// by x where two of them are adjacent. Floats below 2^-126 count as inexact.
 bool is_float(double value) {
     const double size = std::abs(value);
     const std::uint64_t lost = std::bit_cast<std::uint64_t>(value) & ((std::uint64_t{1} << 29) - 1);
@@ -39,7 +39,7 @@ std::uint8_t code_of(double linear) {
 std::uint8_t alpha_code_of(double alpha) {
     return std::uint8_t(255.0 * std::clamp(alpha, 0.0, 1.0) + 0.5);
 }
-/// True when 8-bit codes hold these colours exactly.
+/// True if 8-bit codes hold these colours exactly.
 bool are_codes(const std::vector<VertexColor>& colors) {
     return std::all_of(colors.begin(), colors.end(), [](const VertexColor& c) {
         for (const float channel : {c.r, c.g, c.b}) {

@@ -15,7 +15,7 @@ inline void append_number(std::string& out, double value) {
     out.append(buffer.data(), end);
 }
 
-/// A name for a line of its own: without control characters and surrounding blanks.
+/// A name for a line of its own, without control characters and surrounding blanks.
 inline std::string one_line(std::string line) {
     for (char& c : line) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
@@ -23,7 +23,7 @@ inline std::string one_line(std::string line) {
     const std::size_t first = line.find_first_not_of(' ');
     if (first == std::string::npos) return {};
     line = line.substr(first, line.find_last_not_of(' ') - first + 1);
-    // A backslash at the end of the line would continue it.
+    // A backslash at the end of the line would continue the line.
     if (line.back() == '\\') line.back() = '_';
     return line;
 }

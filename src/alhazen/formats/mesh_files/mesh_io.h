@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the mesh files that scenes refer to: PLY, OBJ and STL as one TriangleMesh.
+/// Reads the mesh files that scenes refer to (PLY, OBJ, STL), each as one TriangleMesh.
 
 #include <filesystem>
 

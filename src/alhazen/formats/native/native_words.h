@@ -106,7 +106,7 @@ inline const Vocabulary<AlphaMode>& native_words() {
 }
 template <>
 inline const Vocabulary<IlluminantKind>& native_words() {
-    // A black body has a word of its own.
+    // A black body has its own word.
     static const Vocabulary<IlluminantKind> kWords{
         {"A", IlluminantKind::A}, {"D65", IlluminantKind::D65}, {"E", IlluminantKind::E}};
     return kWords;

@@ -12,7 +12,8 @@ namespace alhazen {
 
 namespace {
 
-/// A polygon becomes a shape only when its vertices are coplanar to the six digits of the files.
+/// True if the vertices are coplanar to the six digits of the files; only then a polygon becomes a
+/// shape.
 bool is_planar(const std::vector<Vec3>& vertices, const Vec3& unit_normal) {
     double reach = 0.0;
     double off = 0.0;
@@ -49,7 +50,7 @@ void NffBuilder::set_fill(const NffFill& fill, const FileLocation& where) {
     material.reflective.color = fill.specular;
     material.transmissive.color = grey(fill.transmission);
     material.shininess.value = fill.shininess;
-    // Opaque materials have 0 by custom.
+    // Opaque materials conventionally have an index of 0.
     material.index.value = fill.index > 0.0 ? fill.index : 1.0;
     scene_.materials.push_back({std::move(material), where});
 }

@@ -17,7 +17,7 @@
 
 namespace alhazen {
 
-/// The statement `f`, or `fm`, which gives the colours individually.
+/// The statement `f`, or `fm`, which gives the colours separately.
 struct NffFill {
     Rgb ambient, diffuse, specular;
     double shininess = 0, transmission = 0, index = 1;
@@ -41,7 +41,7 @@ class NffBuilder {
     void add_sphere(const Vec3& center, double radius, const FileLocation& where);
     void add_cone(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius,
                   const FileLocation& where);
-    /// Precondition: as many normals as vertices, or none.
+    /// Precondition: `normals` has as many elements as `vertices`, or none.
     void add_polygon(const std::vector<Vec3>& vertices, const std::vector<Vec3>& normals,
                      const FileLocation& where);
     /// Adds the camera, the intensities of the lights and the mesh normals.
@@ -61,9 +61,9 @@ class NffBuilder {
     Diagnostics& diagnostics_;
     std::map<std::array<double, 12>, MaterialId> materials_;
     std::optional<MaterialId> material_;
-    std::map<std::pair<MaterialId, bool>, std::size_t> meshes_;  ///< by material and smoothness
+    std::map<std::pair<MaterialId, bool>, std::size_t> meshes_;        ///< [material, smooth]
     std::map<TriangleMesh*, std::vector<PolygonTriangles>> polygons_;  ///< of each mesh
-    std::vector<bool> default_intensity_;                              ///< per light
+    std::vector<bool> default_intensity_;                              ///< [light]
     std::optional<Rgb> ambient_;
     std::uint64_t elements_ = 0;
     std::uint64_t degenerate_ = 0;

@@ -9,11 +9,11 @@ namespace alhazen {
 
 namespace {
 
-/// What the pictures of Haines' databases mean.
+/// The conventions of the pictures of Haines' databases.
 Conventions nff_conventions() {
     Conventions c;
     c.shading.highlight = ShadingConventions::Highlight::Phong;
-    // A shadow ray asks whether anything is in the way, glass or not.
+    // Any surface, also glass, blocks a shadow ray.
     c.shading.shadow_tint = ShadingConventions::ShadowTint::Opaque;
     c.shading.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
     // `ambient` of the materials is their diffuse colour, except where 'fm' gives it.
@@ -27,7 +27,7 @@ Conventions nff_conventions() {
     return c;
 }
 
-/// True when the start of the text has lines that begin with each of the words.
+/// True if the start of the text has lines that begin with each of the words.
 bool has_lines(std::string_view text, std::span<const std::string_view> words) {
     return std::all_of(words.begin(), words.end(), [&](std::string_view word) {
         for (std::size_t at = text.find(word); at != std::string_view::npos;

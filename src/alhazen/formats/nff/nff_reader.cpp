@@ -13,7 +13,7 @@ struct Refusal {
     std::string_view name;
     const char* what;
 };
-/// AFF statements that are recognised and rejected.
+/// AFF statements that are recognised but not supported.
 constexpr std::array<Refusal, 7> kRefused{{
     {"m", "a mesh"},
     {"xs", "a static transform"},
@@ -160,7 +160,8 @@ bool NffReader::fill_of_colors() {
     double n[12];
     if (!numbers(n, 12)) return false;
     if (n[10] > 0.0) {
-        warn_once("fm", "the transmission of 'fm' is per unit of length; here it is per surface");
+        warn_once("fm",
+                  "the transmission of 'fm' is per unit of length; it is applied per surface");
     }
     builder_.set_fill(
         {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}, n[9], n[10], n[11]},

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Clamp on slopes: near vertical; products of clamped slopes stay finite.
+/// Limit of slopes: near vertical, and products of two limits stay finite.
 constexpr double kMaxSlope = 1e6;
 
 bool is_direction(const Rgba& texel) {
@@ -20,7 +20,7 @@ bool is_direction(const Rgba& texel) {
     return std::abs(length(v) - 1.0) <= 0.2;
 }
 
-/// `i` may exceed either end by one.
+/// The index of a neighbour; `i` may exceed either end by one.
 int neighbour(int i, int count, Wrap wrap) {
     if (wrap == Wrap::Clamp) return std::clamp(i, 0, count - 1);
     return (i + count) % count;

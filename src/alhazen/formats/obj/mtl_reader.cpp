@@ -28,7 +28,7 @@ class MapReader {
   public:
     explicit MapReader(MtlMap& map) : map_(map) {}
 
-    /// False when an option is unsupported.
+    /// Reads the line; false if an option is unsupported.
     bool read(std::string_view line) {
         TextCursor cursor(line);
         read_options(cursor);
@@ -103,7 +103,7 @@ class MapReader {
         std::array<double, 3> v{};
         if (numbers(cursor, v, 1) == 1) value = v[0];
     }
-    /// Position of the first option after the name.
+    /// Index of the first option after the name.
     static std::size_t options_behind(std::string_view name) {
         for (std::size_t at = name.find(" -"); at != std::string_view::npos;
              at = name.find(" -", at + 1)) {

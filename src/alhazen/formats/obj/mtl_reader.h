@@ -5,7 +5,7 @@
 /// Wavefront MTL format for Physically Based Rendering", 2014 (Pr, Pm, norm and their maps).
 /// Differs: known statements are never errors: those without effect on the image are ignored,
 /// unreadable ones are warnings. Spectral curves and CIE XYZ colours are warnings.
-/// Conventions: names extend to the end of their line; of equal names the first counts.
+/// Conventions: names extend to the end of their line; of equal names the first is used.
 
 #include <optional>
 #include <string>

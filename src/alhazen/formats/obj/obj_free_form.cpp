@@ -42,7 +42,8 @@ bool ObjFreeFormReader::read_state(std::string_view keyword, TextCursor& cursor)
     } else if (keyword == "deg") {
         read_degree(cursor);
     } else {
-        // Of bases that are skipped; connectivity and approximation tell nothing new.
+        // Statements of unsupported bases, and of connectivity and approximation: ignored without a
+        // warning.
         static constexpr std::array<std::string_view, 5> kQuiet{"bmat", "step", "con", "ctech",
                                                                 "stech"};
         return std::find(kQuiet.begin(), kQuiet.end(), keyword) != kQuiet.end();
@@ -143,13 +144,13 @@ void ObjFreeFormReader::begin(Open what, const TextCursor& start, TextCursor& cu
     element_.points.end = end_of(out_.points.size());
     if (element_.basis == ObjBasis::Skipped || !good) open_ = Open::Skipped;
     if (open_ == Open::Skipped && what == Open::Curve) {
-        // Keeps its number.
+        // The element keeps its number.
         element_.basis = ObjBasis::Skipped;
         open_ = Open::Curve;
     }
 }
 
-/// v, v/vt, v//vn or v/vt/vn; only v is used.
+/// Reads v, v/vt, v//vn or v/vt/vn and returns v only.
 bool ObjFreeFormReader::index(TextCursor& cursor, std::size_t count, std::int32_t& value) {
     std::int64_t read = 0;
     const TextCursor start = cursor;

@@ -2,11 +2,11 @@
 /// The free-form statements of an OBJ file: vp, cstype, deg, surf, curv2, parm, trim, hole, end.
 ///
 /// Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1, Wavefront, 1992.
-/// Differs: curv, scrv and sp have no surface: they are skipped with a warning, as are surfaces of
-/// the bases bmatrix and taylor.
+/// Differs: curv, scrv and sp define no surface: they are skipped with a warning, as are surfaces
+/// of the bases bmatrix and taylor.
 /// Conventions: indices count from 0 and may refer forward; they are checked when shapes are made
-/// (obj_surfaces.h). Lists of all elements lie one after the other in common arrays.
-/// Complexity: linear; about 130 bytes an element beside its lists.
+/// (obj_surfaces.h). Lists of all elements are stored one after the other in common arrays.
+/// Complexity: linear; about 130 bytes per element besides its lists.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct ObjSlice {
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-/// A surf or curv2 up to its end.
+/// A surf or curv2 with the statements up to its end.
 struct ObjElement {
     ObjBasis basis = ObjBasis::Bezier;
     bool rational = false, surface = false;
@@ -44,7 +44,7 @@ struct ObjElement {
 struct ObjTrim {
     std::int32_t curve = 0;
     bool hole = false;
-    bool first = false;  ///< of its loop
+    bool first = false;  ///< true for the first piece of its loop
     double from = 0, to = 1;
 };
 
@@ -56,7 +56,7 @@ struct ObjFreeForm {
     std::vector<ObjElement> surfaces, curves;
 };
 
-/// Where a free-form statement stands.
+/// The position of a free-form statement in the file.
 struct ObjContext {
     std::size_t positions = 0;  ///< number of v so far
     std::uint32_t name = 0, material = 0;
@@ -69,10 +69,10 @@ class ObjFreeFormReader {
     ObjFreeFormReader(ObjFreeForm& out, Report error, Report warning)
         : out_(out), error_(std::move(error)), warning_(std::move(warning)) {}
 
-    /// Reads the arguments behind `keyword`, which begins at `start`. False for other statements.
+    /// Reads the arguments after `keyword`, which begins at `start`. False for other statements.
     bool read(std::string_view keyword, const TextCursor& start, TextCursor& cursor,
               const ObjContext& context);
-    /// At the end of the file. Reports an element without end.
+    /// To be called at the end of the file. Reports an element without end.
     void finish(const TextCursor& end);
 
   private:

@@ -13,7 +13,8 @@ namespace alhazen {
 
 namespace {
 
-/// Statements that other formats may also begin with (NFF has `v`, `f`, `s`): numbers must follow.
+/// True if numbers follow a statement that other formats may also begin with (NFF has `v`, `f`,
+/// `s`).
 bool begins_with_numbers(std::string_view word, TextCursor cursor) {
     static constexpr std::array<std::string_view, 3> kVectors{"v", "vn", "vt"};
     if (std::find(kVectors.begin(), kVectors.end(), word) == kVectors.end()) return false;

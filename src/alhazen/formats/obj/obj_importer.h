@@ -1,5 +1,5 @@
 #pragma once
-/// Wavefront OBJ with its material libraries as a scene: docs/reference/formats/obj.md.
+/// Importer of Wavefront OBJ files with their material libraries: docs/reference/formats/obj.md.
 
 #include "alhazen/formats/core/importer.h"
 
@@ -14,7 +14,7 @@ class ObjImporter final : public Importer {
                                           Diagnostics& diagnostics) const override;
 };
 
-/// True when the first statement of the text is an OBJ statement with valid arguments.
+/// True if the first statement of the text is an OBJ statement with valid arguments.
 [[nodiscard]] bool looks_like_obj(std::string_view bytes);
 
 }  // namespace alhazen

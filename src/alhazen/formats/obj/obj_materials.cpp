@@ -21,8 +21,8 @@ Rgb white() {
     return {1, 1, 1};
 }
 
-/// The coefficient of a textured property. Exporters often write black, or nothing, where only the
-/// texture is intended: then white.
+/// The coefficient of a textured property: white if it is black or absent, since exporters often
+/// write that where only the texture is intended.
 Rgb beside(const std::optional<Rgb>& value, const MtlMap& map, const Rgb& missing = {}) {
     if (!map.file.empty() && (!value || value->is_black())) return white();
     return value.value_or(missing);
@@ -61,7 +61,7 @@ ObjMaterials::ObjMaterials(const ImportSource& source, SceneDescription& scene,
 void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
     for (const ObjLibrary& library : libraries) {
         const FileLocation where{source_.path.string(), int(library.line), 0};
-        // First as one name with blanks, then as several.
+        // Tries the line as one name with blanks, then as several names.
         if (load_library(library.names, where)) continue;
         const std::vector<std::string> names = words_of(library.names);
         std::string missing;
@@ -155,7 +155,7 @@ void ObjMaterials::set_reflection(const MtlMaterial& m, Material& out) {
     if (illum < 2) return;
     const ColorInput ks = color(beside(m.ks, m.map_ks), m.map_ks);
     if (reflects) out.reflective = ks;
-    // An exponent of 0 would light the whole facing side; exporters write it for "no highlight".
+    // An exponent of 0 would cover the whole facing side; exporters write it for "no highlight".
     const double ns = m.ns.value_or(0.0);
     if (!(ns > 0.0)) return;
     out.specular = ks;

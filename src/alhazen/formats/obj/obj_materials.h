@@ -31,7 +31,7 @@ class ObjMaterials {
     MaterialId use(const std::string& name);
 
   private:
-    /// False when the file does not exist.
+    /// False if the file does not exist.
     bool load_library(const std::string& name, const FileLocation& where);
     MaterialId grey();
     MaterialId add(const MtlMaterial& m);
@@ -39,8 +39,8 @@ class ObjMaterials {
     void set_light_through(const MtlMaterial& m, Material& out);
     void set_metallic_roughness(const MtlMaterial& m, Material& out);
     [[nodiscard]] double dissolve_of(const MtlMaterial& m);
-    /// From the `norm` map, otherwise from the bump map: images of directions unchanged, height
-    /// images converted to normals.
+    /// The normal map from the `norm` map, otherwise from the bump map: images of directions are
+    /// used unchanged, height images are converted to normals.
     NormalMap normal_map(const MtlMaterial& m);
     bool is_normal_map(const std::shared_ptr<const StoredImage>& picture);
     TextureId texture(const MtlMap& map, bool is_color);
@@ -54,14 +54,14 @@ class ObjMaterials {
     const ImportSource& source_;
     SceneDescription& scene_;
     Diagnostics& diagnostics_;
-    bool colored_;  ///< the vertices have colours
+    bool colored_;  ///< true if the vertices have colours
     Diagnostics picture_findings_;
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> roots_;
     TextureTable textures_;
     PictureFinder finder_;
     std::vector<MtlMaterial> entries_;
-    std::vector<std::string> entry_folders_;  ///< [entry] library folder, relative to the scene
+    std::vector<std::string> entry_folders_;  ///< [entry] of its library, relative to the scene
     std::string current_folder_;              ///< of the current entry
     std::unordered_map<std::string, std::size_t> entry_of_;
     std::unordered_map<std::string, MaterialId> used_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMaxFileErrors = 50;
 
-/// The runs of a part.
+/// A part, with the runs of faces that belong to it.
 struct RunsOfPart {
     std::uint32_t name = 0, material = 0;
     std::vector<std::uint32_t> runs;
@@ -101,8 +101,8 @@ class PartMaker {
         return groups;
     }
 
-    /// Finds the attributes of each part. A part has normals when any corner has one; its flat
-    /// faces then need normals too.
+    /// Finds the attributes of each part. A part has normals if any corner has one; its flat faces
+    /// then need normals too.
     void find_attributes(std::vector<RunsOfPart>& groups) {
         std::vector<bool> wanted(in_.runs.size());
         for (RunsOfPart& group : groups) {

@@ -3,13 +3,14 @@
 /// material, or a single one.
 ///
 /// Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1, Wavefront, 1992.
-/// Differs: polygons only; free-form surfaces: obj_surfaces.h; lines and points are skipped.
-/// Vertices may have colours. Without any `s` statement faces are flat. Conventions: a mesh vertex
-/// is a combination of v, vt and vn used by a face, in the order of first use; a single mesh
-/// without vt and vn keeps the vertices of the file. w and the third texture coordinate are
-/// ignored. Positive indices may refer forward; negative ones count back from the face. A corner
-/// without a normal gets the sum of the area-weighted normals of the faces of its smoothing group
-/// around its position, across parts; without a smoothing group, the normal of its face.
+/// Differs: polygons only; free-form surfaces are in obj_surfaces.h; lines and points are skipped.
+/// Vertices may have colours. Without any `s` statement faces are flat.
+/// Conventions: a mesh vertex is a combination of v, vt and vn used by a face, in the order of
+/// first use; a single mesh without vt and vn keeps the vertices of the file. w and the third
+/// texture coordinate are ignored. Positive indices may refer forward; negative ones count back
+/// from the face. A corner without a normal gets the sum of the area-weighted normals of the faces
+/// of its smoothing group around its position, across parts; without a smoothing group, the normal
+/// of its face.
 /// Complexity: linear in time and memory, independent of the number of groups and material
 /// switches.
 
@@ -22,7 +23,7 @@
 
 namespace alhazen {
 
-/// Above this number of parts, parts are merged by material alone.
+/// Number of parts above which parts are merged by material.
 inline constexpr std::size_t kMaxObjParts = 100'000;
 
 /// The faces of one object or group that have one material.

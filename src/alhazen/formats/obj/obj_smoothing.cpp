@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMaxNormals = 0x7FFFFFFE;
 
-/// Normal of the polygon, of twice its area in length.
+/// The normal of a polygon; its length is twice the area.
 Vec3 face_normal(const ObjStatements& in, std::uint32_t begin, std::uint32_t end) {
     const auto position = [&](std::uint32_t corner) {
         return in.positions[std::size_t(in.corners.position[corner])];

@@ -11,13 +11,13 @@
 
 namespace alhazen {
 
-/// Assigns each corner without a normal that is in a smoothing group the sum of the area-weighted
-/// normals of the group's faces around its position, not normalised. Preconditions: indices are in
-/// range. Throws Error (Resource) when the normals exceed the index range.
+/// Assigns each corner without a normal in a smoothing group the sum of the area-weighted normals
+/// of the group's faces around its position, not normalised. Precondition: indices are in range.
+/// Throws Error (Resource) if the normals exceed the index range.
 void smooth_obj_normals(ObjStatements& statements, const std::string& file);
 
 /// Assigns the corners without a normal in the runs marked by `wanted` the normal of their face,
-/// not normalised. Preconditions and errors as above.
+/// not normalised. Precondition and errors as above.
 void flatten_obj_normals(ObjStatements& statements, const std::string& file,
                          const std::vector<bool>& wanted);
 

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 13> kIgnored{
     "l",      "p",      "mg",         "t",        "bevel",     "c_interp", "lod",
     "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj", "call"};
 
-/// Numbers distinct strings.
+/// Assigns numbers to distinct strings.
 class NameTable {
   public:
     explicit NameTable(std::vector<std::string>& names) : names_(names) {
@@ -132,7 +132,7 @@ class StatementReader {
         const int count = read_numbers(3);
         if (count == 0 || !room_in(result_.positions.size())) return;
         result_.positions.push_back({numbers_[0], numbers_[1], numbers_[2]});
-        // Four or seven numbers: the fourth is a weight. The last three of six or seven: a colour.
+        // Four or seven numbers: the fourth is a weight. Six or seven: the last three are a colour.
         if (count == 4 || count == 7) {
             result_.weights.resize(result_.positions.size() - 1, 1.0);
             result_.weights.push_back(numbers_[3]);
@@ -281,8 +281,8 @@ class StatementReader {
                                                             " mtllib lines; the rest is ignored");
         }
     }
-    /// The rest of the line without surrounding blanks; `#` does not start a comment (it may be
-    /// part of a name).
+    /// The rest of the line without surrounding blanks; `#` does not start a comment, since it may
+    /// be part of a name.
     std::string rest_of_line() {
         cursor_.skip_blanks();
         std::string_view rest = cursor_.rest_of_line();

@@ -21,7 +21,7 @@ struct ObjCorner {
     friend bool operator==(const ObjCorner&, const ObjCorner&) = default;
 };
 
-/// The corners of all faces, concatenated; an array used by no face takes no memory.
+/// The corners of all faces, concatenated. An array that no face uses takes no memory.
 class ObjCorners {
   public:
     [[nodiscard]] std::size_t size() const { return position.size(); }
@@ -58,7 +58,7 @@ struct ObjLibrary {
 
 struct ObjStatements {
     std::vector<Vec3> positions;
-    std::vector<double> weights;      ///< [position], or fewer: the others are 1
+    std::vector<double> weights;      ///< [position]; may be shorter, all others are 1
     std::vector<VertexColor> colors;  ///< [position], linear; empty if no vertex has one
     std::vector<Vec2> uvs;
     std::vector<Vec3> normals;
@@ -78,7 +78,7 @@ struct ObjStatements {
             for_each_face_of(r, end, use);
         }
     }
-    /// The same for one run.
+    /// Calls use for each face of one run.
     template <class Use>
     void for_each_face_in(std::size_t run, const Use& use) const {
         const std::size_t end = run + 1 < runs.size() ? runs[run + 1].first_face : faces.size();

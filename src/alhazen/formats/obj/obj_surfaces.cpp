@@ -26,7 +26,7 @@ struct ObjNet {
     }
 };
 
-/// Each inner break point `degree` times, the first and last once more.
+/// Knots that hold each inner break point `degree` times, the first and last once more.
 std::vector<double> bezier_knots(const std::vector<double>& breaks, std::size_t degree) {
     std::vector<double> knots;
     for (std::size_t k = 0; k < breaks.size(); ++k) {
@@ -112,7 +112,7 @@ class SurfaceMaker {
         return {form_.knots.begin() + slice.begin, form_.knots.begin() + slice.end};
     }
 
-    /// The number of points that knots or break points ask for; 0 where there are too few.
+    /// The number of points that knots or break points require; 0 if there are too few.
     static std::size_t points_of(ObjBasis basis, std::size_t degree, std::size_t knots) {
         switch (basis) {
             case ObjBasis::BSpline:
@@ -127,7 +127,7 @@ class SurfaceMaker {
     bool read_net(const ObjElement& e, std::size_t du, std::size_t dv, ObjNet& net) {
         net.knots_u = knots_of(e.knots_u);
         net.knots_v = knots_of(e.knots_v);
-        // One Bezier patch needs no parm.
+        // A single Bezier patch needs no parm.
         if (net.knots_u.empty() && e.basis != ObjBasis::BSpline) {
             net.knots_u = {e.range[0], e.range[1]};
         }
@@ -142,7 +142,7 @@ class SurfaceMaker {
         }
         if (std::uint64_t{net.rows} * net.columns != e.points.size()) {
             error("the surface has " + std::to_string(e.points.size()) +
-                  " points; its degrees and parameters ask for " + std::to_string(net.rows) +
+                  " points; its degrees and parameters require " + std::to_string(net.rows) +
                   " by " + std::to_string(net.columns));
             return false;
         }
@@ -167,12 +167,12 @@ class SurfaceMaker {
             return false;
         }
         const Vec3& p = in_.positions[i];
-        // Kept apart: x, y, z and the weight.
+        // Keeps the weight apart: x, y, z and weight.
         point = {p.x, p.y, p.z, w};
         return true;
     }
 
-    /// Segments of four points each as Bezier patches of degree 3.
+    /// Converts segments of four points each to Bezier patches of degree 3.
     static ObjNet bezier_net_of(const ObjNet& cardinal) {
         const CubicBasis basis = *CubicBasis::named("cardinal");
         ObjNet out;
@@ -279,7 +279,7 @@ class SurfaceMaker {
         return true;
     }
 
-    /// With all its knots.
+    /// Makes a trimming curve with all its knots.
     bool make_curve(const ObjElement& e, TrimCurve& curve) {
         const std::string name = "the curve of line " + std::to_string(e.line) + " ";
         if (e.basis == ObjBasis::Skipped || e.basis == ObjBasis::Cardinal) {
@@ -362,7 +362,7 @@ TrimCurve trim_curve_part(TrimCurve curve, double from, double to) {
             auto known = std::size_t(std::count(curve.knots.begin(), curve.knots.end(), end));
             for (; known < degree; ++known) insert_knot(degree, curve.knots, points, end);
         }
-        // From the last knot at `lo` to the first at `hi`, with degree + 1 knots at each.
+        // Copies from the last knot at `lo` to the first at `hi`, with degree + 1 knots at each.
         const auto last = std::size_t(std::upper_bound(curve.knots.begin(), curve.knots.end(), lo) -
                                       curve.knots.begin() - 1);
         const auto first = std::size_t(

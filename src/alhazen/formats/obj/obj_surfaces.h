@@ -1,12 +1,12 @@
 #pragma once
-/// Shapes of the free-form surfaces of an OBJ file.
+/// Makes shapes of the free-form surfaces of an OBJ file.
 ///
 /// Source: "Object Files (.obj)", Wavefront, 1992; Piegl and Tiller, "The NURBS Book", 2nd ed.,
 /// 1997, section 5.2 (knot insertion, for parts of trimming curves).
 /// Conventions: Bezier and cardinal surfaces without trimming loops become patch meshes, one for
-/// each object or group, material and pair of degrees, over shared control points; all others
-/// become NURBS surfaces. Without `rat` weights are 1. The surface is kept inside of the trim loops
-/// and outside of the holes.
+/// each object or group, material and pair of degrees, with shared control points; all others
+/// become NURBS surfaces. Without `rat` weights are 1. The part inside the trim loops and outside
+/// the holes is kept.
 
 #include <string>
 #include <vector>
@@ -22,13 +22,13 @@ struct ObjSurface {
     FileLocation location;
 };
 
-/// Findings go to `diagnostics`, at most 50 errors.
+/// Makes the surfaces. Adds findings to `diagnostics`, at most 50 errors.
 [[nodiscard]] std::vector<ObjSurface> make_obj_surfaces(const ObjStatements& statements,
                                                         const std::string& file,
                                                         Diagnostics& diagnostics);
 
-/// The part [from, to] of a curve, reversed where from > to. Preconditions: valid knots, and a
-/// range within theirs.
+/// The part [from, to] of a curve, reversed if from > to. Preconditions: valid knots, and a range
+/// within them.
 [[nodiscard]] TrimCurve trim_curve_part(TrimCurve curve, double from, double to);
 
 }  // namespace alhazen

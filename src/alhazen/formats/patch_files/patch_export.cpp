@@ -45,7 +45,7 @@ Vec3 placed_point(const Affine& placement, const Vec3& p) {
     return placement == Affine{} ? p : placement.point(p);
 }
 
-/// u-major indices of one patch: exchanged under a mirroring placement.
+/// u-major indices of one patch; rows and columns are exchanged for a mirroring placement.
 std::vector<std::uint32_t> turned(std::span<const std::uint32_t> patch, std::size_t rows,
                                   std::size_t columns) {
     std::vector<std::uint32_t> out;
@@ -99,7 +99,7 @@ void append_obj_numbers(const char* words, const std::vector<double>& numbers, s
     out += '\n';
 }
 
-/// Points u-major in, u fastest out; relative to the last of `count` points.
+/// Appends a u-major net with u fastest; indices are relative to the last of `count` points.
 void append_obj_net(std::span<const std::uint32_t> net, std::size_t rows, std::size_t columns,
                     std::size_t count, std::string& out) {
     for (std::size_t j = 0; j < columns; ++j) {
@@ -128,7 +128,7 @@ void append_obj_patches(const NamedSurface& surface, const PatchList& list, std:
     }
 }
 
-/// With all its knots.
+/// The knots of a curve; computed if it has none.
 std::vector<double> all_knots(const TrimCurve& curve) {
     if (!curve.knots.empty()) return curve.knots;
     const std::size_t degree = curve.degree;
@@ -157,7 +157,7 @@ void append_obj_curve(const TrimCurve& curve, bool mirrored, std::string& out) {
     out += "end\n";
 }
 
-/// The loops as `trim` and `hole` of the surface that follows.
+/// Writes the loops; returns the `trim` and `hole` statements of the surface that follows.
 std::string append_obj_loops(const std::vector<TrimLoop>& trims, bool mirrored, std::string& out) {
     std::size_t curves = 0;
     for (const TrimLoop& loop : trims) {

@@ -4,7 +4,7 @@
 /// Source: docs/reference/formats/bpt.md; "Object Files (.obj)", Wavefront, 1992.
 /// Conventions: numbers are the shortest decimals that read back equal. A placement applies to the
 /// control points, which is exact up to rounding; a mirroring one also exchanges u and v, so that
-/// the outside stays outside. An identity keeps all bits.
+/// the outside stays outside. The identity keeps all bits.
 
 #include <span>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace alhazen {
 
-/// A surface as one object of a file.
+/// A surface as an object of a file.
 struct NamedSurface {
     std::string name;
     const AnyShape* shape = nullptr;  ///< never null
@@ -22,19 +22,19 @@ struct NamedSurface {
     std::string material;             ///< OBJ: name for `usemtl`; empty: none
 };
 
-/// Bezier patches, patch meshes and bilinear patches; in .bpt without weights other than 1.
+/// True for Bezier patches, patch meshes and bilinear patches; .bpt has no weights other than 1.
 [[nodiscard]] bool fits_bpt(const AnyShape& shape);
-/// These with any weights, and NURBS surfaces with their trimming loops.
+/// True for the shapes of .bpt with any weights, and NURBS surfaces with their trimming loops.
 [[nodiscard]] bool fits_obj_surface(const AnyShape& shape);
 
-/// Control points of a shape that fits; 0 for others.
+/// Number of control points of a shape that fits; 0 for others.
 [[nodiscard]] std::size_t control_points_of(const AnyShape& shape);
 
-/// All patches of surfaces that fit.
+/// All patches of the surfaces. Precondition: fits_bpt for each.
 [[nodiscard]] std::string bpt_text(std::span<const NamedSurface> surfaces);
-/// One `o` per surface; indices are relative, so that the text may follow any other. Trimming loops
-/// are in order: the first is the outer one, all others are holes, as odd-even nesting of one
-/// level.
+/// Text with one `o` per surface; indices are relative, so that the text may follow any other.
+/// Trimming loops are written in order: the first as the outer one, all others as holes, which is
+/// odd-even nesting of one level.
 [[nodiscard]] std::string obj_surfaces_text(std::span<const NamedSurface> surfaces);
 
 }  // namespace alhazen

@@ -7,7 +7,7 @@ CubicBasis::CubicBasis() : step_(3) {
 }
 
 CubicBasis::CubicBasis(const std::array<double, 16>& m) : divisor_(3.0) {
-    // Of a t^3 + b t^2 + c t + d: d, d + c/3, d + 2c/3 + b/3, a + b + c + d.
+    // Bezier points of a t^3 + b t^2 + c t + d: d, d + c/3, d + 2c/3 + b/3, a + b + c + d.
     for (std::size_t k = 0; k < 4; ++k) {
         const double a = m[k], b = m[4 + k], c = m[8 + k], d = m[12 + k];
         factors_[k] = 3 * d;
@@ -55,7 +55,7 @@ std::array<HomogeneousPoint, 4> CubicBasis::bezier(
             last = k;
             ++used;
         }
-        // A control point that is a Bezier point keeps its bits.
+        // A Bezier point that equals a control point keeps its bits.
         out[i] = used == 1 && factors_[4 * i + last] == divisor_
                      ? points[last]
                      : HomogeneousPoint{sum.x / divisor_, sum.y / divisor_, sum.z / divisor_,

@@ -3,9 +3,9 @@
 ///
 /// Source: Pixar, "The RenderMan Interface", version 3.2, 2000, section 5.1 (bases and steps);
 /// Farin, "Curves and Surfaces for CAGD", chapters 4 to 8.
-/// Conventions: a basis matrix is row-major, its rows for t^3, t^2, t, 1, its columns for the four
-/// control points. Bezier points are sums of integer multiples of control points, divided once:
-/// two segments that share control points of a boundary get the same bits there.
+/// Conventions: a basis matrix is row-major, with rows for t^3, t^2, t, 1 and columns for the four
+/// control points. Bezier points are sums of integer multiples of control points, divided once: two
+/// segments that share the control points of a boundary get the same bits there.
 
 #include <array>
 #include <optional>
@@ -19,12 +19,12 @@ class CubicBasis {
   public:
     /// The Bezier basis, step 3.
     CubicBasis();
-    /// Of any matrix.
+    /// The basis of any matrix.
     explicit CubicBasis(const std::array<double, 16>& matrix);
-    /// bezier, b-spline, catmull-rom, hermite, power, cardinal (of tension 1/2).
+    /// The basis of a name: bezier, b-spline, catmull-rom, hermite, power, cardinal (tension 1/2).
     [[nodiscard]] static std::optional<CubicBasis> named(std::string_view name);
-    /// Control points from one segment to the next: 3 for bezier, 2 for hermite, 4 for power, else
-    /// 1.
+    /// Number of control points from one segment to the next: 3 for bezier, 2 for hermite, 4 for
+    /// power, otherwise 1.
     [[nodiscard]] int usual_step() const { return step_; }
 
     /// The Bezier points of the segment of four control points.

@@ -1,9 +1,9 @@
 #pragma once
-/// Merges Bezier patches of one degree into a patch mesh over shared control points.
+/// Merges Bezier patches of one pair of degrees into a patch mesh with shared control points.
 ///
-/// Conventions: control points of exactly equal position and weight are one; -0 equals 0 and is
-/// stored as 0. Values must be finite. Weights are kept only where one of them differs from 1.
-/// Complexity: O(1) a control point; memory as IndexTable beside the mesh.
+/// Conventions: control points of exactly equal position and weight are merged; -0 equals 0 and is
+/// stored as 0. Values must be finite. Weights are kept only if one of them differs from 1.
+/// Complexity: O(1) per control point; memory as IndexTable, besides the mesh.
 
 #include <bit>
 #include <cstdint>
@@ -25,7 +25,7 @@ class PatchWelder {
     }
     [[nodiscard]] std::size_t patch_count() const { return mesh_.patch_count(); }
 
-    /// One patch. Precondition: (degree_u + 1) * (degree_v + 1) points, u-major; as many weights
+    /// Adds a patch. Precondition: (degree_u + 1) * (degree_v + 1) points, u-major; as many weights
     /// or none.
     void add(std::span<const Vec3> points, std::span<const double> weights = {}) {
         for (std::size_t k = 0; k < points.size(); ++k) {

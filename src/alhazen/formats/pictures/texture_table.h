@@ -21,7 +21,7 @@
 
 namespace alhazen {
 
-/// Folders whose files a scene may name: its own and options.allowed_folders.
+/// The folders from which a scene may read files: its own and options.allowed_folders.
 [[nodiscard]] std::vector<std::filesystem::path> scene_roots(const ImportOptions& options,
                                                              const std::filesystem::path& own);
 /// The absolute folder of a scene file.
@@ -34,8 +34,8 @@ class TextureTable {
         : scene_(scene), diagnostics_(diagnostics), roots_(std::move(roots)), limits_(limits) {}
 
     /// The texture of `file`, as written in a scene file in `folder`, with the other fields of
-    /// `settings`. Reports an error at `where` and returns none when the file is unusable. Throws
-    /// Error (Resource) when all images together exceed the limit.
+    /// `settings`. Reports an error at `where` and returns none if the file is unusable. Throws
+    /// Error (Resource) if all images together exceed the limit.
     std::optional<TextureId> load(const std::string& file, const std::filesystem::path& folder,
                                   const ImageTexture& settings, std::string name,
                                   const FileLocation& where);
@@ -52,18 +52,20 @@ class TextureTable {
                 const std::function<StoredImage(const StoredImage&)>& make);
 
   private:
-    /// A picture that cannot be read is a finding; one beyond a limit ends the import (exit 5).
+    /// Reports a picture that cannot be read; throws for one beyond a limit, which ends the import
+    /// (exit status 5).
     void report(const FileLocation& where, const Error& error);
     struct Picture {
-        std::shared_ptr<const StoredImage> image;  ///< null when unreadable
-        /// True when the mip levels are counted: of the stored samples, and decoded.
+        std::shared_ptr<const StoredImage> image;  ///< null if unreadable
+        /// True if the mip levels of the stored samples [0] or of the decoded samples [1] are
+        /// counted.
         bool counted_pyramid[2] = {false, false};
     };
 
     /// Runs `decode` with the limits left and counts the memory of its result.
     template <class Decode>
     std::shared_ptr<const StoredImage> decoded(const Decode& decode);
-    /// Throws when `bytes` exceeds the memory left.
+    /// Throws if `bytes` exceeds the memory left.
     void count(std::uint64_t bytes, const std::string& name);
 
     std::optional<TextureId> use(Picture& picture, const ImageTexture& settings, std::string name,
@@ -74,10 +76,10 @@ class TextureTable {
     std::vector<std::filesystem::path> roots_;
     ImageLimits limits_;
     std::uint64_t taken_bytes_ = 0;
-    /// By resolved path, or by address.
+    /// Keyed by resolved path, and by address and size.
     std::map<std::filesystem::path, Picture> files_;
     std::map<std::pair<const char*, std::size_t>, Picture> embedded_;
-    /// By source image and key.
+    /// Keyed by source image and key.
     std::map<std::pair<std::shared_ptr<const StoredImage>, std::string>,
              std::shared_ptr<const StoredImage>>
         derived_;

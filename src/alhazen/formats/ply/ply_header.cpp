@@ -143,8 +143,8 @@ class HeaderReader {
         while (TextCursor::is_blank(cursor_.peek())) cursor_.take(cursor_.peek());
         return cursor_.word();
     }
-    /// Ends the line with the line end of the file's first line: in a binary file, an apparent
-    /// second half of \r\n may be data.
+    /// Ends the line with the line end of the file's first line: in a binary file, what looks like
+    /// the second half of \r\n may be data.
     void end_line() {
         const std::size_t before = bytes_.size() - cursor_.bytes_left();
         const std::size_t at = bytes_.find_first_of("\r\n", before);

@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// Comment in PLY files of this library: arrays are read unchanged.
+/// The comment of PLY files of this library, whose arrays are read unchanged.
 inline constexpr std::string_view kPlyExact = "alhazen exact";
 
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
@@ -48,7 +48,7 @@ struct PlyHeader {
     std::int64_t body_line = 1;   ///< line of the first item
 };
 
-/// Reads the header. Empty after an error, which is reported to `diagnostics`.
+/// Reads the header; none after an error, which is reported to `diagnostics`.
 [[nodiscard]] std::optional<PlyHeader> read_ply_header(std::string_view bytes,
                                                        const std::string& file,
                                                        Diagnostics& diagnostics);

@@ -1,5 +1,5 @@
 #pragma once
-/// A PLY mesh as a scene: docs/reference/formats/ply.md.
+/// Importer of PLY meshes: docs/reference/formats/ply.md.
 
 #include "alhazen/formats/core/importer.h"
 
@@ -14,7 +14,7 @@ class PlyImporter final : public Importer {
                                           Diagnostics& diagnostics) const override;
 };
 
-/// True when the bytes begin like a PLY file.
+/// True if the bytes begin like a PLY file.
 [[nodiscard]] bool looks_like_ply(std::string_view bytes);
 
 }  // namespace alhazen

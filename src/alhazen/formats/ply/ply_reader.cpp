@@ -98,7 +98,7 @@ class BodyReader {
         if (is_finite(layout.position())) return true;
         return fail(element, i, "a position that is not finite", values_);
     }
-    /// Recovers after an error where possible, to report more than one.
+    /// Recovers after an error if possible, to report further errors.
     bool recover() { return errors_ < kMaxPlyErrors && values_.recover(); }
 
     /// Index of the list of vertices among the properties of a face or strip.

@@ -2,7 +2,7 @@
 /// Sequential reader of the numbers in a PLY body, ascii or binary.
 ///
 /// Conventions: `read` is false at the end of the bytes and for text that is not a number; every
-/// value of every type is exact as a double.
+/// value of every type is exactly representable as a double.
 
 #include <bit>
 #include <cstdint>
@@ -79,7 +79,7 @@ class BinaryValues {
         rest_.remove_prefix(element.count * element.min_bytes(PlyFormat::LittleEndian));
         return true;
     }
-    /// The start of the next item is unknown.
+    /// Cannot recover: the start of the next item is unknown.
     static bool recover() { return false; }
     [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
     [[nodiscard]] FileLocation location(const std::string& file) const { return {file, 0, 0}; }

@@ -77,7 +77,7 @@ std::size_t PlyVertexLayout::slot_of(const PlyProperty& property, bool exact) {
          {"vertex_material", kMaterial}}};
     if (property.count_type) return kUnused;
     for (const auto& [name, slot] : kSlots) {
-        // A material index has meaning only within the scene that the file was written for.
+        // A material index is meaningful only in the scene for which the file was written.
         if (property.name == name) return slot == kMaterial && !exact ? kUnused : slot;
     }
     return kUnused;

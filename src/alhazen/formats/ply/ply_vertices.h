@@ -1,5 +1,5 @@
 #pragma once
-/// Meaning of PLY vertex properties, and their conversion to mesh arrays.
+/// The meaning of PLY vertex properties, and their conversion to mesh arrays.
 ///
 /// Conventions: names as in docs/reference/formats/ply.md. Integer colours are display-encoded and
 /// are converted to linear (IEC 61966-2-1); float colours are linear.

@@ -1,5 +1,5 @@
 #pragma once
-/// Shared state of the .ray importer while it reads one file.
+/// State that the functions of the .ray importer share while they read a file.
 
 #include <filesystem>
 
@@ -14,7 +14,7 @@ struct RayContext {
     const ImportOptions& options;
     RayFamily family;
     std::uint64_t elements = 0;  ///< vertices, triangles and parts so far
-    bool told_rounding = false;  ///< warned of a rounded matrix
+    bool told_rounding = false;  ///< a warning about a rounded matrix was given
 
     /// Throws Error (Resource) beyond options.max_elements.
     void count_elements(std::uint64_t more, const FileLocation& where) {

@@ -82,7 +82,7 @@ Conventions conventions_of(bool dictionary) {
     c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;
     c.importing.headlight = false;
     c.film.linear_output = true;
-    // The programs of the courses start with 0 and leave the rest to a slider; reflection and glass
+    // The programs of the courses start with depth 0, adjusted by a slider; reflection and glass
     // need more.
     c.shading.max_depth = 5;
     return c;

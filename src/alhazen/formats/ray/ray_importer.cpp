@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kHeader = "SBT-raytracer";
 constexpr double kLatestVersion = 1.1;
 
-/// The header may follow comments and blanks.
+/// True if the text begins with the header, after comments and blanks.
 bool starts_with_header(std::string_view bytes) {
     // Covers a long comment before the header; recognition reads no more of a large file.
     constexpr std::size_t kLook = 65536;
@@ -30,7 +30,7 @@ void check_version(TextNode header, Diagnostics& diagnostics) {
     }
 }
 
-/// The first item is the header; a default material applies to all items after it.
+/// Reads all items. The first item is the header; a default material applies to all items after it.
 void read_items(TextNode root, RayContext& context) {
     RayMaterials materials(context);
     RayObjects objects(context, materials);

@@ -8,10 +8,10 @@ namespace alhazen {
 
 namespace {
 
-/// The texture of `shininess = map(...)` holds 0..1 in both families.
+/// Factor of a `shininess = map(...)`, whose texture holds 0..1 in both families.
 constexpr double kShininessMapScale = 128.0;
 
-/// The courses keep scenes in subfolders of the image folder.
+/// The image folder, since the courses keep scenes in its subfolders.
 std::filesystem::path default_root(const std::filesystem::path& scene_folder) {
     return scene_folder.parent_path();
 }

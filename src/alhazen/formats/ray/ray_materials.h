@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// A material value and, once used, its id in the scene.
+/// The value of a material and, once it is used, its id in the scene.
 struct RayMaterial {
     Material value;
     std::optional<MaterialId> id;

@@ -67,7 +67,7 @@ bool read_numbers(const Arguments& arguments, std::string_view what, const Value
     return true;
 }
 
-/// Four rows of a matrix that multiplies column vectors.
+/// Reads four rows of a matrix that multiplies column vectors.
 std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& values,
                                   RayContext& context) {
     std::array<double, 16> m{};
@@ -169,7 +169,7 @@ void RayObjects::refuse(TextNode entry) {
     }
 }
 
-/// A default set inside a group is local to it: `material` is a copy.
+/// Reads a group. A default set inside is local to it: `material` is a copy.
 void RayObjects::read_group(TextNode block, const Affine& object_from_part, RayMaterial material) {
     for (const TextNode item : block) read(item, object_from_part, material);
 }
@@ -191,7 +191,7 @@ std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& objec
     arguments.pop_back();
     const std::optional<Affine> transform =
         read_affine(entry.text(), list, arguments, {context_.diagnostics}, context_);
-    // The object is read even under an invalid transform, to report its findings too.
+    // Reads the object even after an invalid transform, to report its errors too.
     if (transform) object_from_part = object_from_part * *transform;
     return object;
 }

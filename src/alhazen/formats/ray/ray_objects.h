@@ -26,7 +26,7 @@ class RayObjects {
 
   private:
     void read_group(TextNode block, const Affine& object_from_part, RayMaterial material);
-    /// Multiplies the transform in; returns its operand.
+    /// Multiplies `object_from_part` by the transform; returns the operand of the transform.
     std::optional<TextNode> read_transform(TextNode entry, Affine& object_from_part);
     void read_untransformed(TextNode item, const Affine& object_from_part, RayMaterial& material);
     void read_shape(TextNode entry, const Affine& object_from_part, const RayMaterial& material);

@@ -16,7 +16,7 @@ BlockReader reader_of(TextNode entry, RayContext& context) {
             context.diagnostics};
 }
 
-/// False, after an error at the value, for the zero vector.
+/// False, after an error at the value, if it is the zero vector.
 bool has_direction(BlockReader& reader, std::string_view key, const Vec3& v) {
     if (length_squared(v) > 0) return true;
     reader.error(reader.find(key).value_or(reader.block()),
@@ -162,7 +162,7 @@ void read_point_light(TextNode entry, RayContext& context) {
     add_light(entry, context, light);
 }
 
-/// A light of radius 0 is a point light; other radii need soft shadows.
+/// Reads an area light: one of radius 0 is a point light; other radii would need soft shadows.
 void read_area_light(TextNode entry, RayContext& context) {
     BlockReader reader = reader_of(entry, context);
     double radius = 1;

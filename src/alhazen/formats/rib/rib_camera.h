@@ -2,8 +2,8 @@
 /// The camera options of a RIB file.
 ///
 /// Source: Pixar, "The RenderMan Interface", version 3.2, 2000, section 4.1.
-/// Conventions: without ScreenWindow the shorter side of the picture is from -1 to 1, at the
-/// distance 1 / tan(fov / 2) of a perspective camera.
+/// Conventions: without ScreenWindow the shorter side of the picture spans -1 to 1, for a
+/// perspective camera at the distance 1 / tan(fov / 2).
 
 #include <array>
 #include <optional>
@@ -16,10 +16,10 @@ namespace alhazen {
 class RibCamera {
   public:
     /// Reads Format, FrameAspectRatio, ScreenWindow or Projection. False for other requests; true
-    /// with a message in `problem` where the arguments are wrong.
+    /// with a message in `problem` if the arguments are wrong.
     bool read(const RibRequest& request, std::string& problem);
 
-    /// Adds the camera and the size of the picture, where the file has them.
+    /// Adds the camera and the size of the picture, if the file defines them.
     void add(const Affine& camera_from_world, const FileLocation& where,
              SceneDescription& scene) const;
 

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// A whole number of [least, most] as an argument.
+/// Reads an argument that is an integer in [least, most].
 bool read_rib_count(const RibRequest& request, std::size_t argument, const char* what, int least,
                     int most, int& out, RibScene& scene) {
     const std::optional<double> number = request.number(argument);
@@ -25,7 +25,7 @@ bool read_rib_count(const RibRequest& request, std::size_t argument, const char*
     return false;
 }
 
-/// The control points "P" or "Pw" among the parameters from `first` on.
+/// Reads the control points "P" or "Pw" from the parameters from `first` on.
 bool read_rib_points(const RibRequest& request, std::size_t first,
                      std::vector<HomogeneousPoint>& points, RibScene& scene) {
     for (std::size_t k = first; k + 1 < request.arguments.size(); k += 2) {
@@ -58,7 +58,7 @@ bool has_rib_points(const RibRequest& request, std::size_t found, std::uint64_t 
     return false;
 }
 
-/// "bicubic" or "bilinear".
+/// True for "bicubic", false for "bilinear"; none after an error.
 std::optional<bool> is_rib_bicubic(const RibRequest& request, RibScene& scene) {
     const std::string* type = request.string(0);
     if (type != nullptr && (*type == "bicubic" || *type == "bilinear")) return *type == "bicubic";
@@ -67,7 +67,7 @@ std::optional<bool> is_rib_bicubic(const RibRequest& request, RibScene& scene) {
     return std::nullopt;
 }
 
-/// The patch whose first control point is (u, v) of a net of nu * nv points, wrapped around.
+/// The patch whose first control point is (u, v) of a net of nu * nv points, which wraps around.
 BezierNet rib_net(const RibState& state, bool bicubic, const std::vector<HomogeneousPoint>& points,
                   std::size_t nu, std::size_t nv, std::size_t u, std::size_t v) {
     const auto point = [&](std::size_t i, std::size_t j) {
@@ -148,7 +148,7 @@ void read_rib_patch_mesh(const RibRequest& request, const RibState& state, RibSc
 
 // --- NURBS.
 
-/// n, order, knots, least and greatest parameter from the argument `first` on.
+/// The arguments n, order, knots, least and greatest parameter of one direction.
 struct RibKnots {
     int points = 0, order = 0;
     std::vector<double> knots;
@@ -192,7 +192,7 @@ bool read_rib_knots(const RibRequest& request, std::size_t first, RibKnots& out,
     return check_rib_knots(out, request.arguments[first + 2].place, scene);
 }
 
-/// Whether the range of the parameters is that of the knots.
+/// True if the parameter range is that of the knots.
 bool is_whole(const RibKnots& k) {
     return k.least == k.knots[std::size_t(k.order) - 1] && k.most == k.knots[std::size_t(k.points)];
 }
@@ -201,7 +201,7 @@ void set_rib_trims(const RibState& state, const RibKnots& u, const RibKnots& v, 
     if (state.trims != nullptr) s.trims = *state.trims;
     const bool trimmed = !s.trims.empty();
     if (trimmed ? state.keeps_inside : is_whole(u) && is_whole(v)) return;
-    // Odd-even: within the range of the parameters, and not inside of the loops.
+    // By the odd-even rule: the parameter range without the loops.
     s.trims.insert(s.trims.begin(), TrimLoop{TrimCurve{.points = {{u.least, v.least},
                                                                   {u.most, v.least},
                                                                   {u.most, v.most},

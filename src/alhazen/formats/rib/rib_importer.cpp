@@ -10,7 +10,8 @@ namespace alhazen {
 
 namespace {
 
-/// Requests that begin a file or stand near its beginning, and that no other format has.
+/// True if the text begins with a request that occurs at the beginning of RIB files and in no other
+/// format.
 bool looks_like_rib(std::string_view bytes) {
     static constexpr std::array<std::string_view, 17> kFirst{
         "version", "Format",         "Display",     "Projection",     "WorldBegin", "FrameBegin",
@@ -21,7 +22,7 @@ bool looks_like_rib(std::string_view bytes) {
     if (!cursor.skip_to_word("#")) return false;
     const std::string_view word = cursor.word();
     if (std::find(kFirst.begin(), kFirst.end(), word) == kFirst.end()) return false;
-    // A request has arguments that RIB has: a number, a string, an array or none.
+    // The arguments of a request begin like those of RIB: a number, a string, an array or none.
     if (!cursor.skip_blanks()) return word.ends_with("Begin") || word.starts_with("Patch");
     const char next = cursor.peek();
     return next == '"' || next == '[' || next == '#' || next == '-' || (next >= '0' && next <= '9');

@@ -1,5 +1,5 @@
 #pragma once
-/// A RIB file as a scene: docs/reference/formats/rib.md.
+/// Importer of RIB files: docs/reference/formats/rib.md.
 
 #include "alhazen/formats/core/importer.h"
 

@@ -79,7 +79,7 @@ class RibInterpreter {
         }
     }
 
-    /// One of the pairs NAMEBegin, NAMEEnd.
+    /// Executes a request of a pair NAMEBegin, NAMEEnd.
     bool block() {
         static constexpr std::array<std::string_view, 5> kBlocks{"Attribute", "Transform", "World",
                                                                  "Frame", "Object"};
@@ -128,7 +128,7 @@ class RibInterpreter {
         }
         blocks_.pop_back();
     }
-    /// False for all worlds but the first.
+    /// Begins a world; false for all but the first.
     bool begin_world() {
         if (std::exchange(had_world_, true)) {
             scene_.warning(request_.place, "only the first world of the file is read");
@@ -196,7 +196,7 @@ class RibInterpreter {
         }
     }
     void identity() { state_.transform = had_world_ ? Affine{} : state_.transform; }
-    /// A matrix for row vectors; Transform replaces the current one within the world.
+    /// Reads a matrix for row vectors. Transform replaces the current one within the world.
     void transform() {
         std::array<double, 16> n{}, columns{};
         if (!numbers(n)) return;

@@ -143,7 +143,7 @@ bool RibRequestReader::read_array(RibRequest& request) {
     for (skip_space(); next_ != end_ && *next_ != ']'; skip_space()) {
         if (*next_ != '"' && !begins_rib_number(*next_)) {
             error(place(), "expected a number, a string or ']', found " + shown());
-            // Nothing of the array is an argument of the next request.
+            // Skips the rest of the array, which is no argument of the next request.
             while (next_ != end_ && *next_ != ']') {
                 skip_space();
                 if (next_ != end_ && *next_ != ']') ++next_;

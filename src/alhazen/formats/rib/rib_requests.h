@@ -1,12 +1,12 @@
 #pragma once
-/// The requests of a RIB file, one after the other: a name, and arguments that are numbers, strings
-/// or arrays of these.
+/// The requests of a RIB file, read one after the other: a name, and arguments that are numbers,
+/// strings or arrays of these.
 ///
 /// Source: Pixar, "The RenderMan Interface", version 3.2, 2000, appendix C (RIB).
-/// Differs: the binary encoding is refused. Hints (`##`) are comments.
-/// Conventions: numbers are finite. Lines and columns count from 1. The arguments of a request lie
-/// in arrays that the next one reuses.
-/// Complexity: linear in time; memory of the largest request.
+/// Differs: the binary encoding is rejected. Hints (`##`) are comments.
+/// Conventions: numbers are finite. Lines and columns count from 1. The arguments of a request are
+/// stored in arrays that the next request reuses.
+/// Complexity: linear in time; memory for the largest request.
 
 #include <cstdint>
 #include <optional>
@@ -27,7 +27,7 @@ struct RibArgument {
     enum class Kind : std::uint8_t { Number, String, Numbers, Strings };
     Kind kind = Kind::Number;
     RibPlace place;
-    /// Range in the numbers or strings of the request; one for Number and String.
+    /// Range in the numbers or strings of the request, of length one for Number and String.
     std::size_t begin = 0, end = 0;
 };
 
@@ -38,9 +38,9 @@ struct RibRequest {
     std::vector<double> numbers;
     std::vector<std::string> strings;
 
-    /// The only number of an argument (a number, or an array of one); none for others.
+    /// The number of an argument that is a number or an array of one; none for others.
     [[nodiscard]] std::optional<double> number(std::size_t argument) const;
-    /// Its string, or its array of one string; null for others.
+    /// The string of an argument that is a string or an array of one; null for others.
     [[nodiscard]] const std::string* string(std::size_t argument) const;
     [[nodiscard]] std::size_t count(std::size_t argument) const {
         return arguments[argument].end - arguments[argument].begin;
@@ -62,7 +62,8 @@ class RibRequestReader {
           file_(file),
           diagnostics_(diagnostics) {}
 
-    /// False at the end of the file and after too many errors. A request with an error is skipped.
+    /// Reads the next request; false at the end of the file and after too many errors. Skips a
+    /// request with an error.
     bool read(RibRequest& request);
 
     [[nodiscard]] RibPlace place() const;

@@ -1,9 +1,9 @@
 #pragma once
-/// The scene description that the requests of a RIB file make: patches gathered to patch meshes,
-/// other shapes, materials of colours, objects and instances.
+/// The scene description made by the requests of a RIB file: patches collected in patch meshes,
+/// other shapes, materials from colours, objects and instances.
 ///
-/// Conventions: patches of the same object, transform, colour and degrees are one patch mesh over
-/// shared control points (patch_welder.h), so that what is closed in the file is a solid here.
+/// Conventions: patches of the same object, transform, colour and degrees form one patch mesh with
+/// shared control points (patch_welder.h), so that a closed surface in the file becomes a solid.
 
 #include <array>
 #include <deque>
@@ -18,7 +18,7 @@
 
 namespace alhazen {
 
-/// What AttributeBegin saves and AttributeEnd restores.
+/// The state that AttributeBegin saves and AttributeEnd restores.
 struct RibState {
     Affine transform;  ///< object_from_current, or world_from_current
     Rgb color{0.7, 0.7, 0.7};
@@ -26,7 +26,7 @@ struct RibState {
     int step_u = 3, step_v = 3;
     bool reversed = false;
     std::shared_ptr<const std::vector<TrimLoop>> trims;
-    bool keeps_inside = false;  ///< of the trimming loops; else what is inside is cut away
+    bool keeps_inside = false;  ///< of the trimming loops; false: the inside is cut away
 };
 
 class RibScene {
@@ -42,10 +42,10 @@ class RibScene {
     void add_patch(const RibState& state, const BezierNet& net, const RibPlace& place);
     void add_shape(const RibState& state, AnyShape shape, const RibPlace& place);
 
-    /// False when an object is open already, or none is.
+    /// False if an object is already open, or none is.
     bool begin_object(const std::string& name, const RibPlace& place);
     bool end_object();
-    /// False when there is no such object.
+    /// False if there is no such object.
     bool add_instance(const RibState& state, const std::string& name, const RibPlace& place);
     [[nodiscard]] bool in_object() const { return current_ != 0; }
 
@@ -80,7 +80,7 @@ class RibScene {
     std::map<Key, std::size_t> mesh_numbers_;
     std::map<std::array<double, 3>, MaterialId> materials_;
     std::map<std::string, std::size_t> objects_;
-    std::size_t current_ = 0;  ///< the object that gets the parts
+    std::size_t current_ = 0;  ///< the object to which parts are added
     int errors_ = 0;
 };
 

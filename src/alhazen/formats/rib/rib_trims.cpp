@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// The arguments of TrimCurve, taken curve by curve.
+/// The arguments of TrimCurve, read curve by curve.
 class RibTrimReader {
   public:
     RibTrimReader(const RibRequest& request, RibScene& scene)

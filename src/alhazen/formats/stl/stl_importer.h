@@ -1,5 +1,5 @@
 #pragma once
-/// An STL file as a scene: docs/reference/formats/stl.md.
+/// Importer of STL files: docs/reference/formats/stl.md.
 
 #include "alhazen/formats/core/importer.h"
 

@@ -4,10 +4,10 @@
 /// Source: 3D Systems, "Stereolithography Interface Specification", 1989; the file layout as
 /// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5.
 /// Differs: an ascii file may hold several solids; case is ignored; endsolid may be missing. A file
-/// is binary when its size matches its count, even if it begins with "solid"; a file of another
-/// size that begins so is binary when it has zero bytes, and is reported as binary.
-/// Conventions: corners of exactly equal position (-0 = 0) are one vertex. The winding determines
-/// the outside, not the normals of the file. Attribute bytes are ignored.
+/// is binary if its size matches its count, even if it begins with "solid"; a file of another size
+/// that begins with "solid" is binary if it has zero bytes, and is reported as binary.
+/// Conventions: corners of exactly equal position (-0 = 0) are one vertex. The winding, not the
+/// normals of the file, determines the outside. Attribute bytes are ignored.
 
 #include <string>
 #include <string_view>
@@ -23,8 +23,7 @@ struct StlSolid {
     TriangleMesh mesh;
 };
 
-/// True when the bytes are certainly STL: binary of the right size, or text with a solid and a
-/// facet.
+/// True if the bytes are certainly STL: binary of the right size, or text with a solid and a facet.
 [[nodiscard]] bool looks_like_stl(std::string_view bytes);
 
 /// The solids of a file; empty after an error. With `as_one`, at most one solid with all facets.

@@ -2,8 +2,8 @@
 /// Typed access to the parse tree: converts and checks values, reports unrecognised keys.
 ///
 /// Conventions: every function reports a bad value with its location, returns false and leaves its
-/// output unchanged. Values left incomplete by a syntax error fail silently: the error has been
-/// reported.
+/// output unchanged. For values left incomplete by a syntax error, which has been reported, it only
+/// returns false.
 
 #include <optional>
 #include <string>
@@ -45,11 +45,11 @@ struct ValueReader {
 template <class T>
 using Vocabulary = std::vector<std::pair<std::string_view, T>>;
 
-/// Takes note of what a reader asks of blocks (BlockReader::observe).
+/// Records the queries of a reader (BlockReader::observe).
 class BlockObserver {
   public:
     virtual ~BlockObserver() = default;
-    /// `words`: what the value must be one of; empty: it is no keyword.
+    /// `words`: the possible values of a keyword; empty for other values.
     virtual void key(std::string_view block, std::string_view key,
                      const std::vector<std::string_view>& words) = 0;
     virtual void required(std::string_view block, std::string_view key) = 0;
@@ -60,22 +60,22 @@ class BlockReader {
   public:
     enum class Strictness {
         Strict,    ///< unknown and repeated keys are errors
-        Tolerant,  ///< they are warnings; the last repetition counts
+        Tolerant,  ///< unknown and repeated keys are warnings; the last repetition is used
     };
 
     /// `what` names the block in messages: "sphere".
     BlockReader(TextNode block, std::string what, Strictness strictness, Diagnostics& diagnostics)
         : block_(block), what_(std::move(what)), strictness_(strictness), values_{diagnostics} {}
 
-    /// Reports all further queries; null: none.
+    /// Reports all further queries to `observer`; null: none.
     void observe(BlockObserver* observer) { observer_ = observer; }
 
     /// The value of `key`, unless absent or broken.
     [[nodiscard]] std::optional<TextNode> find(std::string_view key);
-    /// True when the key is present, with a good value or a bad one.
+    /// True if the key is present, whether its value is valid or not.
     [[nodiscard]] bool has(std::string_view key) const;
 
-    /// True when the key is present and its value is good.
+    /// Reads a value; true if the key is present and its value valid.
     template <class T>
     bool read(std::string_view key, T& out) {
         const std::optional<TextNode> value = find(key);
@@ -84,7 +84,7 @@ class BlockReader {
     template <class T>
     bool read_word(std::string_view key, const Vocabulary<T>& words, T& out);
 
-    /// Reports an error when the key is absent.
+    /// Reports an error if the key is absent.
     void require(std::string_view key);
     /// Marks a key as known without reading it.
     void ignore(std::string_view key) { (void)find(key); }

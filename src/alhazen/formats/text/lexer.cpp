@@ -35,7 +35,7 @@ bool continues_number(char c) {
 bool ends_string(char c) {
     return c == '"' || c == '\n' || c == '\r';
 }
-/// Value 0 to 15, or -1.
+/// The value of a hexadecimal digit, 0 to 15, or -1.
 int hex_digit(char c) {
     if (is_digit(c)) return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -176,7 +176,7 @@ void Lexer::skip_blanks_and_comments() {
     }
 }
 
-/// A run of bytes that start no token is one error.
+/// Reports a run of bytes that start no token as a single error.
 void Lexer::skip_rubbish() {
     const std::size_t first = at_++;
     while (at_ < text_.size() && !is_blank(text_[at_]) && !starts_token(text_[at_])) ++at_;

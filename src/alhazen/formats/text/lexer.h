@@ -39,7 +39,7 @@ enum class TokenKind { Word, String, Number, Punctuation, End };
 struct Token {
     TokenKind kind = TokenKind::End;
     std::uint32_t offset = 0;
-    std::string_view text;  ///< strings: without quotes, escapes unresolved
+    std::string_view text;  ///< for strings: without quotes, escapes not resolved
     double number = 0;      ///< always finite
     bool damaged = false;   ///< already reported; the value is a placeholder
 
@@ -67,7 +67,7 @@ class Lexer {
           diagnostics_(diagnostics),
           string_escapes_(string_escapes) {}
 
-    /// The next token; End after the last one, repeatedly.
+    /// The next token; End at the end of the text, repeatedly.
     [[nodiscard]] Token next();
 
   private:

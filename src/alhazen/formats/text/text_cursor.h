@@ -154,7 +154,7 @@ class TextCursor {
         step_over_newline();
         return true;
     }
-    /// Of a number outside the range of double: true when it is too small.
+    /// True if a number outside the range of double is too small.
     static bool underflows(std::string_view number) {
         const std::size_t exponent = number.find_first_of("eE");
         if (exponent != std::string_view::npos && exponent + 1 < number.size()) {

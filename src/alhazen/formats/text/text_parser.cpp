@@ -25,7 +25,8 @@ std::uint32_t TextParser::add(NodeKind kind, const Token& token) {
     if (kind == NodeKind::Number) {
         node.number = token.number;
     } else {
-        // Offsets point at the opening quote of a string, for messages; the text starts one later.
+        // The offset of a string is that of its opening quote, for messages; its text starts one
+        // later.
         node.length = static_cast<std::uint32_t>(token.text.size());
     }
     nodes_.push_back(node);

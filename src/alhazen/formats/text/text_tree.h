@@ -95,7 +95,7 @@ class TextNode {
 
     [[nodiscard]] NodeKind kind() const { return node().kind; }
     [[nodiscard]] bool is(NodeKind k) const { return kind() == k; }
-    /// True for an entry or a pair of that name.
+    /// True if the node is an entry or a pair of that name.
     [[nodiscard]] bool is(NodeKind k, std::string_view name) const {
         return kind() == k && text() == name;
     }
@@ -103,7 +103,7 @@ class TextNode {
     [[nodiscard]] std::string_view text() const;
     /// 0 unless the node is a number.
     [[nodiscard]] double number() const { return is(NodeKind::Number) ? node().number : 0.0; }
-    /// True when a syntax error inside was reported; the content must not be used.
+    /// True if a syntax error inside was reported; the content must not be used.
     [[nodiscard]] bool broken() const { return node().broken; }
     [[nodiscard]] FileLocation location() const { return tree_->source_->location(node().offset); }
 
@@ -115,7 +115,7 @@ class TextNode {
     /// Precondition: not empty.
     [[nodiscard]] TextNode first() const { return {tree_, index_ + 1}; }
 
-    /// A node for messages: "number", "a list of 3 values", "'translate(...)'".
+    /// The node for messages: "number", "a list of 3 values", "'translate(...)'".
     [[nodiscard]] std::string describe() const;
 
   private:

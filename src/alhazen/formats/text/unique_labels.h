@@ -7,8 +7,8 @@
 
 namespace alhazen {
 
-/// One label per name: the name itself at its first occurrence, else the name with a free number
-/// appended; `kind` replaces an empty name. Unique names never change.
+/// One label per name: the name itself at its first occurrence, otherwise the name with an unused
+/// number appended; `kind` replaces an empty name. Unique names are kept.
 [[nodiscard]] inline std::vector<std::string> unique_labels(const std::vector<std::string>& names,
                                                             const std::string& kind) {
     std::unordered_set<std::string> taken;

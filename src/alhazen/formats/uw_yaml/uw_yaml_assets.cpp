@@ -12,15 +12,15 @@ namespace alhazen {
 
 namespace {
 
-/// The course's v counts rows from the top of the picture, as its exported spheres do (v = 0 at the
-/// north pole).
+/// The format's v runs from the top of the picture downwards, as in the spheres that the course's
+/// program exports (v = 0 at the north pole).
 constexpr UvTransform kRowsFromTheTop{1, 0, 0, -1, {0, 1}};
 
 /// A face of the cube, by the directions of its texture coordinates; its normal is u x v.
 struct CubeFace {
     Vec3 u, v;
 };
-/// Seen from outside, u runs to the right; v runs up the four sides, and the top and the bottom
+/// Seen from outside, u runs to the right and v up on the four sides; the top and the bottom
 /// continue the front.
 constexpr std::array<CubeFace, 6> kCubeFaces{{
     {{1, 0, 0}, {0, 1, 0}},   // front, +z
@@ -143,7 +143,7 @@ ColorInput UwAssets::color_input(const YAML::Node& uniforms, const char* name) {
         if (map.empty()) {
             values_.warning(uniform, std::string("'") + name + "' uses a texture but names none");
         } else if (const std::optional<TextureId> id = texture(map, uniform)) {
-            // The map replaces the colour; it is not multiplied by it.
+            // The map replaces the colour instead of multiplying it.
             return {{1, 1, 1}, *id};
         }
     }
@@ -160,7 +160,7 @@ std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::
         ImageTexture settings;
         const bool bilinear = values_.flag(found->second, "Bilinear", true);
         settings.filter = bilinear ? TextureFilter::Bilinear : TextureFilter::Nearest;
-        // Texel i lies at i / width; without interpolation it fills i to i + 1 all the same.
+        // Texel i lies at i / width; but without interpolation it fills [i, i + 1).
         settings.corner_texels = bilinear;
         settings.uv_transform = kRowsFromTheTop;
         id = texture_files_.load(values_.text(found->second, "Path"), root_, settings, name,

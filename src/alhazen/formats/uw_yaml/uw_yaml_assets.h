@@ -1,6 +1,6 @@
 #pragma once
-/// Materials, textures and meshes of a course scene, read at their first use by a component: the
-/// scenes list more than they use, and some files are absent.
+/// Materials, textures and meshes of a course scene, read at their first use by a component,
+/// because scenes list more assets than they use, and some files are absent.
 ///
 /// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md).
 /// Conventions: paths are relative to the parent folder of the course's `assets`.
@@ -16,7 +16,7 @@
 
 namespace alhazen {
 
-/// The nearest ancestor of `scene_folder` (itself included) with a subfolder `assets`; otherwise
+/// The nearest ancestor of `scene_folder` (or itself) with a subfolder `assets`; otherwise
 /// `scene_folder`.
 [[nodiscard]] std::filesystem::path find_course_root(const std::filesystem::path& scene_folder);
 
@@ -25,12 +25,12 @@ class UwAssets {
     UwAssets(const YAML::Node& document, const ImportSource& source, SceneDescription& scene,
              Diagnostics& diagnostics);
 
-    /// The material that `component` names; a grey one, with a report, when it is unavailable.
+    /// The material that `component` names; a grey one, with a report, if it is unavailable.
     MaterialId material(const YAML::Node& component);
     [[nodiscard]] bool is_textured(MaterialId material) const;
-    /// The cube of side 1 as twelve triangles with the course's texture coordinates.
+    /// The cube of side 1 as twelve triangles with the texture coordinates of the format.
     MeshIndex textured_cube(const YAML::Node& component);
-    /// The mesh of that name, read from its file. Reports and returns none when it is unavailable.
+    /// The mesh of that name, read from its file. Reports and returns none if it is unavailable.
     std::optional<MeshIndex> mesh(const std::string& name, const YAML::Node& component);
     [[nodiscard]] bool has_mesh(const std::string& name) const { return meshes_.contains(name); }
 

@@ -19,7 +19,7 @@
 
 namespace alhazen {
 
-/// Maximum size of the text: nodes take a few hundred bytes each.
+/// Maximum size of the text in bytes: a node takes a few hundred bytes of memory.
 inline constexpr std::size_t kMaxYamlBytes = std::size_t{1} << 20;
 
 /// Parses `bytes`; none after an error. Throws Error: Resource for text that is too large, Scene
@@ -37,7 +37,7 @@ class YamlValues {
     void error(const YAML::Node& node, const std::string& message);
     void warning(const YAML::Node& node, const std::string& message);
 
-    /// The value of `key`; an undefined node when `map` is not a map or lacks the key.
+    /// The value of `key`; an undefined node if `map` is not a map or lacks the key.
     [[nodiscard]] static YAML::Node find(const YAML::Node& map, const char* key);
 
     [[nodiscard]] double number(const YAML::Node& map, const char* key, double missing);
@@ -45,7 +45,7 @@ class YamlValues {
     [[nodiscard]] std::string text(const YAML::Node& map, const char* key);
     /// {X, Y, Z}; `missing` is the default of each component.
     [[nodiscard]] Vec3 vector(const YAML::Node& map, const char* key, double missing);
-    /// {R, G, B, A}, without A; the default of each channel is 0.
+    /// {R, G, B, A}, of which A is ignored; the default of each channel is 0.
     [[nodiscard]] Rgb color(const YAML::Node& map, const char* key);
 
   private:

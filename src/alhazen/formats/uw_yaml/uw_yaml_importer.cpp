@@ -6,7 +6,7 @@ namespace alhazen {
 
 namespace {
 
-/// What the course's own pictures were found to mean.
+/// The conventions of the reference renderer.
 Conventions uw_conventions() {
     Conventions c;
     c.shading.highlight = ShadingConventions::Highlight::BlinnPhong;
@@ -25,7 +25,7 @@ Conventions uw_conventions() {
     return c;
 }
 
-/// True when the text has a line that starts with `key`.
+/// True if the text has a line that starts with `key`.
 bool has_key(std::string_view text, std::string_view key) {
     for (std::size_t at = text.find(key); at != std::string_view::npos;
          at = text.find(key, at + 1)) {

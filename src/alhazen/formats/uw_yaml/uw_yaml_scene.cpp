@@ -10,7 +10,7 @@ namespace {
 
 /// Limit on nodes and components read: aliases can expand a short text enormously.
 constexpr std::size_t kMaxVisits = 200'000;
-/// Half the thickness of the course's plane: two sheets, so light crosses two surfaces.
+/// Half the thickness of the format's plane, which has two sheets: light crosses two surfaces.
 constexpr double kPlaneHalfThickness = 1e-5;
 
 double radians(double degrees) {
@@ -87,7 +87,7 @@ void UwSceneReader::read_node(const YAML::Node& node, const Affine& world_from_p
 
 UwSceneReader::ReadComponent UwSceneReader::reader_of(const std::string& component) {
     static const std::array<std::pair<std::string_view, ReadComponent>, 14> kReaders{{
-        {"Transform", &UwSceneReader::nothing},  // read first
+        {"Transform", &UwSceneReader::nothing},  // read before all others
         {"EnvironmentMap", &UwSceneReader::nothing},
         {"Sphere", &UwSceneReader::sphere},
         {"Cylinder", &UwSceneReader::cylinder},
@@ -114,9 +114,8 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
     const MaterialId material = assets_.material(component);
     const Affine world_from_part = place.world_from_node * node_from_part;
     if (!is_invertible(world_from_part)) {
-        // An object scaled to zero, as animations do, is invisible.
-        return values_.warning(component,
-                               "'" + place.name + "' is scaled to nothing and not drawn");
+        // An object scaled to zero, as in animations, is invisible.
+        return values_.warning(component, "'" + place.name + "' has scale 0 and is not drawn");
     }
     scene_.objects[0].parts.push_back(
         {std::move(what), world_from_part, material, place.name, place.location});
@@ -125,8 +124,8 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
 void UwSceneReader::sphere(const Place& place, const YAML::Node& component) {
     Sphere sphere;
     sphere.radius = 0.5;
-    // Poles lie on z in this library, on y in the course. As in its exported spheres, u = 0 lies on
-    // -z, u = 1/4 on -x, and v runs from the top down.
+    // Poles lie on z in this library, on y in the format. As in the spheres that the course's
+    // program exports, u = 0 lies on -z, u = 1/4 on -x, and v runs from the top downwards.
     const Affine poles_on_y{{{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}, {}};
     add_part(place, component, sphere, poles_on_y);
 }
@@ -173,7 +172,7 @@ void UwSceneReader::triangle_mesh(const Place& place, const YAML::Node& componen
         values_.warning(component, "'LoopSubdivision' of '" + place.name + "' is ignored");
     }
     if (name == "Cube" && !assets_.has_mesh(name)) {
-        // A box has texture coordinates of its own; without a texture none are needed.
+        // Without a texture, the texture coordinates in which a box differs do not matter.
         if (!assets_.is_textured(assets_.material(component))) {
             return add_part(place, component, BoxShape{});
         }
@@ -286,7 +285,7 @@ void UwSceneReader::trace_settings(const YAML::Node& trace) {
     }
 }
 
-/// `Shadows` is 0 (none), 1 (all surfaces opaque) or 2 (coloured); older files have the switch
+/// Reads `Shadows`: 0 (none), 1 (all surfaces opaque) or 2 (coloured); older files have the switch
 /// `Enable Shadows`.
 void UwSceneReader::shadow_settings(const YAML::Node& trace) {
     using ShadowTint = ShadingConventions::ShadowTint;

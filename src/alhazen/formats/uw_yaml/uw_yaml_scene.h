@@ -4,7 +4,7 @@
 ///
 /// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md). M = T Rx Ry Rz S;
 /// children multiply on the right.
-/// Differs: transforms are multiplied out in double; cones and rings are exact, not meshes.
+/// Differs: transforms are multiplied in double; cones and rings are exact, not meshes.
 /// Conventions: unsupported properties of a component are warnings that name them.
 
 #include <set>

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Cones of a smaller half angle use the flat lens.
+/// Half angle in radians below which a cone uses the lens of two flat discs.
 constexpr double kNarrow = 0.02;
 
 double acos_of(double cosine) {
@@ -21,7 +21,7 @@ ConePoint mixed(const ConePoint& a, const ConePoint& b, double t) {
             a.z + t * (b.z - a.z)};
 }
 
-/// Sutherland and Hodgman: keeps the part where `side` is not negative.
+/// Clips by the method of Sutherland and Hodgman: keeps the part where `side` is not negative.
 template <class In, class Side>
 void clip_cone_loop(const In& in, std::vector<ConePoint>& out, Side&& side) {
     out.clear();
@@ -48,7 +48,8 @@ DiscPart part_of(std::span<const ConePoint> loop) {
     return sum;
 }
 
-/// Of a loop within the range: where w > 0, and beyond the focus where w < 0.
+/// The part of the disc for a loop within the range: where w > 0 and, for a converging cone, also
+/// where w < 0, beyond the focus.
 DiscPart part_by_sides(std::vector<ConePoint>& loop, std::vector<ConePoint>& other,
                        bool converges) {
     double largest = 0.0;
@@ -91,7 +92,7 @@ ConeCover cover_of_part(const DiscPart& part) {
     return {std::min(part.area / kPi, 1.0), clamped_to_disc(part.center())};
 }
 
-/// As a loop without clipping: all corners in front of the apex and within the range.
+/// True if the triangle needs no clipping: all corners in front of the apex and within the range.
 bool is_plain(const std::array<ConePoint, 3>& c, const ConeRange& range) {
     for (const ConePoint& p : c) {
         if (!(p.z >= range.z_min && p.z <= range.z_max && p.w > 0.0)) return false;
@@ -101,7 +102,7 @@ bool is_plain(const std::array<ConePoint, 3>& c, const ConeRange& range) {
     return least > 1e-9 * most;
 }
 
-/// All corners beyond one side of the square around the disc.
+/// True if all corners lie beyond one side of the square around the disc.
 bool is_beside(const Vec2& a, const Vec2& b, const Vec2& c) {
     return std::min({a.x, b.x, c.x}) >= 1.0 || std::max({a.x, b.x, c.x}) <= -1.0 ||
            std::min({a.y, b.y, c.y}) >= 1.0 || std::max({a.y, b.y, c.y}) <= -1.0;
@@ -115,7 +116,7 @@ double cap_share(double alpha, double beta, double gamma) {
     if (beta >= alpha + gamma) return 1.0;
     if (alpha >= beta + gamma) return 2.0 * kPi * (1.0 - std::cos(beta)) / cone;
     if (alpha + beta + gamma >= 2.0 * kPi) {
-        // The two leave out two caps that do not meet.
+        // Each cap leaves out a cap of its own, and these two do not meet.
         return 1.0 - 2.0 * kPi * (1.0 + std::cos(beta)) / cone;
     }
     const double ca = std::cos(alpha), cb = std::cos(beta), cg = std::cos(gamma);
@@ -139,7 +140,7 @@ SphereDisc sphere_disc(const ConeRay& cone, const ConeMap& map, const Vec3& cent
         disc.distance = across / cone.radius;
         return disc;
     }
-    // From the apex: tangents of half the angles.
+    // Angles at the apex: that to the centre of the sphere, and the half angle of the sphere.
     const double along = std::abs(c.w) / growth;
     const double to_center = std::sqrt(across * across + along * along);
     if (to_center <= radius) {
@@ -147,7 +148,7 @@ SphereDisc sphere_disc(const ConeRay& cone, const ConeMap& map, const Vec3& cent
         return disc;
     }
     const double alpha = std::atan(growth);
-    // Before the apex of a diverging cone is nothing.
+    // A diverging cone covers nothing before its apex.
     const double gamma =
         cone.spread > 0.0 && c.w < 0.0 ? std::atan2(across, -along) : std::atan2(across, along);
     if (cone.spread > 0.0 && c.w < 0.0 && across > 0.0) disc.towards = {c.x / across, c.y / across};
@@ -214,7 +215,7 @@ ConeCover plane_cover(const ConeRay& cone, const Vec3& point, const Vec3& normal
     const Vec3 ex = perpendicular(cone.axis), ey = cross(cone.axis, ex);
     const double height = dot(normal, cone.origin - point), fall = dot(normal, cone.axis);
     const double nx = dot(normal, ex), ny = dot(normal, ey);
-    // Height above the plane at distance z of the line through (u, v).
+    // Height above the plane at distance z along the line through (u, v).
     struct Height {
         double c, u, v;
         double operator()(const Vec2& p) const { return c + u * p.x + v * p.y; }
@@ -298,7 +299,7 @@ ConeCover triangle_cover(const std::array<ConePoint, 3>& corners, const ConeRang
 }
 
 TrianglePlace place_in_triangle(const std::array<ConePoint, 3>& corners, const Vec2& at) {
-    // The weights b with sum b (x, y, w) parallel to (u, v, 1).
+    // The weights b for which sum b (x, y, w) is parallel to (u, v, 1).
     const auto of = [](const ConePoint& p) { return Vec3{p.x, p.y, p.w}; };
     const Vec3 a = of(corners[0]), b = of(corners[1]), c = of(corners[2]), q{at.x, at.y, 1.0};
     double wa = dot(q, cross(b, c)), wb = dot(q, cross(c, a)), wc = dot(q, cross(a, b));

@@ -1,12 +1,12 @@
 #pragma once
-/// Coordinates in which a cone is the unit disc: the map that makes every coverage a plane area.
+/// Coordinates in which a cone is the unit disc, so that coverage is an area in the plane.
 ///
-/// Along every line of a cone (x, y) / w is constant, where x and y lie across the centre line and
-/// w is the radius of the cone there. The map is projective: straight edges stay straight, so the
-/// part of a cone that a plane or a polygon covers is exact, grazing or not.
+/// Along every line of a cone (x, y) / w is constant, where x and y are distances across the centre
+/// line and w is the radius of the cone there. The map is projective: straight edges stay straight,
+/// so the part of a cone that a plane or a polygon covers is exact, even at grazing angles.
 ///
-/// Conventions: all are affine functions of a point. z is the distance along the centre line. A
-/// composed map takes points of another frame. x cross y is along z.
+/// Conventions: all coordinates are affine functions of a point. z is the distance along the centre
+/// line. A composed map takes points of another frame. x cross y points along z.
 
 #include <array>
 
@@ -25,7 +25,7 @@ struct AffineForm {
     [[nodiscard]] AffineForm composed(const Affine& to_from) const {
         return {transpose_times(to_from.linear, g), dot(g, to_from.translation) + c};
     }
-    /// Largest change within a box of half the size `half`.
+    /// The largest change from the centre of a box whose half extents are `half`.
     [[nodiscard]] double reach(const Vec3& half) const { return dot(abs(g), half); }
 };
 
@@ -60,8 +60,9 @@ struct ConeMap {
     [[nodiscard]] ConePoint operator()(const Vec3& p) const { return {x(p), y(p), w(p), z(p)}; }
 };
 
-/// The least z of a box, and whether the cone may meet it beyond `z_min`. Conservative: one plane
-/// that touches the cone on the side of the box separates them, or they count as meeting.
+/// The least z of a box, and whether the cone may meet the box beyond `z_min`. Conservative: the
+/// box counts as met unless the plane that touches the cone on the side of the box separates the
+/// two.
 struct ConeBoxTest {
     bool may_meet = false;
     double z = 0;
@@ -77,7 +78,7 @@ struct ConeBoxTest {
     if (!(across > 0.0)) return test;
     const double nx = xc / across, ny = yc / across;
     const Vec3 g = nx * map.x.g + ny * map.y.g;
-    // All of the box beyond the plane n (x, y) = w, which touches the cone where w >= 0.
+    // The distance of the box beyond the plane n (x, y) = w, which touches the cone where w >= 0.
     const double slack = 1e-9 * (across + std::abs(wc) + z_reach);
     const double ahead = across - wc - AffineForm{g - map.w.g, 0}.reach(half);
     if (!(ahead > slack)) return test;

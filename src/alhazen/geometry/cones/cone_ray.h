@@ -1,15 +1,15 @@
 #pragma once
-/// A ray that is a cone: a centre line, a radius where it starts and the growth of the radius.
+/// A cone around a ray: a centre line, a radius at its start and the growth of the radius.
 ///
-/// Every cone of the library is one of these: the cone of a pixel, which `cone_tracing` follows,
-/// and the footprints of single rays (RayCone), which are its small-angle case.
+/// Represents all cones of the library: the cones of pixels, which `cone_tracing` follows, and the
+/// footprints of rays (RayCone), their small-angle case.
 ///
 /// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, section 2.
-/// Differs: radius and growth instead of an apex, so that parallel and converging cones are cones
-/// too. The apex is virtual: `radius / spread` behind the start, in front of it where the cone
-/// converges.
-/// Conventions: `axis` is unit. `spread` is the tangent of half the angle at the apex, negative
-/// where the cone converges.
+/// Differs: stores radius and growth instead of an apex, so that parallel and converging cones are
+/// included. The virtual apex lies `radius / spread` behind the start, or in front of it if the
+/// cone converges.
+/// Conventions: `axis` is a unit vector. `spread` is the tangent of half the angle at the apex,
+/// negative if the cone converges.
 
 #include <cmath>
 
@@ -27,9 +27,9 @@ struct ConeRay {
     /// Negative beyond the focus of a converging cone.
     [[nodiscard]] double radius_at(double t) const { return radius + spread * t; }
     [[nodiscard]] Vec3 at(double t) const { return origin + t * axis; }
-    /// Of a cone that is not parallel.
+    /// The virtual apex. Precondition: the cone is not parallel.
     [[nodiscard]] Vec3 apex() const { return at(-radius / spread); }
-    /// The diameter and its growth: all that the lookup of a texture needs.
+    /// The diameter and its growth, which the lookup of a texture needs.
     [[nodiscard]] RayCone footprint() const { return {2.0 * radius, 2.0 * spread}; }
 };
 

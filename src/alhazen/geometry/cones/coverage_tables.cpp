@@ -12,7 +12,7 @@ CoverageTables::CoverageTables() {
         for (std::size_t i = 0; i <= kDistances; ++i) {
             const double x = static_cast<double>(i) / kDistances;
             if (j == 0 || j == kRadii) {
-                // Of the smaller disc, beyond a line.
+                // The part of the smaller disc beyond a line.
                 spheres_.push_back(static_cast<float>(segment_area(1.0, 2.0 * x - 1.0) / kPi));
                 continue;
             }

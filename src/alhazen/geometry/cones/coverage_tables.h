@@ -1,13 +1,13 @@
 #pragma once
-/// Tables of the part of a cone that a sphere or a plane covers, made once and looked up.
+/// Precomputed tables of the part of a cone that a sphere or a plane covers.
 ///
 /// Source: Kirk, "The Simulation of Natural Features Using Cone Tracing", The Visual Computer
 /// 3(2), 1987 (areas of circles in tables).
-/// Differs: the distance of the discs is counted from where they touch inside to where they touch
-/// outside, and the radius is R / (1 + R), so that a table has no empty half and every radius a
-/// place.
-/// Conventions: arguments in units of the cone's radius; results 0 to 1 of the cone.
-/// Complexity: four numbers read for a sphere, two for a plane. Off by at most 1e-3 (measured:
+/// Differs: the distance of the discs is measured from where they touch internally to where they
+/// touch externally, and the radius is R / (1 + R), so that the table has no unused half and covers
+/// every radius.
+/// Conventions: arguments in units of the cone's radius; results are parts of the cone, 0 to 1.
+/// Complexity: four table entries read for a sphere, two for a plane. Error at most 1e-3 (measured:
 /// docs/design/cone_tracing.md). Threads: const.
 
 #include <algorithm>
@@ -20,10 +20,10 @@ namespace alhazen {
 class CoverageTables {
   public:
     CoverageTables();
-    /// The one pair of tables of the program.
+    /// The tables, shared by the whole program.
     [[nodiscard]] static const CoverageTables& shared();
 
-    /// A disc of radius `R` at distance `d`.
+    /// The part covered by a disc of radius `R` at distance `d`.
     [[nodiscard]] double sphere(double d, double R) const {
         const double least = std::abs(R - 1.0), most = R + 1.0;
         if (d >= most) return 0.0;
@@ -42,7 +42,7 @@ class CoverageTables {
         const double share = low + fy * (between(p + kDistances + 1) - low);
         return R < 1.0 ? share * (R * R) : share;
     }
-    /// What lies beyond a line at the signed distance `h`.
+    /// The part beyond a line at the signed distance `h`.
     [[nodiscard]] double plane(double h) const {
         if (h >= 1.0) return 0.0;
         if (h <= -1.0) return 1.0;
@@ -53,7 +53,7 @@ class CoverageTables {
 
   private:
     static constexpr std::size_t kDistances = 96, kRadii = 256, kPlanes = 256;
-    std::vector<float> spheres_;  ///< [radius][distance], of the smaller disc
+    std::vector<float> spheres_;  ///< [radius][distance], as a part of the smaller disc
     std::array<double, kPlanes + 1> planes_;
 };
 

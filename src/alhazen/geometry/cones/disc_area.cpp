@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Between the directions of two points, by the shorter way.
+/// The sector between the directions of two points, on the shorter side.
 DiscPart sector(const Vec2& a, const Vec2& b) {
     const double la = std::sqrt(dot_of(a, a)), lb = std::sqrt(dot_of(b, b));
     if (!(la > 0.0 && lb > 0.0)) return {};
@@ -19,7 +19,7 @@ DiscPart sector(const Vec2& a, const Vec2& b) {
     return {0.5 * angle, {(ub.y - ua.y) / 3.0, (ua.x - ub.x) / 3.0}};
 }
 
-/// With its third corner at the centre.
+/// The triangle of two points and the centre.
 DiscPart triangle(const Vec2& a, const Vec2& b) {
     const double area = 0.5 * cross_of(a, b);
     return {area, (area / 3.0) * (a + b)};
@@ -47,7 +47,7 @@ DiscPart lens(double R, double d) {
     if (d >= 1.0 + R) return {};
     if (d <= R - 1.0) return {kPi, {0, 0}};
     if (d <= 1.0 - R) return {kPi * R * R, {kPi * R * R * d, 0}};
-    // Two segments with one chord: their moments about their own centres cancel.
+    // Two segments with a common chord: their moments about their own centres cancel.
     const double chord = (d * d + (1.0 - R) * (1.0 + R)) / (2.0 * d);
     const double other = segment_area(R, d - chord);
     return {segment_area(1.0, chord) + other, {other * d, 0}};
@@ -57,7 +57,8 @@ DiscPart edge_part(const Vec2& a, const Vec2& b) {
     const Vec2 along = b - a;
     const double aa = dot_of(along, along), half = dot_of(a, along);
     if (!(aa > 0.0)) return {};
-    // |a + t along| = 1, by the distance of the line from the centre: corners may be far away.
+    // Solves |a + t along| = 1 by the distance of the line from the centre: corners may be far
+    // away.
     const double off = cross_of(a, b);
     const double square = aa - off * off;
     if (!(square > 0.0)) return sector(a, b);

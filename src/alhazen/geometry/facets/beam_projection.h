@@ -4,10 +4,10 @@
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984: a beam is an
 /// apex and a polygon; mirrors and windows change it by a linear transformation of space.
 /// Differs: all beams of a picture are drawn in the window of the eye: a reflected or refracted
-/// beam has the projection of the eye after the mirror image, or the linear image, of space. Its
-/// cross-section is then the visible piece of the mirror itself, without a change of coordinates.
-/// Conventions: window coordinates are x = X / W and y = Y / W with (X, Y, W) = rows * (p, 1);
-/// W > 0 before the apex. An apex at infinity has weight 0 and points towards itself.
+/// beam has the projection of the eye after the reflection, or the linear transformation, of space.
+/// Its cross-section is then the visible piece of the mirror, without a change of coordinates.
+/// Conventions: window coordinates are x = X / W and y = Y / W with (X, Y, W) = rows * (p, 1); W >
+/// 0 in front of the apex. An apex at infinity has weight 0, and `at` is the direction towards it.
 
 #include <array>
 
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// dot(normal, p) = offset; `at` is positive before it, along the normal.
+/// The plane dot(normal, p) = offset; its function `at` is positive on the side of the normal.
 struct FacetPlane {
     Vec3 normal;
     double offset = 0;
@@ -26,9 +26,9 @@ struct FacetPlane {
 
 struct BeamApex {
     Vec3 at;
-    double weight = 1;  ///< 0: `at` is the direction towards it
+    double weight = 1;  ///< 0: the apex is at infinity, in direction `at`
 
-    /// Positive where the apex lies before the plane.
+    /// Positive if the apex lies on the side of the plane's normal.
     [[nodiscard]] double side(const FacetPlane& plane) const {
         return dot(plane.normal, at) - plane.offset * weight;
     }
@@ -39,7 +39,7 @@ struct SpaceMap {
     std::array<std::array<double, 4>, 4> m{
         {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
-    /// The mirror image in a plane of unit normal.
+    /// The reflection in a plane of unit normal.
     [[nodiscard]] static SpaceMap mirror(const FacetPlane& plane) { return stretch(plane, -1.0); }
     /// Scales distances from a plane of unit normal.
     [[nodiscard]] static SpaceMap stretch(const FacetPlane& plane, double factor) {
@@ -53,7 +53,8 @@ struct SpaceMap {
         }
         return map;
     }
-    /// The shadow on a plane, from an apex before it: points between the two keep weights above 0.
+    /// The projection onto a plane from an apex in front of it: points between the two have weights
+    /// above 0.
     [[nodiscard]] static SpaceMap shadow(const FacetPlane& plane, const BeamApex& light) {
         const std::array<double, 4> p{plane.normal.x, plane.normal.y, plane.normal.z,
                                       -plane.offset};
@@ -81,7 +82,7 @@ struct BeamProjection {
     [[nodiscard]] double row(std::size_t i, const Vec3& p) const {
         return rows[i][0] * p.x + rows[i][1] * p.y + rows[i][2] * p.z + rows[i][3];
     }
-    /// The projection of space after `map`.
+    /// The projection of space transformed by `map`.
     [[nodiscard]] BeamProjection after(const SpaceMap& map) const {
         BeamProjection result;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -91,7 +92,7 @@ struct BeamProjection {
         }
         return result;
     }
-    /// a X + b Y + c W as a plane of space, of unit normal unless that is 0.
+    /// a X + b Y + c W = 0 as a plane of space, with a unit normal unless the normal is 0.
     [[nodiscard]] FacetPlane plane(double a, double b, double c) const {
         const auto sum = [&](std::size_t j) {
             return a * rows[0][j] + b * rows[1][j] + c * rows[2][j];

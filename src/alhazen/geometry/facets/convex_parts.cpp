@@ -12,7 +12,8 @@ namespace {
 
 using CornerLoop = std::vector<std::uint32_t>;
 
-/// Works on the projection along the longest axis of the normal, so that loops around it turn left.
+/// Works on the projection along the longest axis of the normal, in which loops around it turn
+/// left.
 class LoopParter {
   public:
     LoopParter(std::span<const Vec3> corners, const Vec3& normal) : corners_(corners) {
@@ -37,7 +38,7 @@ class LoopParter {
         for (std::size_t k = 0; k < n; ++k) {
             const std::uint32_t a = loop[k], b = loop[(k + 1) % n], c = loop[(k + 2) % n];
             if (turn_at(a, b, c) < 0) return false;
-            // Once around there are two changes of direction along x.
+            // A single revolution has two changes of direction along x.
             const bool right = flat_[a].x < flat_[b].x, next = flat_[b].x < flat_[c].x;
             turns_back += right != next;
         }
@@ -73,7 +74,7 @@ class LoopParter {
         return in;
     }
 
-    /// Outlines, each with its holes joined to it.
+    /// The outlines, each with its holes joined to it by bridges.
     std::vector<CornerLoop> joined(std::vector<CornerLoop> loops) {
         std::vector<std::vector<std::size_t>> around(loops.size());
         for (std::size_t k = 0; k < loops.size(); ++k) {
@@ -121,7 +122,7 @@ class LoopParter {
         }
         return outline;
     }
-    /// The place in the outline of the nearest corner that sees `from`.
+    /// The index in the outline of the nearest corner that is visible from `from`.
     [[nodiscard]] std::size_t bridge(std::uint32_t from, const CornerLoop& outline,
                                      std::span<const CornerLoop> holes) const {
         std::vector<std::pair<double, std::size_t>> order;
@@ -140,7 +141,7 @@ class LoopParter {
         }
         return order[0].second;
     }
-    /// Whether a point lies within the angle of the outline at a corner.
+    /// True if a point lies within the angle of the outline at a corner.
     [[nodiscard]] bool opens_to(const CornerLoop& loop, std::size_t k, std::uint32_t to) const {
         const std::uint32_t b = loop[k], a = loop[(k + loop.size() - 1) % loop.size()],
                             c = loop[(k + 1) % loop.size()];
@@ -177,7 +178,7 @@ class LoopParter {
     std::vector<Vec2> flat_;
 };
 
-/// Without repeated corners.
+/// The loops without repeated corners.
 std::vector<CornerLoop> corner_loops(std::span<const Vec3> corners,
                                      std::span<const std::uint32_t> loop_ends) {
     std::vector<CornerLoop> loops;

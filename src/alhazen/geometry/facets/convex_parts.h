@@ -1,11 +1,12 @@
 #pragma once
-/// Convex pieces of a planar polygon of several loops.
+/// Divides a planar polygon of several loops into convex pieces.
 ///
 /// Source: Eberly, "Triangulation by Ear Clipping", 2002 (bridges between holes and outlines).
-/// Differs: a bridge is the shortest one from the rightmost corner of a hole that crosses no edge.
-/// Conventions: inside by the odd-even rule. A convex polygon is its own piece; others are cut into
-/// triangles on their own corners. Pieces run counter-clockwise around `normal`.
-/// Complexity: O(n) for convex polygons, that of triangulate.h for one loop, O(holes * n^2) at most
+/// Differs: the bridge of a hole starts at its rightmost corner and is the shortest that crosses no
+/// edge.
+/// Conventions: inside by the odd-even rule. A convex polygon is a single piece; others are cut
+/// into triangles on their own corners. Pieces run counter-clockwise around `normal`.
+/// Complexity: O(n) for convex polygons, that of triangulate.h for one loop, at most O(holes * n^2)
 /// for several.
 
 #include <cstdint>
@@ -16,12 +17,12 @@
 
 namespace alhazen {
 
-/// `loop_ends`: one past the last corner of each loop; empty: one loop.
+/// The convex pieces. `loop_ends`: one past the last corner of each loop; empty: one loop.
 [[nodiscard]] std::vector<std::vector<Vec3>> convex_parts(std::span<const Vec3> corners,
                                                           std::span<const std::uint32_t> loop_ends,
                                                           const Vec3& normal);
 
-/// Whether one loop is its own convex piece.
+/// True if the loop is a convex polygon.
 [[nodiscard]] bool is_convex_loop(std::span<const Vec3> corners, const Vec3& normal);
 
 }  // namespace alhazen

@@ -12,7 +12,7 @@ namespace {
 struct DepthItem {
     FacetPiece piece;
     double near, far;
-    double lo_x, hi_x, lo_y, hi_y;  ///< in the window; endless where it reaches the apex
+    double lo_x, hi_x, lo_y, hi_y;  ///< in the window; infinite if the polygon reaches the apex
     bool moved = false;
 };
 
@@ -62,7 +62,7 @@ class DepthSorter {
         items_.insert(at, item);
     }
 
-    /// Whether nothing after the first hides a part of it; otherwise brings another one to the
+    /// True if no later polygon hides a part of the first one; otherwise moves another one to the
     /// front, or splits one.
     bool settle_first() {
         started_ = true;
@@ -100,7 +100,7 @@ class DepthSorter {
         const double size = length(n);
         return size > 0.0 ? FacetPlane{n / size, dot(n, a) / size} : FacetPlane{};
     }
-    /// Whether an edge of `a` parts the two as the apex sees them.
+    /// True if an edge of `a` separates the two as seen from the apex.
     [[nodiscard]] bool edge_parts(const FacetPiece& a, const FacetPiece& b) const {
         const std::span<const Vec3> loop = pool_.corners(a);
         for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -113,15 +113,15 @@ class DepthSorter {
         return false;
     }
 
-    /// Splits one by the plane of the other; where neither crosses, in a circle of three and more,
-    /// by a plane through the apex.
+    /// Splits one by the plane of the other; if neither crosses, in a cycle of three or more, by a
+    /// plane through the apex.
     bool split(std::list<DepthItem>::iterator first, std::list<DepthItem>::iterator other) {
         return split_by(pool_.planes[first->piece.facet], other) ||
                split_by(pool_.planes[other->piece.facet], first) ||
                split_by_edges(pool_.corners(other->piece), first) ||
                split_by_edges(pool_.corners(first->piece), other);
     }
-    /// Where the two of a circle hide each other whole, one of the others in it parts them.
+    /// Splits if two polygons of a cycle hide each other as a whole, by a third one of the cycle.
     bool split_by_third(std::list<DepthItem>::iterator first) {
         for (auto third = std::next(first); third != items_.end(); ++third) {
             if (may_precede(*third, *first)) continue;

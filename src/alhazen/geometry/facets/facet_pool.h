@@ -1,10 +1,11 @@
 #pragma once
-/// Convex pieces of planar facets, in one array of points, and the cutting of them by planes.
+/// Convex pieces of planar facets in one array of points, and their division by planes.
 ///
 /// Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 17, 1974.
-/// Differs: where an edge meets a plane is computed from its ends in one order, so that two pieces
-/// that share the edge get the same point.
-/// Conventions: corners counter-clockwise from the side of the normal of the facet's plane.
+/// Differs: the intersection of an edge and a plane is computed from the ends in a fixed order, so
+/// that two pieces that share the edge get the same point.
+/// Conventions: corners run counter-clockwise seen from the side of the normal of the facet's
+/// plane.
 
 #include <cstdint>
 #include <span>
@@ -16,7 +17,7 @@ namespace alhazen {
 
 struct FacetPiece {
     std::uint32_t facet = 0;
-    std::uint32_t first = 0, count = 0;  ///< of its corners
+    std::uint32_t first = 0, count = 0;  ///< range of its corners
 };
 
 struct FacetPool {
@@ -33,16 +34,17 @@ struct FacetPool {
     }
 };
 
-/// The least and the largest distance of points from a plane.
+/// The least and the largest signed distance of points from a plane.
 struct SideRange {
     double least, most;
 };
 [[nodiscard]] SideRange side_range(const FacetPlane& plane, std::span<const Vec3> points);
 
-/// Where the edge from `a` to `b` meets the plane, at distances `at_a` and `at_b` of unlike sign.
+/// The intersection of the edge from `a` to `b` with a plane, given distances `at_a` and `at_b` of
+/// opposite sign.
 [[nodiscard]] Vec3 edge_meets(const Vec3& a, double at_a, const Vec3& b, double at_b);
 
-/// The part of a convex loop before the plane, less what is nearer to it than `margin`.
+/// The part of a convex loop in front of the plane by at least `margin`.
 void clip_before(const FacetPlane& plane, double margin, std::span<const Vec3> loop,
                  std::vector<Vec3>& result);
 

@@ -55,7 +55,7 @@ std::span<const FacetPiece> FacetWalk::next_in(const Waiting& waiting, const Bea
                                                FacetWalkCounts& counts) {
     const FacetTree::Node& node = tree_->node(waiting.node);
     const std::span<const FacetPiece> pieces = tree_->pieces(node);
-    // The hull of a leaf with one polygon was that polygon.
+    // The hull of a leaf with one polygon was that polygon, already tested.
     const bool tested =
         pieces.size() == 1 && node.before == FacetTree::kNone && node.behind == FacetTree::kNone;
     for (std::uint32_t k = waiting.from; k < pieces.size(); ++k) {

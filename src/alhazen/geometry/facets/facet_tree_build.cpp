@@ -8,11 +8,12 @@ namespace alhazen {
 
 namespace {
 
-/// Polygons that rate a candidate; of more, as many evenly spread ones do.
+/// Largest number of polygons that rate a candidate; of more polygons, an even selection does.
 constexpr std::size_t kRaters = 384;
-/// So many are divided by a plane across an axis where candidates leave too many on one side.
+/// Least number of polygons for which axis-aligned planes are tried, if candidates leave too many
+/// on one side.
 constexpr std::size_t kManyOnOneSide = 48;
-/// So many of one plane have a tree of their own.
+/// Number of polygons of one plane above which they form a tree of their own.
 constexpr std::size_t kManyInPlane = 6;
 constexpr std::size_t kHullCorners = 32;
 
@@ -28,7 +29,7 @@ PlaneSide side_of(const FacetPlane& plane, double margin, std::span<const Vec3> 
 struct PlaneRating {
     FacetPlane plane;
     double cost = 0;
-    double least_side = 0;  ///< share of the polygons
+    double least_side = 0;  ///< part of the polygons on the smaller side
 };
 
 }  // namespace
@@ -58,7 +59,7 @@ class FacetTreeBuilder {
     }
 
   private:
-    /// Polygons for a node that is not made yet.
+    /// The polygons of a node that is still to be made.
     struct Waiting {
         std::vector<FacetPiece> polygons;
         std::uint32_t parent;
@@ -91,7 +92,8 @@ class FacetTreeBuilder {
                 std::min(before, behind) / counted};
     }
 
-    /// The plane across the longest axes at the middle of the polygons, if it divides them better.
+    /// Tries the axis-aligned planes through the middle of the polygons; true if one divides them
+    /// better.
     [[nodiscard]] bool try_free_planes(std::span<const FacetPiece> polygons,
                                        PlaneRating& best) const {
         bool found = false;
@@ -149,7 +151,7 @@ class FacetTreeBuilder {
             }
         }
         if (in.empty() && (before.empty() || behind.empty())) {
-            // A plane of rounding alone: its polygon is the node.
+            // The polygon lies outside its own plane by rounding: any polygon becomes the node's.
             std::vector<FacetPiece>& rest = before.empty() ? behind : before;
             in.push_back(rest.back());
             rest.pop_back();
@@ -169,7 +171,7 @@ class FacetTreeBuilder {
         tree_.pieces_.insert(tree_.pieces_.end(), polygons.begin(), polygons.end());
     }
 
-    /// Polygons of one plane: the order of the halves does not matter.
+    /// Divides polygons of one plane; the order of the halves does not matter.
     void halve(const Waiting& now, std::uint32_t number) {
         if (now.polygons.size() <= kManyInPlane) {
             keep(now.polygons, number);
@@ -202,7 +204,7 @@ class FacetTreeBuilder {
         ++tree_.report_.splits;
     }
 
-    /// Children have higher numbers than their parents.
+    /// Merges hulls bottom-up: children have higher numbers than their parents.
     void merge_hulls() {
         std::vector<Vec3> points;
         for (std::size_t n = tree_.nodes_.size(); n-- > 0;) {
@@ -221,7 +223,7 @@ class FacetTreeBuilder {
         }
     }
     void append(const FacetPiece& piece, std::vector<Vec3>& points) const {
-        // Of a plane with thousands of polygons the hull is taken in steps.
+        // Reduces the hull in steps, for planes with thousands of polygons.
         const std::span<const Vec3> corners = tree_.pool_.corners(piece);
         points.insert(points.end(), corners.begin(), corners.end());
         if (points.size() > 8 * kHullCorners) reduce_to_hull(points, kHullCorners);

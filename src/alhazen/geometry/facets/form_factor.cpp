@@ -22,7 +22,7 @@ FacetPlane plane_of(std::span<const Vec3> loop) {
     return {normal, dot(normal, loop[0])};
 }
 
-/// Lambert's sum: of each edge the angle that it is seen under, times the part along `normal` of
+/// Lambert's sum: for each edge the angle that it subtends, times the component along `normal` of
 /// the normal of the plane through point and edge.
 double contour_sum(const Vec3& point, const Vec3& normal, std::span<const Vec3> loop) {
     double sum = 0.0;
@@ -37,14 +37,14 @@ double contour_sum(const Vec3& point, const Vec3& normal, std::span<const Vec3> 
 
 using Triangle = std::array<Vec3, 3>;
 
-/// Integrates a function over triangles, dividing the worst.
+/// Integrates a function over triangles; subdivides the one of the largest error.
 class TriangleQuadrature {
   public:
     using Integrand = std::function<double(const Vec3&)>;
     explicit TriangleQuadrature(Integrand f) : f_(std::move(f)) {}
 
     void add(const Triangle& triangle) { push(triangle, rule(triangle)); }
-    /// Divides until the sum of errors is below the tolerance.
+    /// Subdivides until the sum of errors is below the tolerance.
     void refine(double tolerance, std::uint64_t most_points) {
         while (!waiting_.empty() && error_ > tolerance &&
                points_ + 4 * kPoints * 4 <= most_points) {
@@ -99,7 +99,7 @@ class TriangleQuadrature {
         points_ += kPoints;
         return sum * area_of(t);
     }
-    /// Without what adding and taking away has rounded.
+    /// Sums again, without the rounding errors of repeated addition and subtraction.
     void sum_up() {
         value_ = error_ = 0.0;
         for (; !waiting_.empty(); waiting_.pop()) {

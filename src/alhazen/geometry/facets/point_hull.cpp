@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// So few are kept as they are.
+/// Number of points up to which they are kept as they are.
 constexpr std::size_t kFew = 10;
 constexpr double kFlat = 1e-11;
 
@@ -23,19 +23,19 @@ bool comes_before(const Vec3& a, const Vec3& b) {
 
 struct HullFace {
     std::array<std::uint32_t, 3> corners;
-    FacetPlane plane;  ///< normal outward, unit
+    FacetPlane plane;  ///< outward unit normal
 };
 
-/// Adds points to a hull one by one.
+/// Adds points to a hull, one by one.
 class HullMaker {
   public:
     HullMaker(const std::vector<Vec3>& points, double extent)
         : points_(points), margin_(kFlat * extent) {}
 
-    /// False where the points lie in a plane, or rounding has led astray.
+    /// False if the points lie in a plane, or rounding made the result invalid.
     bool make() {
         if (!begin()) return false;
-        // A stride that is prime to the number visits all, far apart from each other.
+        // A stride prime to the count visits all points, far apart from each other.
         const std::size_t count = points_.size();
         std::size_t stride = count / 3 * 2 + 1;
         while (std::gcd(stride, count) != 1) ++stride;
@@ -107,7 +107,7 @@ class HullMaker {
         if (kept == 0) return false;
         faces_.resize(kept);
         for (const auto& [a, b] : edges_) {
-            // Few faces are seen at a time.
+            // A linear search: a point sees few faces.
             if (std::find(edges_.begin(), edges_.end(), std::pair{b, a}) == edges_.end()) {
                 faces_.push_back(face(a, b, point));
             }
@@ -164,7 +164,7 @@ std::vector<Vec3> box_corners(const Extent& e) {
     return corners;
 }
 
-/// The hull of points of a plane; empty where they lie in none.
+/// The hull of points in a plane; empty if they lie in none.
 std::vector<Vec3> flat_hull(const std::vector<Vec3>& points, double extent) {
     Vec3 n;
     for (std::size_t k = 2; k < points.size(); ++k) {
@@ -190,7 +190,7 @@ std::vector<Vec3> flat_hull(const std::vector<Vec3>& points, double extent) {
     return result;
 }
 
-/// The corners of the polytope of 26 planes around points; empty where that fails.
+/// The corners of the polytope of 26 planes around points; empty if that fails.
 std::vector<Vec3> polytope_around(const std::vector<Vec3>& points, const Extent& e) {
     const Vec3 middle = 0.5 * (e.lo + e.hi);
     std::vector<Vec3> duals;

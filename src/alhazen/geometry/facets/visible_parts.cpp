@@ -10,11 +10,11 @@ namespace alhazen {
 
 namespace {
 
-/// Nearer than this times the rounding of the tree, things touch.
+/// Distance, in margins of the tree, below which objects touch.
 constexpr double kTouch = 8;
 
-/// The plane through a point and an edge, the same from both ends up to its sign; the normal is 0
-/// where they are on one line.
+/// The plane through a point and an edge, the same for both directions of the edge up to its sign;
+/// the normal is 0 if the three points are collinear.
 FacetPlane plane_of_edge(const Vec3& point, const Vec3& a, const Vec3& b) {
     if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) {
         return plane_of_edge(point, b, a).reversed();
@@ -26,8 +26,8 @@ FacetPlane plane_of_edge(const Vec3& point, const Vec3& a, const Vec3& b) {
     return {unit, dot(unit, point)};
 }
 
-/// The planes through a point and the edges of a loop that runs counter-clockwise around `normal`;
-/// what lies within is before all.
+/// Sets the planes through a point and the edges of a loop that runs counter-clockwise around
+/// `normal`; points inside lie in front of all planes.
 void set_cone(const Vec3& point, std::span<const Vec3> loop, const Vec3& normal, BeamSides& cone) {
     cone.clear();
     const bool turned = dot(normal, point - loop[0]) > 0.0;
@@ -72,7 +72,7 @@ class PartCutter {
             return side_range(side, part).most <= margin_;
         });
     }
-    /// What lies outside of one side after the other.
+    /// Splits off the parts outside one side after the other; the rest, inside all, is dropped.
     void divide(ConvexLoop part, const BeamSides& cone) {
         for (const FacetPlane& side : cone) {
             split_loop(side, margin_, part, within_, outside_);

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// A and B in the plane of both and the centre, the radius 1: (x, y) / w, with w = 0 infinitely
+/// A or B in the plane of A, B and the centre, for radius 1: (x, y) / w, where w = 0 is infinitely
 /// far.
 struct PlaneEnd {
     Vec2 at;
@@ -20,8 +20,8 @@ struct PlaneEnd {
 };
 
 /// g(theta) = m2 sin 2 theta + k2 cos 2 theta + m1 sin theta + k1 cos theta, the imaginary part of
-/// (a - z)(b - z) / z^2 on the circle z = exp(i theta): 0 where the normal halves the angle of A
-/// and B, or that of A and the point opposite to B.
+/// (a - z)(b - z) / z^2 on the circle z = exp(i theta). It is 0 where the normal bisects the angle
+/// of A and B, or that of A and the point opposite to B.
 struct AngleQuartic {
     double m2, k2, m1, k1;
 
@@ -35,7 +35,7 @@ struct AngleQuartic {
     }
 };
 
-/// g by the factors a - z and b - z, which loses less where A or B is close to the circle.
+/// g by its factors a - z and b - z, more accurate if A or B is close to the circle.
 struct FactoredQuartic {
     const PlaneEnd& a;
     const PlaneEnd& b;
@@ -50,7 +50,8 @@ struct FactoredQuartic {
     }
 };
 
-/// The quartic over a quarter of the circle from `start` on, in t = tan((theta - start) / 2).
+/// The quartic over the quarter of the circle that begins at `start`, in t = tan((theta - start) /
+/// 2).
 template <class Real>
 void set_arc(const AngleQuartic& g, double start, BernsteinPolynomial<Real, 4>& p) {
     const double c1 = std::cos(start), s1 = std::sin(start);
@@ -64,7 +65,7 @@ void set_arc(const AngleQuartic& g, double start, BernsteinPolynomial<Real, 4>& 
     p.shared_ends = true;
     p.b = {cos1 + cos2, cos1 + sin2 + half * sin1 + cos2, cos1 + two * sin2 + sin1,
            cos1 + two * sin2 + two * sin1 - two * cos2, four * sin1 - four * cos2};
-    // In double-double the coefficients of g count as exact.
+    // In double-double the coefficients of g are taken as exact.
     p.error = (std::is_same_v<Real, double> ? 0x1p-48 : 0x1p-96) * g.size();
 }
 
@@ -81,7 +82,7 @@ struct PlanePoints {
 PlanePoints all_roots(const PlaneEnd& a, const PlaneEnd& b) {
     const AngleQuartic g = AngleQuartic::of(a, b);
     PlanePoints found;
-    // Along no direction in which people put things: the ends of arcs are no roots.
+    // An angle unlikely to be a root, so that no root lies at the end of an arc.
     constexpr double kStart = 0.3819660112501051;
     for (int arc = 0; arc < 4; ++arc) {
         const double start = kStart + arc * (0.5 * kPi);
@@ -103,7 +104,7 @@ PlanePoints all_roots(const PlaneEnd& a, const PlaneEnd& b) {
     return found;
 }
 
-/// The one between the directions of A and B.
+/// The zero of g between the directions of A and B.
 PlanePoints root_between(const PlaneEnd& a, const PlaneEnd& b) {
     PlanePoints found;
     const double from = std::atan2(a.at.y, a.at.x), to = std::atan2(b.at.y, b.at.x);
@@ -112,7 +113,7 @@ PlanePoints root_between(const PlaneEnd& a, const PlaneEnd& b) {
     f(from, at_from, slope);
     f(to, at_to, slope);
     if (at_from == 0.0 || at_to == 0.0 || !(at_from * at_to < 0.0)) {
-        // In line with the centre, on one side.
+        // A and B are collinear with the centre, on the same side.
         found.add(0.5 * (from + to));
         return found;
     }
@@ -122,10 +123,10 @@ PlanePoints root_between(const PlaneEnd& a, const PlaneEnd& b) {
     return found;
 }
 
-/// The plane of A, B and the centre: x halves their angle.
+/// The plane of A, B and the centre; x bisects their angle.
 struct MirrorPlane {
     Vec3 x, y;
-    bool in_line = false;  ///< any plane through the line would do
+    bool in_line = false;  ///< any plane through the line is valid
 
     MirrorPlane(const Vec3& a, const Vec3& b) {
         const double la = length(a), lb = length(b);
@@ -148,7 +149,7 @@ struct MirrorPlane {
     [[nodiscard]] PlaneEnd of(const Vec3& v, bool infinite) const {
         PlaneEnd end{{dot(v, x), dot(v, y)}, infinite ? 0.0 : 1.0};
         const double scale = std::hypot(end.at.x, end.at.y);
-        // Far points, whose products would overflow, and directions of any length.
+        // Scales far points, whose products would overflow, and directions.
         if (infinite || scale > 1.0) {
             end.at = (1.0 / scale) * end.at;
             end.w /= scale;
@@ -157,7 +158,8 @@ struct MirrorPlane {
     }
 };
 
-/// Whether the mirror shows there: both on the side of `face`, and the normal between them.
+/// True if the mirror reflects there: A and B lie on the side of `face`, and the normal between
+/// them.
 bool reflects(const PlaneEnd& a, const PlaneEnd& b, double theta, MirrorFace face) {
     const Vec2 z{std::cos(theta), std::sin(theta)};
     const double out_a = dot_of(z, a.at) - a.w, out_b = dot_of(z, b.at) - b.w;
@@ -166,7 +168,7 @@ bool reflects(const PlaneEnd& a, const PlaneEnd& b, double theta, MirrorFace fac
     const double side = face == MirrorFace::Outer ? 1.0 : -1.0;
     if (!(side * out_a > kGrazing * (std::abs(out_a) + std::abs(across_a)))) return false;
     if (!(side * out_b > kGrazing * (std::abs(out_b) + std::abs(across_b)))) return false;
-    // The real part of the product above is positive: the angles are equal, not supplementary.
+    // The real part of the product above is positive: the angles are equal and not supplementary.
     return out_a * out_b - across_a * across_b > 0.0;
 }
 
@@ -199,7 +201,7 @@ MirrorPoints reflecting_points(const Vec3& center, double radius, MirrorFace fac
         const Vec3 z = std::cos(theta) * plane.x + std::sin(theta) * plane.y;
         constexpr double kOffLine = 1e-9;
         const bool ring = plane.in_line && length(cross(z, line)) > kOffLine;
-        // A ring crosses the plane twice.
+        // A circle crosses the plane twice: keeps one of the two points.
         if (ring && dot(z, perpendicular(line)) < 0.0) continue;
         const auto k = static_cast<std::size_t>(result.count++);
         result.points[k] = center + radius * z;

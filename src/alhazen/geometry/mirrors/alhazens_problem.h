@@ -1,15 +1,16 @@
 #pragma once
-/// Alhazen's problem: the points of a spherical mirror that reflect a lamp at A to an eye at B.
+/// Alhazen's problem: the points of a spherical mirror that reflect a light at A to an eye at B.
 ///
 /// Source: Ibn al-Haytham, "Kitab al-Manazir" (Book of Optics), book V, 1011 to 1021; Huygens, in
 /// Philosophical Transactions 8, 1673 (the points are those of the circle on an equilateral
 /// hyperbola); docs/design/alhazens_problem.md has the derivation.
-/// Differs: the quartic of the angle is cut into four arcs of the circle, each in Bernstein form
-/// with a bound of its rounding, so that its real roots are found by certified changes of sign; the
-/// one point of a convex mirror lies in a known arc and is found by a bracketed Newton iteration.
-/// Conventions: any units and any place. An end on the mirror is no answer, nor is a point where
-/// light only grazes. Two points closer than about 1e-8 of the radius, at a caustic, may be found
-/// as none. What is not finite, and a radius that is not above 0, give none.
+/// Differs: the quartic of the angle is divided into four arcs of the circle, each in Bernstein
+/// form with a bound on its rounding error, so that its real roots are found by certified sign
+/// changes. The single point of a convex mirror lies in a known arc and is found by a bracketed
+/// Newton iteration.
+/// Conventions: any unit and any position. An end on the mirror gives no point, nor does grazing
+/// incidence. Two points closer than about 1e-8 of the radius, at a caustic, may be found as none.
+/// Non-finite input and a radius that is not positive give none.
 /// Threads: free functions.
 
 #include <array>
@@ -26,20 +27,21 @@ enum class MirrorFace : unsigned char {
 struct MirrorPoints {
     int count = 0;
     std::array<Vec3, 4> points;
-    /// [of points] A, B and the centre are on one line: this point stands for a circle around it.
+    /// [i] true if A, B and the centre are collinear and point i represents a circle around their
+    /// line.
     std::array<bool, 4> on_ring{};
-    /// A and B are the centre: every point reflects.
+    /// True if A and B are at the centre: every point reflects.
     bool everywhere = false;
 };
 
-/// A lamp or an eye: at a point, or in the direction of it from the centre, infinitely far away.
+/// A light or an eye: a point, or a direction from the centre towards an infinitely distant one.
 struct MirrorEnd {
     Vec3 at;
     bool infinite = false;
 };
 
-/// All points of the sphere that reflect A to B, as if nothing else were there and the other face
-/// let light through.
+/// All points of the sphere that reflect A to B, without regard to occlusion and to the other face,
+/// which lets light through.
 [[nodiscard]] MirrorPoints reflecting_points(const Vec3& center, double radius, MirrorFace face,
                                              const MirrorEnd& a, const MirrorEnd& b);
 

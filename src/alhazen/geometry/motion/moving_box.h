@@ -1,7 +1,7 @@
 #pragma once
-/// A box that moves linearly while the shutter is open.
+/// A box that moves linearly between shutter opening and closing.
 ///
-/// Conventions: time runs from 0, where the shutter opens, to 1, where it closes.
+/// Conventions: time is 0 at shutter opening and 1 at closing.
 
 #include "alhazen/geometry/box.h"
 
@@ -16,7 +16,7 @@ struct MovingBox {
         return {(1.0 - time) * at_open.lo + time * at_close.lo,
                 (1.0 - time) * at_open.hi + time * at_close.hi};
     }
-    /// Contains the box at every time.
+    /// A box that contains the moving box at every time.
     [[nodiscard]] Box3 swept() const {
         Box3 both = at_open;
         both.include(at_close);
@@ -26,7 +26,7 @@ struct MovingBox {
         at_open.include(b.at_open);
         at_close.include(b.at_close);
     }
-    /// Moves both ends apart until the box at `time`, between 0 and 1, contains `b`.
+    /// Enlarges both end boxes until the box at `time`, in [0, 1], contains `b`.
     void widen_to(double time, const Box3& b) {
         const Box3 here = at(time);
         const auto beyond = [](double a) { return a > 0.0 ? a : 0.0; };

@@ -21,13 +21,14 @@ double largest_entry(const Mat3& m) {
     return std::max(
         {max_component(abs(m.x_axis)), max_component(abs(m.y_axis)), max_component(abs(m.z_axis))});
 }
-/// Bound of the length of m v for unit v (Frobenius).
+/// A bound on the length of m v for unit v (Frobenius norm).
 double norm_of(const Mat3& m) {
     return std::sqrt(length_squared(m.x_axis) + length_squared(m.y_axis) +
                      length_squared(m.z_axis));
 }
 
-/// The orthogonal factor of the polar decomposition: Higham's iteration, Newton's for Q^T Q = 1.
+/// The orthogonal factor of the polar decomposition, by Higham's iteration (Newton's method for Q^T
+/// Q = 1).
 Mat3 orthogonal_factor(const Mat3& m) {
     const double size = std::cbrt(std::abs(determinant(m)));
     Mat3 q = mixed(1.0 / size, m, 0.0, m);
@@ -40,7 +41,7 @@ Mat3 orthogonal_factor(const Mat3& m) {
     return q;
 }
 
-/// Of a rotation matrix, by its largest component.
+/// The quaternion of a rotation matrix, computed from its largest component.
 Quaternion quaternion_of(const Mat3& m) {
     const double xx = m.x_axis.x, yy = m.y_axis.y, zz = m.z_axis.z;
     const double squares[4] = {1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz,
@@ -74,7 +75,7 @@ double dot(const Quaternion& a, const Quaternion& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// `half`: half the angle of the rotation between both, 0 where they are the same.
+/// `half`: half the angle of the rotation from a to b, 0 if they are equal.
 Quaternion slerp(const Quaternion& a, const Quaternion& b, double half, double share) {
     double from = 1.0 - share, to = share;
     if (half > 1e-6) {
@@ -125,7 +126,7 @@ TransformMotion::TransformMotion(std::span<const TransformKey> keys) {
             for (double& c : b.rotation) c = -c;
         }
         const Mat3 &m = a.own.linear, &n = b.own.linear;
-        // The angle by its sine: accurate for small ones.
+        // Computes the angle by its sine, which is accurate for small angles.
         Quaternion apart;
         for (std::size_t k = 0; k < 4; ++k) apart[k] = b.rotation[k] - a.rotation[k];
         const double half = 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(dot(apart, apart))));
@@ -185,8 +186,8 @@ TransformMotion TransformMotion::inside(const Affine& outer_from_here) const {
 }
 
 double TransformMotion::sag(std::size_t step, double reach, int n) const {
-    // With rotation R, stretch S and the share u of the step: p = T + R S x, so
-    // |p''| <= |R''| |S x| + 2 |R'| |S'| |x|, and a chord of length h misses by h^2 |p''| / 8.
+    // With rotation R, stretch S and the parameter u of the step, p = T + R S x, so |p''| <= |R''|
+    // |S x| + 2 |R'| |S'| |x|, and a chord of length h misses by h^2 |p''| / 8.
     const double angle = steps_[step].angle;
     const Mat3 &a = keys_[step].stretch, &b = keys_[step + 1].stretch;
     const double size = std::max(norm_of(a), norm_of(b)) * reach;
@@ -206,11 +207,11 @@ MovingBox TransformMotion::bounds(const Box3& inner) const {
     const double outer = has_outer_ ? norm_of(outer_.linear) : 1.0;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
         const double begin = keys_[i].time, length = keys_[i + 1].time - begin;
-        // An eighth of a radian at a time: the rest is padding.
+        // Steps of an eighth of a radian; padding bounds the rest.
         const int n = std::clamp(int(std::ceil(8.0 * steps_[i].angle)), 1, 64);
         const double pad = outer * sag(i, reach, n);
         for (int k = 0; k <= n; ++k) {
-            // A time outside of the shutter is moved to its end: chords become shorter.
+            // A time outside the shutter interval is clamped: chords become shorter.
             const double time = std::clamp(begin + length * k / n, 0.0, 1.0);
             Box3 here = box_at(time);
             here.lo -= Vec3{pad, pad, pad};

@@ -1,11 +1,12 @@
 #pragma once
-/// The nearest of many things that have boxes: a tree of the boxes, searched by distance.
+/// The nearest of many objects with bounding boxes, found by a tree of the boxes searched by
+/// distance.
 ///
 /// Source: Roussopoulos, Kelley and Vincent, "Nearest Neighbor Queries", SIGMOD 1995.
-/// Differs: a binary tree by medians of the boxes' middles; things without bounds are looked at
-/// first. Of things that are as near the lowest number is named, whatever the tree.
-/// Conventions: the boxes contain the things; a query's point is finite.
-/// Complexity and threads: O(n log n) to build; const functions may be called from many threads.
+/// Differs: a binary tree, divided at the medians of the boxes' centres; objects without bounds are
+/// examined first. Of equally near objects the lowest index is returned, whatever the tree.
+/// Conventions: the boxes contain the objects; query points are finite.
+/// Complexity and threads: O(n log n) to build; const functions may be called from several threads.
 
 #include <algorithm>
 #include <cstdint>
@@ -30,9 +31,9 @@ class NearestBoxes {
         order_ = std::move(bounded);
     }
 
-    /// `squared(i)` is the squared distance of thing i, which is called for some of them only.
-    /// Returns the number of the nearest that is nearer than `limit`, which becomes its squared
-    /// distance; kNone where there is none.
+    /// Returns the index of the nearest object that is nearer than `limit` (a squared distance) and
+    /// sets `limit` to its squared distance; kNone if there is none. `squared(i)` is the squared
+    /// distance of object i, called for some objects only.
     template <class Squared>
     [[nodiscard]] std::uint32_t nearest(const Vec3& point, double& limit, Squared squared) const {
         std::uint32_t best = kNone;
@@ -50,14 +51,15 @@ class NearestBoxes {
   private:
     static constexpr std::uint32_t kLeafSize = 2;
 
-    /// A leaf where `count` > 0: order_[first, first + count). Else the children are the next node
-    /// and `first`.
+    /// A leaf if `count` > 0: order_[first, first + count). Otherwise the children are the next
+    /// node and `first`.
     struct Node {
         Box3 box;
         std::uint32_t first = 0, count = 0;
     };
 
-    /// Not above the squared distance of what the box holds, but for rounding.
+    /// A lower bound of the squared distance to the contents of the box, less a margin for
+    /// rounding.
     static double least_squared(const Box3& box, const Vec3& p) {
         double sum = 0.0;
         for (int k = 0; k < 3; ++k) {

@@ -10,12 +10,12 @@ namespace alhazen {
 
 namespace {
 
-/// Of coordinates: a point on a triangle may be rounded out of its box by less.
+/// Margin of box coordinates: the rounding of a point on a triangle is smaller.
 constexpr double kBoxMargin = 8e-15;
-/// Of squared distances, which are sums of three squares of rounded differences.
+/// Margin of squared distances, which are sums of three squares of rounded differences.
 constexpr double kLess = 1.0 - 1e-14;
 
-/// Not above the squared distance to whatever lies in the box, as it is computed.
+/// A lower bound of the squared distance, as computed, to the contents of the box.
 double least_squared(const Box3& box, const Vec3& p) {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -25,19 +25,19 @@ double least_squared(const Box3& box, const Vec3& p) {
     return kLess * sum;
 }
 
-/// Not below `x`.
+/// The nearest float that is not below `x`.
 float rounded_up(double x) {
     const auto f = static_cast<float>(x);
     return double{f} >= x ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
-/// Twice the middle of the box of a triangle.
+/// Twice the centre of the box of a triangle.
 double doubled_middle(const NearestTriangles::Corners& c, int axis) {
     return std::min({c[0][axis], c[1][axis], c[2][axis]}) +
            std::max({c[0][axis], c[1][axis], c[2][axis]});
 }
 
-/// The widest axis of the middles, or -1 where they are one.
+/// The axis of the largest extent of the triangles' centres, or -1 if the centres coincide.
 int axis_of(const std::vector<NearestTriangles::Corners>& triangles, const std::uint32_t* begin,
             const std::uint32_t* end) {
     Box3 middles;
@@ -58,7 +58,7 @@ void NearestTriangles::set_cylinder(Node& node, const std::vector<Corners>& tria
     for (const std::uint32_t id : ids) {
         const auto& [a, b, c] = triangles[id];
         const Vec3 normal = cross(b - a, c - a);
-        // Neighbours may turn the other way.
+        // Normals of neighbouring triangles may point the opposite way.
         sum += dot(normal, sum) < 0.0 ? -normal : normal;
     }
     const double length = std::sqrt(length_squared(sum));
@@ -74,7 +74,7 @@ void NearestTriangles::set_cylinder(Node& node, const std::vector<Corners>& tria
             squared = std::max(squared, length_squared(offset - along * axis));
         }
     }
-    // Of what is as high as it is wide the box will do.
+    // A cylinder that is not flat is no better than the box.
     constexpr double kFlat = 0.25;
     if (half * half > kFlat * kFlat * squared) return;
     const double largest =
@@ -85,9 +85,9 @@ void NearestTriangles::set_cylinder(Node& node, const std::vector<Corners>& tria
     node.radius = rounded_up(std::sqrt(squared) + margin);
 }
 
-/// Not above the squared distance to its triangles, as it is computed.
+/// A lower bound of the squared distance, as computed, to the triangles in the cylinder.
 double NearestTriangles::least_to_cylinder(const Node& node, const Vec3& point) {
-    // Of a squared length, and more than the rounding of what is subtracted from it.
+    // Relative to a squared length; covers the rounding of the values subtracted from it.
     constexpr double kSlack = 8e-15;
     const Vec3 offset = point - node.box.center();
     const double squared = length_squared(offset), along = std::abs(dot(node.axis, offset));
@@ -130,7 +130,7 @@ void NearestTriangles::build(std::vector<std::uint32_t>& order,
         set_cylinder(node, triangles, std::span(order).subspan(begin, end - begin));
     }
     if (end - begin <= kLeafSize) return;
-    // Halves, whatever the middles are: the depth is that of a full tree.
+    // Halves regardless of the centres: the depth is that of a full tree.
     const std::uint32_t middle = begin + (end - begin) / 2;
     interruption_point();
     const int axis = axis_of(triangles, order.data() + begin, order.data() + end);
@@ -156,7 +156,7 @@ NearestTriangle NearestTriangles::nearest(const Vec3& point) const {
         std::uint32_t node;
         double least;
     };
-    std::array<Waiting, 40> stack;  // one for each level: at most 32
+    std::array<Waiting, 40> stack;  // one entry for each level: at most 32
     std::size_t size = 0;
     stack[size++] = {0, least_squared(nodes_[0].box, point)};
     while (size > 0) {

@@ -7,17 +7,17 @@ namespace alhazen {
 
 namespace {
 
-/// The place of the nearest point between both ends, 0 to 1.
+/// The parameter, 0 to 1, of the nearest point between both ends.
 double place_on_edge(const Vec3& from, const Vec3& begin, const Vec3& along) {
     const double squared = length_squared(along);
     if (!(squared > 0.0)) return 0.0;
     return std::clamp(dot(from - begin, along) / squared, 0.0, 1.0);
 }
 
-/// Weights of the foot of the perpendicular, relative to the first corner.
+/// Computes the weights of the foot of the perpendicular, relative to the first corner.
 struct Foot {
     Vec3 ab, ac, normal;
-    double squared;  ///< of the normal
+    double squared;  ///< squared length of the normal
 
     [[nodiscard]] Vec2 weights(const Vec3& offset) const {
         return {dot(cross(offset, ac), normal) / squared, dot(cross(ab, offset), normal) / squared};
@@ -36,7 +36,7 @@ PointOnTriangle nearest_on_triangle(const Vec3& from, const std::array<Vec3, 3>&
     };
     const Vec3 ab = b - a, ac = c - a, bc = c - b;
 
-    // Inside, clearly: the edges are farther.
+    // The foot is clearly inside: the edges are farther away.
     const Vec3 normal = cross(ab, ac);
     const Foot foot{ab, ac, normal, length_squared(normal)};
     if (foot.squared > 0.0) {
@@ -52,7 +52,7 @@ PointOnTriangle nearest_on_triangle(const Vec3& from, const std::array<Vec3, 3>&
             if (wide && std::min({w.x, w.y, rest}) > kClear) return best;
         }
     }
-    // The edges, with their ends as they are.
+    // The edges, including their exact ends.
     const double on_ab = place_on_edge(from, a, ab);
     offer(on_ab < 1.0 ? a + on_ab * ab : b, on_ab, 0.0);
     const double on_ac = place_on_edge(from, a, ac);

@@ -21,7 +21,8 @@ double height(const OrientedPlane& plane, const Vec3& p) {
     return dot(plane.normal, p - plane.point);
 }
 
-/// Heights below this are rounding errors: a plane given twice does not cut itself.
+/// The height below which a difference is a rounding error, so that a plane given twice does not
+/// cut itself.
 double slack(const OrientedPlane& plane, const Vec3& p) {
     return 1e-15 * length(p - plane.point);
 }
@@ -35,7 +36,7 @@ std::vector<Corner> large_square(const OrientedPlane& plane, double half) {
             {plane.point - u + v, kNoPlane}};
 }
 
-/// The part of the polygon on the inner side of `planes[by]`.
+/// Clips the polygon to the inner side of `planes[by]`.
 void clip(std::vector<Corner>& polygon, const std::vector<OrientedPlane>& planes, std::size_t by,
           std::vector<Corner>& scratch) {
     scratch.clear();
@@ -88,7 +89,7 @@ ConvexCorners convex_corners(const std::vector<OrientedPlane>& planes) {
                 solid.bounded = false;
                 continue;
             }
-            // Twice, to correct the rounding of the first correction.
+            // Corrects twice, the second time for the rounding of the first correction.
             Vec3 p = common_point(planes[i], planes[before], planes[after], polygon[k].p);
             p = common_point(planes[i], planes[before], planes[after], p);
             solid.corners.push_back(p);

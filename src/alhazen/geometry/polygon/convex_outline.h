@@ -1,5 +1,5 @@
 #pragma once
-/// The convex hull of points of the plane.
+/// The convex hull of points in the plane.
 ///
 /// Source: A. M. Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions",
 /// Information Processing Letters 9, 1979.
@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// Counter-clockwise; fewer than three points where all lie on a line.
+/// The hull, counter-clockwise; fewer than three points if all are collinear.
 [[nodiscard]] std::vector<Vec2> convex_outline(std::vector<Vec2> points);
 
 }  // namespace alhazen

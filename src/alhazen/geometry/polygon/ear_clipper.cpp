@@ -31,21 +31,22 @@ std::vector<std::array<std::uint32_t, 3>> EarClipper::clip() {
     while (left_ > 2) {
         at = next_corner(at);
         cut(at);
-        at = corners_[at].next;  // continues around, so that triangles do not gather at one vertex
+        at = corners_[at].next;  // continues around the polygon, so that triangles do not share one
+                                 // vertex
         while (corners_[at].gone) at = corners_[at].next;
         if (left_ <= rebuild_at_) rebuild();
     }
     return std::move(triangles_);
 }
 
-/// Cuts off vertices that coincide with the next one: they have no angle.
+/// Cuts off vertices that coincide with the next one, which have no angle.
 void EarClipper::merge_repeated() {
     for (std::uint32_t i = 0; i < corners_.size() && left_ > 2; ++i) {
         if (flat_[i] == flat_[corners_[i].next]) emit(i);
     }
 }
 
-/// Rebuilds the tree over the remaining vertices: at most half of those of the last one.
+/// Rebuilds the tree over the remaining vertices, at most half as many as at the last build.
 void EarClipper::rebuild() {
     std::vector<std::uint32_t> ids;
     ids.reserve(left_);
@@ -73,7 +74,7 @@ void EarClipper::classify(std::uint32_t i) {
     reflex_->activate(i, turn < 0);
 }
 
-/// A corner that does not turn right is an ear when no reflex vertex lies in its triangle.
+/// A corner that does not turn right is an ear if no reflex vertex lies in its triangle.
 void EarClipper::update_ear(std::uint32_t i) {
     const Corner& corner = corners_[i];
     bool ear = convex_.contains(i);
@@ -88,8 +89,8 @@ void EarClipper::update_ear(std::uint32_t i) {
 std::uint32_t EarClipper::next_corner(std::uint32_t from) {
     std::optional<std::uint32_t> found = ears_.next_around(from);
     if (!found && left_ <= renew_at_) {
-        // Where the polygon touches itself, cutting may create ears at other corners than the two
-        // neighbours. Renewed only after an eighth of the corners is gone: O(n) tests in total.
+        // If the polygon touches itself, a cut may create ears at corners other than the two
+        // neighbours. Updated after an eighth of the corners is gone: O(n) tests in total.
         renew_ears();
         found = ears_.next_around(from);
     }

@@ -1,18 +1,18 @@
 #pragma once
-/// Triangulates a polygon of the plane on its own vertices by ear clipping.
+/// Triangulates a plane polygon on its own vertices by ear clipping.
 ///
 /// Source: Eberly, "Triangulation by Ear Clipping", Geometric Tools, 2002 (only reflex vertices are
-/// tested; the state of an ear's two neighbours is renewed when it is cut off).
+/// tested; the state of an ear's two neighbours is updated when it is cut off).
 /// Differs: signs are exact; reflex vertices are found by a tree of boxes, the next ear by a tree
-/// of words. Of coincident neighbours, one is cut off at once, as neither has an angle. A polygon
-/// without a remaining ear (it touches or crosses itself) is cut at a corner without area, else at
-/// its next corner that does not turn right, so that n vertices always give n - 2 triangles.
+/// of words. Of coincident neighbours one is cut off at once, as neither has an angle. A polygon
+/// without a remaining ear (it touches or crosses itself) is cut at a corner without area, or else
+/// at its next corner that does not turn right, so that n vertices always give n - 2 triangles.
 /// Conventions: the triangles of a simple counter-clockwise polygon tile it exactly; those of other
 /// polygons have its signed area.
 /// Complexity and threads: O(n log n) and at most 11 n searches of the tree, each O(sqrt n) for
-/// evenly spread vertices. Once the searches of a polygon have tested more than kTestsPerVertex n
-/// boxes, and more than kMostTests, the rest is cut without searching; no polygon of up to 4096
-/// vertices reaches this limit. No shared state.
+/// evenly spread vertices. Once the searches have tested more than kTestsPerVertex n boxes, and
+/// more than kMostTests, the rest is cut without searching; no polygon of up to 4096 vertices
+/// reaches this limit. No shared state.
 
 #include <array>
 #include <cstdint>
@@ -24,9 +24,9 @@
 
 namespace alhazen {
 
-/// Limit of tests of boxes and points per vertex of a polygon.
+/// Limit of box and point tests per vertex of a polygon.
 inline constexpr std::uint64_t kTestsPerVertex = 256;
-/// Tests that every polygon may use: 4 * 4096^2.
+/// Number of tests that every polygon may use: 4 * 4096^2.
 inline constexpr std::uint64_t kMostTests = std::uint64_t{1} << 26;
 
 class EarClipper {

@@ -12,7 +12,7 @@ namespace alhazen {
 namespace {
 
 using CornerTriple = std::array<std::uint32_t, 3>;
-/// An edge between merged vertices, the lower one in the upper bits.
+/// An edge between merged vertices, the lower index in the upper bits.
 using EdgeKey = std::uint64_t;
 
 class DiagonalTurner {
@@ -76,9 +76,9 @@ class DiagonalTurner {
         diagonals_.erase(std::unique(diagonals_.begin(), diagonals_.end()), diagonals_.end());
     }
 
-    /// Finds the diagonals with more than two triangles.
+    /// Finds the diagonals that are edges of more than two triangles.
     void count_diagonals() {
-        // A filter keeps most of the other edges from the search.
+        // A filter excludes most other edges from the search.
         const std::size_t bits = std::bit_ceil(16 * diagonals_.size() + 64);
         const int shift = 64 - std::countr_zero(bits);
         const auto slot = [&](EdgeKey key) {
@@ -102,7 +102,7 @@ class DiagonalTurner {
         }
     }
 
-    /// Number of triangles of any edge of the mesh as it is now.
+    /// Number of triangles at an edge of the mesh in its present state.
     [[nodiscard]] std::ptrdiff_t count(EdgeKey e) {
         if (all_edges_.empty()) {
             all_edges_.reserve(3 * triangles_.size());
@@ -116,7 +116,8 @@ class DiagonalTurner {
         return (last - first) + (change == changes_.end() ? 0 : change->second);
     }
 
-    /// The triangle after `from` with the edge, turned so that the edge is its first.
+    /// The index of the next triangle from `from` on that has the edge; `out` is the triangle
+    /// rotated so that the edge is its first.
     [[nodiscard]] std::optional<std::size_t> turned_to(const PolygonTriangles& polygon,
                                                        std::size_t from, EdgeKey diagonal,
                                                        CornerTriple& out) const {
@@ -142,7 +143,7 @@ class DiagonalTurner {
         if (!i) return false;
         const auto j = turned_to(polygon, *i + 1, diagonal, right);
         if (!j || merged_[left[0]] != merged_[right[1]]) return false;
-        // The quadrilateral is p, s, q, r in turn.
+        // The quadrilateral is p, s, q, r in order.
         const std::uint32_t p = left[0], q = left[1], r = left[2], s = right[2];
         if (merged_[r] == merged_[s] || count(key(r, s)) != 0) return false;
         const CornerTriple first{r, p, s}, second{s, q, r};
@@ -162,8 +163,8 @@ class DiagonalTurner {
     std::vector<CornerTriple>& triangles_;
     std::vector<std::uint32_t> merged_;
     std::vector<EdgeKey> diagonals_, crowded_;  ///< sorted
-    std::vector<EdgeKey> edges_;                ///< of one polygon
-    std::vector<EdgeKey> all_edges_;            ///< sorted; before any turn
+    std::vector<EdgeKey> edges_;                ///< edges of one polygon
+    std::vector<EdgeKey> all_edges_;            ///< sorted; those before any flip
     std::map<EdgeKey, std::ptrdiff_t> changes_;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
-/// Vertices of equal position as one.
+/// Merges vertices of equal position.
 ///
-/// Derivation: sorting. Conventions: 0 and -0 are alike; NaN equals a NaN of the same bits.
-/// Complexity: O(n log n) for any input. Can be interrupted.
+/// Derivation: sorting. Conventions: 0 and -0 are equal; a NaN equals a NaN of the same bits.
+/// Complexity: O(n log n) for any input. Interruptible (interruption.h).
 
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// For each vertex the lowest vertex of equal position.
+/// [vertex] the lowest vertex of equal position.
 [[nodiscard]] std::vector<std::uint32_t> merged_positions(std::span<const Vec3> positions);
 
 }  // namespace alhazen

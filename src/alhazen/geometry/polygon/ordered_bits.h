@@ -2,9 +2,9 @@
 /// A set of numbers below n with a fast cyclic search for the next member.
 ///
 /// Source: the 64-ary tree of summary words, as in van Emde Boas, "Preserving order in a forest in
-/// less than logarithmic time", FOCS 1975, cut down to words.
+/// less than logarithmic time", FOCS 1975.
 /// Differs: uses levels of words instead of a recursion on the square root.
-/// Complexity and threads: set, clear and next O(log64 n); n / 63 words; no locking.
+/// Complexity and threads: set, clear and next O(log64 n); n / 63 words of memory; no locking.
 
 #include <bit>
 #include <cstddef>
@@ -27,7 +27,7 @@ class OrderedBits {
     }
     void assign(std::uint32_t i, bool member) { member ? set(i) : clear(i); }
 
-    /// The least member that is at least `i`; without one, the least of all.
+    /// The least member that is at least `i` or, without one, the least of all.
     [[nodiscard]] std::optional<std::uint32_t> next_around(std::uint32_t i) const {
         const std::optional<std::uint32_t> found = next(i);
         return found ? found : next(0);
@@ -66,7 +66,7 @@ class OrderedBits {
     }
 
     std::vector<std::vector<std::uint64_t>>
-        levels_;  ///< [0] the members, [k] which words below are not 0
+        levels_;  ///< [0] the members; [k] the nonzero words of level k - 1
 };
 
 }  // namespace alhazen

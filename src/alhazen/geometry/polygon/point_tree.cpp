@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLeafSize = 8;
 
-/// True when all points of the box are certainly to the right of the line from a to b.
+/// True if all points of the box are certainly to the right of the line from a to b.
 bool is_right_of(Vec2 lo, Vec2 hi, Vec2 a, Vec2 b) {
     const Vec2 d = b - a;
     // The corner of the box farthest to the left.
@@ -34,7 +34,7 @@ struct PointTree::Query {
         hi = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
     }
     [[nodiscard]] bool misses(const Node& node) const {
-        // A triangle without area represents its whole line.
+        // A triangle without area stands for its whole line.
         if (has_area &&
             (node.hi.x < lo.x || hi.x < node.lo.x || node.hi.y < lo.y || hi.y < node.lo.y)) {
             return true;
@@ -62,7 +62,7 @@ PointTree::PointTree(const std::vector<Vec2>& points, std::vector<std::uint32_t>
     for (std::size_t i = 0; i < ids_.size(); ++i) place_of_[ids_[i]] = std::uint32_t(i);
 }
 
-/// The recursion depth is that of the tree: log2 of the leaves.
+/// The recursion depth is the depth of the tree: log2 of the number of leaves.
 void PointTree::build(std::size_t node, std::size_t first_leaf, std::size_t leaves) {
     constexpr double kNone = std::numeric_limits<double>::infinity();
     const std::size_t begin = std::min(ids_.size(), first_leaf * kLeafSize);

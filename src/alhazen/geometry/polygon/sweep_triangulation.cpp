@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// The order of the sweep: by x, then y.
+/// The order of the sweep: by x, then by y.
 bool is_before(Vec2 a, Vec2 b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
 }
 
 class Sweep {
   public:
-    /// `loop`: the vertex indices, no two neighbours coincident.
+    /// `loop`: the vertex indices; neighbours do not coincide.
     Sweep(const std::vector<Vec2>& flat, const std::vector<std::uint32_t>& loop,
           std::vector<std::array<std::uint32_t, 3>>& triangles)
         : loop_(loop),
@@ -32,7 +32,7 @@ class Sweep {
         nodes_.reserve(loop.size() + loop.size() / 2);
     }
 
-    /// False when the sweep does not end as that of a simple polygon.
+    /// False if the sweep does not end as it does for a simple polygon.
     bool run() {
         std::vector<std::uint32_t> order(loop_.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -44,11 +44,11 @@ class Sweep {
     }
 
   private:
-    /// A vertex of a chain and its neighbours in the chain.
+    /// A vertex of a chain, with its neighbours in the chain.
     struct Node {
         std::uint32_t vertex = 0, below = kNone, above = kNone;
     };
-    /// An open region at the sweep line between two edges, named by their start vertices in the
+    /// An open region at the sweep line between two edges, named by their first vertices in the
     /// loop. Its chain runs from the left end of the lower edge to that of the upper edge.
     struct Region {
         std::uint32_t lower = 0, upper = 0;
@@ -81,7 +81,7 @@ class Sweep {
     [[nodiscard]] std::uint32_t next(std::uint32_t i) const {
         return i + 1 == points_.size() ? 0 : i + 1;
     }
-    /// The interior lies on the left of an edge: lower edges run to the right.
+    /// The interior lies to the left of an edge: lower edges run to the right.
     [[nodiscard]] std::pair<Vec2, Vec2> lower_edge(std::uint32_t region) const {
         const std::uint32_t edge = regions_[region].lower;
         return {points_[edge], points_[next(edge)]};
@@ -103,7 +103,7 @@ class Sweep {
     bool follow_lower(std::uint32_t v, std::uint32_t in) {
         const std::uint32_t region = region_of_[in];
         if (region == kNone) return false;
-        // The order in the set stays: the new edge begins where the old one ends.
+        // The order in the set is unchanged: the new edge begins where the old one ends.
         regions_[region].lower = v;
         region_of_[v] = region;
         add_below(regions_[region], v);
@@ -162,7 +162,7 @@ class Sweep {
         Region& last = regions_[region];
         add_below(last, v);
         add_above(last, v);
-        // v, a, v: everything is cut off.
+        // v, a, v: all other vertices are cut off.
         const std::uint32_t middle = nodes_[last.lowest].above;
         return nodes_[middle].above == last.highest && close(region);
     }
@@ -212,7 +212,7 @@ class Sweep {
         link(first, node);
         region.highest = region.rightmost = node;
     }
-    /// Emits the triangle when it turns left.
+    /// Emits the triangle if it turns left.
     bool cut(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (orientation(points_[a], points_[b], points_[c]) <= 0) return false;
         triangles_.push_back({loop_[a], loop_[b], loop_[c]});
@@ -221,11 +221,11 @@ class Sweep {
 
     const std::vector<std::uint32_t>& loop_;
     std::vector<std::array<std::uint32_t, 3>>& triangles_;
-    std::vector<Vec2> points_;              ///< as loop_
-    std::vector<std::uint32_t> region_of_;  ///< [edge] of the edges that cross the sweep line
+    std::vector<Vec2> points_;              ///< [index in loop_]
+    std::vector<std::uint32_t> region_of_;  ///< [edge that crosses the sweep line]
     std::vector<Region> regions_;
     std::vector<Node> nodes_;
-    std::set<std::uint32_t, IsBelow> lower_edges_;                    ///< regions, from the lowest
+    std::set<std::uint32_t, IsBelow> lower_edges_;                    ///< regions, the lowest first
     std::vector<std::set<std::uint32_t, IsBelow>::iterator> places_;  ///< [region]
 };
 
@@ -242,7 +242,7 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_by_sweep(
         if (flat[i] != flat[next]) loop.push_back(i);
     }
     if (loop.size() < 3) return std::nullopt;
-    // Triangles of the vertices that were left out, each from its last kept predecessor.
+    // Triangles of the vertices left out of the loop, each from its last kept predecessor.
     for (std::size_t k = 0; k < loop.size(); ++k) {
         const std::uint32_t before = loop[k == 0 ? loop.size() - 1 : k - 1];
         const std::uint32_t n = std::uint32_t(flat.size());

@@ -14,7 +14,7 @@ namespace alhazen {
 
 namespace {
 
-/// Within these the products of two differences neither over- nor underflow.
+/// Range of coordinates in which products of two differences neither over- nor underflow.
 constexpr double kSmall = 1e-100;
 constexpr double kLarge = 1e100;
 
@@ -23,7 +23,7 @@ double cross_2d(Vec2 a, Vec2 b, Vec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The largest magnitude of a coordinate; NaN when a coordinate is not finite.
+/// The largest magnitude of a coordinate; NaN if a coordinate is not finite.
 double largest_coordinate(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon) {
     double largest = 0.0;
     for (const std::uint32_t index : polygon) {
@@ -34,7 +34,7 @@ double largest_coordinate(std::span<const Vec3> positions, std::span<const std::
     return largest;
 }
 
-/// The vertices of the polygon scaled by a power of two, which is exact.
+/// The vertices of the polygon, scaled by a power of two, which is exact.
 std::vector<Vec3> scaled_to_one(std::span<const Vec3> positions,
                                 std::span<const std::uint32_t> polygon, double reach) {
     const int exponent = -std::ilogb(reach);
@@ -67,11 +67,11 @@ std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::
 /// Ear clipping makes better-shaped triangles and accepts any polygon; the sweep is always fast.
 constexpr std::size_t kMostForEars = 4096;
 
-/// True when no corner turns right and the turns add up to one revolution (a star turns left at
-/// every corner, but more than once around).
+/// True if no corner turns right and the turns add up to one revolution (a star turns left at every
+/// corner, but makes several revolutions).
 bool is_convex(const std::vector<Vec2>& flat) {
     const std::size_t n = flat.size();
-    // Relative to the first vertex: far from the origin the products lose all digits.
+    // Relative to the first vertex: far from the origin the products would lose all digits.
     const Vec2 origin = flat[0];
     int x_changes = 0;
     double last_dx = 0.0;

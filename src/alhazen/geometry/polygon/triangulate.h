@@ -3,14 +3,14 @@
 ///
 /// Source: the ear clipping of ear_clipper.h and, for concave polygons of more than 4096 vertices,
 /// the sweep of sweep_triangulation.h.
-/// Differs: a convex polygon is a fan; a large polygon that the sweep refuses, as it touches or
-/// crosses itself, is left to ear clipping.
-/// Conventions: the polygon is projected along the axis in which its Newell normal is longest;
-/// triangles keep its orientation. n vertices always give n - 2 triangles, also where the polygon
-/// touches or crosses itself, so that edges shared with neighbours stay shared. A polygon with a
-/// coordinate that is not finite is a fan.
+/// Differs: a convex polygon becomes a fan; a large polygon that the sweep rejects, because it
+/// touches or crosses itself, is triangulated by ear clipping.
+/// Conventions: the polygon is projected along the longest axis of its Newell normal; triangles
+/// keep its orientation. n vertices always give n - 2 triangles, even if the polygon touches or
+/// crosses itself, so that edges shared with neighbours stay shared. A polygon with a non-finite
+/// coordinate becomes a fan.
 /// Complexity and threads: O(n) for convex polygons, O(n log n) for simple ones of more than 4096
-/// vertices, a bounded number of steps per vertex for all others (ear_clipper.h); no state.
+/// vertices, a bounded number of steps per vertex for all others (ear_clipper.h); no shared state.
 
 #include <array>
 #include <cstdint>
@@ -25,8 +25,8 @@ namespace alhazen {
 [[nodiscard]] Vec3 newell_normal(std::span<const Vec3> positions,
                                  std::span<const std::uint32_t> polygon);
 
-/// Appends the triangles of `polygon`, a loop of indices into `positions` (all in range, at least
-/// 3).
+/// Appends the triangles of `polygon`, a loop of at least 3 indices into `positions`. Precondition:
+/// all indices are in range.
 void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The edges of two sets cut at all their common points, exactly: input of the rounding, of the
-/// choice of regions and of the exact areas.
+/// The edges of two sets, divided exactly at all their common points: input of the rounding, of the
+/// selection of regions and of the exact areas.
 
 #include <cstdint>
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace alhazen {
 
-/// Bits of a state: which operands a point is inside of.
+/// Bits of a state: the operands that contain a point.
 inline constexpr std::uint8_t kInFirst = 1;
 inline constexpr std::uint8_t kInSecond = 2;
 
-/// A piece of an edge between two points of the arrangement that follow each other on it.
+/// A piece of an edge between two successive points of the arrangement on it.
 struct SubEdge {
     std::uint32_t begin = 0;  ///< the lesser point
     std::uint32_t end = 0;
-    std::uint32_t edge = 0;  ///< an edge that it lies on
+    std::uint32_t edge = 0;  ///< one of the edges that it lies on
     std::uint8_t below = 0;  ///< the state on its right
     std::uint8_t above = 0;  ///< the state on its left
 };
@@ -28,8 +28,8 @@ struct ArrangementEdge {
     LatticePoint hi;
 };
 
-/// Two successive sub-edges between which a point of the arrangement ends the free view, from below
-/// to above; between them is the inside of the first operand.
+/// Two successive sub-edges whose vertical view of each other ends at a point of the arrangement;
+/// the interior of the first operand lies between them.
 struct EdgeInterval {
     std::uint32_t point = 0;
     std::uint32_t lower = 0;  ///< index of a sub-edge
@@ -39,11 +39,11 @@ struct EdgeInterval {
 struct Arrangement {
     std::vector<ArrangementEdge> edges;
     std::vector<LatticePlace> points;     ///< in ascending order, no two equal
-    std::vector<SubEdge> sub_edges;       ///< no two on each other, none in the other's inside
-    std::vector<EdgeInterval> intervals;  ///< where asked for; in ascending order of the points
-    bool rounds = false;                  ///< a point is not on the lattice
-    std::size_t crossings = 0;            ///< points where edges cross that end at neither
-    std::size_t overlaps = 0;             ///< sub-edges of several edges
+    std::vector<SubEdge> sub_edges;       ///< none overlaps or crosses another
+    std::vector<EdgeInterval> intervals;  ///< if requested; in ascending order of the points
+    bool rounds = false;                  ///< true if a point is not on the lattice
+    std::size_t crossings = 0;            ///< points where edges cross and neither ends
+    std::size_t overlaps = 0;             ///< sub-edges shared by several edges
 
     void clear() {
         edges.clear();
@@ -56,14 +56,14 @@ struct Arrangement {
     }
 };
 
-/// The faces of an arrangement of any number of operands. A face has one number or several, which
-/// `root` makes one.
+/// The faces of an arrangement of any number of operands. A face may have several numbers; `root`
+/// maps them to one.
 struct ArrangementFaces {
     std::vector<std::uint32_t> below;       ///< [sub-edge] a number of the face on its right
-    std::vector<std::uint32_t> above;       ///< on its left
-    std::vector<std::uint32_t> owner_ends;  ///< [number] in `owners`
-    std::vector<std::uint32_t> owners;      ///< operands that hold a face, ascending
-    std::vector<std::uint32_t> same;        ///< [number] one of the same face
+    std::vector<std::uint32_t> above;       ///< [sub-edge] a number of the face on its left
+    std::vector<std::uint32_t> owner_ends;  ///< [number] one past its last entry in `owners`
+    std::vector<std::uint32_t> owners;      ///< operands that contain a face, ascending
+    std::vector<std::uint32_t> same;        ///< [number] another number of the same face
 
     void clear();
     [[nodiscard]] std::uint32_t root(std::uint32_t number) const;
@@ -71,15 +71,15 @@ struct ArrangementFaces {
         const std::uint32_t begin = number == 0 ? 0 : owner_ends[number - 1];
         return std::span(owners).subspan(begin, owner_ends[number] - begin);
     }
-    /// The face across an edge of the operands `crossed`, ascending.
+    /// The face on the other side of an edge of the operands `crossed`, which ascend.
     std::uint32_t add_across(std::uint32_t number, std::span<const std::uint32_t> crossed);
     void unite(std::uint32_t a, std::uint32_t b);
 };
 
 class PolygonSet;
 
-/// The arrangement of two sets before anything is rounded: what exact areas are taken from. Valid
-/// until the next call in this thread.
+/// The arrangement of two sets before rounding, from which exact areas are computed. Valid until
+/// the next call in this thread.
 [[nodiscard]] const Arrangement& exact_arrangement(const PolygonSet& first,
                                                    const PolygonSet& second);
 

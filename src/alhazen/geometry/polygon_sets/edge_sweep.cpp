@@ -46,7 +46,7 @@ std::uint32_t ArrangementFaces::add_across(std::uint32_t number,
     return next;
 }
 
-// Both ways to the root are made shorter, so that ways stay short.
+// Shortens both paths to the root, so that paths stay short.
 void ArrangementFaces::unite(std::uint32_t a, std::uint32_t b) {
     const auto find = [this](std::uint32_t n) {
         while (same[n] != n) {
@@ -87,7 +87,7 @@ void EdgeSweep::add_loop(std::span<const LatticePoint> loop, std::uint8_t owner)
         if (from == to) {
             continue;
         }
-        // The edge that arrives at `to`, and the one that will leave it.
+        // The edge that arrives at `to`, and the next one, which leaves it.
         const auto edge = static_cast<std::uint32_t>(result_.edges.size());
         result_.edges.push_back(from < to ? ArrangementEdge{from, to} : ArrangementEdge{to, from});
         active_.push_back({.owner = owner});
@@ -141,7 +141,7 @@ bool EdgeSweep::next_point() {
     fan_.clear();
     through_[0] = through_[1] = kNone;
     if (next_vertex_ == vertices_.size()) {
-        return false;  // crossings are before the ends of their edges
+        return false;  // crossings lie before the ends of their edges
     }
     at_ = lattice_point(vertices_[next_vertex_].key);
     at_vertex_ = true;
@@ -191,7 +191,7 @@ void EdgeSweep::drop_crossings_at_place() {
     } while (!heap_.empty() && compare(crossings_[heap_.front()].place, place_) == 0);
 }
 
-// The sign of (edge x place): positive where the place is above the edge.
+// The sign of (edge x place): positive if the place is above the edge.
 int EdgeSweep::side(std::uint32_t edge) const {
     const ArrangementEdge& e = result_.edges[edge];
     if (at_vertex_) {
@@ -244,7 +244,8 @@ void EdgeSweep::sweep_point() {
     }
 }
 
-// The intervals that end at the point: below, between and above the bundles [lo, hi) of the status.
+// Records the intervals that end at the point: below, between and above the bundles [lo, hi) of the
+// status.
 void EdgeSweep::record_intervals(std::size_t lo, std::size_t hi) {
     const auto point = static_cast<std::uint32_t>(result_.points.size() - 1);
     std::uint32_t lower = kNone;
@@ -266,7 +267,7 @@ void EdgeSweep::record_intervals(std::size_t lo, std::size_t hi) {
     }
 }
 
-// Ends the piece of a bundle at the place; its members that go on join the fan.
+// Ends the piece of a bundle at the place; its members that continue join the fan.
 void EdgeSweep::close_bundle(std::uint32_t leader) {
     const Active& bundle = active_[leader];
     if (bundle.sub_edge != kNone) {
@@ -305,8 +306,8 @@ void EdgeSweep::sort_fan() {
     }
 }
 
-// Makes bundles of the fan's edges of equal direction, each led by its first, and walks the state
-// up through them. The fan keeps the leaders.
+// Makes bundles of the fan's edges of equal direction, each led by its first edge, and propagates
+// the state upwards through them. The fan keeps the leaders.
 void EdgeSweep::bundle_fan(std::uint8_t state) {
     const auto point = static_cast<std::uint32_t>(result_.points.size() - 1);
     std::size_t kept = 0;
@@ -333,7 +334,7 @@ void EdgeSweep::bundle_fan(std::uint8_t state) {
     fan_.resize(kept);
 }
 
-// The same where faces are told by numbers: `lower` is below the fan, `upper` above it.
+// Makes bundles for numbered faces: `lower` is the face below the fan, `upper` the one above it.
 void EdgeSweep::bundle_fan_of_faces(std::uint32_t lower, std::uint32_t upper) {
     const auto point = static_cast<std::uint32_t>(result_.points.size() - 1);
     std::size_t kept = 0;
@@ -347,7 +348,7 @@ void EdgeSweep::bundle_fan_of_faces(std::uint32_t lower, std::uint32_t upper) {
             crossed_.push_back(operands_[last]);
         }
         active_[last].next_member = kNone;
-        // Of equal operands two cancel.
+        // Two edges of the same operand cancel.
         std::ranges::sort(crossed_);
         std::size_t odd = 0;
         for (const std::uint32_t operand : crossed_) {
@@ -384,8 +385,8 @@ void EdgeSweep::replace(std::size_t lo, std::size_t hi) {
     }
 }
 
-// Both are there right of the place, `lower` below `upper`; they cross if the first to end does so
-// on the other side.
+// Tests two neighbours that both exist to the right of the place, `lower` below `upper`: they cross
+// if the one that ends first does so on the other side.
 void EdgeSweep::test_neighbors(std::uint32_t lower, std::uint32_t upper) {
     const ArrangementEdge& a = result_.edges[lower];
     const ArrangementEdge& b = result_.edges[upper];

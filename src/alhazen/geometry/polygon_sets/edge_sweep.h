@@ -1,14 +1,14 @@
 #pragma once
-/// The sweep that cuts edges at all their common points and says on which side of them each operand
-/// lies.
+/// A sweep that divides edges at all their common points and determines which operands lie on each
+/// side of them.
 ///
 /// Source: Bentley and Ottmann, "Algorithms for Reporting and Counting Geometric Intersections",
 /// IEEE Transactions on Computers C-28, 1979.
-/// Differs: at each point all edges through it are taken out of the order and put back as a fan
-/// sorted by direction, so that any number of edges may meet there; edges of one direction go on as
-/// one bundle. All decisions are exact.
-/// Conventions: states are even-odd for each operand. Two operands have a bit each; any number of
-/// them are swept by `run_with_faces`.
+/// Differs: at each point all edges through it are removed from the order and inserted again as a
+/// fan sorted by direction, so that any number of edges may meet there; edges of one direction
+/// continue as one bundle. All decisions are exact.
+/// Conventions: states follow the even-odd rule for each operand. Two operands have a bit each;
+/// `run_with_faces` sweeps any number of operands.
 /// Complexity: O((n + k) log n) comparisons.
 
 #include <cstddef>
@@ -23,15 +23,16 @@ namespace alhazen {
 class EdgeSweep {
   public:
     void clear();
-    /// Adds a loop of the operand with the bit `owner`. Equal successive points are passed over.
+    /// Adds a loop of the operand with the bit `owner`. Skips repeated successive points.
     void add_loop(std::span<const LatticePoint> loop, std::uint8_t owner);
-    /// The same for the operand of a number, for `run_with_faces`.
+    /// Adds a loop of the operand with a number, for `run_with_faces`.
     void add_loop_of(std::span<const LatticePoint> loop, std::uint32_t operand);
-    /// Sweeps what was added.
+    /// Sweeps the added loops.
     void run();
-    /// Sweeps and records the intervals too.
+    /// Sweeps and also records the intervals.
     void run_with_intervals();
-    /// Sweeps and tells which operands hold the faces, instead of states. Number 0 is outside.
+    /// Sweeps and records the operands that contain each face, instead of states. Number 0 is
+    /// outside.
     void run_with_faces(ArrangementFaces& faces);
 
     [[nodiscard]] const Arrangement& result() const { return result_; }
@@ -39,18 +40,18 @@ class EdgeSweep {
   private:
     static constexpr std::uint32_t kNone = 0xffffffff;
 
-    /// What the sweep knows about an edge that it has met.
+    /// The state of an edge that the sweep has reached.
     struct Active {
-        std::uint32_t next_member = kNone;  ///< of its bundle
-        std::uint32_t sub_edge = kNone;     ///< of the bundle that it leads, kNone for parity 0
+        std::uint32_t next_member = kNone;  ///< next edge of its bundle
+        std::uint32_t sub_edge = kNone;     ///< of the bundle that it leads; parity 0: kNone
         std::uint8_t owner = 0;
         std::uint8_t above = 0;  ///< the state above its bundle
     };
     struct Vertex {
-        std::uint64_t key = 0;     ///< ascends as the points do
-        std::uint32_t edges[2]{};  ///< that meet in it
+        std::uint64_t key = 0;     ///< ascends in the order of the points
+        std::uint32_t edges[2]{};  ///< edges that meet at the vertex
     };
-    /// A crossing of two edges that waits for its turn.
+    /// A crossing of two edges that the sweep has not reached.
     struct Crossing {
         LatticePlace place;
         std::uint32_t edges[2]{};
@@ -80,16 +81,16 @@ class EdgeSweep {
     std::vector<Crossing> crossings_;
     std::vector<std::uint32_t> heap_;
     std::vector<std::uint32_t> free_;
-    std::vector<std::uint32_t> status_;  ///< leaders of bundles, from below
-    std::vector<std::uint32_t> fan_;     ///< edges that leave the point
+    std::vector<std::uint32_t> status_;  ///< leaders of bundles, from the lowest
+    std::vector<std::uint32_t> fan_;     ///< edges that start at the point
     LatticePlace place_;
-    LatticePoint at_;  ///< the place where it is a vertex
+    LatticePoint at_;  ///< the place, if it is a vertex
     bool at_vertex_ = false;
     bool with_intervals_ = false;
-    std::uint32_t through_[2]{};             ///< edges that cross in the place
-    ArrangementFaces* faces_ = nullptr;      ///< where asked for
-    std::vector<std::uint32_t> operands_;    ///< of the edges
-    std::vector<std::uint32_t> face_above_;  ///< of the bundles that edges lead
+    std::uint32_t through_[2]{};             ///< edges that cross at the place
+    ArrangementFaces* faces_ = nullptr;      ///< if requested
+    std::vector<std::uint32_t> operands_;    ///< [edge]
+    std::vector<std::uint32_t> face_above_;  ///< [leader of a bundle]
     std::vector<std::uint32_t> crossed_;
 };
 

@@ -1,5 +1,5 @@
-// Pieces and triangles of a set, out of the intervals of its sweep: each lies between two edges of
-// one piece of the region.
+// Pieces and triangles of a set, from the intervals of its sweep: each interval lies between two
+// edges of one piece of the region.
 
 #include <algorithm>
 #include <numeric>
@@ -21,7 +21,7 @@ const Arrangement& sweep_faces(const PolygonSet& set) {
     return sweep.result();
 }
 
-/// The loop of each edge, in the order in which the sweep took them.
+/// [edge] its loop, in the order in which the sweep added the edges.
 std::vector<std::uint32_t> loops_of_edges(const PolygonSet& set) {
     std::vector<std::uint32_t> loops;
     loops.reserve(set.vertex_count());
@@ -39,7 +39,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t i) {
     return i;
 }
 
-/// The triangles between an edge and the points above it (or below it) that the sweep passes.
+/// The triangles between an edge and the points above (or below) it that the sweep passes.
 class Mountains {
   public:
     explicit Mountains(const Arrangement& arrangement)

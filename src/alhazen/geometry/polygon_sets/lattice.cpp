@@ -6,7 +6,7 @@ namespace alhazen {
 
 namespace {
 
-/// Coordinates of places are within this of their approximations, with room to spare.
+/// Bound, with a margin, on the distance of a place's coordinates from their approximations.
 constexpr double kPlaceError = 0x1p-20;
 
 std::strong_ordering exact_order(Int128 a, std::int64_t a_den, Int128 b, std::int64_t b_den) {
@@ -64,7 +64,7 @@ int side_of(LatticePoint a, LatticePoint b, const LatticePlace& p) {
     const double dx = b.x - a.x;
     const double dy = b.y - a.y;
     const double near = dx * (p.y - a.y) - dy * (p.x - a.x);
-    // 2^25 (2^-24 + 2^-24) of the coordinates, less than 1 of the arithmetic.
+    // The error is 2^25 (2^-24 + 2^-24) from the coordinates and less than 1 from the arithmetic.
     if (std::abs(near) > 16) {
         return near > 0 ? 1 : -1;
     }
@@ -88,7 +88,7 @@ bool on_lattice(const LatticePlace& p) {
 }
 
 bool meets_pixel(LatticePoint a, LatticePoint b, LatticePoint center) {
-    // In half units around the pixel's centre, where the pixel is [-1, 1) x [-1, 1).
+    // In half units from the pixel's centre, where the pixel is [-1, 1) x [-1, 1).
     std::int64_t ax = 2 * (std::int64_t{a.x} - center.x);
     std::int64_t ay = 2 * (std::int64_t{a.y} - center.y);
     std::int64_t bx = 2 * (std::int64_t{b.x} - center.x);
@@ -105,8 +105,8 @@ bool meets_pixel(LatticePoint a, LatticePoint b, LatticePoint center) {
     const std::int64_t dy = by - ay;
     // d x (corner - a) = at + dx v - dy u for the corner (u, v).
     const std::int64_t at = dy * ax - dx * ay;
-    if (dy >= 0) {  // rising: its extreme corners are the upper left, which counts as neither of
-                    // the pixel's sides, and the lower right, which is open
+    if (dy >= 0) {  // rising: its extreme corners are the upper left and the lower right, which do
+                    // not belong to the half-open pixel
         const std::int64_t upper_left = at + dx + dy;
         const std::int64_t lower_right = at - dx - dy;
         const bool axis = dx == 0 || dy == 0;

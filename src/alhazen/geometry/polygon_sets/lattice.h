@@ -1,14 +1,13 @@
 #pragma once
-/// The integer lattice on which polygons are cut, its exact predicates, and the places where two
-/// edges cross.
+/// The integer lattice of polygon sets, its exact predicates, and the places where two edges cross.
 ///
 /// Source: Hobby, "Practical Segment Intersection with Finite Precision Output", Computational
 /// Geometry 13, 1999 (hot pixels); the predicates are determinants.
-/// Conventions: coordinates are within [-2^24, 2^24]. Then a vector has components of at most 25
+/// Conventions: coordinates are within [-2^24, 2^24]. A vector then has components of at most 25
 /// bits, a cross product at most 51 bits, a crossing is a ratio of at most 75 to 51 bits, and the
 /// comparison of two crossings takes products of at most 126 bits. Order is lexicographic: x, then
-/// y. Above an edge is the left side of it as it runs from its lesser to its greater end.
-/// Complexity: O(1) each. A filter in double answers all but the closest comparisons.
+/// y. Above an edge is to the left of it as it runs from its lesser to its greater end.
+/// Complexity: O(1) each. A filter in double decides all but the closest comparisons.
 
 #include <algorithm>
 #include <compare>
@@ -32,7 +31,7 @@ struct LatticePoint {
 
 using LatticeLoop = std::vector<LatticePoint>;
 
-/// Smallest box of lattice points; empty where lo exceeds hi.
+/// The smallest box of lattice points; empty if lo exceeds hi.
 struct LatticeBox {
     LatticePoint lo{kLatticeLimit, kLatticeLimit};
     LatticePoint hi{-kLatticeLimit, -kLatticeLimit};
@@ -42,14 +41,14 @@ struct LatticeBox {
         lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
         hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
     }
-    /// Whether the closed boxes have a point in common.
+    /// True if the closed boxes have a common point.
     [[nodiscard]] bool meets(const LatticeBox& o) const {
         return lo.x <= o.hi.x && o.lo.x <= hi.x && lo.y <= o.hi.y && o.lo.y <= hi.y;
     }
     friend bool operator==(const LatticeBox&, const LatticeBox&) = default;
 };
 
-/// (b - a) x (c - a): positive where a, b, c turn counter-clockwise.
+/// (b - a) x (c - a): positive if a, b, c turn counter-clockwise.
 [[nodiscard]] inline std::int64_t turn(LatticePoint a, LatticePoint b, LatticePoint c) {
     return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
 }
@@ -60,8 +59,8 @@ struct LatticeBox {
     return std::int64_t{b.x - a.x} * (d.y - c.y) - std::int64_t{b.y - a.y} * (d.x - c.x);
 }
 
-/// A point of the plane, exactly: a lattice point, or the point at num / den of the way along an
-/// edge (from + num / den (to - from)).
+/// An exact point of the plane: a lattice point, or the point at num / den of an edge (from + num /
+/// den (to - from)).
 struct LatticePlace {
     LatticePoint from;
     LatticePoint to;
@@ -82,8 +81,8 @@ struct LatticePlace {
     return {p, p, 0, 1, static_cast<double>(p.x), static_cast<double>(p.y)};
 }
 
-/// Where the lines of a-b and c-d cross. Precondition: they are not parallel, and the crossing is
-/// on the segment a-b.
+/// The intersection of the lines of a-b and c-d. Precondition: they are not parallel, and the
+/// intersection is on the segment a-b.
 [[nodiscard]] LatticePlace crossing(LatticePoint a, LatticePoint b, LatticePoint c, LatticePoint d);
 
 /// Lexicographic order of the exact places.
@@ -95,10 +94,10 @@ struct LatticePlace {
 /// The hot pixel of a place: the lattice point c with c - 1/2 <= p < c + 1/2 in both coordinates.
 [[nodiscard]] LatticePoint rounded(const LatticePlace& p);
 
-/// Whether the place is a lattice point.
+/// True if the place is a lattice point.
 [[nodiscard]] bool on_lattice(const LatticePlace& p);
 
-/// Whether the closed segment a-b has a point in the half-open pixel around `center`.
+/// True if the closed segment a-b has a point in the half-open pixel around `center`.
 [[nodiscard]] bool meets_pixel(LatticePoint a, LatticePoint b, LatticePoint center);
 
 }  // namespace alhazen

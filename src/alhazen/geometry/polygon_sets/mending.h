@@ -1,7 +1,8 @@
 #pragma once
-/// Polygon sets out of any loops: self-crossing, overlapping, of zero area, in any direction.
+/// Makes polygon sets of arbitrary loops: self-crossing, overlapping, of zero area, of any
+/// orientation.
 ///
-/// Conventions: a point is inside where a ray from it crosses the loops an odd number of times.
+/// Conventions: a point is inside if a ray from it crosses the loops an odd number of times.
 /// Complexity: as set_operations.h.
 
 #include <cstddef>
@@ -12,12 +13,12 @@
 
 namespace alhazen {
 
-/// What was mended.
+/// Counts of the defects that were repaired.
 struct Mending {
     std::size_t crossings = 0;        ///< places where edges crossed away from vertices
-    std::size_t overlaps = 0;         ///< pieces of edges that lay on each other
-    std::size_t flat_loops = 0;       ///< loops without area, of fewer than 3 distinct points too
-    std::size_t repeated_points = 0;  ///< points equal to the one before
+    std::size_t overlaps = 0;         ///< overlapping pieces of edges
+    std::size_t flat_loops = 0;       ///< without area, or of fewer than 3 distinct points
+    std::size_t repeated_points = 0;  ///< points equal to the previous one
     std::size_t touches = 0;          ///< places where the outline touched itself
 
     [[nodiscard]] bool any() const {
@@ -25,10 +26,10 @@ struct Mending {
     }
 };
 
-/// In words: "3 crossings, 1 loop without area"; empty where nothing was mended.
+/// A description such as "3 crossings, 1 loop without area"; empty if there were no defects.
 [[nodiscard]] std::string to_string(const Mending& mending);
 
-/// The region of the loops by the even-odd rule. Throws Error where a coordinate exceeds
+/// The region of the loops by the even-odd rule. Throws Error if a coordinate exceeds
 /// kLatticeLimit.
 [[nodiscard]] PolygonSet polygon_set(std::span<const LatticeLoop> loops,
                                      Mending* mending = nullptr);

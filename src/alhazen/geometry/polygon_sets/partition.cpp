@@ -12,7 +12,7 @@ namespace alhazen {
 namespace {
 
 constexpr std::uint32_t kNoPart = 0xffffffff;
-/// The operand of the whole; parts follow.
+/// The operand of the whole; those of the parts follow.
 constexpr std::uint32_t kWhole = 0;
 
 class PartitionMaker {
@@ -36,7 +36,7 @@ class PartitionMaker {
         for (std::size_t i = 0; i < set.loop_count(); ++i) sweep_.add_loop_of(set.loop(i), operand);
     }
 
-    /// The part of each face by what holds it; `gaps_` are the numbers of those that none does.
+    /// Assigns each face to a part by the operands that hold it; `gaps_` are the faces in no part.
     void choose_parts() {
         const auto count = static_cast<std::uint32_t>(faces_.same.size());
         part_.assign(count, kNoPart);
@@ -71,7 +71,7 @@ class PartitionMaker {
             }
         }
     }
-    /// In whole steps.
+    /// Length in lattice steps.
     [[nodiscard]] std::int64_t length_of(std::size_t sub_edge) const {
         const Arrangement& a = sweep_.result();
         const LatticePlace& p = a.points[a.sub_edges[sub_edge].begin];
@@ -116,7 +116,7 @@ class PartitionMaker {
     std::vector<bool> gap_;
     std::vector<LooseLink> loose_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> links_;
-    std::vector<std::size_t> begins_;  ///< [part] in `links_`
+    std::vector<std::size_t> begins_;  ///< [part] its first index in `links_`
 };
 
 }  // namespace

@@ -1,16 +1,16 @@
 #pragma once
-/// Rounds the regions that divide another all at once, so that they fit without gap and overlap.
+/// Rounds the regions that partition another one together, so that they fit without gap or overlap.
 ///
 /// Source: Hobby, "Practical Segment Intersection with Finite Precision Output", Computational
 /// Geometry 13, 1999: edges of one arrangement, rounded together, keep their order.
-/// Differs: regions that were cut out one after the other, each rounded alone, overlap and leave
-/// gaps thinner than the lattice. Here the faces between all their edges are told apart exactly,
-/// each is given to one region, and then all are rounded together.
-/// Conventions: a face in several regions belongs to the first of them, one in none to the region
-/// that it has the longest boundary with. What lies outside of the whole belongs to none. The whole
-/// itself is rounded with its parts; a rectangle along the axes stays as it is, so that the areas
-/// of the parts add up to its area exactly. Complexity: O((n + k) log n) for n vertices and k
-/// crossings. Threads: as set_operations.h.
+/// Differs: regions that are cut out one after the other and rounded separately overlap, and leave
+/// gaps thinner than the lattice. Here the faces between all their edges are determined exactly,
+/// each is assigned to one region, and all are rounded together.
+/// Conventions: a face in several regions belongs to the first of them, a face in none to the
+/// region with which it shares the longest boundary. Faces outside the whole belong to none. The
+/// whole is rounded with its parts; an axis-aligned rectangle is unchanged, so that the areas of
+/// the parts add up to its area exactly. Complexity: O((n + k) log n) for n vertices and k
+/// crossings. Threads: as in set_operations.h.
 
 #include <span>
 
@@ -18,7 +18,8 @@
 
 namespace alhazen {
 
-/// Makes a partition of `whole` out of `parts`. Some may end up empty; without any nothing is made.
+/// Makes a partition of `whole` out of `parts`. Parts may become empty; without parts it does
+/// nothing.
 void make_partition(const PolygonSet& whole, std::span<PolygonSet> parts);
 
 }  // namespace alhazen

@@ -45,7 +45,7 @@ Int128 twice_area(const PolygonSet& set) {
 
 namespace {
 
-/// Crossings of the ray from p to +x, and whether p is on the loop.
+/// Counts crossings of the ray from p to +x, and tests whether p is on the loop.
 PointSide side_of_loop(std::span<const LatticePoint> loop, LatticePoint p) {
     bool inside = false;
     LatticePoint a = loop.back();

@@ -1,14 +1,13 @@
 #pragma once
 /// A region of the plane bounded by lattice polygons, with any number of loops and holes.
 ///
-/// Differs from a list of loops: a PolygonSet is canonical. Its loops are simple, they do not cross
-/// and share no edge; they may touch each other in points. Outer loops run counter-clockwise, holes
-/// clockwise, so that the region is on the left of every edge. No vertex is in the middle of a
-/// straight line. Each loop begins at its least vertex, and loops are in the order of their first
-/// two vertices. Equal regions have equal sets, up to where loops touch an edge of another.
-/// Conventions: loops lie behind each other in one array of points. Sets come out of
-/// set_operations.h and mending.h. Complexity: as each function says, n being the number of
-/// vertices.
+/// Differs from a list of loops: a PolygonSet is canonical. Its loops are simple, do not cross and
+/// share no edge; they may touch each other in points. Outer loops run counter-clockwise, holes
+/// clockwise, so that the region is to the left of every edge. No vertex lies within a straight
+/// line. Each loop begins at its least vertex, and loops are ordered by their first two vertices.
+/// Equal regions have equal sets, except where a loop touches an edge of another.
+/// Conventions: loops are stored one after another in one array of points. set_operations.h and
+/// mending.h make sets. Complexity: as stated at each function, where n is the number of vertices.
 
 #include <array>
 #include <cstddef>
@@ -32,12 +31,12 @@ class PolygonSet {
         return std::span(points_).subspan(begin, ends_[i] - begin);
     }
     [[nodiscard]] const LatticeBox& bounds() const { return bounds_; }
-    /// Whether loops touch: two of them have a point in common.
+    /// True if two loops have a common point.
     [[nodiscard]] bool touching() const { return touching_; }
 
-    /// Empties it and keeps its memory.
+    /// Makes the set empty and keeps its memory.
     void clear();
-    /// Appends a vertex to the loop that `end_loop` will end. For those who make canonical sets.
+    /// Appends a vertex to the loop that `end_loop` will end. For makers of canonical sets.
     void add_vertex(LatticePoint p) {
         points_.push_back(p);
         bounds_.extend(p);
@@ -61,10 +60,10 @@ class PolygonSet {
     return set.empty();
 }
 
-/// The rectangle from lo to hi; empty where it has no area.
+/// The rectangle from lo to hi; empty if it has no area.
 [[nodiscard]] PolygonSet lattice_rectangle(LatticePoint lo, LatticePoint hi);
 
-/// Twice the signed area of a loop, positive where it runs counter-clockwise. O(n)
+/// Twice the signed area of a loop, positive if it runs counter-clockwise. O(n)
 [[nodiscard]] Int128 twice_area(std::span<const LatticePoint> loop);
 
 /// Twice the area of the region. O(n)
@@ -72,25 +71,25 @@ class PolygonSet {
 
 enum class PointSide : std::uint8_t { Outside, Boundary, Inside };
 
-/// Where the point is. O(n)
+/// The side of the region on which the point lies. O(n)
 [[nodiscard]] PointSide side_of_point(const PolygonSet& set, LatticePoint p);
 
-/// Whether the point is inside or on the boundary. O(n)
+/// True if the point is inside or on the boundary. O(n)
 [[nodiscard]] bool contains(const PolygonSet& set, LatticePoint p);
 
-/// An outer loop and the holes directly in it: a connected piece of the region.
+/// A connected piece of the region: an outer loop and the holes directly inside it.
 struct OuterLoop {
     std::uint32_t outer = 0;           ///< index of the loop
     std::vector<std::uint32_t> holes;  ///< indices of loops
 };
 
-/// Each outer loop with its holes, in the order of the outer loops. O(n log n)
+/// The pieces of the region, in the order of the outer loops. O(n log n)
 [[nodiscard]] std::vector<OuterLoop> loops_with_holes(const PolygonSet& set);
 
 using LatticeTriangle = std::array<LatticePoint, 3>;
 
-/// Triangles that cover the region once, on its own vertices, counter-clockwise. Their areas add up
-/// to the area of the region exactly. O(n log n)
+/// Counter-clockwise triangles that tile the region, on its own vertices. Their areas add up to the
+/// area of the region exactly. O(n log n)
 [[nodiscard]] std::vector<LatticeTriangle> triangulate(const PolygonSet& set);
 
 }  // namespace alhazen

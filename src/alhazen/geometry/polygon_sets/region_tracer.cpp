@@ -73,7 +73,7 @@ std::span<const std::uint32_t> RegionTracer::way_of(const SubEdge& sub_edge) {
     return way_;
 }
 
-// Keeps one of each bunch of links on each other, in the direction that is left over.
+// Keeps one of each group of overlapping links, in the direction that remains after cancellation.
 void RegionTracer::cancel_links() {
     const auto ends = [](const Link& a) { return std::minmax(a.from, a.to); };
     std::ranges::sort(links_, [&](const Link& a, const Link& b) {
@@ -134,8 +134,7 @@ void RegionTracer::connect_fans() {
     }
 }
 
-// Each link that arrives goes on along the one that leaves clockwise next to it: between the two is
-// interior.
+// Connects each arriving link to the clockwise next leaving one: the interior lies between the two.
 void RegionTracer::connect_fan(std::uint32_t point, std::span<const std::uint32_t> arriving) {
     const std::span<const LatticePoint> at = rounding_.pixels();
     rays_.clear();
@@ -176,7 +175,7 @@ void RegionTracer::walk(std::uint32_t first) {
     }
 }
 
-// Writes the path from `begin` on as a loop, without vertices in the middle of lines.
+// Writes the path from `begin` on as a loop, without vertices within straight lines.
 void RegionTracer::take_loop(std::size_t begin) {
     const std::span<const LatticePoint> at = rounding_.pixels();
     const auto start = static_cast<std::uint32_t>(points_.size());

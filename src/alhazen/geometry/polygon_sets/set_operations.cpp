@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// Memory of one thread's operations.
+/// The memory of one thread's operations.
 struct SetWorkspace {
     EdgeSweep sweep;
     RegionTracer tracer;
@@ -18,7 +18,7 @@ SetWorkspace& set_workspace() {
     return workspace;
 }
 
-// By state: 0 outside of both, 1 in the first, 2 in the second, 3 in both.
+// [state] 0 outside both, 1 in the first, 2 in the second, 3 in both.
 constexpr RegionTracer::States kBoth{false, false, false, true};
 constexpr RegionTracer::States kFirstOnly{false, true, false, false};
 constexpr RegionTracer::States kAny{false, true, true, true};
@@ -44,7 +44,7 @@ RegionTracer& arrange(const PolygonSet& a, const PolygonSet& b) {
     return tracer;
 }
 
-/// Whether the sets are too far apart to have more than a boundary in common.
+/// True if the sets can have at most a boundary in common, by their bounds.
 bool apart(const PolygonSet& a, const PolygonSet& b) {
     return a.empty() || b.empty() || !a.bounds().meets(b.bounds());
 }

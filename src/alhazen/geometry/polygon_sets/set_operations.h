@@ -5,14 +5,14 @@
 /// SIGGRAPH 1977; the sweep of Bentley and Ottmann, "Algorithms for Reporting and Counting
 /// Geometric Intersections", IEEE Transactions on Computers C-28, 1979; the rounding of Hobby,
 /// "Practical Segment Intersection with Finite Precision Output", Computational Geometry 13, 1999.
-/// Differs: edges that lie on each other are one edge of the sweep for as long as they do, so that
-/// there are no special cases. Where all crossings are lattice points nothing is rounded.
+/// Differs: overlapping edges are one edge of the sweep as far as they overlap, so that there are
+/// no special cases. If all crossings are lattice points, nothing is rounded.
 /// Conventions: results are canonical (polygon_set.h). All operations on the same two operands
 /// round alike: cut(a, b).inside and intersection(a, b) are equal, and the two parts of a cut fit
 /// without gap or overlap: their areas add up exactly, before rounding to the area of a, after
 /// rounding to that of a with its edges rounded.
-/// Complexity: O((n + k) log n) for n vertices and k crossings. Threads: none; memory is kept for
-/// the next call of the same thread.
+/// Complexity: O((n + k) log n) for n vertices and k crossings. Threads: each call runs on the
+/// calling thread, which keeps the memory for its next call.
 
 #include "alhazen/geometry/polygon_sets/polygon_set.h"
 
@@ -30,9 +30,9 @@ struct PolygonCut {
     PolygonSet outside;  ///< a without b
 };
 
-/// Both parts in one sweep.
+/// Computes both parts in one sweep.
 [[nodiscard]] PolygonCut cut(const PolygonSet& a, const PolygonSet& b);
-/// The same into memory that is there.
+/// Computes both parts into existing memory.
 void cut(const PolygonSet& a, const PolygonSet& b, PolygonCut& parts);
 
 }  // namespace alhazen

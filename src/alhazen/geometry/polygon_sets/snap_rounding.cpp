@@ -6,7 +6,8 @@ namespace alhazen {
 
 namespace {
 
-/// Beyond so many points between the ends of a sub-edge, the pixels on it are searched in a tree.
+/// Number of points between the ends of a sub-edge above which the pixels on it are found by a
+/// tree.
 constexpr std::uint32_t kManyPoints = 96;
 constexpr std::uint32_t kTreeLeaf = 8;
 
@@ -44,7 +45,7 @@ void SnapRounding::merge_columns() {
     }
 }
 
-// Points of one column of pixels: those of one pixel get one representative.
+// Merges the points of one column of pixels: those of one pixel get one representative.
 void SnapRounding::merge_column(std::uint32_t begin, std::uint32_t end) {
     column_.clear();
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -127,7 +128,7 @@ void SnapRounding::build_tree(std::uint32_t begin, std::uint32_t end, bool by_x)
     build_tree(mid + 1, end, !by_x);
 }
 
-// Of a long edge only the part within each cell counts: box_ shrinks on the way down.
+// Only the part of a long edge within each cell counts: box_ shrinks on the way down.
 void SnapRounding::search_tree(std::uint32_t begin, std::uint32_t end, bool by_x) {
     if (end - begin <= kTreeLeaf) {
         for (std::uint32_t i = begin; i < end; ++i) {

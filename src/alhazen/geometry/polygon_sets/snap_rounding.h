@@ -1,13 +1,13 @@
 #pragma once
-/// Moves the points of an arrangement to lattice points without an edge passing over a point.
+/// Moves the points of an arrangement to lattice points such that no edge passes over a point.
 ///
 /// Source: Hobby, "Practical Segment Intersection with Finite Precision Output", Computational
-/// Geometry 13, 1999; Guibas and Marimont, "Rounding Arrangements Dynamically", SoCG 1995, for why
-/// the faces keep their order.
-/// Conventions: the pixel of every point is hot. A sub-edge becomes the line through the centres of
-/// all hot pixels that its edge meets between its ends. Where all points are on the lattice
-/// everything stays as it is.
-/// Complexity: O(m) where nothing is rounded, else O(m (log m + pixels near a sub-edge)) as a rule.
+/// Geometry 13, 1999; Guibas and Marimont, "Rounding Arrangements Dynamically", SoCG 1995 (the
+/// faces keep their order).
+/// Conventions: the pixel of every point is hot. A sub-edge becomes the polyline through the
+/// centres of all hot pixels that its edge meets between its ends. If all points are on the
+/// lattice, nothing changes.
+/// Complexity: O(m) if nothing is rounded, else usually O(m (log m + pixels near a sub-edge)).
 
 #include <cstdint>
 #include <span>
@@ -19,16 +19,16 @@ namespace alhazen {
 
 class SnapRounding {
   public:
-    /// Rounds the points; `arrangement` has to live on.
+    /// Rounds the points. `arrangement` must outlive the use of the results.
     void round(const Arrangement& arrangement);
 
-    /// The lattice point of each point.
+    /// [point] its lattice point.
     [[nodiscard]] std::span<const LatticePoint> pixels() const { return pixels_; }
-    /// Of the points with equal pixels, one that stands for all.
+    /// The point that represents all points of the same pixel.
     [[nodiscard]] std::uint32_t representative(std::uint32_t point) const {
         return rounds_ ? representative_[point] : point;
     }
-    /// Whether sub-edges may have come to lie on each other.
+    /// True if rounding may have made sub-edges overlap.
     [[nodiscard]] bool merges() const { return merges_; }
     /// The points, without its ends, that a sub-edge passes through, in its order. Valid until the
     /// next call.
@@ -47,7 +47,7 @@ class SnapRounding {
     std::vector<std::uint32_t> between_;
     std::vector<std::uint32_t> tree_;  ///< points; the middle of each range divides it
     std::vector<std::uint32_t> column_;
-    ArrangementEdge edge_;  ///< of the search
+    ArrangementEdge edge_;  ///< the edge searched for
     LatticeBox box_;
     LatticePoint ends_[2];
     bool rounds_ = false;

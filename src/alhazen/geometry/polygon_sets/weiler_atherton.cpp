@@ -13,19 +13,19 @@ namespace {
 
 constexpr std::uint32_t kNoNode = 0xffffffff;
 
-/// A vertex of a boundary list: one of the polygon, or a crossing, which is in both lists.
+/// A node of a boundary list: a vertex of the polygon, or a crossing, which is in both lists.
 struct BoundaryNode {
     LatticePlace place;
     std::uint32_t next = kNoNode;
     std::uint32_t previous = kNoNode;
-    std::uint32_t twin = kNoNode;  ///< of a crossing, the node of the other list
-    std::uint32_t edge = 0;        ///< that leaves it
+    std::uint32_t twin = kNoNode;  ///< of a crossing: its node in the other list
+    std::uint32_t edge = 0;        ///< the edge that leaves it
     std::uint32_t loop = 0;
-    bool enters = false;   ///< a crossing of the subject where it enters the clip polygon
-    bool visited = false;  ///< by the walk
+    bool enters = false;   ///< true for a crossing at which the subject enters the clip polygon
+    bool visited = false;  ///< true once the walk has visited it
 };
 
-/// A contour and its node to begin at.
+/// A contour and its first node.
 struct BoundaryLoop {
     std::uint32_t first = kNoNode;
     bool of_clip = false;
@@ -42,7 +42,7 @@ class BoundaryLists {
         vertices_ = static_cast<std::uint32_t>(nodes_.size());
     }
 
-    /// Links all crossings into both lists; false where a vertex lies on the other boundary.
+    /// Links all crossings into both lists; false if a vertex lies on the other boundary.
     bool cross_all();
 
     enum class Region : std::uint8_t { Inside, Outside, Merged };
@@ -67,7 +67,7 @@ class BoundaryLists {
     std::vector<BoundaryLoop> loops_;
     std::uint32_t clip_begin_ = 0;
     std::uint32_t vertices_ = 0;
-    std::vector<std::uint32_t> rank_;  ///< of each node, its point in the arrangement
+    std::vector<std::uint32_t> rank_;  ///< [node] its point in the arrangement
     Arrangement arrangement_;
 };
 
@@ -90,7 +90,8 @@ void BoundaryLists::add(const PolygonSet& set, bool of_clip) {
     }
 }
 
-/// Whether c-d has its ends on both sides of a-b: 1, or not: 0, or touches its line: -1.
+/// 1 if the ends of c-d lie on opposite sides of a-b, 0 if on the same side, -1 if one lies on its
+/// line.
 int parts(std::int64_t of_c, std::int64_t of_d) {
     return of_c == 0 || of_d == 0 ? -1 : ((of_c > 0) != (of_d > 0) ? 1 : 0);
 }
@@ -144,7 +145,7 @@ bool BoundaryLists::cross_all() {
     return true;
 }
 
-// Links the crossings of each edge behind its vertex, in the order along the edge.
+// Inserts the crossings of each edge behind its first vertex, in the order along the edge.
 void BoundaryLists::insert_crossings(bool of_clip) {
     std::vector<std::uint32_t> order;
     for (std::uint32_t i = vertices_ + (of_clip ? 1 : 0); i < nodes_.size(); i += 2) {
@@ -170,7 +171,7 @@ void BoundaryLists::insert_crossings(bool of_clip) {
     }
 }
 
-// The points of the arrangement: all nodes in their order, a crossing once.
+// Sorts the points of the arrangement: all nodes in order, a crossing once.
 void BoundaryLists::sort_points() {
     std::vector<std::uint32_t> order(nodes_.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -191,7 +192,7 @@ void BoundaryLists::sort_points() {
     }
 }
 
-// A piece of the outline, the region on its left.
+// Keeps a piece of the outline; the region lies to its left.
 void BoundaryLists::keep(std::uint32_t from, std::uint32_t to, std::uint32_t edge) {
     const std::uint32_t a = rank_[from];
     const std::uint32_t b = rank_[to];
@@ -200,8 +201,8 @@ void BoundaryLists::keep(std::uint32_t from, std::uint32_t to, std::uint32_t edg
                                       a < b ? kInFirst : std::uint8_t{0}});
 }
 
-// From a crossing of the subject along it to the next, along the clip polygon to the next, until
-// the start.
+// Walks from a crossing along the subject to the next crossing, from there along the clip polygon
+// to the next, and so on until the start.
 void BoundaryLists::walk(std::uint32_t start, bool clip_backward) {
     std::uint32_t at = start;
     do {
@@ -230,7 +231,7 @@ void BoundaryLists::keep_loop(const BoundaryLoop& loop, bool reversed) {
     } while (at != loop.first);
 }
 
-// Loops that cross nothing are inside or outside of the other operand as a whole.
+// Keeps loops without crossings, which lie inside or outside the other operand as a whole.
 void BoundaryLists::keep_uncrossed(Region region) {
     for (const BoundaryLoop& loop : loops_) {
         if (loop.crossed) {

@@ -115,7 +115,7 @@ Palette read_palette(ByteReader& reader, const Header& header) {
     const std::uint32_t all = 1u << header.bits;
     std::uint32_t entries = header.palette_entries;
     if (entries == 0 || entries > all) entries = all;
-    // Some writers state all entries and store fewer.
+    // Some writers declare all palette entries and store fewer.
     const std::size_t start = reader.position();
     if (header.pixels_at > start) {
         const auto room = (header.pixels_at - start) / header.palette_entry_bytes;
@@ -179,11 +179,11 @@ StoredImage decode_bmp(std::string_view bytes, const std::string& name, const Im
     const std::string_view rows = reader.take(row_bytes * std::uint64_t(header.height));
     const bool masked = header.bits == 16 || header.bits == 32;
     const int channels = header.masks[3] != 0 ? 4 : 3;
-    // Masked channels may have any number of bits and need floats.
+    // Masked channels may have any number of bits, which requires floats.
     Image floats;
     Codes codes;
     if (masked) {
-        // The codes that the floats are made of, at most 16 bits each, are in memory too.
+        // The codes from which the floats are made, at most 16 bits each, are in memory too.
         const auto all_channels = std::uint64_t(channels);
         check_image_memory(sample_bytes(header.width, header.height, all_channels, 4 + 2), limits,
                            name);

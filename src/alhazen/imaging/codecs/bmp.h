@@ -3,9 +3,9 @@
 ///
 /// Source: Microsoft, "Bitmap Storage" (BITMAPCOREHEADER to BITMAPV5HEADER).
 /// Differs: refuses run-length coded bitmaps and bitmaps that embed a JPEG or PNG.
-/// Conventions: 1, 4 and 8-bit palettes, 16, 24 and 32 bit, bottom row or top row first. Samples
-/// are code / max. The fourth byte of a pixel is alpha only where a mask says so. A palette index
-/// beyond the palette is an error.
+/// Conventions: palettes of 1, 4 and 8 bits; 16, 24 and 32 bits; bottom row or top row first.
+/// Samples are code / max. The fourth byte of a pixel is alpha only if a mask says so. A palette
+/// index beyond the palette is an error.
 
 #include <string>
 #include <string_view>
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// Throws Error: Scene when malformed or not supported, Resource beyond the limits.
+/// Throws Error: Scene if malformed or not supported, Resource beyond the limits.
 [[nodiscard]] StoredImage decode_bmp(std::string_view bytes, const std::string& name,
                                      const ImageLimits& limits);
 

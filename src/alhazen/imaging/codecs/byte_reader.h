@@ -1,6 +1,6 @@
 #pragma once
-/// Reads numbers and runs of bytes from memory with bounds checks: data that end too early throw
-/// Error (Scene).
+/// Reads numbers and runs of bytes from memory with bounds checks: throws Error (Scene) if the data
+/// end too early.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace alhazen {
 
 class ByteReader {
   public:
-    /// `name` is the file for messages; both arguments must outlive the reader.
+    /// `name`: the file, for messages. Both arguments must outlive the reader.
     ByteReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
     [[nodiscard]] std::size_t position() const { return position_; }
@@ -36,7 +36,7 @@ class ByteReader {
     std::uint32_t u32_little() { return little(4); }
     std::int32_t i32_little() { return std::int32_t(little(4)); }
 
-    /// The text up to `end`, which is skipped; at most `max_length` characters.
+    /// The text up to `end`, at most `max_length` characters; moves behind `end`.
     [[nodiscard]] std::string_view until(char end, std::size_t max_length) {
         const std::size_t found = bytes_.substr(position_, max_length + 1).find(end);
         if (found == std::string_view::npos) {

@@ -83,7 +83,7 @@ int band_rows(int height) {
     return std::min(height, 64);
 }
 
-/// Decodes rows in bands, so that a file that ends early costs no more than the data it has.
+/// Decodes rows in bands, so that a file that ends early takes memory only for the data it has.
 void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, Image& image) {
     const Imath::Box2i window = file.header().dataWindow();
     const std::size_t row_samples = std::size_t(image.width) * channels.size();
@@ -205,7 +205,7 @@ std::vector<std::byte> encode_exr(const Image& image, const ImageWriteOptions& o
     ExrMemoryOutput stream;
     try {
         const Imf::Header header = header_of(image, options);
-        // Reserved memory that is not used costs nothing; growing needs twice the memory.
+        // Unused reserved memory costs nothing; growing would need twice the memory.
         stream.reserve(image.samples.size() * (options.full_float ? 4 : 2) + (1 << 20));
         if (options.full_float) {
             write_exr<float>(stream, image, header);

@@ -2,9 +2,9 @@
 /// Reads and writes OpenEXR, half and float, with the OpenEXR library.
 ///
 /// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009.
-/// Differs: reads flat images only; the first part of a multi-part file; R, G, B (A), or Y (A), or
+/// Differs: reads flat images only: the first part of a multi-part file; R, G, B (A), or Y (A), or
 /// a single channel of any name. Refuses luminance with chroma and subsampled channels.
-/// Conventions: the image is the data window. A missing one of R, G, B is 0. Written files are
+/// Conventions: the image is the data window. A missing channel of R, G, B is 0. Written files are
 /// ZIP-compressed scan lines; the same image gives the same bytes.
 
 #include <cstddef>
@@ -16,13 +16,13 @@
 
 namespace alhazen {
 
-/// Throws Error: Scene when malformed or not supported, Resource beyond the limits.
+/// Throws Error: Scene if malformed or not supported, Resource beyond the limits.
 [[nodiscard]] Image decode_exr(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);
 
-/// `image` has valid sizes. Values beyond half's range become infinite unless `full_float`. Throws
-/// Error (Usage) when the crop is not inside the full frame or a metadata key is empty or longer
-/// than 255.
+/// Precondition: `image` has valid sizes. Values beyond the range of half become infinite unless
+/// `full_float`. Throws Error (Usage) if the crop is not inside the full frame, or a metadata key
+/// is empty or longer than 255.
 [[nodiscard]] std::vector<std::byte> encode_exr(const Image& image,
                                                 const ImageWriteOptions& options);
 

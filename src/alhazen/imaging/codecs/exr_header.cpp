@@ -19,7 +19,7 @@ constexpr std::size_t kMaxName = 255;
 constexpr int kMaxParts = 1000;
 constexpr int kMaxAttributes = 10'000;
 constexpr std::uint32_t kMaxTileSide = 4096;
-/// Limit of width times channels: the library decodes up to 256 rows at a time, with 4 bytes a
+/// Limit of width times channels: the library decodes up to 256 rows at a time, with 4 bytes per
 /// sample. Also bounds the products in `decoder_bytes`: 2^12 * 2^12 * 2^18 * 2^4 < 2^63.
 constexpr std::uint64_t kMaxRowSamples = std::uint64_t{1} << 18;
 
@@ -31,7 +31,7 @@ struct PartHeader {
     std::uint64_t tile_width = 0, tile_height = 0;  ///< 0: scan lines
 };
 
-/// Rows that are compressed together, by the number of the compression.
+/// [compression] Number of rows that are compressed together.
 std::uint64_t rows_together(std::uint8_t compression) {
     constexpr std::array<std::uint8_t, 9> kRows{1, 1, 1, 16, 32, 16, 32, 32, 32};
     return compression < kRows.size() ? kRows[compression] : 256;
@@ -84,7 +84,7 @@ void read_tiles(ByteReader value, PartHeader& part) {
     part.tile_height = height;
 }
 
-/// The attributes that the library needs, and the bytes of their values (0: any).
+/// An attribute that the library needs, and the number of bytes of its value (0: any).
 struct Needed {
     std::string_view name, type;
     std::uint32_t bytes;
@@ -103,7 +103,8 @@ constexpr std::array<Needed, 13> kNeeded{{{"channels", "chlist", 0},
                                           {"type", "string", 0},
                                           {"version", "int", 4}}};
 
-/// The library reads a value by its type and ignores the size stored beside it.
+/// True if decoding needs the attribute. The library reads a value by its type and ignores the
+/// stored size.
 bool is_needed(std::string_view attribute, std::string_view type, std::uint32_t size,
                const std::string& name) {
     for (const Needed& needed : kNeeded) {
@@ -131,7 +132,7 @@ void read_value(std::string_view attribute, ByteReader value, PartHeader& part) 
     }
 }
 
-/// Reads one attribute and, in the copy, replaces the type of attributes that are not needed by an
+/// Reads one attribute; in the copy, replaces the type of an attribute that is not needed by an
 /// unknown one.
 void read_attribute(std::string_view attribute, ByteReader& reader,
                     std::vector<std::string_view>& ignored, PartHeader& part) {
@@ -146,7 +147,7 @@ void read_attribute(std::string_view attribute, ByteReader& reader,
     }
 }
 
-/// False at the empty header that ends a list of parts.
+/// Reads a part; false at the empty header that ends the list of parts.
 bool read_part(ByteReader& reader, std::vector<std::string_view>& ignored,
                const ImageLimits& limits, PartHeader& part) {
     const std::string& name = reader.name();

@@ -17,13 +17,13 @@ namespace alhazen {
 struct ExrHeader {
     std::string bytes;
     /// Upper bound of the library's allocations for decoding the first part: a run of rows or a
-    /// tile packed, unpacked and being unpacked, and a row of tiles.
+    /// tile (packed, unpacked and being unpacked), and a row of tiles.
     std::uint64_t decoder_bytes = 0;
 };
 
-/// The start of the file up to the end of the header. Attributes that decoding does not need have
-/// an unknown type: the library would allocate by lengths stored inside some of them. Throws Error:
-/// Scene when the header is malformed or of deep data, Resource when a size exceeds the limits.
+/// The start of the file up to the end of the header. Attributes that decoding does not need get an
+/// unknown type: the library would allocate by lengths stored inside some of them. Throws Error:
+/// Scene if the header is malformed or of deep data, Resource if a size exceeds the limits.
 [[nodiscard]] ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
                                            const ImageLimits& limits);
 

@@ -21,12 +21,12 @@ struct ExrLayersOptions {
     ImageMetadata metadata = {};
 };
 
-/// The bytes of the file. Throws Error (Usage) when the layers have another crop than the film, a
-/// channel has no name or a name in use, or a metadata key is empty or longer than 255.
+/// The bytes of the file. Throws Error (Usage) if the layers have another crop than the film, a
+/// channel has no name or a name already used, or a metadata key is empty or longer than 255.
 [[nodiscard]] std::vector<std::byte> encode_exr_layers(const Film& film, const FilmLayers& layers,
                                                        const ExrLayersOptions& options);
 
-/// The same to a file, replaced in one step.
+/// Writes the bytes to a file, which is replaced in one step.
 void write_exr_layers(const std::filesystem::path& path, const Film& film, const FilmLayers& layers,
                       const ExrLayersOptions& options);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-/// Widths of rows that can be coded channel by channel.
+/// Range of row widths that can be coded channel by channel.
 constexpr int kMinPackedWidth = 8, kMaxPackedWidth = 0x7fff;
 
 struct Size {
@@ -72,8 +72,8 @@ void read_packed_row(ByteReader& reader, std::vector<Rgbe>& row) {
     }
 }
 
-/// Reads whole pixels; 1 1 1 n repeats the last one n times, and consecutive repeats count in
-/// powers of 256.
+/// Reads whole pixels; 1 1 1 n repeats the previous one n times, and the counts of consecutive
+/// repeats are digits in base 256.
 void read_plain_row(ByteReader& reader, std::vector<Rgbe>& row) {
     std::size_t x = 0;
     unsigned shift = 0;
@@ -129,7 +129,7 @@ Rgbe rgbe_of(const Rgb& colour) {
     return pixel;
 }
 
-/// Codes runs of at least 4; shorter ones are part of the literals around them.
+/// Codes runs of at least 4; shorter runs become part of the literals around them.
 void pack_channel(const std::vector<Rgbe>& row, std::size_t channel, std::vector<std::byte>& out) {
     const auto run_at = [&](std::size_t x) {
         std::size_t end = x + 1;

@@ -5,7 +5,7 @@
 /// Differs: a mantissa is read as m * 2^(e - 136), without the half step that Radiance adds, so
 /// that written values read back unchanged. EXPOSURE and other header lines are ignored.
 /// Conventions: only the common orientation (-Y height +X width: top row first); RGB, not XYZ. On
-/// writing, negative values and NaN become 0, infinity the largest value.
+/// writing, negative values and NaN become 0, and infinity becomes the largest value.
 
 #include <cstddef>
 #include <string>
@@ -16,12 +16,12 @@
 
 namespace alhazen {
 
-/// Throws Error: Scene when malformed or not supported, Resource beyond the limits.
+/// Throws Error: Scene if malformed or not supported, Resource beyond the limits.
 [[nodiscard]] Image decode_hdr(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);
 
-/// `image` has valid sizes; grey is repeated, alpha dropped. The relative error of the largest
-/// channel is at most 1/128.
+/// Precondition: `image` has valid sizes. Grey is repeated, alpha dropped. The relative error of
+/// the largest channel is at most 1/128.
 [[nodiscard]] std::vector<std::byte> encode_hdr(const Image& image);
 
 }  // namespace alhazen

@@ -21,14 +21,14 @@ namespace {
 
 using Decoder = StoredImage (*)(std::string_view, const std::string&, const ImageLimits&);
 
-/// For formats whose samples are floats.
+/// Decodes a format whose samples are floats.
 template <Image (*decode)(std::string_view, const std::string&, const ImageLimits&)>
 StoredImage decode_floats(std::string_view bytes, const std::string& name,
                           const ImageLimits& limits) {
     return stored(decode(bytes, name, limits));
 }
 
-/// An image format by its first bytes. ADD A FORMAT THAT IS READ HERE.
+/// An image format, identified by its first bytes. ADD A FORMAT THAT IS READ HERE.
 struct Signature {
     std::string_view start;
     Decoder decode;
@@ -83,7 +83,7 @@ ImageLimits beside(const std::string& bytes, ImageLimits limits) {
     return limits;
 }
 
-/// The same image in linear values; alpha is linear already.
+/// The image with linear values; alpha is linear already.
 Image linear_copy(Image image) {
     image.linear = true;
     const auto channels = std::size_t(image.channels);
@@ -103,7 +103,7 @@ StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
         for (const Signature& signature : kSignatures) {
             if (bytes.starts_with(signature.start)) return signature.decode(bytes, name, limits);
         }
-        // TGA has no signature and is tried last.
+        // TGA has no signature, so it is tried last.
         if (suffix_of(name) == "tga" || is_plausible_tga(bytes)) {
             return decode_tga(bytes, name, limits);
         }
@@ -159,7 +159,7 @@ std::vector<std::byte> encode_image(const std::string& suffix, const Image& imag
     if (suffix == "jpg" || suffix == "jpeg") {
         return encode_jpeg(encode(image, options.encoding, 8), options.jpeg_quality);
     }
-    // Linear images are not copied: they can be large.
+    // Linear images, which can be large, are not copied.
     if ((suffix == "exr" || suffix == "hdr" || suffix == "pfm") && !image.linear) {
         return encode_image(suffix, linear_copy(image), options);
     }

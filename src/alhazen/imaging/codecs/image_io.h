@@ -1,13 +1,13 @@
 #pragma once
-/// Reads and writes image files; the format follows from the name on writing, from the content on
-/// reading.
+/// Reads and writes image files. The suffix of the name determines the format when writing, the
+/// content when reading.
 ///
 /// Reads: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32
 /// bit, not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Writes: PNG, JPG, EXR, HDR,
 /// PFM.
 /// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes: the
 /// sizes, and the bytes of the samples and of the decoder's buffers. Memory grows with the decoded
-/// data, not with the sizes in the header. An EXR is read as its data window.
+/// data, not with the sizes in the header. The image of an EXR is its data window.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,27 +25,27 @@
 namespace alhazen {
 
 struct ImageLimits {
-    int max_side = 32768;                               ///< changed by --max-image-side
-    std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< changed by --max-image-pixels
-    /// Maximum memory of reading an image at its peak: the file, the samples, and the decoder's
-    /// buffers. The images of a scene share it (TextureTable). Changed by --max-image-mib.
+    int max_side = 32768;                               ///< set by --max-image-side
+    std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< set by --max-image-pixels
+    /// Maximum memory for reading an image, at its peak: the file, the samples, and the decoder's
+    /// buffers. The images of a scene share it (TextureTable). Set by --max-image-mib.
     std::uint64_t max_bytes = std::uint64_t{640} << 20;
 };
 
-/// Thrown when reading an image would take more than ImageLimits::max_bytes.
+/// Thrown if reading an image would take more than ImageLimits::max_bytes.
 class ImageMemoryExceeded : public Error {
   public:
     using Error::Error;
 };
 
-/// Reads an image. Throws Error: File when it cannot be read, Scene when it is malformed or of an
-/// unknown format, Resource when it exceeds the limits.
+/// Reads an image. Throws Error: File if it cannot be read, Scene if it is malformed or of an
+/// unknown format, Resource if it exceeds the limits.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
-/// The same from bytes; `name` is used in messages.
+/// Reads an image from bytes; `name` is used in messages.
 [[nodiscard]] Image decode_image(std::string_view bytes, const std::string& name,
                                  const ImageLimits& limits = {});
 
-/// The same as the file's own codes, where it has codes: a quarter of the memory.
+/// Reads an image as the file's own codes, if it has codes, which take a quarter of the memory.
 [[nodiscard]] StoredImage read_stored_image(const std::filesystem::path& path,
                                             const ImageLimits& limits = {});
 [[nodiscard]] StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
@@ -60,20 +60,20 @@ struct ImageWriteOptions {
     int jpeg_quality = 95;    ///< 1 to 100
     /// Key and value in UTF-8, written as PNG text chunks and EXR string attributes.
     ImageMetadata metadata = {};
-    /// EXR: displayWindow when the image is a crop of a larger frame, at (x0, y0); 0 = no crop.
+    /// EXR: displayWindow of an image that is a crop at (x0, y0) of a larger frame; 0 = no crop.
     int full_width = 0, full_height = 0, crop_x0 = 0, crop_y0 = 0;
 };
 
 /// Suffixes that `write_image` accepts: png, jpg, jpeg, exr, hdr, pfm.
 [[nodiscard]] const std::vector<std::string>& image_suffixes();
 
-/// Throws Error (Usage) that lists the known suffixes when the suffix of `path` is not one of them.
-/// Call it before long work.
+/// Throws Error (Usage), listing the known suffixes, if the suffix of `path` is not one of them.
+/// For callers with long work before the write.
 void check_image_suffix(const std::filesystem::path& path);
 
-/// Writes by the suffix of `path`, in one step (see write_file_atomically). EXR, HDR and PFM hold
-/// linear values: an encoded image is decoded from sRGB first. Throws Error: Usage for an unknown
-/// suffix, an empty image or bad options, File when writing fails.
+/// Writes in the format of the suffix of `path`, in one step (see write_file_atomically). EXR, HDR
+/// and PFM hold linear values: an encoded image is first decoded from sRGB. Throws Error: Usage for
+/// an unknown suffix, an empty image or invalid options, File if writing fails.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageWriteOptions& options = {});
 
@@ -81,8 +81,8 @@ void write_image(const std::filesystem::path& path, const Image& image,
 [[nodiscard]] std::vector<std::byte> encode_image(const std::string& suffix, const Image& image,
                                                   const ImageWriteOptions& options = {});
 
-/// Writes exactly these codes, in one step. Throws Error: Usage for codes that do not fit, File
-/// when writing fails.
+/// Writes exactly these codes, in one step. Throws Error: Usage for codes that do not fit, File if
+/// writing fails.
 void write_png(const std::filesystem::path& path, const EncodedImage& image,
                const ImageMetadata& metadata = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of image sizes and memory, and errors of malformed images, shared by all readers.
+/// Checks of image sizes and memory, and errors for malformed images, shared by all readers.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// Throws the Error (Scene) of a malformed image.
+/// Throws Error (Scene) for a malformed image.
 [[noreturn]] inline void bad_image(const std::string& name, const std::string& what) {
     throw Error(ErrorKind::Scene, what, {name, 0, 0});
 }
@@ -32,8 +32,8 @@ inline void check_image_size(std::int64_t width, std::int64_t height, const Imag
     }
 }
 
-/// Throws ImageMemoryExceeded when `bytes` exceed the limit. Call it with all bytes that will be in
-/// memory at once, before allocation.
+/// Throws ImageMemoryExceeded if `bytes` exceed the limit. Call it before allocation, with all
+/// bytes that will be in memory at the same time.
 inline void check_image_memory(std::uint64_t bytes, const ImageLimits& limits,
                                const std::string& name) {
     if (bytes <= limits.max_bytes) return;
@@ -51,8 +51,8 @@ inline void check_image_memory(std::uint64_t bytes, const ImageLimits& limits,
     return std::uint64_t(width) * std::uint64_t(height) * channels * each;
 }
 
-/// An image of a checked size whose rows are still to be appended. Reserved memory that is not
-/// touched costs nothing, so a header with a false size does no harm. Throws as check_image_memory.
+/// An image of a checked size, to which rows are then appended. Reserved memory that is not touched
+/// costs nothing, so a header with a false size is harmless. Throws as check_image_memory.
 [[nodiscard]] inline Image reserved_image(int width, int height, int channels, bool linear,
                                           const ImageLimits& limits, const std::string& name) {
     check_image_memory(sample_bytes(width, height, std::uint64_t(channels), sizeof(float)), limits,

@@ -19,9 +19,8 @@ namespace {
 /// scans would take very long to decode.
 constexpr int kMaxScans = 100;
 
-/// The state of libjpeg's callbacks. Errors return by longjmp, which must not pass a frame with
-/// destructors: all calls of libjpeg are made in the step functions below, which have no such
-/// objects.
+/// The state of libjpeg's callbacks. Errors return by longjmp, which must not leave a frame with
+/// destructors: all calls of libjpeg are in the step functions below, which have no such objects.
 struct ErrorState {
     jpeg_error_mgr manager;  // first, so that cinfo->err points to the whole struct
     std::jmp_buf jump;
@@ -34,7 +33,7 @@ void on_error(j_common_ptr cinfo) {
     std::longjmp(state->jump, 1);
 }
 
-/// Level -1 is a warning. Warnings that leave every pixel unchanged pass, all others end the
+/// Level -1 is a warning. Warnings that leave every pixel unchanged are ignored, all others end the
 /// reading.
 void on_message(j_common_ptr cinfo, int level) {
     if (level >= 0) return;
@@ -76,7 +75,7 @@ struct Compression {
     JSAMPROW row = nullptr;
 };
 
-/// Returns false, with the message set, when libjpeg fails in `step`.
+/// Runs `step`; false, with the message set, if libjpeg fails in it.
 template <class State>
 bool succeeds(State& state, void (*step)(State&)) {
     if (setjmp(state.error.jump) != 0) return false;
@@ -188,7 +187,7 @@ class Writer {
 
     void check(void (*step)(Compression&)) {
         if (!succeeds(state_, step)) {
-            // libjpeg may have moved the buffer without notice: this pointer is invalid.
+            // libjpeg may have moved the buffer: this pointer is invalid.
             state_.output = nullptr;
             throw Error(ErrorKind::Usage,
                         std::string("cannot write a JPEG: ") + state_.error.message);
@@ -217,7 +216,7 @@ std::uint64_t coefficient_bytes(jpeg_decompress_struct& cinfo) {
     return blocks * sizeof(JBLOCK);
 }
 
-/// Adobe's files store 255 - ink.
+/// Adobe stores 255 - ink.
 void append_cmyk_row(std::vector<std::uint8_t>& codes, std::span<const JSAMPLE> row,
                      bool inverted) {
     for (std::size_t x = 0; x + 3 < row.size(); x += 4) {

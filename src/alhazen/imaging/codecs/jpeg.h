@@ -2,7 +2,7 @@
 /// Reads and writes JPEG with libjpeg-turbo.
 ///
 /// Source: ITU-T T.81 (JPEG), JFIF 1.02; Adobe's APP14 for the polarity of CMYK.
-/// Differs: data that end early or do not decode are an error; libjpeg only warns.
+/// Differs: data that end early or do not decode are an error, where libjpeg only warns.
 /// Conventions: read samples are code / 255, grey or RGB; CMYK is converted to RGB.
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace alhazen {
 
-/// Throws Error: Scene when malformed, Resource beyond the limits.
+/// Throws Error: Scene if malformed, Resource beyond the limits.
 [[nodiscard]] StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
                                       const ImageLimits& limits);
 
-/// Without chroma subsampling; alpha is dropped. Throws Error (Usage) when sizes, bits (8) or
+/// Encodes without chroma subsampling; drops alpha. Throws Error (Usage) if sizes, bits (8) or
 /// quality (1 to 100) are invalid.
 [[nodiscard]] std::vector<std::byte> encode_jpeg(const EncodedImage& image, int quality);
 

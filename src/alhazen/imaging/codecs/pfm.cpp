@@ -16,7 +16,7 @@ bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/// The next word of the header; skips the one white space after it.
+/// The next word of the header; also skips the single white space after it.
 std::string_view take_word(ByteReader& reader) {
     constexpr std::size_t kMaxWord = 64;
     char c = reader.take(1)[0];

@@ -14,11 +14,11 @@
 
 namespace alhazen {
 
-/// Throws Error: Scene when malformed, Resource beyond the limits.
+/// Throws Error: Scene if malformed, Resource beyond the limits.
 [[nodiscard]] Image decode_pfm(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);
 
-/// `image` has valid sizes; alpha is dropped. Every float is written unchanged.
+/// Precondition: `image` has valid sizes. Drops alpha; writes every float unchanged.
 [[nodiscard]] std::vector<std::byte> encode_pfm(const Image& image);
 
 }  // namespace alhazen

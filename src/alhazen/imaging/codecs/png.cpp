@@ -14,9 +14,8 @@ namespace alhazen {
 
 namespace {
 
-/// The state of libpng's callbacks. Errors return by longjmp, which must not pass a frame with
-/// destructors: all calls of libpng are made in the step functions below, which have no such
-/// objects.
+/// The state of libpng's callbacks. Errors return by longjmp, which must not leave a frame with
+/// destructors: all calls of libpng are in the step functions below, which have no such objects.
 struct PngState {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -47,7 +46,7 @@ using Step = void (*)(PngState&);
 
 void on_warning(png_structp, png_const_charp) {}
 
-/// Returns false, with the message set, when libpng fails in `step`.
+/// Runs `step`; false, with the message set, if libpng fails in it.
 bool succeeds(PngState& state, Step step) {
     if (setjmp(state.jump) != 0) return false;
     step(state);
@@ -135,7 +134,7 @@ void check_first_chunk(std::string_view bytes, const std::string& name, const Im
     check_image_size(number(kWidthAt), number(kWidthAt + 4), limits, name);
 }
 
-/// Reads row by row: memory grows with the decoded data.
+/// Reads row by row, so that memory grows with the decoded data.
 template <class Code>
 std::vector<Code> read_rows(PngReader& reader) {
     PngState& state = reader.state();
@@ -151,7 +150,7 @@ std::vector<Code> read_rows(PngReader& reader) {
     return codes;
 }
 
-/// The passes of an interlaced image reach all rows, so all codes are in memory first.
+/// Reads all codes into memory: the passes of an interlaced image reach all rows.
 template <class Code>
 std::vector<Code> read_interlaced(PngReader& reader) {
     PngState& state = reader.state();
@@ -198,7 +197,7 @@ void write_header(PngState& state) {
     const CodeRows& rows = *state.rows;
     png_set_write_fn(state.png, &state, write_bytes, flush_nothing);
     png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    // Level 6 takes twice the time of level 3 for files a few percent smaller.
+    // Level 6 takes twice the time of level 3, for files smaller by a few percent.
     png_set_compression_level(state.png, 3);
     png_set_IHDR(state.png, state.info, png_uint_32(rows.width), png_uint_32(rows.height),
                  rows.bits, kColourType[rows.channels], PNG_INTERLACE_NONE,
@@ -270,7 +269,7 @@ bool is_ascii(const std::string& text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return c > 0; });
 }
 
-/// The texts point into `metadata`. Text beyond ASCII is written as iTXt (UTF-8).
+/// The chunks of the metadata, which they refer to. Text beyond ASCII is written as iTXt (UTF-8).
 std::vector<png_text> text_chunks(const ImageMetadata& metadata) {
     std::vector<png_text> texts;
     for (const auto& [key, value] : metadata) {
@@ -297,7 +296,7 @@ StoredImage decode_png(std::string_view bytes, const std::string& name, const Im
     reader.check(read_header);
     const PngState& state = reader.state();
     check_image_size(state.width, state.height, limits, name);
-    // Deflate compresses 1032 : 1 at best, so a larger size is false; expanding adds a factor of up
+    // Deflate compresses at most 1032 : 1, so a larger size is false; expansion adds a factor of up
     // to 32.
     if (state.row_bytes * state.height / 32 > bytes.size() * 1032 + 4096) {
         bad_image(name, "damaged PNG: the data end too early");

@@ -16,12 +16,12 @@
 
 namespace alhazen {
 
-/// Throws Error: Scene when malformed, Resource beyond the limits.
+/// Throws Error: Scene if malformed, Resource beyond the limits.
 [[nodiscard]] StoredImage decode_png(std::string_view bytes, const std::string& name,
                                      const ImageLimits& limits);
 
-/// The file that holds exactly the codes of `image`. Throws Error (Usage) when the sizes or the
-/// codes are invalid or a key of `metadata` is not 1 to 79 printable ASCII characters.
+/// A file that holds exactly the codes of `image`. Throws Error (Usage) if the sizes or the codes
+/// are invalid, or a key of `metadata` is not 1 to 79 printable ASCII characters.
 [[nodiscard]] std::vector<std::byte> encode_png(const EncodedImage& image,
                                                 const ImageMetadata& metadata);
 [[nodiscard]] std::vector<std::byte> encode_png(const CodeRows& rows,

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The value of a code in [0, max].
+/// The float of a code in [0, max].
 template <class Code>
 float value_of(Code code) {
     constexpr float kMax = sizeof(Code) == 1 ? 255.0f : 65535.0f;
@@ -30,7 +30,7 @@ std::vector<double> decoded_codes() {
     return values;
 }
 
-/// [code]
+/// [code] the linear value.
 template <class Code>
 const double* decoding() {
     static const std::vector<double> values = decoded_codes<Code>();
@@ -46,7 +46,7 @@ double decoded(float sample) {
     return linear_from_srgb(double(sample));
 }
 
-/// Converts all samples to codes; false when one of them is not a code.
+/// Converts all samples to codes; false if one of them is not a code.
 template <class Code>
 bool to_codes(const std::vector<float>& samples, std::vector<Code>& codes) {
     constexpr float kMax = sizeof(Code) == 1 ? 255.0f : 65535.0f;
@@ -78,7 +78,7 @@ std::size_t StoredImage::memory_bytes() const {
 
 Rgba StoredImage::pixel(std::size_t index, bool decode_srgb) const {
     const std::size_t first = index * std::size_t(channels);
-    // No std::visit: GCC does not always inline its table of functions.
+    // std::get_if: GCC does not always inline the function table of std::visit.
     if (const auto* bytes = std::get_if<0>(&samples)) {
         return pixel_of(bytes->data() + first, channels, decode_srgb);
     }

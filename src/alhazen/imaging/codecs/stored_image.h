@@ -1,8 +1,8 @@
 #pragma once
-/// An image in compact form: codes of 8 or 16 bits where these are exact, else floats.
+/// An image in compact form: codes of 8 or 16 bits if they are exact, else floats.
 ///
-/// Conventions: a code represents the float code / max, as image readers give it, so that storing
-/// and expanding an image changes no bit.
+/// Conventions: a code represents the float code / max, as image readers compute it, so that
+/// storing and expanding an image changes no bit.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,17 +22,18 @@ struct StoredImage {
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> samples;
 
     [[nodiscard]] std::size_t memory_bytes() const;
-    /// No pixel has an alpha below 1.
+    /// True if no pixel has an alpha below 1.
     [[nodiscard]] bool is_opaque() const;
-    /// One pixel, by its index in row order; grey is repeated, alpha is 1 where there is none.
-    /// `decode_srgb`: decodes the colours to linear by the sRGB curve; alpha is never decoded.
+    /// The pixel with an index in row order; grey is repeated, and a missing alpha is 1.
+    /// `decode_srgb`: decode the colours to linear values by the sRGB curve; alpha is never
+    /// decoded.
     [[nodiscard]] Rgba pixel(std::size_t index, bool decode_srgb) const;
-    /// The same values for a run of pixels, in the image's channels: out[count][channels].
+    /// Writes the values of `count` pixels in the image's channels: out[count][channels].
     void read_pixels(std::size_t first, std::size_t count, bool decode_srgb, double* out) const;
 };
 
-/// Stores an image that is not linear as 8-bit codes, or else 16-bit codes, when every sample is
-/// one; all others as floats.
+/// Stores an image that is not linear as codes of 8, or else 16, bits if every sample is such a
+/// code; all other images as floats.
 [[nodiscard]] StoredImage stored(Image image);
 [[nodiscard]] Image expanded(StoredImage image);
 

@@ -76,13 +76,14 @@ std::uint64_t bytes_before_pixels(const TgaHeader& h) {
     return kHeaderBytes + h.id_length + (h.map_kind == 1 ? h.map_length * bytes_of(h.map_bits) : 0);
 }
 
-/// A run of 128 pixels takes one byte and one pixel at least.
+/// A lower bound of the bytes of all pixels: a run of 128 pixels takes at least one byte and one
+/// pixel.
 std::uint64_t least_pixel_bytes(const TgaHeader& h) {
     const std::uint64_t each = bytes_of(h.bits);
     return h.run_length() ? (h.pixels() + 127) / 128 * (1 + each) : h.pixels() * each;
 }
 
-/// False when the extension area of a version 2 file says that attribute bits are not alpha.
+/// False if the extension area of a version 2 file says that attribute bits are not alpha.
 bool alpha_is_meant(std::string_view bytes) {
     if (bytes.size() < kHeaderBytes + kFooterBytes || !bytes.ends_with(kSignature)) return true;
     const std::string name;
@@ -99,7 +100,7 @@ bool alpha_is_meant(std::string_view bytes) {
 
 using Color = std::array<std::uint8_t, 4>;
 
-/// A colour in the file's order: blue first.
+/// The colour of a pixel, which the file stores blue first.
 Color color_of(std::string_view p, unsigned bits) {
     const auto byte = [&](std::size_t i) { return std::uint8_t(p[i]); };
     if (bits <= 16) {

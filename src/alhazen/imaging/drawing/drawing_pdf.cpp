@@ -11,9 +11,9 @@ namespace alhazen {
 
 namespace {
 
-/// The functions of cairo that a drawing needs, without their prefix. The library is loaded with
-/// the first drawing: with what it needs in turn (X11, fontconfig and others) it would take a fifth
-/// of the start of every program.
+/// The functions of Cairo that a drawing needs, without their prefix. The library is loaded with
+/// the first drawing: with its own dependencies (X11, fontconfig and others) it would take a fifth
+/// of the start-up time of every program.
 class Cairo {
   private:
     struct Function {
@@ -30,7 +30,7 @@ class Cairo {
 #endif
     void* library_ = open(kFile);
 
-    /// Where the loader looks, then where it was when this was built.
+    /// Opens the library on the loader's search path, or at its path at build time.
     static void* open(const char* file) {
         void* library = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
         if (library != nullptr) return library;
@@ -88,7 +88,7 @@ class Cairo {
     decltype(&cairo_transform) transform = find("cairo_transform");
 };
 
-/// Throws Error (Resource) where the library cannot be loaded.
+/// Throws Error (Resource) if the library cannot be loaded.
 const Cairo& cairo() {
     static const Cairo functions;
     return functions;
@@ -118,7 +118,7 @@ void trace(cairo_t* page, const std::vector<Vec2>& points, bool closed) {
     if (closed) cairo().close_path(page);
 }
 
-/// As the unit circle seen through the half diameters; the line itself keeps its width.
+/// Traces the unit circle in the frame of the half diameters; the line itself keeps its width.
 void trace(cairo_t* page, const DrawingArc& arc) {
     cairo_matrix_t shown, ellipse;
     cairo().get_matrix(page, &shown);
@@ -137,7 +137,7 @@ void set_color(cairo_t* page, const Rgb& c) {
     cairo().set_source_rgb(page, c.r, c.g, c.b);
 }
 
-/// `seams`: with a line around it.
+/// `seams`: also draw a line around the region.
 void fill(cairo_t* page, const DrawingRegion& region, bool seams) {
     for (const std::vector<Vec2>& loop : region.loops) trace(page, loop, true);
     if (region.gradient) {
@@ -178,11 +178,11 @@ std::string drawing_pdf(const Drawing& drawing) {
     const Owned<cairo_t> page(cairo().create(surface.get()));
     cairo().set_fill_rule(page.get(), CAIRO_FILL_RULE_EVEN_ODD);
     cairo().set_line_join(page.get(), CAIRO_LINE_JOIN_ROUND);
-    cairo().set_tolerance(page.get(), 0.01);  // of curves in place of arcs
+    cairo().set_tolerance(page.get(), 0.01);  // of the curves that replace arcs
     set_color(page.get(), drawing.background);
     cairo().paint(page.get());
-    // Readers smooth the edges of regions, so that what lies below shines through between two that
-    // abut: below are the same regions, a little larger.
+    // Readers antialias the edges of regions, so the background shows between two that abut: the
+    // same regions, slightly larger, are drawn below.
     for (const bool seams : {true, false}) {
         for (const DrawingGroup& group : drawing.groups) {
             for (const DrawingRegion& region : group.regions) fill(page.get(), region, seams);

@@ -1,5 +1,5 @@
 #pragma once
-/// What both writers of drawings draw alike.
+/// The styles that both writers of drawings share.
 
 #include <array>
 
@@ -10,7 +10,7 @@ namespace alhazen {
 struct LineLook {
     const char* name;
     double width;                ///< pixels
-    std::array<double, 2> dash;  ///< drawn, left out; 0: whole
+    std::array<double, 2> dash;  ///< drawn and skipped lengths; 0: solid
 };
 
 /// [LineStyle]
@@ -21,8 +21,8 @@ inline constexpr std::array<LineLook, 3> kLineLooks{
     return kLineLooks[static_cast<std::size_t>(style)];
 }
 
-/// Of the line around each region in its own colour, where a writer cannot switch smoothing off:
-/// no gap shows between regions.
+/// Width of the line around each region in its own colour, for writers that cannot switch
+/// antialiasing off: no gap shows between regions.
 inline constexpr double kSeam = 0.3;
 
 }  // namespace alhazen

@@ -19,7 +19,7 @@ std::string encoded_color(const Rgb& c) {
     return out;
 }
 
-/// Three decimals, without zeros at the end.
+/// Appends a number with three decimals, without trailing zeros.
 void append_number(std::string& out, double x) {
     std::string text = fmt::format("{:.3f}", x);
     while (text.back() == '0') text.pop_back();
@@ -37,7 +37,8 @@ void append_path(std::string& out, const std::vector<Vec2>& points, bool closed)
     if (closed) out += 'Z';
 }
 
-/// By the principal half axes of the ellipse; in two arcs, so that neither is more than a half.
+/// Appends an arc by the principal half axes of the ellipse, as two arcs, neither longer than a
+/// half.
 void append_arc(std::string& out, const DrawingArc& arc) {
     const Vec2 &u = arc.u, &v = arc.v;
     const double t = 0.5 * std::atan2(2.0 * (u.x * v.x + u.y * v.y),
@@ -125,7 +126,7 @@ std::string drawing_svg(const Drawing& drawing) {
         for (const DrawingRegion& region : group.regions) {
             const std::string fill = region.gradient ? "url(#g" + std::to_string(next++) + ")"
                                                      : encoded_color(region.color);
-            // `fill` as a style: the sheet has one for all paths.
+            // `fill` as a style attribute: the style sheet sets one for all paths.
             out.leaf("path", {{"class", "f"}, {"style", "fill:" + fill}, {"d", path_of(region)}});
         }
         out.close();

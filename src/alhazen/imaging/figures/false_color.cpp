@@ -16,8 +16,7 @@ constexpr int kMinWidth = 220;
 constexpr int kMargin = 4, kBarHeight = 8, kGap = 3;
 constexpr int kStripHeight =
     kMargin + kGlyphHeight + kGap + kBarHeight + kGap + kGlyphHeight + kMargin;
-/// The width of an image at which letters double their size, triple it at twice the width, and so
-/// on.
+/// Image width at which letters double their size; they triple it at twice the width, and so on.
 constexpr int kWidthPerScale = 900;
 
 Rgb color_of(const ColorScale& scale, double value) {

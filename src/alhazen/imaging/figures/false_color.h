@@ -1,7 +1,7 @@
 #pragma once
-/// False-colour pictures of one number per pixel, with their scale drawn below.
+/// False-colour images of one number per pixel, with the scale drawn below.
 ///
-/// Conventions: values outside the scale take the colour of its end; a value that is not finite is
+/// Conventions: values outside the scale get the colour of its nearer end; non-finite values are
 /// black. The scale adds a strip below the picture and widens a narrow picture on the right.
 
 #include <array>
@@ -16,23 +16,23 @@ namespace alhazen {
 
 struct ColorScale {
     enum class Colors {
-        Heat,      ///< heat_color: more is lighter
+        Heat,      ///< heat_color: larger is lighter
         NearGrey,  ///< white at `low`, dark grey at `high`
     };
     double low = 0, high = 1;
     Colors colors = Colors::Heat;
-    std::string title;  ///< letters of tiny_font
-    bool drawn = true;  ///< false: the picture alone
+    std::string title;  ///< only characters of tiny_font
+    bool drawn = true;  ///< false: omit the scale
 };
 
-/// 8-bit sRGB. `values` are [height][width].
+/// An image of 8-bit sRGB. `values` are [height][width].
 [[nodiscard]] EncodedImage false_color(std::span<const float> values, int width, int height,
                                        const ColorScale& scale);
 
-/// The colour at `t` of [0, 1] of the scale, as sRGB display values.
+/// The scale's colour at `t` in [0, 1], as sRGB display values.
 [[nodiscard]] Rgb scale_color(ColorScale::Colors colors, double t);
 
-/// A colour that distinguishes a number from its neighbours; black for 0. sRGB codes 0..255.
+/// A colour that distinguishes a number from its neighbours; black for 0. sRGB codes, 0 to 255.
 [[nodiscard]] std::array<std::uint16_t, 3> id_color(std::uint32_t id);
 
 }  // namespace alhazen

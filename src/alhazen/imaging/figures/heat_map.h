@@ -1,10 +1,10 @@
 #pragma once
-/// A colour map: dark blue over red to pale yellow, with evenly growing lightness, so that the
+/// A colour map from dark blue over red to pale yellow, whose lightness grows evenly, so that the
 /// order of values stays visible in greyscale.
 ///
 /// Source: B. Ottosson, "A perceptual color space for image processing", 2020 (Oklab).
-/// Differs: uses its own path through the space: lightness 0.16 to 0.97 in a straight line, hue
-/// from 280 to 465 degrees, the largest chroma in sRGB, but at most 0.19.
+/// Differs: uses its own path through the space: lightness linear from 0.16 to 0.97, hue from 280
+/// to 465 degrees, the largest chroma in sRGB up to 0.19.
 
 #include "alhazen/imaging/image/rgb.h"
 

@@ -9,13 +9,13 @@
 namespace alhazen {
 
 inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
-/// Distance between the starts of two letters, pixels.
+/// Distance between the left edges of successive letters, in pixels.
 inline constexpr int kGlyphAdvance = 6;
 
-/// True where the letter has ink; x in [0, 5), y in [0, 7) from the top.
+/// True if the pixel belongs to the letter; x in [0, 5), y in [0, 7) from the top.
 [[nodiscard]] bool glyph_pixel(char letter, int x, int y);
 
-/// Width of a line of text, pixels.
+/// Width of a line of text, in pixels.
 [[nodiscard]] inline int text_width(std::string_view text) {
     return text.empty() ? 0 : static_cast<int>(text.size()) * kGlyphAdvance - 1;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The film: radiance per pixel in double while an image is rendered, written from many threads.
+/// The film: radiance per pixel, in double, written by several threads during rendering.
 ///
 /// Conventions: pixel (0, 0) is the top left of the full frame; the film holds the crop [x0, x1) x
 /// [y0, y1) of it. Threads: different pixels may be set, by `set` or `from`, at the same time.
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// Half-open rectangle of pixels.
+/// A half-open rectangle of pixels.
 struct PixelBox {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -26,7 +26,7 @@ struct PixelBox {
 
 class Film {
   public:
-    /// Throws Error (Usage) when the crop is empty or leaves the frame.
+    /// Throws Error (Usage) if the crop is empty or not inside the frame.
     Film(int frame_width, int frame_height, const PixelBox& crop);
 
     [[nodiscard]] int frame_width() const { return frame_width_; }
@@ -34,7 +34,7 @@ class Film {
     [[nodiscard]] const PixelBox& crop() const { return crop_; }
 
     void set(int x, int y, const Rgb& radiance) { samples_[index(x, y)] = radiance; }
-    /// The pixels from (x, y) on; the next row starts a crop width later.
+    /// The pixels of row y from x on; the next row starts one crop width later.
     [[nodiscard]] Rgb* from(int x, int y) { return &samples_[index(x, y)]; }
     [[nodiscard]] const Rgb& at(int x, int y) const { return samples_[index(x, y)]; }
     /// [crop height][crop width][3], for `encode` (encoding.h).
@@ -49,7 +49,7 @@ class Film {
 
     int frame_width_, frame_height_;
     PixelBox crop_;
-    HugeVector<Rgb> samples_;  // 4 KiB pages of a large film cost thousands of faults
+    HugeVector<Rgb> samples_;  // with 4 KiB pages a large film would cost thousands of page faults
 };
 
 /// The tiles of the crop, of at most `tile_size` squared pixels, row by row.

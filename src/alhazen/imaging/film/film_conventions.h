@@ -1,15 +1,15 @@
 #pragma once
-/// Encoding of pictures in which the scene formats differ. An importer sets it; it is read where a
-/// film is written to a file.
+/// Encodings of pictures in which the scene formats differ. Importers set it; writers of film files
+/// read it.
 
 #include "alhazen/imaging/image/encoding.h"
 
 namespace alhazen {
 
 struct FilmConventions {
-    /// Integer pictures hold linear values; false: sRGB.
+    /// True: integer pictures hold linear values; false: sRGB.
     bool linear_output = true;
-    /// Linear values are rounded to the nearest code; false: truncated.
+    /// True: linear values are rounded to the nearest code; false: truncated.
     bool round_output = false;
 
     [[nodiscard]] Encoding encoding() const {

@@ -1,8 +1,8 @@
 #pragma once
-/// Layers of a film besides its colours: named channels with one number per pixel.
+/// Layers of a film in addition to its colours: named channels with one number per pixel.
 ///
 /// Conventions: those of `Film`; a channel is named "layer.component", as in multi-layer EXR files.
-/// Threads: `set` may be called at the same time for different pixels.
+/// Threads: different pixels may be `set` at the same time.
 
 #include <cstdint>
 #include <string>
@@ -17,17 +17,17 @@ enum class SampleType { Half, Float, Uint };
 struct LayerChannel {
     std::string name;
     SampleType type = SampleType::Float;
-    std::vector<float> values = {};         ///< [crop height][crop width]; Half and Float
-    std::vector<std::uint32_t> whole = {};  ///< the same; Uint
+    std::vector<float> values = {};         ///< [crop height][crop width]; for Half and Float
+    std::vector<std::uint32_t> whole = {};  ///< [crop height][crop width]; for Uint
 };
 
 class FilmLayers {
   public:
     FilmLayers() = default;
-    /// All values are 0. `crop` is that of the film.
+    /// All values are 0. `crop`: that of the film.
     explicit FilmLayers(const PixelBox& crop) : crop_(crop) {}
 
-    /// Returns the index of the channel.
+    /// Adds a channel and returns its index.
     std::size_t add(std::string name, SampleType type) {
         LayerChannel& channel = channels_.emplace_back();
         channel.name = std::move(name);
@@ -49,7 +49,7 @@ class FilmLayers {
 
     [[nodiscard]] const PixelBox& crop() const { return crop_; }
     [[nodiscard]] const std::vector<LayerChannel>& channels() const { return channels_; }
-    /// Null when no channel has this name.
+    /// The channel of a name, or null.
     [[nodiscard]] const LayerChannel* find(const std::string& name) const {
         for (const LayerChannel& channel : channels_) {
             if (channel.name == name) return &channel;

@@ -13,7 +13,7 @@ namespace {
 struct RuleNode {
     double at, weight;
 };
-/// Gauss and Legendre's rule of eight points on [0, 1].
+/// The Gauss-Legendre rule of eight points on [0, 1].
 constexpr std::array<RuleNode, 8> kRule{{{0.019855071751231884, 0.050614268145188130},
                                          {0.101666761293186630, 0.111190517226687235},
                                          {0.237233795041835507, 0.156853322938943644},
@@ -32,7 +32,7 @@ FilterIntegral::FilterIntegral(const FilterEntry& entry, double radius)
       knots_{-radius, -0.5 * radius, 0.0, 0.5 * radius, radius} {
     if (entry.integral == nullptr) {
         throw Error(ErrorKind::Usage, std::string("filter '") + entry.name +
-                                          "': its integral has no closed form; exact areas take "
+                                          "': its integral has no closed form; exact areas support "
                                           "box, tent, gaussian, mitchell, blackman_harris");
     }
     scale_ = 0.5 / integral(radius);
@@ -65,7 +65,7 @@ double FilterIntegral::along(const Vec2& from, const Vec2& to) const {
         double part = 0.0;
         for (const RuleNode& node : kRule) {
             const Vec2 p = from + (ends[k] + node.at * width) * d;
-            // F from the left end of the kernel, so that what lies there counts nothing.
+            // Uses F from the left end of the kernel, so that edges at that end contribute nothing.
             part += node.weight * (integral(p.x) + 0.5 / scale_) * entry_->value(p.y, radius_);
         }
         sum += width * part;

@@ -22,7 +22,7 @@ double tent_kernel(double x, double radius) {
 double tent_integral(double x, double radius) {
     return x * (1.0 - 0.5 * std::abs(x) / radius);
 }
-/// Its standard deviation is a third of the radius.
+/// The Gaussian whose standard deviation is a third of the radius.
 double gaussian_kernel(double x, double radius) {
     const double t = 3.0 * x / radius;
     return std::exp(-0.5 * t * t);
@@ -30,7 +30,7 @@ double gaussian_kernel(double x, double radius) {
 double gaussian_integral(double x, double radius) {
     return std::sqrt(0.5 * kPi) * radius / 3.0 * std::erf(3.0 * x / (radius * std::sqrt(2.0)));
 }
-/// B = C = 1/3.
+/// The Mitchell-Netravali filter with B = C = 1/3.
 double mitchell_kernel(double x, double radius) {
     const double t = 2.0 * std::abs(x) / radius;
     if (t < 1.0) return (7.0 * t * t * t - 12.0 * t * t + 16.0 / 3.0) / 6.0;
@@ -48,7 +48,7 @@ double mitchell_integral(double x, double radius) {
     const double sum = t < 1.0 ? inner(t) : inner(1.0) + outer(t) - outer(1.0);
     return std::copysign(0.5 * radius * sum, x);
 }
-/// The minimum window of four terms.
+/// The minimum four-term window.
 double blackman_harris_kernel(double x, double radius) {
     const double t = kPi * x / radius;
     return 0.35875 + 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) +
@@ -63,7 +63,7 @@ double blackman_harris_integral(double x, double radius) {
 double sinc(double x) {
     return x == 0.0 ? 1.0 : std::sin(kPi * x) / (kPi * x);
 }
-/// Zeros at the whole numbers, as many as the radius.
+/// The windowed sinc, with zeros at the integers; the radius is their number on each side.
 double lanczos_kernel(double x, double radius) {
     return sinc(x) * sinc(x / radius);
 }
@@ -127,7 +127,7 @@ FilterKernel::OneDrawn FilterKernel::draw_one(double u) const {
     const double a = from.magnitude, b = to.magnitude;
     const double width = to.share - from.share;
     const double v = width > 0.0 ? (u - from.share) / width : 0.5;
-    // The root of a t + (b - a) t^2 / 2 = v (a + b) / 2, without cancellation.
+    // The root of a t + (b - a) t^2 / 2 = v (a + b) / 2, computed without cancellation.
     const double root = std::sqrt(a * a + v * (b * b - a * a));
     const double t = a + root > 0.0 ? std::min(1.0, v * (a + b) / (a + root)) : v;
     return {radius_ * (2.0 * (static_cast<double>(cell) + t) / kCells - 1.0), from.sign};

@@ -1,15 +1,15 @@
 #pragma once
-/// Filter kernels by name, and their importance sampling: a sample that is drawn in proportion to
-/// the kernel belongs to one pixel alone, so that tiles need no borders.
+/// Filter kernels by name, and their importance sampling: a sample drawn in proportion to the
+/// kernel belongs to a single pixel, so that tiles need no borders.
 ///
 /// Source: Ernst, Stamminger and Greiner, "Filter Importance Sampling", IEEE Symposium on
 /// Interactive Ray Tracing 2006; Mitchell and Netravali, "Reconstruction Filters in Computer
 /// Graphics", SIGGRAPH 1988; Harris, "On the Use of Windows for Harmonic Analysis ...", Proc. IEEE
 /// 66(1), 1978 (Blackman-Harris); Duchon, "Lanczos Filtering in One and Two Dimensions", J. Appl.
 /// Meteorology 18(8), 1979.
-/// Differs: kernels are drawn from as chains of kCells straight pieces, exactly.
-/// Conventions: kernels are products of one function of x and of y, in pixels from the centre of
-/// the pixel; 0 beyond the radius. Their scale has no meaning.
+/// Differs: kernels are sampled exactly, as chains of kCells linear pieces.
+/// Conventions: kernels are products of a function of x and one of y, in pixels from the centre of
+/// the pixel; 0 beyond the radius. Their scale is arbitrary.
 
 #include <cstdint>
 #include <span>
@@ -20,23 +20,23 @@
 
 namespace alhazen {
 
-/// A kernel by name, and what it is in one line.
+/// A kernel's name, a description in one line and its functions.
 struct FilterEntry {
     const char* name;
     const char* description;
-    double radius;  ///< the default
-    /// For |x| <= radius.
+    double radius;  ///< default radius, in pixels
+    /// The value at x. Precondition: |x| <= radius.
     double (*value)(double x, double radius);
-    /// Of the value, from 0 to x, for |x| <= radius; null where it has no closed form.
+    /// The integral of the value from 0 to x, |x| <= radius; null if it has no closed form.
     double (*integral)(double x, double radius);
 };
 
 /// The table of kernels. ADD A FILTER HERE (filter_kernel.cpp: one line).
 [[nodiscard]] std::span<const FilterEntry> filters();
-/// Null for an unknown name.
+/// The kernel of a name; null for an unknown name.
 [[nodiscard]] const FilterEntry* find_filter(const std::string& name);
 
-/// A kernel made ready to be drawn from. Threads: all functions may be called from many.
+/// A kernel prepared for sampling. Threads: all functions may be called from several threads.
 class FilterKernel {
   public:
     static constexpr int kCells = 2048;
@@ -46,17 +46,17 @@ class FilterKernel {
 
     struct Drawn {
         Vec2 offset;  ///< from the centre of the pixel, in pixels
-        double sign;  ///< of the kernel there: 1 or -1
+        double sign;  ///< sign of the kernel there: 1 or -1
     };
-    /// Draws with a density in proportion to the kernel's magnitude, monotonically in both
-    /// coordinates of `u` (in [0, 1)).
+    /// Samples an offset whose density is proportional to the magnitude of the kernel; monotonic in
+    /// both coordinates of `u`, in [0, 1).
     [[nodiscard]] Drawn draw(const Vec2& u) const {
-        // The same numbers: all that is computed is exact then.
+        // The bits of `draw_one`, which computes exactly in this case.
         if (even_) return {{radius_ * (2.0 * u.x - 1.0), radius_ * (2.0 * u.y - 1.0)}, 1.0};
         const OneDrawn x = draw_one(u.x), y = draw_one(u.y);
         return {{x.offset, y.offset}, x.sign * y.sign};
     }
-    /// Mean of the signs: the integral of the kernel over that of its magnitude.
+    /// Mean of the signs: the integral of the kernel over the integral of its magnitude.
     [[nodiscard]] double mean_sign() const { return mean_sign_ * mean_sign_; }
     [[nodiscard]] bool has_negative_lobes() const { return mean_sign_ < 1.0; }
     [[nodiscard]] double radius() const { return radius_; }
@@ -68,9 +68,9 @@ class FilterKernel {
     [[nodiscard]] OneDrawn draw_one(double u) const;
 
     struct Node {
-        double share;  ///< of the magnitude's integral, from the left
+        double share;  ///< cumulative part of the magnitude's integral, from the left
         double magnitude;
-        double sign;  ///< in the cell to the right
+        double sign;  ///< sign in the cell to the right
     };
 
     double radius_;

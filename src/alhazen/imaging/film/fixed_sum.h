@@ -1,8 +1,8 @@
 #pragma once
-/// A sum of doubles that is the same in every order of its terms, from many threads.
+/// A sum of doubles from several threads that does not depend on the order of its terms.
 ///
-/// Differs: an ordinary sum rounds after each term. This one keeps 128 bits of fixed point, with a
-/// quantum of 2^-80: each term is rounded once, to a multiple of it.
+/// Differs: an ordinary sum rounds after each term. This one is a fixed-point number of 128 bits
+/// with a quantum of 2^-80: each term is rounded once, to a multiple of it.
 
 #include <atomic>
 #include <cmath>
@@ -15,7 +15,7 @@ class FixedSum {
     /// Largest magnitude of a term.
     static constexpr double kLargest = 0x1p40;
 
-    /// False where the term is not finite or too large, and left out.
+    /// Adds a term; false if it is not finite or too large, and therefore left out.
     bool add(double term) {
         if (!(std::abs(term) <= kLargest)) return false;
         const auto fixed = static_cast<Wide>(std::ldexp(term, kBits));
@@ -26,7 +26,7 @@ class FixedSum {
         if (high + carry != 0) high_.fetch_add(high + carry, std::memory_order_relaxed);
         return true;
     }
-    /// While nobody adds.
+    /// The sum. Not to be called during `add`.
     [[nodiscard]] double value() const {
         const std::uint64_t high = high_.load(std::memory_order_relaxed);
         const std::uint64_t low = low_.load(std::memory_order_relaxed);

@@ -1,8 +1,6 @@
 #pragma once
-/// Pixel filters: how the samples of a pixel become its value.
-///
-/// A filter is a small value, black when made; one gathers one pixel. PixelFilter states the
-/// interface.
+/// Pixel filters, which compute the value of a pixel from its samples. A filter is a small object,
+/// initially black, that accumulates one pixel. PixelFilter is the interface.
 
 #include <concepts>
 
@@ -10,15 +8,16 @@
 
 namespace alhazen {
 
-/// `add(sample)` takes a sample and returns false where it leaves it out. `value()`: of the pixel,
-/// from the samples so far. Filters see the samples of their own pixel only, in order of number.
+/// `add(sample)` adds a sample; it returns false if the sample is left out. `value()` is the value
+/// of the pixel from the samples so far. Filters get only the samples of their own pixel, in order
+/// of index.
 template <class F>
 concept PixelFilter = std::default_initializable<F> && requires(F& filter, const Rgb& sample) {
     { filter.add(sample) } -> std::same_as<bool>;
     { filter.value() } -> std::same_as<Rgb>;
 };
 
-/// The mean of the finite samples: a box one pixel wide. Black without any.
+/// The mean of the finite samples, a box filter one pixel wide. Black without samples.
 class BoxFilter {
   public:
     bool add(const Rgb& sample) {

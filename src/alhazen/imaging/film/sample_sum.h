@@ -1,9 +1,10 @@
 #pragma once
 /// The sum of a pixel's samples, with signs for the negative lobes of a filter.
 ///
-/// Differs: where a kernel has negative lobes the value is the mean of the samples plus the signed
-/// mean of what they differ from it, over the mean sign. An even area keeps its colour whatever
-/// the signs are; the expectation is off by O(1 / n), as that of the quotient of the signed sums.
+/// Differs: for a kernel with negative lobes the value is the mean of the samples plus the signed
+/// mean of their differences from it, divided by the mean sign. A uniform area keeps its colour
+/// whatever the signs are; the expectation is off by O(1 / n), like that of the quotient of the
+/// signed sums.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ struct SampleSum {
     double signs = 0.0;
     std::uint32_t count = 0;
 
-    /// Returns false where the sample is not finite and is left out.
+    /// Adds a sample; false if it is not finite and left out.
     bool add(const Rgb& sample, double sign) {
         if (!sample.is_finite()) return false;
         plain += sample;
@@ -36,13 +37,14 @@ struct SampleSum {
         count += more.count;
         return *this;
     }
-    /// The standard deviation of a sample, of the channel where it is largest. 0 for less than two.
+    /// The standard deviation of a sample, of the channel where it is largest. 0 for fewer than
+    /// two samples.
     [[nodiscard]] double deviation() const {
         if (count < 2) return 0.0;
         const Rgb sum = squares - (1.0 / count) * (plain * plain);
         return std::sqrt(std::max(0.0, sum.max()) / (count - 1));
     }
-    /// `mean_sign`: of the kernel. Black without any sample.
+    /// The value of the pixel. `mean_sign`: of the kernel. Black without samples.
     [[nodiscard]] Rgb value(double mean_sign) const {
         if (count == 0) return {};
         const Rgb mean = (1.0 / count) * plain;

@@ -7,14 +7,15 @@ namespace alhazen {
 
 namespace {
 
-/// Straight pieces of a kernel's table; beyond the radius it is 0.
+/// Number of linear pieces of a kernel's table; beyond the radius the kernel is 0.
 constexpr int kPieces = 2048;
 
 }  // namespace
 
 SharedFilm::SharedFilm(const FilterEntry& filter, double radius, const PixelBox& crop)
     : radius_(radius),
-      // Of a sample at the border of its pixel; one pixel more would be met at distance 0 only.
+      // The reach of a sample at the border of its pixel; one pixel more would have only distance
+      // 0.
       reach_(std::max(0, static_cast<int>(std::ceil(radius - 0.5)))),
       crop_(crop),
       pixels_(crop.area()) {
@@ -43,7 +44,7 @@ void SharedFilm::Spread::add(const Vec2& offset, const Rgb& sample) {
     const int reach = film_.reach_;
     for (int k = -reach; k <= reach; ++k) {
         column_[std::size_t(k + reach)] = film_.kernel(offset.x - k);
-        // Rows go down.
+        // Rows are numbered downwards.
         row_[std::size_t(k + reach)] = film_.kernel(offset.y + k);
     }
     Sum* sum = sums_.data();
@@ -68,7 +69,7 @@ bool SharedFilm::add(int x, int y, Spread& spread) {
             Spread::Sum& sum = spread.sums_[k++];
             const bool inside = i >= crop_.x0 && i < crop_.x1 && j >= crop_.y0 && j < crop_.y1;
             if (inside && sum.weight != 0.0) {
-                // Colour and weight together or not at all.
+                // Adds colour and weight together or neither.
                 const bool added = summable(sum.color);
                 all = all && added;
                 if (added) {

@@ -1,16 +1,16 @@
 #pragma once
-/// Samples that count for every pixel within reach of a filter: a pixel's value is the mean of the
-/// samples around it, weighed by the filter.
+/// A film whose samples contribute to every pixel within reach of a filter: the value of a pixel is
+/// the mean of the samples around it, weighted by the filter.
 ///
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 3rd edition, 2016, section 7.8
 /// (the weighted mean).
-/// Differs: sums are exact (fixed_sum.h), so that the order of the samples does not matter.
-/// Where samples differ by chance alone, the variance of a pixel is that of a sample of its own
-/// times the integral of the square of the filter (whose own integral is 1).
-/// Conventions: the picture expected is that of samples drawn by the filter (filter_kernel.h), off
-/// by O(1 / n), as the mean's weight is that of the samples themselves.
-/// Beyond the crop there are no samples: pixels at its border are means of those on one side.
-/// Threads: `add` may be called from many.
+/// Differs: sums are exact (fixed_sum.h), so that the order of the samples does not matter. If
+/// samples differ by chance only, the variance of a pixel is that with its own samples only times
+/// the integral of the square of the filter (whose own integral is 1).
+/// Conventions: the expected picture is that of samples drawn by the filter (filter_kernel.h), to
+/// within O(1 / n), because the weight of the mean is that of the samples themselves. There are no
+/// samples beyond the crop: pixels at its border are means of those on one side.
+/// Threads: `add` may be called from several threads.
 
 #include <cstdint>
 #include <vector>
@@ -24,16 +24,16 @@ namespace alhazen {
 
 class SharedFilm {
   public:
-    /// Precondition: the kernel is nowhere negative, and no radius below 0.5: else the weight of a
-    /// pixel may be 0, or nearly.
+    /// Precondition: the kernel is nowhere negative and the radius at least 0.5; otherwise the
+    /// weight of a pixel may be 0 or nearly 0.
     SharedFilm(const FilterEntry& filter, double radius, const PixelBox& crop);
 
-    /// What the samples of one pixel add to the pixels around it.
+    /// The contribution of the samples of one pixel to the pixels around it.
     class Spread {
       public:
         explicit Spread(const SharedFilm& film);
-        /// `offset`: of the sample from the centre of its pixel, in pixels, y up, at most 0.5 each
-        /// way. Not for samples that are not finite.
+        /// Adds a finite sample. `offset`: of the sample from the centre of its pixel, in pixels, y
+        /// up, each coordinate in [-0.5, 0.5].
         void add(const Vec2& offset, const Rgb& sample);
 
       private:
@@ -46,11 +46,11 @@ class SharedFilm {
         std::vector<Sum> sums_;             ///< [row][column] around the pixel
         std::vector<double> column_, row_;  ///< the kernel at one sample
     };
-    /// Adds the samples of pixel (x, y) and empties `spread`. False where one is too large to be
-    /// summed: that share is left out.
+    /// Adds the samples of pixel (x, y) and clears `spread`. False if a sum is too large and
+    /// therefore left out.
     bool add(int x, int y, Spread& spread);
 
-    /// Writes all pixels that samples reach. While nobody adds.
+    /// Writes all pixels that samples reach. Not to be called during `add`.
     void write(Film& film) const;
 
   private:
@@ -58,12 +58,12 @@ class SharedFilm {
         FixedSum r, g, b, weight;
     };
 
-    /// The kernel at a distance along one axis, from a table; its scale has no meaning.
+    /// The kernel at a distance along one axis, from a table; its scale is arbitrary.
     [[nodiscard]] double kernel(double distance) const;
 
     double radius_;
     int reach_;                  ///< pixels on each side
-    std::vector<double> table_;  ///< [from 0 to the radius]
+    std::vector<double> table_;  ///< [distance] from 0 to the radius
     PixelBox crop_;
     std::vector<Pixel> pixels_;  ///< [pixel of the crop]
 };

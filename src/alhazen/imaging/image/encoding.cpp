@@ -42,8 +42,8 @@ EncodedImage empty_encoded(int width, int height, int channels, int bits) {
     return encoded;
 }
 
-/// The 8-bit codes of the sRGB curve by the least values that have them: a picture takes a tenth of
-/// the time, with the codes of `encode_channel`.
+/// The 8-bit codes of the sRGB curve, found by their least values; the same codes as
+/// `encode_channel` in a tenth of the time.
 class SrgbCodes {
   public:
     SrgbCodes() {
@@ -67,7 +67,7 @@ class SrgbCodes {
   private:
     static constexpr std::size_t kSteps = 4096;
 
-    /// Positive doubles are in the order of their bits.
+    /// Positive doubles are ordered as their bits are.
     static double least_with(std::uint32_t code) {
         auto below = std::bit_cast<std::uint64_t>(0.0), from = std::bit_cast<std::uint64_t>(1.0);
         while (from - below > 1) {

@@ -1,7 +1,7 @@
 #pragma once
 /// An image in memory: float samples, interleaved, top row first.
 ///
-/// Conventions: values are unchanged from the file or the renderer; `linear` tells whether they are
+/// Conventions: values are as in the file or from the renderer; `linear` tells whether they are
 /// linear radiance (EXR, HDR, PFM, renders) or encoded for display (PNG, JPG, BMP: value / 255).
 
 #include <cstddef>

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// 1/255 and the rounding of samples that were divided by 255 in float.
+/// 1/255, plus the rounding of samples divided by 255 in float.
 constexpr double kOneStep = 1.0 / 255.0 + 1e-6;
 
 double distance(double a, double b) {

@@ -1,10 +1,9 @@
 #pragma once
-/// Measures the difference of two images.
+/// Measures of the difference between two images.
 ///
-/// Conventions: compares colours, not alpha; grey counts as three equal channels where the other
-/// image has colour. Encoded images are compared as encoded, linear ones by value. Equal infinities
-/// and two NaN count as equal; NaN against a number and different infinities are infinitely far
-/// apart.
+/// Conventions: compares colours, not alpha; grey counts as three equal channels if the other image
+/// has colour. Encoded images are compared as encoded, linear ones by value. Equal infinities and
+/// two NaNs are equal; NaN and a number, or different infinities, differ by infinity.
 
 #include <cstdint>
 
@@ -22,11 +21,11 @@ struct ImageDifference {
     double psnr_db = 0;  ///< of a unit peak; infinite for equal pictures
 };
 
-/// Throws Error (Usage) when the sizes differ, or one image is linear and the other encoded.
+/// Throws Error (Usage) if the sizes differ, or one image is linear and the other encoded.
 [[nodiscard]] ImageDifference difference(const Image& a, const Image& b);
 
-/// |a - b| per channel, scaled so that the largest finite difference is 1; infinite ones are 1 too.
-/// Throws as `difference`.
+/// |a - b| per channel, scaled such that the largest finite difference is 1; infinite differences
+/// are 1. Throws as `difference`.
 [[nodiscard]] Image difference_image(const Image& a, const Image& b);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// The pixels of a picture as screens take them: red, green, blue and 255, a byte each.
+/// Pixels in the layout of screens: red, green, blue and 255, one byte each.
 
 #include <cstddef>
 #include <cstdint>

@@ -14,7 +14,7 @@ Rgb times(const Rows& m, const Rgb& v) {
     return {row(m[0]), row(m[1]), row(m[2])};
 }
 
-/// Linear sRGB and CIE XYZ (IEC 61966-2-1).
+/// From linear sRGB to CIE XYZ, and its inverse (IEC 61966-2-1).
 constexpr Rows kXyzFromRgb = {{0.4123908, 0.3575843, 0.1804808},
                               {0.2126390, 0.7151687, 0.0721923},
                               {0.0193308, 0.1191948, 0.9505322}};
@@ -32,7 +32,7 @@ double luminance(const Rgb& c) {
     return 0.2126390 * c.r + 0.7151687 * c.g + 0.0721923 * c.b;
 }
 
-/// Of daylight from 4000 K on, of a black body below; Y = 1.
+/// The colour, Y = 1, of daylight for 4000 K and above, of a black body below.
 Rgb xyz_of_temperature(double kelvin) {
     const double t = 1e3 / kelvin;
     double x, y;
@@ -95,7 +95,7 @@ ToneMapper::ToneMapper(const ToneMapping& mapping)
     const Rgb from = times(kConesFromXyz, xyz_of_temperature(mapping.kelvin));
     const Rgb to = times(kConesFromXyz, times(kXyzFromRgb, {1, 1, 1}));
     const Rgb gain{to.r / from.r, to.g / from.g, to.b / from.b};
-    // Columns of the whole matrix, one for each primary.
+    // The columns of the complete matrix, one for each primary.
     for (int i = 0; i < 3; ++i) {
         Rgb primary;
         primary[i] = 1.0;

@@ -2,10 +2,9 @@
 /// Writes SVG: nested elements with attributes, escaped text, paths and points.
 ///
 /// Source: W3C, "Scalable Vector Graphics (SVG) 1.1", 2nd ed., 2011.
-/// Conventions: y points down in the output; callers turn it. Text is ASCII: other characters
-/// become
-/// '?', so that names from any file give well-formed XML. Coordinates are written with a fixed
-/// number of decimals (`decimals`) or with ten significant digits (`digits`).
+/// Conventions: y points down in the output; callers flip it. Text is ASCII: other characters
+/// become '?', so that names from any file give well-formed XML. Coordinates are written with a
+/// fixed number of decimals (`decimals`) or with ten significant digits (`digits`).
 
 #include <initializer_list>
 #include <span>
@@ -18,19 +17,19 @@
 
 namespace alhazen {
 
-/// Text with the characters of markup escaped.
+/// The text with the characters of markup escaped.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
-/// "#rrggbb" of a linear colour, sRGB encoded.
+/// "#rrggbb" for a linear colour, sRGB encoded.
 [[nodiscard]] std::string css_color(const Rgb& linear);
 
 namespace svg {
 
 [[nodiscard]] std::string decimals(double x, int count);
 [[nodiscard]] std::string digits(double x);
-/// "x,y x,y ..." with two decimals: the `points` of a polygon or polyline.
+/// "x,y x,y ..." with two decimals: the `points` attribute of a polygon or polyline.
 [[nodiscard]] std::string points(std::span<const Vec2> corners);
 
-/// The `d` of a path.
+/// The `d` attribute of a path.
 class Path {
   public:
     void move_to(const Vec2& p) { add('M', p); }
@@ -51,16 +50,16 @@ using Attributes = std::initializer_list<Attribute>;
 
 class Writer {
   public:
-    /// Begins an element; what follows until `close` is inside of it.
+    /// Begins an element; output until `close` is its content.
     void open(std::string_view element, Attributes attributes = {});
     void close();
-    /// An element without content.
+    /// Writes an element without content.
     void leaf(std::string_view element, Attributes attributes);
-    /// An element that holds text.
+    /// Writes an element that holds text.
     void text(std::string_view element, Attributes attributes, std::string_view text);
-    /// Markup as it is: a style sheet, definitions.
+    /// Writes markup unchanged, such as a style sheet or definitions.
     void raw(std::string_view markup) { out_ += markup; }
-    /// Closes all open elements and gives the text.
+    /// Closes all open elements and returns the text.
     [[nodiscard]] std::string finish();
 
   private:

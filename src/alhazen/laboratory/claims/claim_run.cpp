@@ -13,8 +13,8 @@
 namespace alhazen {
 namespace {
 
-/// Sample size per set, out of millions of rays: standard error of the means is a few tenths of a
-/// percent.
+/// Sample size per set, out of millions of rays; the standard error of the means is a few tenths of
+/// a percent.
 constexpr std::size_t kRecordedRays = 300'000;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The context of an experiment of claims.h: the standard scenes, and the list of findings.
+/// The context of an experiment of claims.h: the standard scenes and the list of findings.
 
 #include <array>
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// A scene or an accelerator that an experiment needs does not exist.
+/// Thrown when a scene or an accelerator that an experiment needs does not exist.
 class ClaimUnavailable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -45,10 +45,10 @@ class ClaimRun {
 
     [[nodiscard]] double time_limit() const { return options_.time_limit; }
 
-    /// Throws ClaimUnavailable without the generator. The rays of a database are those of the
-    /// published protocol; at most `most_rays` of them are recorded.
+    /// The trial of a database, with rays by the published protocol, of which at most `most_rays`
+    /// are recorded. Throws ClaimUnavailable without the generator.
     [[nodiscard]] SceneTrial& spd(const SpdScene& scene);
-    /// The same with every ray of the picture, not cached.
+    /// A trial with every ray of the picture, not cached.
     [[nodiscard]] std::unique_ptr<SceneTrial> spd_with_all_rays(const SpdScene& scene) const;
     /// A scene of another generator at a given size.
     [[nodiscard]] SceneDescription generated(const std::string& name, std::uint64_t size) const;
@@ -87,10 +87,10 @@ class SphereBoxes final : public BoundsSource {
     double radius_;
 };
 
-/// The exponent of the power of n that fits the points (n, value) best.
+/// The exponent of the power of n that best fits the points (n, value).
 [[nodiscard]] double log_log_slope(std::span<const double> n, std::span<const double> value);
 
-// ---- the experiments
+// ---- Experiments.
 void claim_a1(ClaimRun& run);
 void claim_a2(ClaimRun& run);
 void claim_a3(ClaimRun& run);
@@ -128,12 +128,12 @@ void claim_g2(ClaimRun& run);
 void claim_g3(ClaimRun& run);
 void claim_h1(ClaimRun& run);
 
-/// The counter that claims use.
+/// Counters that claims use.
 inline constexpr auto kPrimitiveTests = &TraversalStats::primitive_tests;
 inline constexpr auto kBoxTests = &TraversalStats::box_tests;
 inline constexpr auto kNodeVisits = &TraversalStats::node_visits;
 
-/// One counting pass; three timed passes.
+/// Replay options: one counting pass; three timed passes.
 [[nodiscard]] inline ReplayOptions counting(const ClaimRun& run) {
     return {.seconds = run.time_limit(), .repetitions = 0, .in_batches = false};
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// Small scenes for the experiments of claims.h: N equal primitives in a cube, some of them
-/// mirrors, lit by one lamp. The same on every machine.
+/// mirrors, and one light. The same on every machine.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace alhazen {
 
 enum class ClaimShape { Spheres, Boxes, Cylinders, ThinSticks };
 
-/// `spread`: the size of primitives; 1 fills about a tenth of the cube for any count.
+/// `spread`: scale of the primitives' size; 1 fills about a tenth of the cube for any count.
 [[nodiscard]] SceneDescription claim_scene(ClaimShape shape, std::uint64_t count,
                                            double spread = 1);
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Claims of the ray tracing literature, measured again: each claim is an experiment that prints
-/// our figure, the reference figure if there is one, and whether the claim holds (docs/claims.md).
+/// Reproduces claims of the ray tracing literature: each claim is an experiment that prints our
+/// figure, the reference figure if there is one, and whether the claim holds (docs/claims.md).
 ///
-/// Source: with each claim.
+/// Source: see each claim.
 /// Differs: times are compared as ratios, never as seconds of other machines.
-/// Conventions: an experiment without its scene or accelerator is not available, which is never a
-/// success. All runs use one thread; seeds are fixed. To add a claim: a function in claims_*.cpp
-/// and a line of the table in claims.cpp.
+/// Conventions: an experiment without its scene or accelerator is not available, which never counts
+/// as success. All runs use one thread; seeds are fixed. To add a claim: a function in claims_*.cpp
+/// and an entry of the table in claims.cpp.
 
 #include <functional>
 #include <optional>
@@ -27,7 +27,7 @@ struct ClaimEntry {
     void (*run)(ClaimRun& run);
 };
 
-/// In the order of their ids.
+/// All claims, in the order of their ids.
 [[nodiscard]] std::span<const ClaimEntry> claims();
 
 enum class Verdict { Holds, Fails, NotAvailable };
@@ -35,14 +35,14 @@ enum class Verdict { Holds, Fails, NotAvailable };
 
 struct ClaimFinding {
     std::string what, ours, reference;
-    std::optional<bool> holds;  ///< none: for information
+    std::optional<bool> holds;  ///< none: the finding is informational
 };
 
 struct ClaimReport {
     std::string id, claim, expected;
     Verdict verdict = Verdict::NotAvailable;
     std::vector<ClaimFinding> findings;
-    std::string note;    ///< remarks; why it is not available
+    std::string note;    ///< remarks; the reason if it is not available
     double seconds = 0;  ///< wall clock
 };
 
@@ -52,10 +52,10 @@ struct ClaimOptions {
     const StopFlag* stop = nullptr;
 };
 
-/// Splits "A1,B4"; "all" is every claim. Throws Error (Usage) for an unknown id.
+/// Splits "A1,B4" into ids; "all" is every claim. Throws Error (Usage) for an unknown id.
 [[nodiscard]] std::vector<std::string> parse_claims(const std::string& list);
 
-/// Calls `done` with each finished report. Throws Error (Render) when stopped.
+/// Runs experiments; calls `done` with each finished report. Throws Error (Render) when stopped.
 [[nodiscard]] std::vector<ClaimReport> check_claims(
     const std::vector<std::string>& ids, const ClaimOptions& options,
     const std::function<void(const ClaimReport&)>& done = {});

@@ -50,7 +50,7 @@ void compare_with_uniform(ClaimRun& run, const SpdScene& named) {
             run.tell(what, found);
         }
     };
-    const AntialiasSettings usual;  // those that users get
+    const AntialiasSettings usual;  // the defaults
     adaptive("", usual, true);
     for (const double threshold : {0.05, 0.02, 0.01, 0.005}) {
         AntialiasSettings other = usual;
@@ -68,15 +68,15 @@ void compare_with_uniform(ClaimRun& run, const SpdScene& named) {
 constexpr int kFilmSide = 96, kFrames = 64, kSphereRows = 11;
 constexpr double kSpacing = 7.31, kSphereDiameter = 0.05;  ///< pixels
 constexpr double kEyeDistance = 10.0;
-constexpr double kFilmPixel = 2.0 * 2.5 / kFilmSide;  ///< in the plane of the first layer
+constexpr double kFilmPixel = 2.0 * 2.5 / kFilmSide;  ///< size in the plane of the first layer
 
-/// A lattice of two layers, of bright spheres in the dark, and where they are in the picture.
+/// A lattice of two layers of bright spheres on black, and their positions in the picture.
 struct LatticeFrame {
     Scene scene;
-    std::vector<Vec2> places;  ///< pixels
+    std::vector<Vec2> places;  ///< positions, pixels
 };
 
-/// The lattice moves sideways, by about a twentieth of a pixel and upwards by less.
+/// Moves the lattice about a twentieth of a pixel sideways, and less upwards, per frame.
 LatticeFrame lattice_frame(int frame) {
     LatticeFrame result;
     SceneDescription d;
@@ -106,7 +106,7 @@ LatticeFrame lattice_frame(int frame) {
     return result;
 }
 
-/// The light of a sphere: that of the nine pixels around its place.
+/// The light of a sphere: the sum of nine pixels around its position.
 double light_of(const Film& film, const Vec2& place) {
     double sum = 0;
     const int x0 = static_cast<int>(place.x), y0 = static_cast<int>(place.y);
@@ -116,11 +116,11 @@ double light_of(const Film& film, const Vec2& place) {
     return sum;
 }
 
-/// The light of all spheres over the frames.
+/// Statistics of the light of all spheres over the frames.
 struct Twinkling {
     std::vector<double> sum, sum2;  ///< [sphere]
     int frames = 0;
-    std::uint64_t seen = 0;  ///< spheres with any light, over all frames
+    std::uint64_t seen = 0;  ///< number of spheres with any light, summed over all frames
 
     void add(const Film& film, std::span<const Vec2> places) {
         sum.resize(places.size());
@@ -139,7 +139,7 @@ struct Twinkling {
         for (const double s : sum) total += s;
         return total / (static_cast<double>(sum.size()) * frames);
     }
-    /// Over time, mean of the spheres.
+    /// Variance over time, mean over the spheres.
     [[nodiscard]] double variance() const {
         double total = 0;
         for (std::size_t i = 0; i < sum.size(); ++i) {

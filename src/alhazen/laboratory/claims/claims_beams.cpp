@@ -24,7 +24,7 @@ void add_beam_shape(SceneDescription& d, AnyShape shape, std::uint32_t material,
     d.objects[0].parts.push_back(std::move(part));
 }
 
-/// Two mirrors that face each other in a room with a table; a window with bars lets the sun in.
+/// Two mirrors that face each other in a room with a table, lit by the sun through a barred window.
 SceneDescription mirror_hall() {
     SceneDescription d;
     d.objects.push_back({"root", {}, {}});
@@ -84,7 +84,7 @@ SceneDescription mirror_hall() {
 struct BeamScenes {
     struct Entry {
         const char* name;
-        std::uint64_t size;  ///< of the generator; 0: the hall
+        std::uint64_t size;  ///< of the generator; 0: the mirror hall
         int depth;           ///< -1: the scene's
     };
     static constexpr std::array<Entry, 4> all{
@@ -99,7 +99,7 @@ SceneDescription description_of(ClaimRun& run, const BeamScenes::Entry& entry) {
 
 struct TimedPicture {
     RenderReport report;
-    double seconds = 0;  ///< of the processor, beams with their geometry
+    double seconds = 0;  ///< processor time; for beams with their geometry
 };
 
 TimedPicture beam_picture(const Renderer& renderer, const SceneDescription& d, const Scene& scene,
@@ -122,7 +122,7 @@ std::uint64_t beams_in(const RenderReport& report) {
     return b.eye_beams + b.reflected_beams + b.refracted_beams + b.shadow_beams;
 }
 
-/// Least squares: seconds = [0] + [1] n.
+/// Least-squares line: seconds = [0] + [1] n.
 std::array<double, 2> line_through(std::span<const double> n, std::span<const double> seconds) {
     double sn = 0, ss = 0, snn = 0, sns = 0;
     for (std::size_t i = 0; i < n.size(); ++i) {

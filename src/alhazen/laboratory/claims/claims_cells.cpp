@@ -70,7 +70,7 @@ void claim_b5(ClaimRun& run) {
     for (const SpdScene& scene : kSpdScenes) {
         SceneTrial& trial = run.spd(scene);
         run.step(scene.name);
-        // Use the same rays in both runs: sampling noise exceeds the saving by mailboxes in some
+        // Both runs use the same rays: sampling noise exceeds the saving by mailboxes in some
         // scenes.
         const ReplayOptions all{.seconds = 1e3, .repetitions = 0, .in_batches = false};
         const ReplayFigures with = trial.ask("uniform_grid", all);
@@ -128,7 +128,7 @@ void claim_b8(ClaimRun& run) {
         int depth;
         double point_location, top_down;
     };
-    // Havran and Sixta: octree-84-A and octree-93-A.
+    // Octree-84-A and octree-93-A of Havran and Sixta.
     constexpr Published kPublished[] = {
         {4, 27.7, 12.95}, {5, 40.1, 16.64}, {6, 52.2, 19.75}, {7, 64.9, 22.53}};
     SceneTrial& trial = run.spd(kSpdScenes[0]);

@@ -27,7 +27,7 @@ void add_shape(SceneDescription& d, AnyShape shape, std::uint32_t material) {
     d.objects[0].parts.push_back(std::move(part));
 }
 
-/// A checkered plane to the horizon; thin poles; small spheres.
+/// A checkered plane to the horizon, thin poles, and small spheres.
 SceneDescription horizon_scene() {
     SceneDescription d;
     d.objects.push_back({"root", {}, {}});
@@ -92,7 +92,7 @@ double rmse(const Film& a, const Film& b) {
     return std::sqrt(sum / (3.0 * kConeWidth * kConeHeight));
 }
 
-/// Nanoseconds of one call, the least of some passes.
+/// Nanoseconds of one call; minimum of several passes.
 template <class F>
 double nanoseconds(const std::vector<Vec2>& places, double& sum, F&& f) {
     double least = kInfinity;
@@ -150,7 +150,7 @@ void claim_e2(ClaimRun& run) {
     std::vector<Vec2> places;
     run.step("errors");
     for (int k = 0; k < 2'000'000; ++k) {
-        // Every radius, and again those near that of the cone.
+        // Alternates radii of any size with radii near that of the cone.
         const double R = std::exp(k % 2 == 0 ? random.uniform(-6, 8) : random.uniform(-0.15, 0.15));
         const double least = std::abs(R - 1.0);
         const double d = least + random.uniform() * (R + 1.0 - least);

@@ -12,7 +12,7 @@
 namespace alhazen {
 namespace {
 
-/// Time limit that is never reached.
+/// Time limit that is not reached.
 constexpr double kSecondsForAll = 1e4;
 
 const KindFigures& of_kind(const ReplayFigures& figures, RayKind kind) {
@@ -113,8 +113,8 @@ void claim_b13(ClaimRun& run) {
         double first = 0, last = 0;
         for (const std::uint64_t count : {125u, 1000u, 8000u}) {
             run.step(fmt::format("{} spheres", count));
-            // Radii of n^(-1/2) keep the share of the view that spheres cover constant. Radii of
-            // n^(-1/3) keep their share of the volume and cover ever more of the view.
+            // Radii of n^(-1/2) keep the share of the view that spheres cover constant; radii of
+            // n^(-1/3) keep their share of the volume and cover a growing share of the view.
             const double spread = 0.5 * (sparser ? std::pow(1e-3 * double(count), -1.0 / 6) : 1.0);
             SceneTrial trial(claim_scene(ClaimShape::Spheres, count, spread),
                              {.most_rays = 300'000});

@@ -15,7 +15,7 @@
 namespace alhazen {
 namespace {
 
-/// Mean per closest-hit ray: only these depend on traversal order.
+/// Mean per closest-hit ray; only these rays depend on traversal order.
 double each_closest(const ReplayFigures& f, std::uint64_t TraversalStats::*count) {
     KindFigures sum;
     for (const RayKind kind : {RayKind::Eye, RayKind::Reflection, RayKind::Refraction}) {
@@ -88,7 +88,7 @@ class TimedAggregate final : public Aggregate {
     mutable double seconds_ = 0;
 };
 
-/// Share of the rendering time that is spent in ray queries.
+/// Share of the rendering time spent in ray queries.
 double share_of_intersection(ClaimRun& run, const NamedShape& shape, std::uint64_t count) {
     run.step(fmt::format("{} {}", count, shape.name));
     const SceneTrial trial(claim_scene(shape.shape, count), {.width = 128, .height = 128});

@@ -1,4 +1,4 @@
-/// Experiment F5 of claims.h: what motion costs.
+/// Experiment F5 of claims.h: the cost of motion.
 
 #include <fmt/format.h>
 
@@ -15,10 +15,10 @@
 namespace alhazen {
 namespace {
 
-/// Of a ball's radius, into any direction.
+/// Length of the motion relative to a ball's radius; the direction is random.
 constexpr double kDistance = 0.2;
 
-/// Every `nth` ball moves evenly while the shutter is open.
+/// Gives every `nth` ball uniform motion while the shutter is open.
 SceneDescription with_moving_balls(SceneDescription d, std::size_t nth) {
     RandomStream random(1984);
     std::size_t number = 0;
@@ -39,7 +39,7 @@ SceneDescription with_moving_balls(SceneDescription d, std::size_t nth) {
     return d;
 }
 
-/// Processor time of a picture, and its rays.
+/// Processor time and number of rays of a picture.
 struct MotionCost {
     double seconds = kInfinity;
     std::uint64_t rays = 0;

@@ -1,5 +1,5 @@
-/// Experiment C4 of claims.h: the methods for the crossings of a line with patches, against a count
-/// in 113 bits.
+/// Experiment C4 of claims.h: methods for the crossings of a line with patches, compared with a
+/// count in 113 bits.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ PatchModel torus_of_pieces() {
     return {"torus", std::move(nets)};
 }
 
-/// From the folder of test data, where the environment names one.
+/// The teacup from the folder of test data, if the environment variable names one.
 std::vector<BezierNet> teacup_patches() {
     const char* const folder = std::getenv("ALHAZEN_TEST_DATA");
     if (folder == nullptr) return {};
@@ -59,13 +59,13 @@ struct RaySet {
     std::vector<ExactPatchRoots> exact;
 };
 
-/// Rays side by side in the rows of a picture of the model.
+/// Adjacent rays in rows of a picture of the model.
 std::vector<Ray> picture_rays(const PatchModel& model, int count) {
     const double size = length(model.box.size());
     const Vec3 eye = model.box.center() + size * Vec3{0.7, -1.3, 0.6};
     const Vec3 ahead = normalize(model.box.center() - eye);
     const Vec3 right = normalize(cross(ahead, Vec3{0, 0, 1})), up = cross(right, ahead);
-    // As close together as in a picture of 512 pixels.
+    // As close together as in a picture 512 pixels wide.
     const double pixel = 0.7 / 512.0;
     constexpr int kRow = 125;
     std::vector<Ray> rays;
@@ -108,7 +108,7 @@ void try_method(ClaimRun& run, const PatchModel& model, const RaySet& set,
         method->crossings(set.rays[k], found[k], counts);
     }
     const double micros = 1e6 * clock.seconds() / static_cast<double>(set.rays.size());
-    // Whitted's crossings are off by a pixel, and more where the line grazes.
+    // Crossings by Whitted's method are off by a pixel, and more at grazing incidence.
     const double farthest =
         (std::string(entry.name) == "subdivision" ? 1e-2 : 1e-4) * length(model.box.size());
     PatchTally tally;

@@ -1,4 +1,4 @@
-/// Experiments C1 to C3 of claims.h: curved patches in scan lines.
+/// Experiments C1 to C3 of claims.h: scan-line rendering of curved patches.
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@
 namespace alhazen {
 namespace {
 
-/// A scene of one shape that is darker than its ground.
+/// A scene of one shape that is darker than its background.
 struct PatchScene {
     SceneDescription description;
     Scene scene;
 
-    /// `from_outside`: what is turned away from the eye is not drawn.
+    /// `from_outside`: surfaces that face away from the eye are not drawn.
     explicit PatchScene(AnyShape shape, bool from_outside = false) {
         description.objects.push_back({"root", {}, {}});
         Material dark;
@@ -60,15 +60,15 @@ AnyShape teapot_mesh() {
     return AnyShape{std::move(mesh)};
 }
 
-/// From a direction, such that a sphere around the origin fills most of the picture.
+/// A camera in a direction from the origin, filled mostly by a sphere around the origin.
 Camera view_from(const Vec3& direction, double radius) {
     const Vec3 unit = normalize(direction);
     const Vec3 eye = 4.0 * radius * unit;
     return look_along(eye, -eye, std::abs(unit.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{0, 1, 0}, 0.52, 1.0);
 }
 
-/// Ground pixels in the closure of the dark ones: with a dark pixel to both sides in their row and
-/// in their column no more than two pixels away.
+/// Counts background pixels in the closure of the dark ones: with a dark pixel on both sides, in
+/// their row and in their column, at most two pixels away.
 int ground_inside(const Film& film, const Rgb& ground) {
     const PixelBox& crop = film.crop();
     const auto dark = [&](int x, int y) {

@@ -1,5 +1,4 @@
-/// Experiments G2 and G3 of claims.h: how the error of renderers with photons falls, and that no
-/// light is lost.
+/// Experiments G2 and G3 of claims.h: convergence of photon renderers, and conservation of power.
 
 #include <fmt/format.h>
 
@@ -18,10 +17,10 @@
 namespace alhazen {
 namespace {
 
-constexpr double kFloor = 0.01;  ///< albedo: what the floor sends back to the glass is little
-constexpr double kHigh = 2.0;    ///< the light, over the floor
+constexpr double kFloor = 0.01;  ///< albedo; low: the floor returns little light to the glass
+constexpr double kHigh = 2.0;    ///< height of the light over the floor
 
-/// A description without a camera, and what is added to it.
+/// A description under construction, without a camera.
 struct PhotonScene {
     SceneDescription d;
 
@@ -58,8 +57,8 @@ struct PhotonScene {
     }
 };
 
-/// A point of light in the middle of a ball of glass, which bends nothing and lets all light out in
-/// the end, over a floor: only photons find its light. Of brightness 1 below it.
+/// A point light in the middle of a glass ball over a floor. The ball does not refract its light
+/// and eventually emits all of it; only photons find the light. The radiance below it is 1.
 PhotonScene light_in_glass(double side) {
     PhotonScene scene;
     scene.camera(OrthographicCamera{{0, 0, 0.3}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}});
@@ -70,7 +69,7 @@ PhotonScene light_in_glass(double side) {
     scene.point({0, 0, kHigh}, {color, color, color});
     return scene;
 }
-/// At that distance from the point below it, and the mean over a disc there.
+/// Radiance of the floor at a distance from the point below the light, and its mean over a disc.
 double lit(double distance) {
     return std::pow(1.0 + distance * distance / (kHigh * kHigh), -1.5);
 }
@@ -79,7 +78,7 @@ double lit_disc(double radius) {
     return 2.0 / share * (1.0 - 1.0 / std::sqrt(1.0 + share));
 }
 
-/// Green of the pixels against what stands below each.
+/// Error of the green channel relative to the exact radiance of each pixel.
 struct ErrorOfPicture {
     double rmse = 0, bias = 0;
 };
@@ -96,7 +95,7 @@ ErrorOfPicture error_of(const Film& film, double side) {
     return error;
 }
 
-/// The exponent of the root of the variance, of discs so small that nothing else shows.
+/// Tests the exponent of the RMSE, for discs so small that bias is negligible.
 void expect_slope(ClaimRun& run, const Scene& scene, double side, const std::string& renderer,
                   const std::vector<double>& passes, double expected) {
     constexpr int kSide = 24;
@@ -114,7 +113,7 @@ void expect_slope(ClaimRun& run, const Scene& scene, double side, const std::str
                fmt::format("{:.3f} +- 0.05", expected), std::abs(slope - expected) <= 0.05);
 }
 
-/// Power that leaves a light in a black room over what stands in its description.
+/// Tests the power that arrives from a light in a black room, relative to its description.
 void expect_power(ClaimRun& run, const std::string& what, const PhotonScene& described,
                   PhotonKinds kinds, double power, double tolerance) {
     run.step(what);
@@ -134,7 +133,7 @@ PhotonScene black_room() {
     PhotonScene scene;
     scene.camera(look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.0));
     scene.add(Sphere{{0, 0, 0}, 3}, scene.material({0, 0, 0}));
-    // What is black to all channels scatters nothing, and keeps no photons.
+    // A surface that is black in all channels scatters nothing and keeps no photons.
     scene.d.materials[0].material.diffuse.color = {0, 0, 1e-6};
     return scene;
 }
@@ -145,7 +144,8 @@ void claim_g2(ClaimRun& run) {
     constexpr double kSide = 2.0;
     const Scene spread = compile(light_in_glass(kSide).d);
     const std::vector<double> passes{4, 16, 64, 256};
-    // The variance of pass i grows as i^(1 - alpha), that of the mean of n falls as n^-alpha.
+    // The variance of pass i grows as i^(1 - alpha), that of the mean of n passes falls as
+    // n^-alpha.
     expect_slope(run, spread, kSide, "sppm:photons=20000,radius=0.04", passes, -1.0 / 3.0);
     expect_slope(run, spread, kSide, "sppm:photons=20000,radius=0.04,alpha=1", passes, -0.5);
     expect_slope(run, spread, kSide, "vcm:photons=20000,radius=0.04,pilot=off", passes, -0.375);
@@ -153,7 +153,7 @@ void claim_g2(ClaimRun& run) {
     lamp.camera(OrthographicCamera{{0, 0, 0.3}, {0, 0, -1}, {kSide, 0, 0}, {0, kSide, 0}});
     lamp.add(Rectangle{.corner = {-40, -40, 0}, .edge_u = {80, 0, 0}, .edge_v = {0, 80, 0}},
              lamp.material({0, 1, 0}));
-    // A small ball of light looks like a point.
+    // A small emitting ball approximates a point light.
     lamp.add(Sphere{{0, 0, kHigh}, 0.02}, lamp.material({}, {0, 1e4, 0}));
     expect_slope(run, compile(lamp.d), kSide, "vcm:photons=500,radius=0.04,pilot=off", passes,
                  -0.5);
@@ -183,7 +183,7 @@ void claim_g2(ClaimRun& run) {
 }
 
 void claim_g3(ClaimRun& run) {
-    const double per_color = 4.0 * kPi * kPi;  // intensities are times pi
+    const double per_color = 4.0 * kPi * kPi;  // intensities are multiplied by pi
     PhotonScene point = black_room();
     point.point({0.5, 0.2, 0}, {1, 1, 1});
     expect_power(run, "point", point, {PhotonKind::Direct}, per_color, 1e-4);
@@ -200,7 +200,7 @@ void claim_g3(ClaimRun& run) {
     expect_power(run, "point beside a ball of glass", lens,
                  {PhotonKind::Direct, PhotonKind::Caustic}, per_color, 0.002);
     PhotonScene inside = black_room();
-    // Nearer than 1 the falloff of the light is capped, and no power of it is kept.
+    // Nearer than 1 the falloff of the light is capped, which would not conserve power.
     inside.add(Sphere{{0, 0, 0}, 1.6}, inside.glass());
     inside.point({0.3, 0, 0}, {1, 1, 1});
     expect_power(run, "point in a ball of glass", inside, {PhotonKind::Direct, PhotonKind::Caustic},

@@ -15,7 +15,7 @@
 namespace alhazen {
 namespace {
 
-/// Of sobol: its error is far below that of what is compared.
+/// Samples of `sobol` for the reference, whose error is far below those compared.
 constexpr int kReferenceSamples = 1024;
 
 SamplingPlan plan_with(const char* sampler) {
@@ -24,7 +24,7 @@ SamplingPlan plan_with(const char* sampler) {
     return plan;
 }
 
-/// A few thin and small things far apart, before an even ground.
+/// A few thin and small objects far apart, before a uniform background.
 SceneDescription sparse_scene() {
     SceneDescription d;
     d.objects.push_back({"root", {}, {}});
@@ -60,7 +60,7 @@ void claim_f3(ClaimRun& run) {
          {SpdScene{"balls", 3}, SpdScene{"gears", 2}, SpdScene{"tetra", 5}}) {
         const Scene scene = compile(run.generated(named.name, named.size));
         run.step(fmt::format("{}: reference", named.name));
-        // Another seed: the pictures' samples are none of the reference's.
+        // Another seed, so that the pictures share no samples with the reference.
         const Film reference =
             sampled(scene, whitted, kSide, kReferenceSamples, {.sampling = &sobol}, 77).film;
         const auto error = [&](const SamplingPlan& plan, int samples) {

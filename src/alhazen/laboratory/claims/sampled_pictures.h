@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of claims about sampling, and what they cost.
+/// Pictures for claims about sampling, with their cost.
 
 #include <span>
 
@@ -13,27 +13,27 @@ struct SampledPicture {
     RenderReport report;
 };
 
-/// Ways to choose samples besides their number; at most one.
+/// Methods of sampling besides the number of samples; at most one is set.
 struct SampleChoice {
     const AntialiasSettings* antialias = nullptr;
     const SamplingPlan* sampling = nullptr;
 };
 
-/// A square picture by one thread, as the first camera of the scene sees it.
+/// Renders a square picture with one thread from the first camera of the scene.
 [[nodiscard]] SampledPicture sampled(const Scene& scene, const Renderer& renderer, int side,
                                      int samples, const SampleChoice& choice = {},
                                      std::uint64_t seed = 0);
 
-/// Of values cut off at 1, as they are shown.
+/// Root mean square error of values clamped at 1, as displayed.
 [[nodiscard]] double shown_rmse(const Film& a, const Film& b);
 
-/// Rays or samples for a pixel, and the error of the picture.
+/// Rays or samples per pixel, and the error of the picture.
 struct RaysAndError {
     double rays, error;
 };
 
-/// Rays that the uniform pictures need for an error: a power law between neighbours, and beyond
-/// the last by the law of the last two. Precondition: two at least, by falling error.
+/// Number of rays that uniform sampling needs for an error: a power law between neighbours,
+/// extrapolated from the last two. Precondition: at least two entries, by decreasing error.
 [[nodiscard]] double rays_for(std::span<const RaysAndError> uniform, double error);
 
 }  // namespace alhazen

@@ -24,7 +24,7 @@ class LogScale {
         most_ = std::max(most_, x);
     }
     [[nodiscard]] bool empty() const { return least_ > most_; }
-    /// 1, 2 and 5 times powers of ten; powers of ten alone if there would be too many ticks.
+    /// Ticks at 1, 2 and 5 times powers of ten; at powers of ten only if there would be too many.
     void make_ticks() {
         const bool fine = most_ < 300 * least_;
         for (double decade = std::pow(10, std::floor(std::log10(least_))); ticks_.size() < 99;
@@ -90,7 +90,7 @@ std::string axis_of(const LogScale& scale) {
     double last = -100;
     for (const double tick : scale.ticks()) {
         const double place = scale.place(tick);
-        // The first label stands right of its line, the others are centred on theirs.
+        // The first label is right of its line, the others are centred on theirs.
         if (place - last < (last == 0 ? 20 : 14)) continue;
         last = place;
         axis += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", place, short_number(tick));

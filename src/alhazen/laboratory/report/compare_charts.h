@@ -11,11 +11,11 @@ namespace alhazen {
 /// Display name: the name, and settings that differ from the defaults.
 [[nodiscard]] std::string html_name(const Measurement& measurement);
 
-/// One card each: time per ray, primitive tests by kind of ray, bounds and cells by kind, build
-/// seconds, memory.
+/// Charts of time per ray, primitive tests by kind of ray, bounds and cells by kind, build seconds,
+/// and memory.
 [[nodiscard]] std::string comparison_charts(const Comparison& comparison);
 
-/// "0.000123" with three digits, with k, M or G where shorter.
+/// The number with three digits, with a suffix k, M or G if that is shorter.
 [[nodiscard]] std::string short_number(double x);
 
 }  // namespace alhazen

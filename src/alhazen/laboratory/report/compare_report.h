@@ -1,5 +1,5 @@
 #pragma once
-/// A comparison as text for a terminal, and as JSON (docs/reference/compare.md).
+/// A comparison as terminal text and as JSON (docs/reference/compare.md).
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace alhazen {
 
-/// Two tables: of all rays, and by kind of ray.
+/// Two tables: over all rays, and by kind of ray.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
-/// Of all scenes, with the version of the format.
+/// The comparisons of all scenes, with the version of the format.
 [[nodiscard]] nlohmann::ordered_json comparison_json(std::span<const Comparison> comparisons);
 
 }  // namespace alhazen

@@ -29,7 +29,7 @@ std::string name_of(const Measurement& m) {
     return name;
 }
 
-/// Puts a long name on a line of its own.
+/// Puts a long name on its own line.
 std::string named_line(const std::string& name) {
     if (name.size() <= kNameWidth) return fmt::format("{:<{}}", name, kNameWidth);
     return fmt::format("{}\n{:<{}}", name, "", kNameWidth);

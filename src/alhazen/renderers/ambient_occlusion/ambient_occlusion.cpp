@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kPointsAtOnce = 1024;
 
-/// Where nothing is said: far enough for rooms to be dark in their corners.
+/// Default distance relative to the scene's diagonal: large enough for the corners of rooms to be
+/// dark.
 constexpr double kShareOfDiagonal = 0.25;
 
 double reach_of(const OcclusionSettings& settings, const Scene& scene) {
@@ -29,7 +30,7 @@ double reach_of(const OcclusionSettings& settings, const Scene& scene) {
                                                      : std::numeric_limits<double>::infinity();
 }
 
-/// Distributed by the cosine to z.
+/// Samples a cosine-weighted direction around z.
 Vec3 on_hemisphere(const Vec2& u) {
     const Vec2 p = on_unit_disc(u);
     return {p.x, p.y, std::sqrt(std::fmax(0.0, 1.0 - p.x * p.x - p.y * p.y))};

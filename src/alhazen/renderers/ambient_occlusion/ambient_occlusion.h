@@ -1,11 +1,11 @@
 #pragma once
-/// Ambient occlusion: how much of the sky each point sees, as a quick look at a shape.
+/// Ambient occlusion: the fraction of the sky visible from each point, for previews of shapes.
 ///
 /// Source: Zhukov, Iones and Kronin, "An Ambient Light Illumination Model", EGWR 1998; Landis,
 /// "Production-Ready Global Illumination", SIGGRAPH 2002 course 16.
-/// Conventions: the sky is white and even: a matt white surface without anything in front of it
-/// shows 1. Nothing farther than `distance` counts. Materials show their albedo where `albedo` is
-/// true. What the eye does not meet shows the background.
+/// Conventions: the sky is white and uniform: an unoccluded matt white surface has the radiance 1.
+/// Occluders beyond `distance` are ignored. Surfaces have their albedo if `albedo` is true, else
+/// they are white. Eye rays without a hit have the background.
 
 #include "alhazen/renderers/core/renderer.h"
 
@@ -20,7 +20,7 @@ class AmbientOcclusion final : public Renderer {
   public:
     explicit AmbientOcclusion(const OcclusionSettings& settings) : settings_(settings) {}
 
-    /// Without RenderJob::sampling: `sobol` and `box`.
+    /// Without RenderJob::sampling: uses `sobol` and `box`.
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool takes_samplers() const override { return true; }
     [[nodiscard]] bool distributes() const override { return true; }

@@ -10,14 +10,15 @@ namespace alhazen {
 
 namespace {
 
-/// Side of the blocks in which corners and pixels are ordered.
+/// Side of the blocks by which corners and pixels are ordered.
 constexpr int kGridBlock = 8;
-/// Points that a division adds at most: its own and the centres of pixels around it.
+/// Largest number of points that a division adds: its own and the centres of pixels around it.
 constexpr std::size_t kMostOfADivision = 5 + 8;
 
 }  // namespace
 
-/// The range of shades of a cell as parts of its pixel, which is cut off at 1 as it is shown.
+/// The range of the shades in a cell, weighted by its share of the pixel and clamped to 1 as on
+/// display.
 class AdaptiveGrid::Range {
   public:
     explicit Range(double weight) : weight_(weight) {}
@@ -86,7 +87,7 @@ void AdaptiveGrid::add_corners() {
     }
 }
 
-/// Corners are ordered in blocks, these row by row.
+/// Corners are ordered by blocks, and row by row within a block.
 std::uint32_t AdaptiveGrid::corner_index(int x, int y) const {
     const int x0 = x / kGridBlock * kGridBlock, y0 = y / kGridBlock * kGridBlock;
     const int block_width = std::min(kGridBlock, width_ + 1 - x0);
@@ -100,7 +101,7 @@ double AdaptiveGrid::farthest_of_pixel(int x, int y) const {
                      distances_[corner_index(x, y + 1)], distances_[corner_index(x + 1, y + 1)]});
 }
 
-/// NumberTable::kNone where the point has no ray. Not for corners of pixels.
+/// NumberTable::kNone if the point has no ray. Not for corners of pixels.
 std::uint32_t AdaptiveGrid::sample_at(GridPoint p) const {
     return samples_.find(grid_key(0, p));
 }
@@ -150,7 +151,7 @@ bool AdaptiveGrid::refine(const ObjectWatch* watch) {
     return false;
 }
 
-/// Which of the open cells, and of those that ended beside new points, are to be divided. All
+/// Selects the cells to divide, among the open cells and the ended cells next to new points. All
 /// points have shades here.
 void AdaptiveGrid::choose(const ObjectWatch* watch) {
     split_.clear();
@@ -206,7 +207,7 @@ bool AdaptiveGrid::differs(const Cell& cell, bool weigh) const {
     return range.exceeds(settings_.threshold);
 }
 
-/// The points between two corners: some are there where the cell beside it was divided.
+/// Includes the points between two corners, which exist if the adjacent cell was divided.
 void AdaptiveGrid::include_side(Range& range, GridPoint a, GridPoint b) const {
     const GridPoint middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
     const std::uint32_t sample = sample_at(middle);
@@ -236,7 +237,7 @@ bool AdaptiveGrid::keep_near(const Cell& cell, const ObjectWatch& watch) {
     return any_smaller;
 }
 
-/// Keeps the cell where it may have to be divided later, else adds it to its pixel.
+/// Keeps the cell if it may have to be divided later, else adds it to its pixel.
 void AdaptiveGrid::end(const Cell& cell) {
     if (!settings_.neighbours || cell.level == settings_.depth) return add_to_pixel(cell);
     const auto number = static_cast<std::uint32_t>(ended_.size());
@@ -288,7 +289,7 @@ void AdaptiveGrid::divide(const Cell& cell) {
     if (cell.level == 0) look_at_centres_around(cell);
 }
 
-/// Of the cells beside it those that ended and are not smaller are looked at again.
+/// Marks the adjacent ended cells that are not smaller for another test.
 void AdaptiveGrid::wake_beside(const Cell& cell) {
     constexpr GridPoint kBeside[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (const GridPoint& d : kBeside) {
@@ -305,7 +306,7 @@ void AdaptiveGrid::wake_beside(const Cell& cell) {
     }
 }
 
-/// Of the eight pixels around a divided one those that are not.
+/// Adds the centres of those of the eight pixels around a divided one that are not divided.
 void AdaptiveGrid::look_at_centres_around(const Cell& cell) {
     const int half = 1 << settings_.depth >> 1;
     for (int y = std::max(cell.at.y - 1, 0); y <= std::min(cell.at.y + 1, height_ - 1); ++y) {

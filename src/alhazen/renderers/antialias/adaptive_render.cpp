@@ -86,7 +86,7 @@ class AdaptiveRender {
         report_.seconds += seconds_since(begin);
     }
 
-    /// Finds objects that hide between the corner rays; the grid is to show them.
+    /// Finds objects between the corner rays, which the grid must then show.
     void look_for_objects() {
         if (job_.stop_requested()) return;
         const auto begin = std::chrono::steady_clock::now();
@@ -121,7 +121,7 @@ class AdaptiveRender {
             report_.searching += pixel != ObjectSearch::kNone;
         }
         below_depth_.assign(search_->below_depth().begin(), search_->below_depth().end());
-        // The shades may have met it elsewhere.
+        // Shaded rays may have hit the object elsewhere.
         std::erase_if(below_depth_, [&](const WatchedObject& w) { return met_[w.object] != 0; });
         std::vector<std::uint32_t> unmet;
         std::uint32_t before = std::numeric_limits<std::uint32_t>::max();
@@ -144,8 +144,7 @@ class AdaptiveRender {
         }
     }
 
-    /// Names the first objects that were not met, each with the first pixel where it was looked
-    /// for.
+    /// Names the first objects that were not hit, each with the first pixel where it was sought.
     void name_unmet() {
         std::vector<std::uint8_t> named(met_.size(), 0);
         const PixelBox& crop = film_.crop();
@@ -161,7 +160,7 @@ class AdaptiveRender {
         }
     }
 
-    /// The rays of the round. Those that the search has traced are shaded from their hits.
+    /// Traces the rays of the round. Rays that the search has traced are shaded from their hits.
     void trace() {
         if (!search_) {
             return trace_all(
@@ -184,7 +183,7 @@ class AdaptiveRender {
         trace_all(
             known.size(), [&](std::size_t k) { return known[k]; }, rays.data());
     }
-    /// The points `index(0)` ... `index(count - 1)` of the round. `known`: their rays in the
+    /// Traces the points `index(0)` ... `index(count - 1)` of the round. `known`: their rays in the
     /// search, or null.
     template <class Index>
     void trace_all(std::size_t total, Index&& index, const std::uint32_t* known) {
@@ -226,7 +225,7 @@ class AdaptiveRender {
         }
     }
 
-    /// The layers of the picture: AovRecorder sees each pixel's own rays as its cost.
+    /// Writes the layers: the cost of a pixel is that of its own rays.
     void write_layers() {
         if (job_.aovs == nullptr) return;
         AovRecorder recorder(job_, counters_);
@@ -254,7 +253,7 @@ class AdaptiveRender {
         }
     }
 
-    /// [pixel] eye rays that were traced for it first.
+    /// [pixel] number of eye rays first traced for it.
     [[nodiscard]] std::vector<std::uint32_t> count_rays() const {
         const std::span<const std::uint32_t> points = grid_.points_of_pixels();
         std::vector<std::uint32_t> rays(points.begin(), points.end());
@@ -273,22 +272,23 @@ class AdaptiveRender {
     AdaptiveGrid grid_;
     RayCounters counters_;
     AntialiasReport report_;
-    std::optional<SceneObjects> objects_;    ///< with the guarantee
-    std::vector<std::uint8_t> met_;          ///< [object] a ray with a shade met it
+    std::optional<SceneObjects> objects_;    ///< only with the guarantee
+    std::vector<std::uint8_t> met_;          ///< [object] 1 if a shaded ray hit it
     std::vector<std::uint32_t> looked_for_;  ///< objects, each once
-    std::optional<SoughtSpheres> spheres_;   ///< where some object was not met at first
+    std::optional<SoughtSpheres> spheres_;   ///< only if some object was not hit at first
     std::optional<ObjectSearch> search_;     ///< likewise
     std::vector<WatchedObject> below_depth_;
 };
 
-/// Refuses layers that no pixel has alone.
+/// Rejects layers that are undefined for pixels with shared rays.
 void check_layers(const RenderJob& job) {
     if (job.aovs == nullptr) return;
     const AovSet& wanted = job.aovs->wanted();
     if (wanted.has_tests() || wanted.has(AovKind::Time)) {
-        throw Error(ErrorKind::Usage,
-                    "--antialias: pixels share their rays, so that they have no time and counts "
-                    "of tests of their own; of the costs --aov count.rays has a meaning");
+        throw Error(
+            ErrorKind::Usage,
+            "--antialias: pixels share their rays, so the time and the tests of a pixel are "
+            "undefined; of the cost layers only --aov count.rays is available");
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Traces many single rays in parallel batches, with a few RayAnswers that are made once.
+/// Traces many single rays in parallel batches, with a pool of reused RayAnswers.
 
 #include <algorithm>
 #include <memory>
@@ -18,15 +18,15 @@ class AnswerPool {
     AnswerPool(const SingleRayRenderer& renderer, const RenderJob& job)
         : renderer_(renderer), job_(job) {}
 
-    /// The rays of a round. Calls batch(answers, first, count, counters) for the rays 0 to `total`,
-    /// at most RayAnswers::kRaysAtOnce at a time, from many threads: few rays in smaller batches,
-    /// so that there are some for each thread. Returns early after a stop.
+    /// Traces the rays of a round. Calls batch(answers, first, count, counters) for the rays 0 to
+    /// `total`, at most RayAnswers::kRaysAtOnce at a time, from many threads; few rays are split
+    /// into smaller batches, to occupy all threads. Returns early after a stop.
     template <class Batch>
     void trace(std::size_t total, Batch&& batch) {
         constexpr std::size_t kFewest = 32, kPieces = 16;
         const std::size_t most = std::clamp(total / kPieces, kFewest, RayAnswers::kRaysAtOnce);
         const std::size_t batches = (total + most - 1) / most;
-        std::size_t done = 0;  // under the mutex
+        std::size_t done = 0;  // guarded by the mutex
         parallel_for(batches, 1, [&](std::size_t begin, std::size_t end) {
             std::unique_ptr<RayAnswers> own = take();
             RayCounters counters;
@@ -43,7 +43,7 @@ class AnswerPool {
         });
     }
 
-    /// Of all rays that were traced.
+    /// Counts of all traced rays.
     [[nodiscard]] const RayCounters& counters() const { return counters_; }
 
   private:

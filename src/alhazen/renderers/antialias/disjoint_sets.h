@@ -1,8 +1,8 @@
 #pragma once
-/// Sets of numbers that are united, each named by its least number.
+/// Disjoint sets of integers with union; a set is represented by its least member.
 ///
 /// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", J. ACM 22(2), 1975.
-/// Differs: paths are halved, and the least number is the root, whatever the ranks.
+/// Differs: path halving; the least member is the root, without ranks.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace alhazen {
 
 class DisjointSets {
   public:
-    /// [number] one of its set that is not larger.
+    /// [number] an equal or smaller member of its set.
     explicit DisjointSets(std::vector<std::uint32_t> parents) : parents_(std::move(parents)) {}
 
     std::uint32_t find(std::uint32_t v) {

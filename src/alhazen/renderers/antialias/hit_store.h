@@ -1,5 +1,5 @@
 #pragma once
-/// First hits of many rays, each in as many bytes as its path needs.
+/// Compact storage of first hits, each with as many bytes as its path needs.
 ///
 /// Threads: `set` for different rays may be called from many threads.
 
@@ -40,7 +40,7 @@ class HitStore {
         ShapeHit crossing;
         PrimitiveId primitive = kNoPrimitive;
         std::uint32_t instances = 0;
-        std::size_t path = 0;  ///< its first instance in `paths_`
+        std::size_t path = 0;  ///< index of its first instance in `paths_`
     };
     std::vector<StoredHit> hits_;
     std::mutex mutex_;

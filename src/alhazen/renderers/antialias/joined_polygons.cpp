@@ -19,10 +19,10 @@ constexpr std::uint32_t kNoObject = ~0u;
 
 /// Polygons that may be joined.
 struct PolygonGroup {
-    std::vector<Vec3> positions;                  ///< of their corners, polygon by polygon
+    std::vector<Vec3> positions;                  ///< corners of the polygons, polygon by polygon
     std::vector<std::uint32_t> shapes;            ///< [polygon]
     std::vector<std::uint32_t> first_corners{0};  ///< [polygon], and the number of corners
-    double off_plane = 0;  ///< how far surfaces lie from their corners at most
+    double off_plane = 0;  ///< bound of the distance of surfaces from the plane of their corners
 
     void add(std::uint32_t shape, const Polygon& polygon, const Affine& outer_from_inner,
              double stretch) {
@@ -79,7 +79,7 @@ JoinedPolygons::JoinedPolygons(const PrimitiveTable& table) {
             }
         });
     }
-    // [shape] the first one of its object, and the sphere around that.
+    // [shape] the first shape of its object, and the sphere around that object.
     std::vector<std::uint32_t> first(shapes, kNoObject);
     std::vector<BoundingSphere> around(shapes);
     for (auto& [key, group] : groups) {

@@ -1,9 +1,9 @@
 #pragma once
-/// The polygons of a table that share sides, as single objects: the faces of a solid, the tiles of
-/// a surface.
+/// Joins polygons of a table that share sides into single objects: the faces of a solid, the tiles
+/// of a surface.
 ///
-/// Polygons of one material, seen by the same rays, are joined where the ends of two sides have the
-/// same positions. Solids that touch in a corner stay two.
+/// Polygons of one material, visible to the same rays, are joined if the ends of two sides have
+/// equal positions. Solids that touch in a corner remain separate.
 /// Complexity: almost linear in the corners.
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 namespace alhazen {
 
 struct JoinedPolygons {
-    /// [shape] number of its object, counted in the order of their first shapes; shapes that are no
-    /// polygons are objects of their own. Empty: each shape is one.
+    /// [shape] index of its object, in the order of their first shapes; shapes that are no polygons
+    /// are their own objects. Empty: each shape is one object.
     std::vector<std::uint32_t> of_shape;
     std::uint32_t objects = 0;
-    /// [object] around all its polygons, in the frame of the table. Empty where `of_shape` is.
+    /// [object] sphere around its polygons, in the frame of the table. Empty if `of_shape` is.
     std::vector<BoundingSphere> spheres;
 
     explicit JoinedPolygons(const PrimitiveTable& table);

@@ -3,7 +3,7 @@
 /// position, belong to one piece.
 ///
 /// Conventions: pieces are numbered in the order of their first triangles.
-/// Complexity: almost linear in vertices and triangles; 12 bytes per vertex while it works.
+/// Complexity: almost linear in vertices and triangles; 12 bytes of temporary memory per vertex.
 
 #include <cstdint>
 #include <vector>
@@ -26,7 +26,7 @@ struct MeshPieces {
         BoundingSphere sphere;  ///< around the centre of the box
     };
     std::vector<Piece> pieces;
-    std::vector<std::uint32_t> of_vertex;  ///< [vertex] number of its piece, where it has one
+    std::vector<std::uint32_t> of_vertex;  ///< [vertex] index of its piece, if it has one
 
     explicit MeshPieces(const TriangleMesh& mesh);
 };

@@ -1,7 +1,7 @@
 #pragma once
-/// Numbers of things by their coordinates: open addressing, grows with its content.
+/// A hash table from coordinate keys to numbers, with open addressing and growth.
 ///
-/// Conventions: no key has all bits set.
+/// Precondition: no key has all bits set.
 
 #include <bit>
 #include <cstddef>
@@ -14,11 +14,11 @@ class NumberTable {
   public:
     static constexpr std::uint32_t kNone = ~0u;
 
-    /// kNone where the key is unknown.
+    /// kNone if the key is unknown.
     [[nodiscard]] std::uint32_t find(std::uint64_t key) const {
         return keys_.empty() ? kNone : values_[slot_of(key)];
     }
-    /// The value of the key, set to `fresh` where it has none.
+    /// The value of the key, after setting it to `fresh` if it has none.
     std::uint32_t find_or_add(std::uint64_t key, std::uint32_t fresh) {
         std::uint32_t& value = value_of(key);
         if (value == kNone) value = fresh;

@@ -40,8 +40,8 @@ void ObjectSearch::run(AnswerPool& pool, const RenderJob& job) {
     below_depth_.erase(std::unique(below_depth_.begin(), below_depth_.end()), below_depth_.end());
 }
 
-/// Divides the cells of the level where something is still sought, or says what is left at the
-/// depth.
+/// Divides the cells of the level in which something is still sought; at the depth, records what is
+/// left.
 void ObjectSearch::choose(int level) {
     points_.clear();
     next_cells_.clear();
@@ -103,7 +103,7 @@ void ObjectSearch::divide(const Cell& cell, int level) {
     }
 }
 
-/// The rays of this level.
+/// Traces the rays of this level.
 void ObjectSearch::trace(AnswerPool& pool) {
     const std::size_t before = distances_.size();
     distances_.resize(before + points_.size());

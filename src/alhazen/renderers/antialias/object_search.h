@@ -1,14 +1,14 @@
 #pragma once
-/// Looks between the corners of the pixels for the objects that no corner ray has met, by rays that
-/// ask only what they meet and have no shade.
+/// Searches between the corners of the pixels for the objects that no corner ray has hit, by rays
+/// that are intersected but not shaded.
 ///
-/// A cell is divided where an object may hide in it (sought_spheres.h) that no ray has met so far,
-/// down to the depth. Cells are treated level by level.
+/// A cell is divided, down to the depth, if an object that no ray has hit may hide in it
+/// (sought_spheres.h). Cells are processed level by level.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980, section
 /// "Treatment of Aliasing".
-/// Differs: a ray has a shade, and all the rays that follow from it, only where it turns out that
-/// the picture needs it: an object that lies hidden along an edge costs eye rays alone.
+/// Differs: a ray is shaded, and secondary rays are traced, only if the picture turns out to need
+/// it: an object hidden along an edge costs only eye rays.
 /// Conventions: cells and points are those of adaptive_grid.h.
 /// Complexity: linear in the number of rays, which are all kept.
 
@@ -34,32 +34,32 @@ class ObjectSearch {
         const SceneObjects& objects;
         const SoughtSpheres& spheres;
         const PictureGrid& picture;
-        AdaptiveGrid& grid;  ///< in its first round; all corners have their distances
+        AdaptiveGrid& grid;  ///< in its first round, with the distances of all corners
     };
-    /// `met`: [object] 1 for those that corner rays met. `sought`: from SoughtSpheres::around.
+    /// `met`: [object] 1 if a corner ray hit it. `sought`: from SoughtSpheres::around.
     ObjectSearch(const Where& where, std::vector<std::uint8_t> met,
                  std::span<const WatchedObject> sought);
 
-    /// Traces rays until each object was met or the depth is reached; returns early after a stop of
+    /// Traces rays until each object is hit or the depth is reached; returns early after a stop of
     /// the job.
     void run(AnswerPool& pool, const RenderJob& job);
 
     [[nodiscard]] bool has_met(std::uint32_t object) const { return met_[object] != 0; }
-    /// What was still sought in a pixel at the depth; sorted, each pair once.
+    /// Objects still sought in a pixel at the depth; sorted, without duplicates.
     [[nodiscard]] std::span<const WatchedObject> below_depth() const { return below_depth_; }
 
-    /// The ray through a point in units of 2^-depth; kNone where none was traced.
+    /// The ray through a point in units of 2^-depth; kNone if none was traced.
     [[nodiscard]] std::uint32_t ray_at(GridPoint p) const { return rays_.find(grid_key(0, p)); }
     [[nodiscard]] Hit hit(std::uint32_t ray) const { return hits_.get(ray); }
-    /// The ray has a shade now: it is one of the picture's.
+    /// Marks a ray as shaded: it is counted by the grid.
     void hand_over(std::uint32_t ray) { pixels_[ray] = kNone; }
-    /// [ray] the pixel it was traced for; kNone where it was handed over.
+    /// [ray] the pixel for which it was traced; kNone if handed over.
     [[nodiscard]] std::span<const std::uint32_t> pixels() const { return pixels_; }
 
   private:
     struct Cell {
         GridPoint at;
-        std::uint32_t corners[4];  ///< of the grid; those of `distances_` follow
+        std::uint32_t corners[4];  ///< indices in the grid, followed by those in `distances_`
         std::uint32_t pixel;
         std::uint32_t first_sought, sought;  ///< range in `sought_`
     };
@@ -76,7 +76,7 @@ class ObjectSearch {
     std::vector<std::uint8_t> met_;
     std::vector<Cell> cells_, next_cells_;
     std::vector<std::uint32_t> sought_, next_sought_;  ///< objects, by cell
-    std::vector<GridPoint> points_;                    ///< of this level
+    std::vector<GridPoint> points_;                    ///< points of this level
     NumberTable rays_;
     std::vector<double> distances_;      ///< [ray]
     std::vector<std::uint32_t> pixels_;  ///< [ray]

@@ -1,6 +1,6 @@
 #pragma once
-/// Points of an adaptive grid as places in the picture: film coordinates, eye rays, and how far
-/// apart the rays are.
+/// Maps points of an adaptive grid to film coordinates and eye rays, with the distance between
+/// rays.
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,12 @@ class PictureGrid {
           crop_(film.crop()) {
         const Vec3 right = (1.0 / width_) * plane_.right, up = (1.0 / height_) * plane_.up;
         half_diagonal_ = 0.5 * std::max(length(right + up), length(right - up));
-        // Distance of the picture from the eye: no ray reaches it in less.
+        // Distance of the image plane from the eye, which no ray is shorter than.
         const Vec3 normal = normalize(cross(plane_.right, plane_.up));
         nearest_ = std::abs(dot(normal, plane_.forward));
     }
 
-    /// Film coordinates; a crop gives the bits of the whole frame.
+    /// Film coordinates; equal, bit for bit, for a crop and the whole frame.
     [[nodiscard]] Vec2 place(int level, GridPoint p) const {
         const double step = std::ldexp(1.0, -level);
         return {(crop_.x0 + step * p.x) / width_, (height_ - crop_.y0 - step * p.y) / height_};
@@ -41,8 +41,8 @@ class PictureGrid {
         for (std::size_t i = 0; i < points.size(); ++i) out[i] = ray(level, points[i]);
     }
 
-    /// A ball of this radius, `distance` away from the eye and within the picture, is met by the
-    /// ray through a corner of its cell.
+    /// Least radius of a ball at `distance` from the eye, within the picture, that is certainly hit
+    /// by a ray through a corner of its cell.
     [[nodiscard]] double least_radius(int level, double distance) const {
         const double half = std::ldexp((1.0 + 1e-9) * half_diagonal_, -level);
         return parallel_ ? half : half / nearest_ * distance;

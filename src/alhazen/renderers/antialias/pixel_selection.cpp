@@ -21,17 +21,17 @@ namespace alhazen {
 
 namespace {
 
-/// Pixels x0 to x1 by y0 to y1, of the crop, both included; the corners have rays.
+/// Pixels x0 to x1 by y0 to y1 of the crop, inclusive; the corners have rays.
 struct SelectionCell {
     int x0, y0, x1, y1;
-    std::uint32_t place = 0;  ///< in the grid of the first cells
-    bool agreed = false;      ///< with all rays that were there in the last round
+    std::uint32_t place = 0;  ///< index in the grid of the initial cells
+    bool agreed = false;      ///< agreed with all rays of the last round
 
-    /// All of its pixels are corners: there is nothing to divide, and nothing to fill.
+    /// True if all of its pixels are corners: there is nothing to divide or fill.
     [[nodiscard]] bool is_done() const { return x1 - x0 <= 1 && y1 - y0 <= 1; }
 };
 
-/// Number of the part that a ray meets first, and of that which placed it in the scene.
+/// Identifies the part that a ray hits first, and the part that placed it in the scene.
 std::uint64_t thing_of(const Scene& scene, const Hit& hit) {
     if (!hit.found()) return 0;
     const HitParts parts = parts_of(*scene.aggregate, hit);
@@ -46,16 +46,16 @@ bool differ(const Rgb& a, const Rgb& b, double threshold) {
            std::abs(shown(a.g) - shown(b.g)) > threshold ||
            std::abs(shown(a.b) - shown(b.b)) > threshold;
 }
-/// The linear mean, `u` of the way from a to b.
+/// Linear interpolation from a to b.
 Rgb mean(double u, const Rgb& a, const Rgb& b) {
     return (1 - u) * a + u * b;
 }
-/// How far `i` is between the ends of a side.
+/// Position of `i` between the ends of a side, 0 to 1.
 double part(int i, int first, int last) {
     return last > first ? double(i - first) / (last - first) : 0.0;
 }
 
-/// The round that traced a pixel, from 1 on; or one of these.
+/// The round in which a pixel was traced, from 1; or one of these.
 using PixelRound = std::uint32_t;
 constexpr std::size_t kCellsAtOnce = 256;
 constexpr PixelRound kNoRay = 0, kAskedFor = std::numeric_limits<PixelRound>::max();
@@ -100,7 +100,7 @@ class PixelSelection {
                static_cast<std::size_t>(x);
     }
 
-    /// Where cells begin and end in one direction: multiples of the step in the frame.
+    /// Borders of cells along an axis: multiples of the step in the frame.
     [[nodiscard]] std::vector<int> marks(int first, int count) const {
         std::vector<int> result{0};
         const int step = settings_.step;
@@ -142,7 +142,7 @@ class PixelSelection {
         if (!c.is_done()) cells_.push_back(c);
     }
 
-    /// Divides cells that do not agree with their rays. False where there are none.
+    /// Divides cells that do not agree with their rays. False if there are none.
     bool divide() {
         parallel_for(cells_.size(), kCellsAtOnce, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) cells_[i].agreed = agrees(cells_[i]);
@@ -173,7 +173,7 @@ class PixelSelection {
         return any;
     }
 
-    /// The next round has rays in a first cell, or on its sides.
+    /// Records that the next round has rays in an initial cell, or on its sides.
     void mark_changed(std::size_t place) {
         const PixelRound next = round_ + 1;
         const std::size_t column = place % across_;
@@ -201,8 +201,8 @@ class PixelSelection {
         }
         return true;
     }
-    /// With the rays on its sides; those that were there before the last round are known to agree
-    /// where the cell did.
+    /// True if the cell agrees with the rays on its sides. Only rays of the last round are tested
+    /// if the cell has agreed before.
     [[nodiscard]] bool sides_agree(const SelectionCell& c) const {
         const PixelRound* const rounds = rounds_.data();
         const std::size_t first = at(c.x0, c.y0);
@@ -237,7 +237,7 @@ class PixelSelection {
     }
 
     /// Sets the pixels of a cell without rays to the bilinear mean of its corners; its last column
-    /// and row are those of its neighbours, where it has any.
+    /// and row belong to its neighbours, if any.
     void fill(const SelectionCell& c) {
         std::array<Rgb, AntialiasSettings::kLargestStep + 1> upper, lower;
         const int x_end = c.x1 + (c.x1 == width_ - 1), y_end = c.y1 + (c.y1 == height_ - 1);
@@ -256,7 +256,7 @@ class PixelSelection {
         }
     }
 
-    /// The rays that are asked for.
+    /// Traces the requested rays.
     void trace() {
         ++round_;
         pool_.trace(asked_.size(), [&](RayAnswers& answers, std::size_t first, std::size_t count,
@@ -292,15 +292,15 @@ class PixelSelection {
     EyeRays eye_;
     AnswerPool pool_;
     int width_, height_;
-    std::span<Rgb> shades_;  ///< [pixel of the crop] the film; of those without a ray at last
+    std::span<Rgb> shades_;  ///< [pixel of the crop] the film; pixels without a ray are set last
     std::unique_ptr<std::uint64_t[]> things_;  ///< [pixel of the crop] with a ray
-    PixelRound round_ = 0;                     ///< the last
+    PixelRound round_ = 0;                     ///< the last round
     std::vector<PixelRound> rounds_;           ///< [pixel of the crop]
     std::vector<std::uint32_t> asked_;         ///< pixels of the next round
-    std::size_t across_ = 0;                   ///< first cells in a row
-    std::vector<PixelRound> changed_;    ///< [first cell] the last round with rays in or beside it
-    std::vector<SelectionCell> cells_;   ///< that are not done
-    std::vector<SelectionCell> before_;  ///< those of the round before, while they are divided
+    std::size_t across_ = 0;                   ///< initial cells in a row
+    std::vector<PixelRound> changed_;  ///< [initial cell] the last round with rays in or next to it
+    std::vector<SelectionCell> cells_;   ///< not done
+    std::vector<SelectionCell> before_;  ///< cells of the previous round, during division
 };
 
 }  // namespace
@@ -309,7 +309,7 @@ RenderReport render_selected_pixels(const SingleRayRenderer& renderer, const Ren
                                     Film& film) {
     if (job.aovs != nullptr) {
         throw Error(ErrorKind::Usage,
-                    "--antialias pixel_selection: layers are for pixels with rays of their own");
+                    "--antialias pixel_selection: layers require a ray in every pixel");
     }
     return PixelSelection(renderer, job, film).run();
 }

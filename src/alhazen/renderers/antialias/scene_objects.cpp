@@ -20,7 +20,7 @@ Box3 box_around(const Affine& to_from, const Box3& box) {
     return result;
 }
 
-/// Widens the extents of an object by those of a shape of the table.
+/// Enlarges the extents of an object by those of a shape of the table.
 void include_diagonals(const PrimitiveTable& table, std::uint32_t shape, const Affine& world,
                        SceneObject& object) {
     for (std::size_t k = 0; k < kDiagonals.size(); ++k) {
@@ -47,21 +47,21 @@ struct SceneObjects::Layout {
     const Aggregate* aggregate;
     JoinedPolygons shapes;
     std::vector<const MeshPieces*> pieces;        ///< [mesh]
-    std::vector<std::uint64_t> mesh_objects;      ///< [mesh] number of its first piece
-    std::vector<const Layout*> inner;             ///< [instance] null: it is one object
-    std::vector<std::uint64_t> instance_objects;  ///< [instance] number of its first object
+    std::vector<std::uint64_t> mesh_objects;      ///< [mesh] index of its first piece
+    std::vector<const Layout*> inner;             ///< [instance] null: a single object
+    std::vector<std::uint64_t> instance_objects;  ///< [instance] index of its first object
     int depth = 0;                                ///< levels of instances that are expanded
     std::uint64_t count = 0;                      ///< saturates
 
     [[nodiscard]] const PrimitiveTable& table() const { return aggregate->primitives(); }
 };
 
-/// Where an aggregate is placed.
+/// A placed aggregate.
 struct SceneObjects::Place {
     Affine world_from_inner{};
     const Instance* outermost = nullptr;
     bool of_shared_mesh = false;
-    std::uint32_t part = 0;  ///< of the instance around it
+    std::uint32_t part = 0;  ///< part of the enclosing instance
     bool is_seen = true;
 };
 
@@ -89,7 +89,7 @@ const SceneObjects::Layout* SceneObjects::layout_of(const Aggregate& aggregate, 
     std::unique_ptr<Layout>& found = layouts_[{&aggregate, levels}];
     if (found) return found.get();
     found = std::make_unique<Layout>(aggregate);
-    Layout& layout = *found;  // the map keeps its elements in place
+    Layout& layout = *found;  // elements of the map are stable
     const PrimitiveTable& table = aggregate.primitives();
     layout.count = layout.shapes.objects;
     for (const PlacedMesh& mesh : table.meshes) {

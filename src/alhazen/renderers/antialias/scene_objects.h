@@ -3,9 +3,9 @@
 /// of meshes and of polygons, and solids of constructive geometry, instances expanded, each with
 /// bounds.
 ///
-/// Conventions: objects are numbered; a hit names its object. Where the scene has more than
-/// `most` objects, the innermost instances count as one object each, then those around them, until
-/// there are no more than `most`, or the outermost instances are single objects.
+/// Conventions: objects are numbered; a hit identifies its object. If the scene has more than
+/// `most` objects, instances are counted as one object each, from the innermost outwards, until
+/// there are at most `most` objects or the outermost instances are single objects.
 /// Complexity: linear in the number of objects, and in the size of meshes.
 /// Threads: const functions may be called from many threads.
 
@@ -24,7 +24,7 @@
 
 namespace alhazen {
 
-/// Unit axes besides those of the frame, for bounds that are tight around what lies askew: Kay and
+/// Unit axes in addition to those of the frame, for tight bounds of oblique objects: Kay and
 /// Kajiya's seven slabs.
 inline constexpr double kThird = 0.57735026918962576451;
 inline constexpr std::array<Vec3, 4> kDiagonals{{{kThird, kThird, kThird},
@@ -33,13 +33,13 @@ inline constexpr std::array<Vec3, 4> kDiagonals{{{kThird, kThird, kThird},
                                                  {kThird, -kThird, -kThird}}};
 
 struct SceneObject {
-    BoundingSphere sphere;  ///< of radius infinity where it is endless
+    BoundingSphere sphere;  ///< the radius is infinite if unbounded
     Box3 box;
-    /// [diagonal] where they are known: else all numbers.
+    /// [diagonal] unknown: all numbers.
     std::array<Interval, 4> diagonals{kAllNumbers, kAllNumbers, kAllNumbers, kAllNumbers};
     std::uint32_t part = 0;      ///< number of its part; see Surface
     std::uint32_t instance = 0;  ///< number of the part that placed it in the scene
-    bool is_seen = true;         ///< by eye rays
+    bool is_seen = true;         ///< visible to eye rays
 
     static constexpr Interval kAllNumbers{-std::numeric_limits<double>::infinity(),
                                           std::numeric_limits<double>::infinity()};
@@ -54,11 +54,11 @@ class SceneObjects {
     ~SceneObjects();
 
     [[nodiscard]] const std::vector<SceneObject>& objects() const { return objects_; }
-    /// The object of a hit of `root`.
+    /// Index of the object of a hit of `root`.
     [[nodiscard]] std::uint32_t number_of(const Hit& hit) const;
 
   private:
-    /// The numbers of the objects of an aggregate: shapes, pieces of meshes, contents of instances.
+    /// The indices of the objects of an aggregate: shapes, pieces of meshes, contents of instances.
     struct Layout;
     struct Place;
 

@@ -1,10 +1,10 @@
 #pragma once
-/// Renderers that answer single rays: in tiles, or with adaptive supersampling where the job asks
-/// for it.
+/// Renderers that compute the radiance of single rays: in tiles, or with adaptive supersampling if
+/// the job requests it.
 ///
-/// Conventions: those of RadianceEstimator (estimator.h); such an estimator also has
-/// `keep_hits(hits)`, which makes `trace` store the first hit of each eye ray, and
-/// `start_from(hits)`, which makes it begin with first hits that are known.
+/// Conventions: those of RadianceEstimator (estimator.h). The estimator also has `keep_hits(hits)`,
+/// after which `trace` stores the first hit of each eye ray, and `start_from(hits)`, after which it
+/// starts from known first hits.
 
 #include <algorithm>
 #include <memory>
@@ -18,20 +18,19 @@
 
 namespace alhazen {
 
-/// The radiance along single rays. Threads: used by one at a time.
+/// Radiance along single rays. Threads: used by one thread at a time.
 class RayAnswers {
   public:
     static constexpr std::size_t kRaysAtOnce = 256;
 
     virtual ~RayAnswers() = default;
-    /// At most kRaysAtOnce eye rays. `hits`: as long as `rays`, or empty where no hits are wanted.
-    /// Adds to `counters`.
+    /// Traces at most kRaysAtOnce eye rays. `hits` has the length of `rays`, or is empty if no hits
+    /// are needed. Adds to `counters`.
     virtual void trace(std::span<const Ray> rays, std::span<Rgb> radiance, std::span<Hit> hits,
                        RayCounters& counters) = 0;
-    /// At most kRaysAtOnce eye rays: what they meet, without a shade.
+    /// Finds the first hits of at most kRaysAtOnce eye rays, without shading.
     virtual void find(std::span<const Ray> rays, std::span<Hit> hits, RayCounters& counters) = 0;
-    /// The radiance along rays that have been traced by `find`, from their hits; they are not
-    /// counted again.
+    /// The radiance along rays traced by `find`, from their hits; they are not counted again.
     virtual void shade(std::span<const Ray> rays, std::span<const Hit> hits,
                        std::span<Rgb> radiance, RayCounters& counters) = 0;
 };
@@ -40,7 +39,7 @@ class RayAnswers {
 template <RadianceEstimator Estimator>
 class EstimatorAnswers final : public RayAnswers {
   public:
-    /// `more`: further arguments of the estimator.
+    /// `more`: additional arguments of the estimator.
     template <class... More>
     explicit EstimatorAnswers(const RenderJob& job, const More&... more)
         : job_(job), estimator_(job, kRaysAtOnce, counters_, more...) {}
@@ -86,7 +85,7 @@ class EstimatorAnswers final : public RayAnswers {
     const RenderJob& job_;
     RayCounters counters_;
     Estimator estimator_;
-    std::optional<VisibleBatch> finder_;  ///< once it is used
+    std::optional<VisibleBatch> finder_;  ///< created on first use
     const Path eye_{};
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kRowsOfATask = 4;
 
-/// The part of a ray that lies between planes.
+/// The interval of a ray between planes.
 struct Stretch {
     double enter, leave;
 
@@ -31,7 +31,7 @@ struct Stretch {
     }
 };
 
-/// Whether the ray meets the bounds of the object, widened by `room`, in [0, distance].
+/// True if the ray meets the bounds of the object, enlarged by `room`, in [0, distance].
 bool meets_bounds(const SceneObject& object, double room, const Ray& ray, double distance) {
     Stretch stretch{0.0, distance};
     for (int k = 0; k < 3; ++k) {

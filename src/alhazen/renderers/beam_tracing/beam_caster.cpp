@@ -10,11 +10,12 @@ namespace alhazen {
 
 namespace {
 
-/// A rest of more corners is divided.
+/// A remainder with more corners is divided.
 constexpr std::size_t kManyRegionCorners = 120;
-/// A beam has a side for each edge of its convex hull, up to this many; beyond, those of its box.
+/// Largest number of edges of a convex hull for which a beam has a side each; beyond, it has the
+/// sides of the bounding box.
 constexpr std::size_t kHullSides = 8;
-/// Nearer than this times the rounding of the tree, things touch.
+/// Distance below which facets touch, in units of the rounding of the tree.
 constexpr double kTouch = 8;
 
 std::int32_t on_lattice_line(double x) {
@@ -63,7 +64,7 @@ void straighten(std::vector<LatticePoint>& loop) {
     loop.erase(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
-/// Straightens. False where it does not turn left everywhere then.
+/// Straightens a loop. False if it is not convex and counter-clockwise afterwards.
 bool make_canonical(std::vector<LatticePoint>& loop) {
     straighten(loop);
     if (loop.size() < 3) {

@@ -4,13 +4,13 @@ namespace alhazen {
 
 namespace {
 
-/// Divides cells by regions; what is within one gets its mark.
+/// Divides cells by regions and marks the parts inside.
 class CellDivider {
   public:
     CellDivider(const BeamTree& tree, const std::vector<std::vector<std::uint32_t>>& behind)
         : tree_(tree), behind_(behind) {}
 
-    /// Adds the terms of a piece to those cells, from `first` on, that lie in it.
+    /// Adds the terms of a piece to the cells, from `first` on, that lie in it.
     void add(std::uint32_t piece, std::vector<BeamCell>& cells) {
         std::vector<BeamCell> inside;
         divide(tree_.pieces[piece].seen.region, cells, inside);
@@ -21,7 +21,7 @@ class CellDivider {
     }
 
   private:
-    /// Takes what lies in `region` out of `cells`.
+    /// Removes `region` from `cells`.
     void divide(const PolygonSet& region, std::vector<BeamCell>& cells,
                 std::vector<BeamCell>& inside) {
         std::vector<BeamCell> outside;

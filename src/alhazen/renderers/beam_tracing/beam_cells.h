@@ -1,7 +1,9 @@
 #pragma once
-/// The window divided into cells in which the same pieces and lights are seen.
+/// Division of the window into cells in which the same pieces and lights are visible.
 ///
-/// Conventions: cells of a piece that the eye sees; mirrored and refracted pieces, and the parts
+/// Conventions: the cells are those of a piece that the eye sees, divided by mirrored and refracted
+/// pieces and by the parts that lights reach. The colour of a point is the sum of the terms of its
+/// cell.
 /// that lights reach, divide it. The colour of a point is the sum of the terms of its cell.
 
 #include <vector>
@@ -10,7 +12,7 @@
 
 namespace alhazen {
 
-/// What a piece adds to a cell.
+/// The contribution of a piece to a cell.
 struct BeamTerm {
     std::uint32_t piece = 0;
     std::vector<std::uint32_t> lights;  ///< indices into its `lights`
@@ -18,10 +20,10 @@ struct BeamTerm {
 
 struct BeamCell {
     PolygonSet region;
-    std::vector<BeamTerm> terms;  ///< the first is of the eye's piece
+    std::vector<BeamTerm> terms;  ///< the first belongs to the eye's piece
 };
 
-/// [piece] the pieces that are seen behind it: through beams that left it.
+/// [piece] the pieces seen by beams that left it.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> pieces_behind(const BeamTree& tree);
 
 /// The cells of a piece that the eye sees.

@@ -12,13 +12,13 @@ namespace alhazen {
 
 namespace {
 
-/// Regions smaller than this are not divided further, pixels.
+/// Regions with smaller sides, in pixels, are not divided further.
 constexpr double kLeastSide = 4;
-/// Points of a side of the grid, and triangles, at which a region is shaded.
+/// Number of points along a side of the grid, and triangles, at which a region is shaded.
 constexpr int kGrid = 5;
 constexpr std::size_t kMostTriangles = 48;
 
-/// From the window to the picture.
+/// Maps the window to the picture.
 class ToPicture {
   public:
     ToPicture(int width, int height) : x_(0.5 * width), y_(0.5 * height) {}
@@ -144,7 +144,7 @@ class CellPainter {
     std::vector<ShadePoint> points_;
 };
 
-/// Regions of the pieces of a part, one group after the other as parts are first seen.
+/// Regions of the pieces by part, in the order in which parts are first visible.
 std::vector<DrawingGroup> groups_of(const BeamScene& scene, const BeamTree& tree,
                                     std::vector<std::vector<DrawingRegion>>& painted,
                                     const BeamDrawingOptions& options) {

@@ -1,13 +1,14 @@
 #pragma once
-/// A tree of beams as a drawing: regions of even or linearly changing colour, and lines where
-/// planes and objects end.
+/// Conversion of a tree of beams to a drawing: regions of constant or linear colour, and lines at
+/// the borders of planes and objects.
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984, section 6 (the
 /// tree as polygons, for any resolution).
-/// Differs: a region whose shading is not linear within the tolerance is divided until it is. Lines
-/// follow from the regions: a plane ends where the union of all its pieces does, so that cuts of
-/// the tree and of shadows are no lines.
-/// Conventions: those of Drawing. Threads: regions are shaded in parallel; the drawing is the same
+/// Differs: a region whose shading is not linear within the tolerance is divided. Lines follow from
+/// the regions: the border of a plane is that of the union of its pieces, so that cuts of the tree
+/// and of shadows do not produce lines.
+/// Conventions: those of Drawing. Threads: regions are shaded in parallel; the drawing is
+/// independent of their number.
 /// for any number of them.
 
 #include <functional>
@@ -19,10 +20,10 @@
 namespace alhazen {
 
 struct BeamDrawingOptions {
-    int width = 0, height = 0;  ///< of the picture, pixels
-    bool shaded = true;         ///< else all regions are white
+    int width = 0, height = 0;  ///< size of the picture, pixels
+    bool shaded = true;         ///< false: all regions are white
     bool lines = false;
-    double tolerance = 1.5 / 255;  ///< of encoded colours
+    double tolerance = 1.5 / 255;  ///< largest error of encoded colours
     /// Name of a part, for its title.
     std::function<std::string(std::uint32_t part)> name_of;
 };

@@ -117,13 +117,13 @@ class BeamFilterRenderer final : public TileRenderer {
         }
     }
 
-    /// Adds the light of the part in a column to the pixels into whose filter it reaches.
+    /// Adds the light of a part in a column to the pixels whose filter reaches it.
     void spread(int column, int j, bool whole, const Rgb& color) {
         for (int dj = -border_; dj <= border_; ++dj) {
             for (int di = -border_; di <= border_; ++di) {
                 const std::ptrdiff_t n = pixel_at(column - border_ + di, j - border_ + dj);
                 if (n < 0) continue;
-                // From the centre of that pixel; rows count downwards.
+                // Relative to the centre of that pixel; rows count downwards.
                 const Vec2 moved{-1.0 * di, 1.0 * dj};
                 const double weight = whole ? whole_[static_cast<std::size_t>(border_ - di)] *
                                                   whole_[static_cast<std::size_t>(border_ + dj)]
@@ -143,7 +143,7 @@ class BeamFilterRenderer final : public TileRenderer {
         }
         return weight;
     }
-    /// The number of a pixel of the film in the tile; -1 outside of it.
+    /// Index of a pixel of the film in the tile; -1 outside.
     [[nodiscard]] std::ptrdiff_t pixel_at(int i, int j) const {
         if (i < tile_.x0 || i >= tile_.x1 || j < tile_.y0 || j >= tile_.y1) return -1;
         return (j - tile_.y0) * static_cast<std::ptrdiff_t>(columns_) + (i - tile_.x0);

@@ -1,9 +1,9 @@
 #pragma once
-/// Pixels of beams under a filter that reaches into the pixels around: the part of each pixel that
-/// a piece covers is shaded once, and weighed with the integral of the kernel over it.
+/// Pixels of beams under a filter wider than a pixel: the part of each pixel that a piece covers is
+/// shaded once, and weighted by the integral of the kernel over it.
 ///
 /// Source: film/filter_integral.h. Conventions: those of pixel_polygon.h. A part has its mean
-/// colour (pixel_quadrature.h), as without a filter. Threads: a tile renderer for each.
+/// colour (pixel_quadrature.h), as without a filter. Threads: one tile renderer for each thread.
 
 #include <memory>
 
@@ -13,17 +13,17 @@
 
 namespace alhazen {
 
-/// A frame with a border of the reach of a filter, and the camera that sees it.
+/// A frame enlarged by the radius of a filter, and its camera.
 class WiderFrame {
   public:
-    /// The frame of the film, with the border of `job.antialias` where `filtered`.
+    /// The frame of the film, with the border of `job.antialias` if `filtered`.
     WiderFrame(const RenderJob& job, const Film& film, bool filtered);
 
     [[nodiscard]] const RenderJob& job() const { return job_; }
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] const PixelBox& crop() const { return crop_; }
-    /// Pixels on each side.
+    /// Width of the border on each side, in pixels.
     [[nodiscard]] int border() const { return border_; }
 
   private:
@@ -33,7 +33,7 @@ class WiderFrame {
     PixelBox crop_;
 };
 
-/// For the tiles of the film within the frame.
+/// Creates renderers for tiles of the film within the frame.
 [[nodiscard]] std::unique_ptr<TileRenderer> beam_filter_renderer(const WiderFrame& frame,
                                                                  const BeamScene& scene,
                                                                  const BeamTree& tree,

@@ -11,10 +11,10 @@ namespace alhazen {
 namespace {
 
 constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
-/// Fainter images have no lines.
+/// Least contribution of a mirror image that has lines.
 constexpr double kLeastContribution = 0.25;
 
-/// [facet] number of its plane among those of its part.
+/// [facet] index of its plane among those of its part.
 std::vector<std::uint32_t> planes_of_facets(const BeamScene& scene) {
     using Rounded = std::array<std::int64_t, 4>;
     std::map<std::pair<std::uint32_t, Rounded>, std::uint32_t> numbers;
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> planes_of_facets(const BeamScene& scene) {
     return planes;
 }
 
-/// Numbers of the things that pieces are seen as: a plane, or a part, through a chain of mirrors.
+/// Numbers the visible images of pieces: a plane, or a part, seen through a chain of mirrors.
 class Images {
   public:
     Images(const BeamTree& tree, std::span<const std::uint32_t> kinds) : tree_(tree) {
@@ -55,7 +55,7 @@ class Images {
                     .first->second);
         }
     }
-    /// The union of the pieces of each.
+    /// The union of the pieces of each image.
     [[nodiscard]] std::vector<PolygonSet> unions() const {
         std::vector<std::vector<PolygonSet>> regions(numbers_.size());
         for (std::size_t p = 0; p < of_piece_.size(); ++p) {
@@ -64,7 +64,7 @@ class Images {
         }
         std::vector<PolygonSet> result;
         for (std::vector<PolygonSet>& some : regions) {
-            // Two by two: each region takes part in log n unions.
+            // Merges pairwise: each region takes part in log n unions.
             while (some.size() > 1) {
                 std::vector<PolygonSet> half;
                 for (std::size_t i = 0; i + 1 < some.size(); i += 2) {
@@ -84,8 +84,8 @@ class Images {
     std::vector<std::uint32_t> of_piece_;
 };
 
-/// Whether there is region on both sides of an edge of its boundary: pieces that were cut apart and
-/// rounded leave cracks far thinner than a pixel.
+/// True if there is region on both sides of an edge of its boundary: separately rounded pieces
+/// leave cracks far thinner than a pixel.
 bool is_crack(const PolygonSet& region, LatticePoint a, LatticePoint b) {
     constexpr double kBeside = 64;
     const double x = 0.5 * (double(a.x) + b.x), y = 0.5 * (double(a.y) + b.y);
@@ -98,10 +98,10 @@ bool is_crack(const PolygonSet& region, LatticePoint a, LatticePoint b) {
     return inside(1) && inside(-1);
 }
 
-/// The lines of a loop without its cracks.
+/// Adds the lines of a loop without its cracks.
 void add_lines(LineStyle style, const PolygonSet& region, std::span<const LatticePoint> loop,
                std::vector<BeamOutline>& outlines) {
-    /// The test takes time by the square.
+    /// Limit of the edges tested, as the test takes quadratic time.
     constexpr std::size_t kMostTested = 4000;
     const std::size_t n = loop.size();
     std::vector<bool> crack(n, false);

@@ -1,11 +1,11 @@
 #pragma once
-/// Lines of a drawing: where planes and objects end in the picture.
+/// Lines of a drawing: the borders of planes and objects in the picture.
 ///
 /// Source: edges follow from the visible regions, as in Weiler and Atherton, "Hidden Surface
 /// Removal Using Polygon Area Sorting", SIGGRAPH 1977, section 6 (outlines of polygons that were
-/// cut). Conventions: facets of one plane of a part are one, and all facets of a part with normals
-/// of its own for shading. Lines of mirror images are told apart from those of what they are images
-/// of.
+/// cut). Conventions: facets in one plane of a part are merged, and so are all facets of a part
+/// with shading normals. Lines of mirror images are distinguished from those of the mirrored
+/// objects.
 
 #include <vector>
 
@@ -20,7 +20,7 @@ struct BeamOutline {
     LatticeLoop points;
     bool closed = true;
 };
-/// Creases first.
+/// Creases come first.
 [[nodiscard]] std::vector<BeamOutline> beam_outlines(const BeamScene& scene, const BeamTree& tree);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the pixels of a frame lie in the window of beams, and which pieces touch which rows.
+/// Positions of the pixels of a frame in the window of beams, and an index of pieces by row.
 ///
 /// Conventions: those of beam_caster.h; rows count from the top.
 
@@ -14,8 +14,7 @@
 
 namespace alhazen {
 
-/// The sample points and the edges of the pixels of a frame, in the window.
-/// The camera's film is the frame.
+/// Sample points and pixel edges of a frame, in the window. The camera's film is the frame.
 class BeamPixels {
   public:
     [[nodiscard]] static double to_window(double film) { return (2.0 * film - 1.0) * kBeamFilm; }
@@ -58,7 +57,7 @@ class BeamPixels {
     std::vector<double> xs_, ys_, edges_, rows_;
 };
 
-/// Pieces by the rows of pixels that they touch, in bands.
+/// Pieces indexed by the rows of pixels that they touch, in bands.
 class BeamBands {
   public:
     static constexpr int kRows = 16;
@@ -66,7 +65,7 @@ class BeamBands {
         bands_.resize(static_cast<std::size_t>((crop.y1 - crop.y0 + kRows - 1) / kRows));
         for (std::uint32_t k = 0; k < tree.pieces.size(); ++k) {
             const LatticeBox& box = tree.pieces[k].seen.region.bounds();
-            // Rows count downwards; all that have something at or below the top of the box.
+            // Rows count downwards: the bands at or below the top of the box.
             for (std::size_t b = 0; b < bands_.size(); ++b) {
                 const int first = crop.y0 + static_cast<int>(b) * kRows;
                 const int last = std::min(first + kRows, crop.y1) - 1;

@@ -28,7 +28,7 @@ void add_points(const PolygonSet& region, int j, double y, int first, std::span<
 
 namespace {
 
-/// Coordinates of the lattice then take 52 bits, and doubles hold them.
+/// Limits lattice coordinates to 52 bits, which doubles represent exactly.
 constexpr int kHeightBits = 28;
 
 }  // namespace
@@ -58,7 +58,7 @@ void RowAreas::add(const PolygonSet& region) {
     }
 }
 
-/// The inside is on the left: an edge that descends has it on its right.
+/// The inside is on the left: a descending edge has it on its right.
 void RowAreas::add_edge(double x0, double y0, double x1, double y1) {
     if (y0 == y1) return;
     double sign = 1.0;
@@ -78,7 +78,7 @@ void RowAreas::add_edge(double x0, double y0, double x1, double y1) {
         x1 += slope * (hi_ - y1);
         y1 = hi_;
     }
-    // Of the columns from left to right, as x rises or falls along the edge.
+    // Columns from left to right, whether x rises or falls along the edge.
     const double left = std::min(x0, x1), right = std::max(x0, x1);
     const std::size_t columns = own_.size();
     const auto column_of = [&](double x) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Pixels of polygons of the window: the sample points inside, or the exact part of each pixel.
+/// Rasterisation of polygons of the window: sample points inside, or exact coverage of each pixel.
 ///
 /// Source: the closed form of the box filter: areas and first moments to the right of each edge
 /// (Green's theorem), summed along each row of pixels.
@@ -18,21 +18,21 @@ namespace alhazen {
 /// A pixel of a region.
 struct BeamSample {
     int i = 0, j = 0;
-    double share = 1;  ///< of the pixel
-    Vec2 at;           ///< in the window: the sample point, or the middle of the part
+    double share = 1;  ///< covered fraction of the pixel
+    Vec2 at;           ///< in the window: the sample point, or the centroid of the part
 };
 
-/// Appends the samples of a row: `xs` are the sample points of the columns from `first` on.
+/// Appends the samples of a row; `xs` are the sample points of the columns from `first` on.
 void add_points(const PolygonSet& region, int j, double y, int first, std::span<const double> xs,
                 std::vector<double>& crossings, std::vector<BeamSample>& samples);
 
-/// The parts of the pixels of one row.
+/// Coverage of the pixels of one row.
 class RowAreas {
   public:
-    /// Pixels of the row lie between `lo` and `hi`, columns between successive `edges`.
+    /// Starts a row between `lo` and `hi`, with columns between successive `edges`.
     void begin(double lo, double hi, std::span<const double> edges);
     void add(const PolygonSet& region);
-    /// Appends the pixels of row `j`, the first of which has the column `first`, and forgets them.
+    /// Appends the pixels of row `j`, the first of which has column `first`, and resets the row.
     void take(int j, int first, std::vector<BeamSample>& samples);
 
   private:
@@ -45,8 +45,8 @@ class RowAreas {
 
     double lo_ = 0, hi_ = 0;
     std::span<const double> edges_;
-    /// Sums of differences of heights and of their squares, in whole 2^-28 of a lattice unit: they
-    /// are the same however an edge is divided, so that a pixel does not depend on its tile.
+    /// Sums of height differences and of their squares, as multiples of 2^-28 of a lattice unit.
+    /// They are independent of how an edge is divided, so that a pixel is independent of its tile.
     struct Heights {
         std::int64_t height = 0;
         Int128 square = 0;

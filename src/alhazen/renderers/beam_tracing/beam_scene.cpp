@@ -29,7 +29,7 @@ Vec3 normal_of_loops(std::span<const Vec3> corners, std::span<const std::uint32_
     return sum;
 }
 
-/// Walks the objects of a description as the compiler of scenes does.
+/// Traverses the objects of a description like the scene compiler.
 class BeamGatherer {
   public:
     BeamGatherer(const SceneDescription& description, const Scene& scene)
@@ -49,11 +49,12 @@ class BeamGatherer {
     BeamScene gather() {
         add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
         if (!refused_.empty()) {
-            throw Error(ErrorKind::Usage,
-                        "beams take planar facets: polygons, rectangles, boxes, polyhedra and "
-                        "triangle meshes, of materials without alpha (a tolerance takes "
-                        "triangles for other shapes that have an end); these are none: " +
-                            refused_);
+            throw Error(
+                ErrorKind::Usage,
+                "beams support only planar facets: polygons, rectangles, boxes, polyhedra and "
+                "triangle meshes, of materials without alpha (with a "
+                "tolerance other bounded shapes are tessellated); unsupported: " +
+                    refused_);
         }
         result_.tree = FacetTree(std::move(pool_), std::move(pieces_));
         return std::move(result_);
@@ -129,7 +130,7 @@ class BeamGatherer {
     [[nodiscard]] const Material& material_of(MaterialId id) const {
         return scene_.materials[static_cast<std::size_t>(id)];
     }
-    /// Sets what facets of the material have in common; false where beams cannot show it.
+    /// Sets the common properties of facets of the material; false if beams cannot render it.
     bool take_material(const Material& material, BeamFacet& facet) const {
         if (material.alpha_mode != AlphaMode::Opaque) return false;
         facet.one_sided = !material.double_sided && is_unseen_from_behind(evaluate(
@@ -139,7 +140,7 @@ class BeamGatherer {
     }
 
     void add_mesh(const TriangleMesh* mesh, const Part& part, BeamSource source) {
-        // Shared without counting: the description outlives the picture.
+        // A non-owning pointer: the description outlives the picture.
         source.mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), mesh);
         source.mesh.material = source.material;
         source.smooth = !mesh->normals.empty();
@@ -273,8 +274,8 @@ class BeamGatherer {
     FacetPool pool_;
     std::vector<FacetPiece> pieces_;
     Affine world_;
-    bool mirrored_ = false;       ///< the placement turns corners round
-    const Part* part_ = nullptr;  ///< of the facets
+    bool mirrored_ = false;       ///< the placement reverses orientation
+    const Part* part_ = nullptr;  ///< part of the current facets
     int refusals_ = 0, mendings_ = 0;
     std::string refused_;
 };

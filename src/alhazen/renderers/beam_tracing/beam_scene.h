@@ -1,11 +1,11 @@
 #pragma once
-/// A description as planar facets in world space, ordered in a tree, for beams.
+/// A description as planar facets in world space, in a tree, for beam tracing.
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984.
-/// Conventions: polygons with holes, rectangles, boxes, polyhedra and triangle meshes, placed by
-/// any number of instances. All else is refused by name, all at once. Polygons with corners off
-/// their plane or with edges that cross are mended (mended_polygon.h). Numbers of parts and
-/// instances are those of Surface. Facets count corners counter-clockwise from outside.
+/// Conventions: supports polygons with holes, rectangles, boxes, polyhedra and triangle meshes, in
+/// any number of instances. All other parts are refused by name, in one message. Polygons with
+/// corners off their plane or with crossing edges are repaired (mended_polygon.h). Indices of parts
+/// and instances are those of Surface. Corners of facets are counter-clockwise from outside.
 
 #include <memory>
 #include <string>
@@ -26,13 +26,13 @@ struct BeamSource {
     RayMask visible_to = kAllRays;
     std::shared_ptr<const AnyShape> shape;  ///< null: a mesh
     PlacedMesh mesh;
-    bool smooth = false;  ///< its normals for shading differ from those of its planes
+    bool smooth = false;  ///< its shading normals differ from those of its planes
 };
 
 struct BeamFacet {
     std::uint32_t source = 0;
     std::uint32_t part = 0;    ///< face of the shape, or triangle of the mesh
-    bool one_sided = false;    ///< not seen from behind
+    bool one_sided = false;    ///< invisible from behind
     bool blocks_light = true;  ///< its material is opaque
 };
 
@@ -40,14 +40,14 @@ struct BeamScene {
     std::vector<BeamSource> sources;
     std::vector<BeamFacet> facets;
     FacetTree tree;
-    std::vector<std::string> notes;  ///< what was mended, a polygon a line
+    std::vector<std::string> notes;  ///< one line for each repaired polygon
 
     [[nodiscard]] const FacetPlane& plane(std::uint32_t facet) const {
         return tree.pool().planes[facet];
     }
 };
 
-/// Throws Error (Usage) naming every part that cannot take part.
+/// Throws Error (Usage) naming every part that is not supported.
 [[nodiscard]] BeamScene beam_scene(const SceneDescription& description, const Scene& scene);
 
 }  // namespace alhazen

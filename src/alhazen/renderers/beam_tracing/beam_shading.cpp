@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// The weights of the second and third corner where a ray meets the plane of a triangle.
+/// The weights of the second and third corner at the intersection of a ray with a triangle's plane.
 Hit hit_of_triangle(const std::array<Vec3, 3>& corners, const Ray& ray, double t) {
     const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
     const Vec3 p = cross(ray.direction, e2), s = ray.origin - corners[0], q = cross(s, e1);

@@ -1,10 +1,10 @@
 #pragma once
-/// Shades points of the pieces of a tree of beams, with the look of `whitted`.
+/// Shades points of the pieces of a tree of beams, as `whitted` does.
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984, section 5 (the
-/// tree of beams is shaded as a tree of rays is).
-/// Differs: factors of mirrors and panes are those of the ray through the point.
-/// Conventions: as in Whitted. Threads: used by one thread; memory is kept.
+/// tree of beams is shaded like a tree of rays).
+/// Differs: coefficients of mirrors and panes are those of the ray through the point.
+/// Conventions: as in Whitted. Threads: used by one thread; memory is reused.
 
 #include "alhazen/renderers/beam_tracing/beam_tree.h"
 #include "alhazen/renderers/core/aov_geometry.h"
@@ -17,30 +17,30 @@ class BeamShading {
     /// All must outlive the object.
     BeamShading(const RenderJob& job, const BeamScene& scene, const BeamTree& tree);
 
-    /// Goes to a point of a piece, in the window. What leads there is in `share`.
+    /// Moves to a point of a piece, in the window; includes the throughput of the path to it.
     void go(const BeamPiece& piece, const Vec2& at);
-    /// Emission and ambient light; the background beside all facets.
+    /// Emission and ambient light of the point; the background if there is no facet.
     [[nodiscard]] Rgb own() const;
     /// The light that reaches the point through the facets of the part.
     [[nodiscard]] Rgb light(const BeamLight& light);
-    /// How far the point is from where the ray, refracted by Snell's law, meets the plane of the
-    /// piece; 0 where nothing was refracted, infinite where the ray is totally reflected. Known
-    /// with the layer alone.
+    /// Distance of the point from the hit of a ray refracted by Snell's law with the plane of the
+    /// piece; 0 without refraction, infinite after total reflection. Computed only if the layer is
+    /// requested.
     [[nodiscard]] double refraction_error() const;
-    /// For a piece that the eye sees.
+    /// Only for a piece that the eye sees.
     void add_to(PixelGeometry& geometry) const;
 
   private:
-    /// The state of a ray on its way from the eye.
+    /// The state of a ray along its path from the eye.
     struct Way {
         bool inside = false;
         Rgb share{1, 1, 1}, absorption;
     };
     void set_surface_of(std::uint32_t facet, const Ray& ray, double t, Surface& surface);
-    /// Sets the point where a ray of a beam meets a facet. Returns the way from `from`.
+    /// Sets the point where a ray of a beam meets a facet. Returns the distance from `from`.
     double meet(std::uint32_t facet, const Ray& ray, const Vec3& from, const Way& way);
     void attenuate(double distance, Way& way) const;
-    /// Takes the true ray through a facet, whose material `point_` has.
+    /// Continues the true ray through a facet, whose material `point_` has.
     void follow(std::uint32_t facet, RayKind kind);
     void pass(RayKind kind, double distance, Way& way) const;
     [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
@@ -57,9 +57,9 @@ class BeamShading {
     ShadingPoint point_;
     Surface between_;
     Way way_;
-    Rgb filter_{1, 1, 1};  ///< of all light of the point
+    Rgb filter_{1, 1, 1};  ///< factor on all light of the point
     bool nothing_ = false;
-    /// The ray as it is, beside that of the beam.
+    /// The ray by Snell's law, in addition to that of the beam.
     struct TrueRay {
         Vec3 at, direction;
         bool refracted = false, lost = false;

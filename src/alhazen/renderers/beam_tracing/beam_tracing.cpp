@@ -69,8 +69,8 @@ class BeamTileRenderer final : public TileRenderer {
         }
     }
 
-    /// Adds what a region of a piece gives to the pixels of a row of the tile. `shade(column)` is
-    /// the colour of the point that `shading_` went to.
+    /// Adds the contribution of a region of a piece to the pixels of a row of the tile.
+    /// `shade(column)` is the colour of the point to which `shading_` has moved.
     template <class Shade>
     void add_region(const BeamPiece& piece, const PolygonSet& region, const PixelBox& tile, int j,
                     const Shade& shade) {
@@ -131,7 +131,7 @@ class BeamTileRenderer final : public TileRenderer {
     std::vector<BeamSample> samples_;
     std::vector<Rgb> row_;
     std::vector<PixelGeometry> geometry_;
-    std::vector<double> errors_;  ///< of refraction
+    std::vector<double> errors_;  ///< errors of refraction
 };
 
 double elapsed_since(std::chrono::steady_clock::time_point start) {
@@ -188,7 +188,7 @@ RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
     const BeamScene scene = beam_scene(*job.description, job.scene);
     const double gathered = elapsed_since(start);
     const bool filtered = job.antialias != nullptr && job.antialias->filter != nullptr;
-    // The film reaches as far beyond the frame as the filters of its pixels.
+    // The film extends beyond the frame by the radius of the pixel filter.
     const WiderFrame wider(job, film, filtered);
     const BeamPixels pixels(wider.job(), wider.width(), wider.height());
     const PolygonSet window = pixels.around(wider.crop());

@@ -1,13 +1,13 @@
 #pragma once
-/// Beam tracing: what the eye sees, its mirror images and its shadows as exact polygons, found once
-/// for all resolutions.
+/// Beam tracing: visible surfaces, mirror images and shadows as exact polygons, computed once for
+/// all resolutions.
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984; Atherton, Weiler
 /// and Greenberg, "Polygon Shadow Generation", SIGGRAPH 1978; Dadoun, Kirkpatrick and Walsh, "The
 /// Geometry of Beam Tracing", Computational Geometry 1985.
-/// Differs: docs/design/beam_tracing.md. Takes planar facets (beam_scene.h) and refuses other
-/// shapes by name. Pixels are shaded at their sample points, or by the exact part of each pixel
-/// that each piece covers (`--antialias exact`).
+/// Differs: docs/design/beam_tracing.md. Supports planar facets (beam_scene.h) and refuses other
+/// shapes by name. Pixels are shaded at their sample points, or by the exact coverage of each piece
+/// (`--antialias exact`).
 
 #include "alhazen/renderers/beam_tracing/beam_tree.h"
 #include "alhazen/renderers/core/renderer.h"
@@ -16,7 +16,7 @@ namespace alhazen {
 
 class BeamTracing final : public Renderer {
   public:
-    /// `tolerance`: of triangles in place of exact shapes, which the caller makes; 0: none.
+    /// `tolerance`: of tessellations that the caller substitutes for exact shapes; 0: none.
     explicit BeamTracing(const BeamTreeOptions& options = {}, double tolerance = 0)
         : options_(options), tolerance_(tolerance) {}
 

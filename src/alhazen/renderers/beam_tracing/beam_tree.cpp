@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Where shadow beams to a light begin.
+/// Apex of the shadow beams to a light.
 BeamApex apex_of(const Light& light) {
     return std::visit(Overloaded{[](const AmbientLight&) { return BeamApex{}; },
                                  [](const DirectionalLight& l) {
@@ -30,7 +30,7 @@ BeamApex apex_of(const Light& light) {
                       light);
 }
 
-/// What a material can at most reflect and let through, as far as it is known without a point.
+/// Upper bounds of a material's reflection and transmission, independent of the point.
 struct BeamMaterial {
     Rgb reflects, passes;
     double index = 1;
@@ -94,7 +94,8 @@ class BeamTreeMaker {
         }
     }
 
-    /// Lights the pieces and adds the beams that leave them. Returns the regions of these.
+    /// Computes the lit parts of the pieces and adds the beams that leave them. Returns the regions
+    /// of these beams.
     std::vector<PolygonSet> finish_pieces(std::size_t first) {
         const std::size_t count = tree_.pieces.size() - first;
         std::vector<std::vector<BeamNode>> onward(count);
@@ -224,8 +225,8 @@ class BeamTreeMaker {
         }
     }
 
-    /// How much nearer space looks behind the plane, by the ray through the middle of the piece;
-    /// false where that is reflected.
+    /// Stretch of space along the normal behind the plane, for the ray through the middle of the
+    /// piece; false if that ray is totally reflected or the factor is too large.
     [[nodiscard]] bool refracts(const BeamPiece& piece, const BeamNode& beam,
                                 const FacetPlane& plane, bool outside, double index,
                                 double& factor) const {

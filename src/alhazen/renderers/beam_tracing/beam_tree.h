@@ -1,13 +1,13 @@
 #pragma once
-/// The tree of beams of a picture: pieces that the eye sees, and behind mirrors and panes those
-/// that reflected and refracted beams see, with the parts that each light reaches.
+/// The tree of beams of a picture: pieces that the eye sees, pieces that reflected and refracted
+/// beams see behind mirrors and panes, and the parts of each that lights reach.
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984.
 /// Differs: refraction stretches space along the normal by tan(refracted) / tan(incident) of the
-/// ray through the middle of the piece, where the paper takes the ratio of the indices, which is
-/// the same for rays along the normal.
-/// Conventions: beams come in generations, each in the order of its pieces. Threads: the tree is
-/// the same for any number of them.
+/// ray through the middle of the piece; the paper uses the ratio of the indices, which is the limit
+/// for rays along the normal.
+/// Conventions: beams are stored by generations, each in the order of its pieces. Threads: the tree
+/// is independent of their number.
 
 #include <span>
 
@@ -20,17 +20,17 @@ namespace alhazen {
 
 struct BeamTreeOptions {
     BeamCastOptions cast;
-    double least_contribution = 0;  ///< of reflected and refracted beams
-    double least_area = 0;          ///< of them, as a share of the film
+    double least_contribution = 0;  ///< least contribution of reflected and refracted beams
+    double least_area = 0;          ///< their least area, as a fraction of the film
 };
 
 struct BeamNode {
     BeamView view;
     SpaceMap back;                   ///< from the space of the eye
-    std::uint32_t piece = kNoFacet;  ///< that it left; kNoFacet: the eye
+    std::uint32_t piece = kNoFacet;  ///< the piece where it starts; kNoFacet: the eye
     int depth = 0;
-    Rgb contribution{1, 1, 1};  ///< at most
-    bool inside = false;        ///< of something transparent
+    Rgb contribution{1, 1, 1};  ///< upper bound
+    bool inside = false;        ///< starts inside a transparent object
 };
 
 /// Light that reaches a part of a piece.
@@ -52,15 +52,15 @@ struct BeamTree {
     std::vector<std::uint64_t> beams_of_kind;  ///< [RayKind]
 };
 
-/// The projection of a camera whose film reaches kBeamFilm from the middle, and its apex.
+/// The projection of a camera whose film extends to kBeamFilm from the middle, and its apex.
 [[nodiscard]] BeamView eye_view(const Camera& camera);
 
 /// The ray of a point of the window, in the space of the eye.
 [[nodiscard]] Ray window_ray(const EyeRays& eye, const Vec2& at);
-/// The ray in the space of a beam; unit.
+/// The ray in the space of a beam; unit direction.
 [[nodiscard]] Ray space_ray(const SpaceMap& back, const Ray& ray);
 
-/// `region`: of the window. Returns early after a stop.
+/// `region`: in the window. Returns early after a stop.
 [[nodiscard]] BeamTree beam_tree(const RenderJob& job, const BeamScene& scene,
                                  const PolygonSet& region, const BeamTreeOptions& options);
 

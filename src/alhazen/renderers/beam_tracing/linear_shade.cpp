@@ -11,8 +11,8 @@ double largest(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-/// The direction of the steepest rise of the sum of the channels; (0, 0) where points lie in a line
-/// or nothing rises.
+/// Direction of the steepest ascent of the sum of the channels; (0, 0) if the points are collinear
+/// or the sum is constant.
 Vec2 direction_of(std::span<const ShadePoint> points, const Vec2& middle, const Rgb& mean) {
     double xx = 0, xy = 0, yy = 0, xs = 0, ys = 0;
     for (const ShadePoint& p : points) {
@@ -25,7 +25,7 @@ Vec2 direction_of(std::span<const ShadePoint> points, const Vec2& middle, const 
         xs += d.x * s;
         ys += d.y * s;
     }
-    // A little of the mean keeps thin regions apart from a division by zero.
+    // A small multiple of the identity avoids a division by zero for thin regions.
     const double more = 1e-9 * (xx + yy);
     xx += more;
     yy += more;

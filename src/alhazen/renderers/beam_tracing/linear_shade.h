@@ -1,5 +1,5 @@
 #pragma once
-/// Fits colours at points by one that changes linearly along one direction.
+/// Fits a linear gradient to colours at points.
 
 #include <span>
 #include <vector>
@@ -15,12 +15,12 @@ struct ShadePoint {
 
 struct LinearShade {
     Rgb mean;
-    std::optional<DrawingGradient> gradient;  ///< none where one colour will do
-    double error = 0;                         ///< the largest of a channel, at the points
+    std::optional<DrawingGradient> gradient;  ///< empty if one colour is sufficient
+    double error = 0;                         ///< largest error of a channel, at the points
 };
 
-/// Least squares: the direction is that in which the sum of the channels changes. `enough`: one
-/// colour will do where no channel is further from it.
+/// Least squares fit along the direction in which the sum of the channels changes. `enough`: one
+/// colour is used if no channel differs from it by more.
 [[nodiscard]] LinearShade fit_shade(std::span<const ShadePoint> points, double enough);
 
 }  // namespace alhazen

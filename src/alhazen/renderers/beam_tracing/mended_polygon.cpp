@@ -11,15 +11,15 @@ namespace alhazen {
 
 namespace {
 
-/// Corners farther off the plane than this share of the size of the polygon are mended.
+/// Corners farther off the plane, relative to the size of the polygon, are repaired.
 constexpr double kFlat = 1e-6;
-/// Corners farther off are refused.
+/// Polygons with corners farther off are refused.
 constexpr double kBent = 1e-2;
 constexpr std::size_t kMostCorners = 20'000;
-/// Holes of polygons of more corners are joined to their outlines on the lattice.
+/// Holes of polygons with more corners are joined to their outlines on the lattice.
 constexpr std::size_t kManyCorners = 4096;
 
-/// Between the plane of a polygon and a lattice over it.
+/// Maps between the plane of a polygon and a lattice over it.
 class PlaneLattice {
   public:
     PlaneLattice(std::span<const Vec3> corners, const FacetPlane& plane) : plane_(plane) {
@@ -63,7 +63,7 @@ std::vector<LatticeLoop> lattice_loops(std::span<const Vec3> corners,
     return loops;
 }
 
-/// Moves corners to the plane; the largest distance.
+/// Moves corners to the plane; returns the largest distance.
 double flatten(std::vector<Vec3>& corners, const FacetPlane& plane) {
     double most = 0.0;
     for (Vec3& p : corners) {

@@ -1,12 +1,12 @@
 #pragma once
-/// Any polygon as convex parts of one plane: corners off the plane, edges that cross or lie on each
-/// other, and many holes are taken care of, and what was mended is told.
+/// Converts any polygon to convex parts in one plane, repairing corners off the plane, crossing or
+/// overlapping edges and many holes; reports the repairs.
 ///
-/// Conventions: inside by the odd-even rule. A polygon whose edges cross, or one of several loops
+/// Conventions: inside by the odd-even rule. A polygon with crossing edges, or with several loops
 /// and many corners, is rounded to a lattice of 2^25 steps across it; others keep their corners.
 /// Refused are polygons with a corner farther off their plane than a hundredth of their size, and
-/// those that are not convex and have more than 20 000 corners: each would be as many slivers.
-/// Complexity: O(n log n), but that of convex_parts.h for polygons of few corners.
+/// non-convex ones with more than 20 000 corners, which would become as many slivers.
+/// Complexity: O(n log n), except that of convex_parts.h for polygons of few corners.
 
 #include <string>
 
@@ -17,8 +17,8 @@ namespace alhazen {
 
 struct MendedPolygon {
     std::vector<std::vector<Vec3>> parts;  ///< counter-clockwise around the plane's normal
-    std::string mended;                    ///< in words; empty: nothing was
-    std::string refused;                   ///< why there are no parts; empty: there are
+    std::string mended;                    ///< description of the repairs; empty: none
+    std::string refused;                   ///< reason for refusal; empty: not refused
 };
 
 [[nodiscard]] MendedPolygon mended_polygon(std::span<const Vec3> corners,

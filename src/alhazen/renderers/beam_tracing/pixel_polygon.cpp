@@ -16,7 +16,7 @@ void cut_loop(std::span<const Vec2> loop, int axis, double at, bool above,
         const double of_a = side(a), of_b = side(b);
         if (of_a >= 0.0) result.push_back(a);
         if ((of_a >= 0.0) == (of_b >= 0.0)) continue;
-        // From the same end for both regions that share the edge.
+        // Starts from the same end for both regions that share the edge.
         const bool forward = of_a < of_b;
         const Vec2 &p = forward ? a : b, &q = forward ? b : a;
         const double t = (forward ? of_a : of_b) / (forward ? of_a - of_b : of_b - of_a);

@@ -2,8 +2,8 @@
 /// The parts of pixels that regions of the window cover, as polygons.
 ///
 /// Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", Communications of the ACM 17,
-/// 1974. Conventions: of a pixel, coordinates are in pixels from its centre, y up. Loops have the
-/// inside on their left. A part does not depend on the tile that asks for it.
+/// 1974. Conventions: coordinates are in pixels from the centre of the pixel, y up. Loops have the
+/// inside on their left. A part is independent of the requesting tile.
 
 #include <cstddef>
 #include <span>
@@ -18,7 +18,7 @@ namespace alhazen {
 void cut_loop(std::span<const Vec2> loop, int axis, double at, bool above,
               std::vector<Vec2>& result);
 
-/// Loops behind each other.
+/// Consecutive loops.
 struct PixelPolygon {
     std::vector<Vec2> points;
     std::vector<std::size_t> ends;
@@ -41,12 +41,12 @@ struct PixelPolygon {
 /// The part of a region in a row of pixels.
 class RowStrip {
   public:
-    /// Between two heights of the window.
+    /// Sets the strip between two heights of the window.
     void set(const PolygonSet& region, double lo, double hi);
-    /// What it covers of the pixel between two lines.
+    /// The covered part of the pixel between two lines.
     void cut(double left, double right, PixelPolygon& result);
 
-    /// Its reach; left() > right() where it is empty.
+    /// Horizontal extent; left() > right() if empty.
     [[nodiscard]] double left() const { return left_; }
     [[nodiscard]] double right() const { return right_; }
 

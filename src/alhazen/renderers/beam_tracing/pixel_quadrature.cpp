@@ -8,7 +8,7 @@ Vec2 within_pixel(const Vec2& p) {
     return {std::clamp(p.x, -0.5, 0.5), std::clamp(p.y, -0.5, 0.5)};
 }
 
-/// Integrals of 1, x, y, x^2, xy, y^2 by triangles to the origin.
+/// Integrals of 1, x, y, x^2, xy, y^2, by triangles to the origin.
 struct PlaneMoments {
     double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 
@@ -28,7 +28,7 @@ struct PlaneMoments {
 PixelRule rule_of(const PixelPolygon& polygon) {
     PixelRule rule;
     if (polygon.points.empty()) return rule;
-    // From a corner: small areas lose no digits.
+    // Relative to a corner, so that small areas lose no digits.
     const Vec2 from = polygon.points[0];
     rule.lo = rule.hi = from;
     PlaneMoments m;
@@ -53,7 +53,7 @@ PixelRule rule_of(const PixelPolygon& polygon) {
     const double yy = std::max(0.0, m.yy / m.area - mean.y * mean.y);
     const double xy = m.xy / m.area - mean.x * mean.y;
     const double half = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
-    // A square has no direction: that of the axes.
+    // A square has no principal direction: the axes are used.
     const double angle = apart > 1e-9 * half ? 0.5 * std::atan2(2.0 * xy, xx - yy) : 0.0;
     const Vec2 along{std::cos(angle), std::sin(angle)}, across{-along.y, along.x};
     const Vec2 u = std::sqrt(2.0 * (half + apart)) * along;

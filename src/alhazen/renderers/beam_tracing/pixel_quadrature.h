@@ -1,15 +1,15 @@
 #pragma once
 /// The mean of a colour over a polygon within a pixel.
 ///
-/// Source: Lyness, "Notes on the Adaptive Simpson Quadrature Routine", Journal of the ACM 16, 1969:
-/// what a rule differs by from a lower one decides about division.
-/// Differs: over polygons. The lower rule is the colour in the middle of the polygon, the rule the
-/// mean of four points that have its moments up to the second. Where they differ, times the area,
-/// by more than the error asked for, the polygon is cut in four, each with half of that error.
+/// Source: Lyness, "Notes on the Adaptive Simpson Quadrature Routine", Journal of the ACM 16, 1969
+/// (the difference to a rule of lower order decides about division).
+/// Differs: over polygons. The lower rule is the colour in the middle of the polygon, the higher
+/// one the mean of four points that match its moments up to the second. If their difference, times
+/// the area, exceeds the requested error, the polygon is cut in four, each with half of that error.
 /// Conventions: coordinates in pixels from the centre of the pixel; a pixel has the area 1. Loops
-/// have the inside on their left. The difference of the rules bounds the error of the better one
-/// where the colour is smooth; what is smaller than the distance of the points may be overlooked.
-/// Complexity: five colours where that is enough, at most 5 (1 + 4 + ... + 4^kDeepest).
+/// have the inside on their left. The difference of the rules bounds the error of the higher one if
+/// the colour is smooth; details smaller than the distance of the points may be missed.
+/// Complexity: five colours if that is sufficient, at most 5 (1 + 4 + ... + 4^kDeepest).
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace alhazen {
 
-/// Area and middle, and the points of the rule.
+/// Area, centroid, and the points of the rule.
 struct PixelRule {
     double area = 0;
     Vec2 middle;
@@ -33,7 +33,7 @@ class PixelQuadrature {
   public:
     static constexpr int kDeepest = 6;
 
-    /// Of a pixel's colour.
+    /// `error`: of a pixel's colour.
     explicit PixelQuadrature(double error) : error_(error) {}
 
     /// `shade(at)` is the colour of a point.
@@ -45,7 +45,7 @@ class PixelQuadrature {
     }
 
   private:
-    /// Smaller parts have one colour.
+    /// Smaller parts are shaded once.
     static constexpr double kLeastArea = 1e-6;
 
     template <class Shade>
@@ -56,7 +56,7 @@ class PixelQuadrature {
         for (const Vec2& p : rule.points) sum += 0.25 * shade(p);
         const Rgb d = sum - lower;
         const double off = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)});
-        // No number is no reason to divide.
+        // NaN does not cause a division.
         if (!(off * rule.area > error) || depth == kDeepest) return rule.area * sum;
         const Vec2 middle = 0.5 * (rule.lo + rule.hi);
         Rgb result;

@@ -8,17 +8,18 @@ namespace alhazen {
 
 namespace {
 
-/// Pairs of dimensions besides those of the eye's walk: of the light, of its walk, of the place on
-/// the lens for each of its vertices, of the lights drawn for the eye's.
+/// Pairs of dimensions in addition to those of the eye's walk: of the light, of its walk, of the
+/// lens position for each of its vertices, of the lights sampled for the eye's vertices.
 constexpr std::uint32_t kLightPairs = 1u << 12, kLightWalk = 2u << 12, kLensPairs = 3u << 12,
                         kDrawPairs = 4u << 12;
 
-/// A density by solid angle, of a direction that arrives at a vertex, as one of the vertex.
+/// Converts a density by solid angle, of a direction that arrives at a vertex, to the vertex'
+/// measure.
 double at_vertex(double density, const Vec3& direction, const PathVertex& v, double distance) {
     return density * v.facing(direction) / (distance * distance);
 }
 
-/// Of the vertex before `v`, of a path that would go on from `v` to it, by `back`.
+/// Density of the vertex before `v` on a path that would continue from `v` to it, by `back`.
 double at_vertex_before(double back, const PathVertex& v, const PathVertex& before) {
     return at_vertex(back, v.view(), before, v.distance) * v.backward;
 }
@@ -63,7 +64,7 @@ Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     start.parallel = lens_.is_parallel();
     start.density =
         start.parallel ? lens_.parallel_density() : lens_.direction_density(ray.direction, time);
-    // One vertex more than scatterings: the last may be a light.
+    // One vertex more than scatterings: the last may be on a light.
     walk_.walk(Transport::Radiance, start,
                {chance_, id, PathChance::kFirstBounce, settings_.depth + 1, settings_.roulette},
                eye_);
@@ -152,7 +153,7 @@ void BidirectionalTracer::hit_light(std::size_t b, Spectrum& sum) {
         sum += light;
         return;
     }
-    // Vertex 0 is the last eye vertex: the path has b - 1 others.
+    // Vertex 0 is the last eye vertex; the path has b - 1 others.
     const PathVertex& lit_vertex = eye_[b - 2];
     begin_path(0, b - 1);
     path_.vertices[1].singular = lit_vertex.singular;
@@ -242,7 +243,7 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     if (b >= 2) of_eye(b - 2).from_light = at_vertex_before(z.density_back(to_y), z, eye_[b - 2]);
     set_light_of_path(a == 1 ? back : light_[0].back);
     light = path_weight(path_, static_cast<int>(a) + 1) * light;
-    // Of the hero on both sides: it counts for all four once.
+    // If both sides have only the hero, its factor of four must count once.
     if (y.hero_only && z.hero_only) light = (1.0 / Spectrum::kCount) * light;
     sum += passing * light;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// The pairs of subpaths of samples, each vertex of one joined to each of the other.
+/// Connects the eye and light subpaths of samples, every vertex of one to every vertex of the
+/// other.
 
 #include <atomic>
 #include <cstdint>
@@ -18,7 +19,7 @@
 
 namespace alhazen {
 
-/// What reaches the lens from light paths, of all tiles.
+/// Contributions of light paths to the lens, of all tiles.
 struct LensLight {
     SplatFilm splats;
     std::atomic<std::uint64_t> paths{0};
@@ -33,58 +34,58 @@ class BidirectionalTracer {
     BidirectionalTracer(const BidirectionalTracer&) = delete;
     BidirectionalTracer& operator=(const BidirectionalTracer&) = delete;
 
-    /// `rays`: those through the centre of the lens.
+    /// `rays`: eye rays through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                        std::span<Rgb> radiance);
 
   protected:
-    /// Adds what further strategies find by the eye's path; for all of them `merging` is that of
-    /// WholePath.
+    /// Adds the contributions of further strategies for the eye's path; `merging` of their paths is
+    /// that of WholePath.
     virtual void merge(Spectrum& /*sum*/) {}
     void set_merging(double merging) { path_.merging = merging; }
-    /// Of all samples; null: each has its own.
+    /// Sets the wavelengths of all samples; null: each sample has its own.
     void set_waves(const Wavelengths* waves) { all_waves_ = waves; }
     [[nodiscard]] const std::vector<PathVertex>& eye_path() const { return eye_; }
     [[nodiscard]] const PathSettings& settings() const { return settings_; }
 
   private:
-    /// The light where the light path began, or that was drawn.
+    /// The light at which the light path began, or that was sampled.
     struct LightEnd {
         Illumination::LightPoint place;
         Illumination::EmitDensity emit;
     };
 
-    /// The light of the sample that its eye path carries.
+    /// The radiance of the sample's eye path.
     [[nodiscard]] Spectrum trace(const SampleId& id, const Ray& ray);
-    /// What the last eye vertex emits, or the environment behind it.
+    /// Adds emission at the last eye vertex, or of the environment behind it.
     void hit_light(std::size_t b, Spectrum& sum);
     void hit_environment(Spectrum& sum);
-    /// Eye vertex b - 1 and a light that is drawn for it.
+    /// Connects eye vertex b - 1 to a light sampled for it.
     void join_light(const SampleId& id, std::size_t b, float time, Spectrum& sum);
-    /// Light vertex a - 1 and eye vertex b - 1.
+    /// Connects light vertex a - 1 and eye vertex b - 1.
     void join(std::size_t a, std::size_t b, float time, Spectrum& sum);
-    /// Light vertex a - 1 and the lens.
+    /// Connects light vertex a - 1 to the lens.
     void join_lens(const SampleId& id, std::size_t a, float time);
 
-    /// Sets the densities of the eye vertices 0 .. b - 3, seen from the light side too, as the last
-    /// of `path_`, and those of the light vertices 0 .. a - 3 as the first.
+    /// Sets the densities, from both sides, of the eye vertices 0 .. b - 3 as the last ones of
+    /// `path_`, and those of the light vertices 0 .. a - 3 as the first.
     void begin_path(std::size_t a, std::size_t b);
     [[nodiscard]] WholePath::Vertex& of_light(std::size_t i) { return path_.vertices[i + 1]; }
     [[nodiscard]] WholePath::Vertex& of_eye(std::size_t i) {
         return path_.vertices[path_.vertices.size() - 1 - i];
     }
-    /// Vertex 1 of a path, with what is known of the way from there to the light.
+    /// Vertex 1 of a path, with the densities between it and the light.
     struct LitVertex {
         const PathVertex& v;
         Vec3 to_light;
         double distance;
-        double eye_density;  ///< by solid angle, with which the eye's path goes to the light
-        double reached;      ///< shares of walks there and back that arrive (PathVertex)
+        double eye_density;  ///< density by solid angle of the eye's path continuing to the light
+        double reached;      ///< shares of walks in both directions that arrive (PathVertex)
         double backward;
     };
-    /// Sets vertex 0, and what a light path finds at vertex 1.
+    /// Sets vertex 0, and the densities of a light path at vertex 1.
     void set_light(const LightEnd& end, const LitVertex& lit);
-    /// Of a path whose first vertex is that of `light_`.
+    /// The same for a path whose first vertex is that of `light_`.
     void set_light_of_path(double eye_density);
 
     const RenderJob& job_;
@@ -101,11 +102,11 @@ class BidirectionalTracer {
     LightBatch joins_;
     LensLight& lens_light_;
     std::vector<PathVertex> eye_, light_;
-    MediumStack behind_;  ///< the surface at hand
+    MediumStack behind_;  ///< at the current surface
     RandomWalk::Escape escape_;
-    LightEnd begin_;  ///< of `light_`
+    LightEnd begin_;  ///< the light of `light_`
     const Wavelengths* all_waves_ = nullptr;
-    Wavelengths waves_;  ///< of the sample, as both its paths begin
+    Wavelengths waves_;  ///< wavelengths of the sample, at the start of both paths
     WholePath path_;
 };
 

@@ -19,7 +19,7 @@ bool is_possible(const WholePath& path, int s) {
     return s == m + 1 || !singular(s);
 }
 
-/// Density of strategy s + 1 over that of s.
+/// Ratio of the densities of strategies s + 1 and s.
 double step(const WholePath& path, int s) {
     const auto at = [&](int i) -> const WholePath::Vertex& {
         return path.vertices[static_cast<std::size_t>(i)];
@@ -36,7 +36,7 @@ bool is_merged(const WholePath& path, int k) {
     return path.merging > 0.0 && path.emitted && k >= 2 && !v.singular && !v.in_volume;
 }
 
-/// `own` and the squared densities of all other strategies over that of strategy s.
+/// `own` plus the squared densities of all other strategies relative to that of strategy s.
 double sum_of_squares(const WholePath& path, int s, double own) {
     const int m = static_cast<int>(path.vertices.size()) - 1;
     const auto at = [&](int i) -> const WholePath::Vertex& {

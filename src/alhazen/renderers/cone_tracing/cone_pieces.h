@@ -1,13 +1,13 @@
 #pragma once
-/// What a cone sees of the pieces that it meets: coverages combined front to back.
+/// Visibility of the pieces that a cone meets: coverages combined front to back.
 ///
 /// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, section 3 (a list of the closest
-/// few objects); the sum over pieces that abut is his remedy against seams.
-/// Differs: an object is a surface: faces and triangles that share edges, on one side. Pieces of
-/// one surface are added until it is full; different surfaces count as independent, so what is left
-/// of the cone is the product of what each leaves. The closest eight surfaces are told apart; all
-/// others share the last place. Of many pieces of one surface a few are shaded, evenly spread over
-/// what they cover.
+/// few objects); adding pieces that abut is his remedy against seams.
+/// Differs: an object is a surface: faces and triangles that share edges, on one side. Coverages of
+/// pieces of one surface are added up to 1; those of different surfaces are treated as independent,
+/// so that the remainder of the cone is the product of their remainders. The closest eight surfaces
+/// are distinguished; all others share the last entry. If a surface has many pieces, only a few are
+/// shaded, evenly distributed over their coverage.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,13 +18,13 @@
 
 namespace alhazen {
 
-/// The surfaces that cover a part of a cone, and how much.
+/// The surfaces that cover a part of a cone, and their coverages.
 class ConeSurfaces {
   public:
     static constexpr std::size_t kMost = 8;
 
-    /// Adds a piece behind all before it: what is seen of it. `number` becomes that of its surface
-    /// in the list.
+    /// Adds a piece behind all previous ones and returns its visible share. `number` is set to the
+    /// index of its surface in the list.
     double add(std::uint32_t surface, bool front, double share, std::size_t& number) {
         number = find(surface, front);
         double others = 1.0;
@@ -35,7 +35,7 @@ class ConeSurfaces {
         list_[number].filled += own;
         return own * others;
     }
-    /// What no surface covers.
+    /// The share that no surface covers.
     [[nodiscard]] double left() const {
         double left = 1.0;
         for (const One& one : list_) left *= 1.0 - one.filled;
@@ -58,15 +58,15 @@ class ConeSurfaces {
     InlineVector<One, kMost> list_;
 };
 
-/// A piece and the part of the cone that shows it.
+/// A piece and the share of the cone in which it is visible.
 struct SeenPiece {
     ConePiece piece;
     double weight = 0;
-    std::size_t surface = 0;  ///< in the list of surfaces
+    std::size_t surface = 0;  ///< index of its surface
 };
 
-/// Of the pieces of each surface keeps `most`, evenly spread over their weights, with the sum of
-/// the weights.
+/// Keeps at most `most` pieces of each surface, evenly distributed by weight, with the sum of the
+/// weights unchanged.
 inline void thin_out(std::vector<SeenPiece>& seen, std::size_t most) {
     if (seen.size() <= most) return;
     std::array<std::size_t, ConeSurfaces::kMost> count{};
@@ -78,7 +78,7 @@ inline void thin_out(std::vector<SeenPiece>& seen, std::size_t most) {
     const double steps = static_cast<double>(most);
     const auto is_left_out = [&](SeenPiece& s) {
         if (count[s.surface] <= most) return false;
-        // The middles of `most` equal parts that fall into this piece.
+        // Number of middles of `most` equal parts that fall into this piece.
         const double step = total[s.surface] / steps;
         double& from = before[s.surface];
         const double first = std::ceil(from / step - 0.5);

@@ -17,7 +17,7 @@ bool passes_cones(const Material& material) {
     return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
 }
 
-/// The factor of a placement that keeps shapes; 0 for any other.
+/// The scale of a similarity transform; 0 for others.
 double similarity_of(const Mat3& m) {
     const double a = length(m.x_axis), b = length(m.y_axis), c = length(m.z_axis);
     const double slack = 1e-9 * a;
@@ -27,7 +27,7 @@ double similarity_of(const Mat3& m) {
     return square && std::abs(b - a) <= slack && std::abs(c - a) <= slack ? a : 0.0;
 }
 
-/// Newell's normal, of the length of twice the area.
+/// Newell's normal; its length is twice the area.
 Vec3 loop_normal(std::span<const Vec3> loop) {
     Vec3 sum;
     for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -36,7 +36,7 @@ Vec3 loop_normal(std::span<const Vec3> loop) {
     return sum;
 }
 
-/// Whether a point of the plane of a normal lies in a loop, by the odd-even rule.
+/// True if a point in the plane of a normal lies in a loop, by the odd-even rule.
 bool is_in_loop(const Vec3& p, std::span<const Vec3> loop, const Vec3& normal) {
     const int drop = dominant_axis(normal);
     const int a = (drop + 1) % 3, b = (drop + 2) % 3;
@@ -84,7 +84,7 @@ class SharedEdges {
     std::vector<std::uint32_t> parent_;
 };
 
-/// Walks the objects of a description as the compiler of scenes does.
+/// Traverses the objects of a description like the scene compiler.
 class ConeGatherer {
   public:
     ConeGatherer(const SceneDescription& description, const Scene& scene)
@@ -104,10 +104,11 @@ class ConeGatherer {
     ConeScene gather() {
         add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
         if (!refused_.empty()) {
-            throw Error(ErrorKind::Usage,
-                        "cones take spheres, planes, polygons, boxes, polyhedra, rectangles and "
-                        "triangle meshes; these are none: " +
-                            refused_);
+            throw Error(
+                ErrorKind::Usage,
+                "cones support only spheres, planes, polygons, boxes, polyhedra, rectangles and "
+                "triangle meshes; unsupported: " +
+                    refused_);
         }
         join_surfaces();
         build_tree();
@@ -176,7 +177,7 @@ class ConeGatherer {
     void add_mesh(const TriangleMesh* mesh, ConeSource source) {
         if (mesh->triangles.empty()) return;
         source.kind = ConeSource::Kind::Mesh;
-        // Shared without counting: the description outlives the picture.
+        // A non-owning pointer: the description outlives the picture.
         source.mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), mesh);
         source.mesh.material = source.material;
         const std::vector<std::uint32_t>& own = mesh->vertex_materials;
@@ -316,7 +317,7 @@ class ConeGatherer {
         result_.items.push_back({face.source, static_cast<std::uint32_t>(result_.faces.size())});
         result_.faces.push_back(std::move(face));
     }
-    /// Turns loops so that their signed areas add up to the odd-even rule, and sets the plane.
+    /// Orients loops so that their signed areas sum to the odd-even rule, and sets the plane.
     static void orient(ConeFace& face) {
         std::vector<std::span<Vec3>> loops;
         std::size_t first = 0;
@@ -359,7 +360,7 @@ class ConeGatherer {
         const std::vector<std::uint32_t> surfaces = shared.surfaces();
         for (std::size_t k = 0; k < surfaces.size(); ++k) result_.sources[k].surface = surfaces[k];
     }
-    /// The edges of a mesh that belong to one triangle.
+    /// Adds the edges of a mesh that belong to a single triangle.
     static void add_borders(const ConeSource& source, std::uint32_t number, SharedEdges& shared) {
         const TriangleMesh& mesh = *source.mesh.mesh;
         std::vector<std::array<std::uint32_t, 2>> edges;

@@ -1,11 +1,11 @@
 #pragma once
-/// The geometry of a description for cones: spheres, planes, flat faces, triangle meshes.
+/// The geometry of a description for cone tracing: spheres, planes, flat faces, triangle meshes.
 ///
 /// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984 (spheres, planes, polygons).
-/// Differs: triangle meshes, and boxes, polyhedra and rectangles by their faces. Everything else is
-/// refused by name, all at once.
-/// Conventions: numbers of parts and instances are those of Surface. Faces that share an edge, bit
-/// for bit, are one surface, whatever part they belong to.
+/// Differs: also triangle meshes, and boxes, polyhedra and rectangles by their faces. All other
+/// parts are refused by name, in one message.
+/// Conventions: indices of parts and instances are those of Surface. Faces that share an edge, bit
+/// for bit, are one surface, even of different parts.
 
 #include <map>
 #include <memory>
@@ -23,18 +23,18 @@ struct ConeSource {
     enum class Kind : std::uint8_t { Sphere, Plane, Faces, Mesh };
     Kind kind = Kind::Mesh;
     bool placed = false;    ///< the placement is not the identity
-    bool closed = false;    ///< a solid: seen from outside, its front hides its back
-    bool inward = false;    ///< corners run clockwise from outside, in world space
-    bool may_pass = false;  ///< a point of it may be missing, or unseen from behind
+    bool closed = false;    ///< a solid: its front hides its back from outside
+    bool inward = false;    ///< corners are clockwise from outside, in world space
+    bool may_pass = false;  ///< a point may be transparent by coverage, or invisible from behind
     RayMask visible_to = kAllRays;
     MaterialId material{0};
     std::uint32_t part = 0, instance = 0;
-    std::uint32_t surface = 0;  ///< pieces of one surface abut
+    std::uint32_t surface = 0;  ///< index of the surface; pieces of one surface abut
     std::shared_ptr<const AnyShape> shape;
     PlacedMesh mesh;
     Placement placement;
     Vec3 point, normal;  ///< world: centre of the sphere; a point of the plane, its normal
-    double radius = 0;   ///< of the sphere
+    double radius = 0;   ///< radius of the sphere
     const ConeTree* tree = nullptr;  ///< over the triangles of the mesh, in its own frame
 };
 
@@ -42,11 +42,11 @@ struct ConeSource {
 struct ConeFace {
     std::uint32_t source = 0, part = 0;
     Vec3 point, normal;
-    std::vector<Vec3> vertices;            ///< front counter-clockwise; holes the other way round
+    std::vector<Vec3> vertices;            ///< front counter-clockwise; holes in the opposite order
     std::vector<std::uint32_t> loop_ends;  ///< empty: one loop
 };
 
-/// What leaves of the tree hold: a sphere, a mesh, or a face.
+/// An item of a tree leaf: a sphere, a mesh, or a face.
 struct ConeItem {
     static constexpr std::uint32_t kNoFace = 0xFFFFFFFFu;
     std::uint32_t source = 0, face = kNoFace;
@@ -56,13 +56,13 @@ struct ConeScene {
     std::vector<ConeSource> sources;
     std::vector<ConeFace> faces;
     std::vector<ConeItem> items;
-    std::vector<std::uint32_t> planes;  ///< sources without bounds
+    std::vector<std::uint32_t> planes;  ///< unbounded sources
     ConeTree tree;                      ///< over `items`
     std::map<const TriangleMesh*, std::unique_ptr<ConeTree>> mesh_trees;
     std::uint32_t surfaces = 0;
 };
 
-/// Throws Error (Usage) naming every part that cannot take part.
+/// Throws Error (Usage) naming every part that is not supported.
 [[nodiscard]] ConeScene cone_scene(const SceneDescription& description, const Scene& scene);
 
 }  // namespace alhazen

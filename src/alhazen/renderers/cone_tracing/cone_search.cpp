@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Less of a cone than this is nothing.
+/// Smaller coverages are ignored.
 constexpr double kLeastCover = 1e-9;
 
 constexpr auto kFartherNode = [](const auto& a, const auto& b) { return a.z > b.z; };
@@ -117,7 +117,7 @@ void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
         piece.share = cover.share;
         piece.at = cover.at;
     }
-    // |o + z d - c| = r; where rounding loses the roots, the nearest point of the line.
+    // Solves |o + z d - c| = r; takes the nearest point of the line if rounding loses the roots.
     const Ray ray = line(piece.at);
     const Vec3 from = ray.origin - source.point;
     const double a = length_squared(ray.direction), b = dot(from, ray.direction);
@@ -127,7 +127,7 @@ void ConeSearch::add_sphere(std::uint32_t number, const ConeSource& source) {
     const double near = -b / a - root, far = -b / a + root;
     if (!inside && !(near >= start_->range.z_min)) {
         if (!(far > start_->range.z_min)) return;
-        // The cone starts within a sphere that it did not enter.
+        // The cone starts inside a sphere that it did not enter.
         piece.front = false;
         piece.share = 1.0;
     }

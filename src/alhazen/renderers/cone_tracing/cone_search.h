@@ -1,14 +1,14 @@
 #pragma once
-/// What a cone meets, nearest first: pieces of spheres, planes, faces and triangles, each with the
-/// part of the cone that it covers.
+/// The pieces that a cone meets, nearest first: spheres, planes, faces and triangles, each with the
+/// share of the cone that it covers.
 ///
-/// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, section 3 (a sorted list of what
-/// partly covers the cone).
-/// Differs: pieces are computed when the nearest box that is left is farther, so that a cone that
-/// is full asks for no more of them; the list of objects is the renderer's (cone_pieces.h).
-/// Conventions: distances run along the centre line. Pieces at equal distance come in the order of
-/// their source and part. Of a solid only what faces the cone's start counts: its front from
-/// outside, its back from inside. Threads: used by one thread; memory is kept.
+/// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, section 3 (a sorted list of objects
+/// that partly cover the cone).
+/// Differs: pieces are computed lazily, once no unvisited box is nearer, so that a fully covered
+/// cone computes no more; the list of objects is kept by the renderer (cone_pieces.h).
+/// Conventions: distances are along the centre line. Pieces at equal distance are sorted by source
+/// and part. Only the side of a solid that faces the cone's start counts: its front from outside,
+/// its back from inside. Threads: used by one thread; memory is reused.
 
 #include <vector>
 
@@ -22,21 +22,21 @@ namespace alhazen {
 struct ConePiece {
     std::uint32_t source = 0;
     std::uint32_t part = 0;  ///< face of the shape, or triangle of the mesh
-    double z = 0;            ///< of its middle, along the centre line
-    double share = 0;        ///< covered part of the cone
-    Vec2 at{0, 0};           ///< its middle in the disc of the cone
+    double z = 0;            ///< distance of its centroid along the centre line
+    double share = 0;        ///< covered share of the cone
+    Vec2 at{0, 0};           ///< its centroid in the disc of the cone
     double u = 0, v = 0;     ///< weights of the second and third corner of a triangle
-    bool front = true;       ///< the side of its outward normal
+    bool front = true;       ///< seen from the side of its outward normal
 };
 
-/// Where a cone starts, and what it may see.
+/// The start of a cone, and what it may see.
 struct ConeStart {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     RayKind kind = RayKind::Eye;
-    std::uint32_t source = kNone, part = kNone;  ///< on which it starts
-    double clear = 0;  ///< nearer than this, nothing of that source covers
+    std::uint32_t source = kNone, part = kNone;  ///< where it starts
+    double clear = 0;  ///< pieces of that source at a smaller distance are ignored
     ConeRange range;
-    InlineVector<std::uint32_t, 8> inside;  ///< solids around its start
+    InlineVector<std::uint32_t, 8> inside;  ///< solids that contain its start
 
     [[nodiscard]] bool is_inside(std::uint32_t s) const {
         for (const std::uint32_t k : inside) {
@@ -48,16 +48,16 @@ struct ConeStart {
 
 class ConeSearch {
   public:
-    /// `tables`: coverage of spheres from Kirk's tables. The scene must outlive the object.
+    /// `tables`: use Kirk's tables for the coverage of spheres. The scene must outlive the object.
     ConeSearch(const ConeScene& scene, bool tables) : scene_(scene), tables_(tables) {}
 
-    /// `cone` and `start` must outlive the calls of `next`.
+    /// Starts a search. `cone` and `start` must outlive the calls of `next`.
     void begin(const ConeRay& cone, const ConeStart& start);
-    /// The next piece; false without any.
+    /// Sets the next piece; false if there are no more.
     [[nodiscard]] bool next(ConePiece& piece);
 
   private:
-    /// The tree of the scene, or of a mesh.
+    /// Traversal of the tree of the scene, or of a mesh.
     struct Level {
         const ConeTree* tree;
         ConeMap map;
@@ -77,11 +77,11 @@ class ConeSearch {
     void add_face(const ConeFace& face);
     void add_triangle(const Level& level, std::uint32_t triangle);
     [[nodiscard]] bool is_seen(const ConeSource& source) const;
-    /// Adds a covered part of the plane through `point`.
+    /// Adds a piece in the plane through `point`.
     void add_flat(std::uint32_t source, std::uint32_t part, const Vec3& point, const Vec3& normal,
                   const ConeCover& cover, bool front);
     void add(const ConePiece& piece);
-    /// The line of the cone through a point of its disc; z of the direction is 1.
+    /// The line of the cone through a point of its disc; its direction has z = 1.
     [[nodiscard]] Ray line(const Vec2& at) const;
 
     const ConeScene& scene_;
@@ -90,8 +90,8 @@ class ConeSearch {
     const ConeStart* start_ = nullptr;
     Vec3 ex_, ey_;
     std::vector<Level> levels_;
-    std::vector<Waiting> waiting_;   ///< a heap
-    std::vector<ConePiece> pieces_;  ///< a heap
+    std::vector<Waiting> waiting_;   ///< a heap, nearest first
+    std::vector<ConePiece> pieces_;  ///< a heap, nearest first
     ConeScratch scratch_;
 };
 

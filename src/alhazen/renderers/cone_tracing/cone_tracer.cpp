@@ -13,15 +13,15 @@ namespace alhazen {
 
 namespace {
 
-/// Pieces of one surface that are shaded: in the cone of a pixel, and in those that follow.
+/// Largest number of shaded pieces per surface, for the cone of a pixel and for secondary cones.
 constexpr std::size_t kShadedPieces = 4, kShadedPiecesOnward = 1;
 /// A cone that meets more pieces is narrowed.
 constexpr int kMostPieces = 192;
-constexpr int kMostNarrowings = 16;  ///< then the nearest pieces are all
-/// Less of a pixel than this sends no cones onward.
+constexpr int kMostNarrowings = 16;  ///< afterwards the nearest pieces are taken
+/// Pieces of a smaller share of the pixel start no secondary cones.
 constexpr double kLeastConeShare = 1.0 / 256;
 
-/// Half as wide.
+/// The cone with half the width.
 ConeRay narrowed(const ConeRay& cone) {
     return {cone.origin, cone.axis, 0.5 * cone.radius, 0.5 * cone.spread};
 }
@@ -34,7 +34,7 @@ Ray line_of(const ConeRay& cone, const Vec2& at) {
     return {cone.origin + cone.radius * across, cone.axis + cone.spread * across};
 }
 
-/// Enters a solid in the list of those around the start of a cone, or takes it out.
+/// Adds a solid to the solids that contain the start of a cone, or removes it.
 void set_inside(ConeStart& start, std::uint32_t source, bool inside) {
     InlineVector<std::uint32_t, 8> around;
     for (const std::uint32_t k : start.inside) {
@@ -44,7 +44,7 @@ void set_inside(ConeStart& start, std::uint32_t source, bool inside) {
     start.inside = around;
 }
 
-/// Of a vector in the plane of two others, its coordinates by them.
+/// Coordinates of a vector in the plane of two others, relative to them.
 Vec2 in_edges(const Vec3& v, const Vec3& a, const Vec3& b) {
     const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
     const double det = aa * bb - ab * ab;
@@ -53,7 +53,7 @@ Vec2 in_edges(const Vec3& v, const Vec3& a, const Vec3& b) {
     return {(bb * va - ab * vb) / det, (aa * vb - ab * va) / det};
 }
 
-/// The footprint of a piece as a light sees it, as discs side by side along its longer axis.
+/// The footprint of a piece as seen from a light, as a row of discs along its longer axis.
 struct FootprintDiscs {
     static constexpr int kMost = 6;
     struct Disc {
@@ -64,8 +64,8 @@ struct FootprintDiscs {
     int count = 0;
 };
 
-/// `radius`: of the piece, across `ray`; `n`: the normal of the surface at `point`; at most `most`
-/// discs.
+/// `radius`: of the piece, perpendicular to `ray`; `n`: surface normal at `point`; `most`: limit of
+/// the number of discs.
 FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& ray, double radius,
                                   const Vec3& to_light, int most) {
     constexpr double kLeastCosine = 0.02;
@@ -73,7 +73,7 @@ FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& 
     const Vec3 in_plane = ray - dot(ray, n) * n;
     const double sine = length(in_plane);
     const Vec3 along = sine > 1e-9 ? in_plane / sine : perpendicular(n);
-    // Semi-axes on the surface, and as the light sees them.
+    // Semi-axes on the surface, and projected towards the light.
     const Vec3 a = (radius / cosine) * along, b = radius * cross(n, along);
     const Vec3 seen_a = a - dot(a, to_light) * to_light, seen_b = b - dot(b, to_light) * to_light;
     const double angle = 0.5 * std::atan2(2.0 * dot(seen_a, seen_b),
@@ -100,7 +100,7 @@ FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& 
     return result;
 }
 
-/// Of the disc that looks as large as the light along `direction`; 0 for a point.
+/// Radius of a disc with the light's projected area along `direction`; 0 for a point light.
 double radius_of(const Light& light, const Vec3& direction) {
     const auto* area = std::get_if<AreaLight>(&light);
     if (area == nullptr) return 0.0;
@@ -261,10 +261,10 @@ Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, std::size
     if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
     const bool towards = dot(point.geometric, light.to_light) > 0.0;
     const bool closed = geometry_.sources[seen.piece.source].closed;
-    // Whether the way to the light begins within the solid.
+    // True if the shadow cone starts inside the solid.
     const bool within = closed && seen.piece.front != towards;
     if (within && seen.piece.front && point.material->transmissive.is_black()) return {};
-    // A part of a cone is small: one disc will do.
+    // One disc is sufficient for a small part of a cone.
     const int most = seen.depth == 0 && seen.piece.share > 0.5 ? FootprintDiscs::kMost : 1;
     const FootprintDiscs discs =
         discs_of_footprint(point.surface.point, point.geometric, seen.ray.direction, seen.radius,
@@ -357,7 +357,7 @@ Rgb ConeTracer::transmittance_of(const ConePiece& piece, const ConeRay& cone,
         const double chord = 2.0 * std::abs(dot(from, seen.ray.direction));
         return power(kt, piece.front ? chord : seen.t);
     }
-    // Light enters a solid and leaves it.
+    // Light crosses the boundary of a solid twice.
     return source.closed && piece.front ? kt * kt : kt;
 }
 
@@ -373,7 +373,7 @@ ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point,
     path.start.inside = seen.path.start.inside;
     path.inside = seen.path.inside;
     path.absorption = seen.path.absorption;
-    // The disc at the start leans against the surface: its lower half lies below.
+    // The disc at the start is oblique to the surface: its lower half lies below.
     const double cosine = std::max(std::abs(dot(cone.axis, point.geometric)), 0.05);
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
     path.start.clear = cone.radius * (sine / cosine + 0.05);
@@ -390,7 +390,7 @@ SectionCurvatures ConeTracer::curvatures(const Seen& seen, const ShadingPoint& p
     if (source.kind != ConeSource::Kind::Mesh) return {};
     const TriangleMesh& mesh = *source.mesh.mesh;
     if (mesh.normals.empty()) return {};
-    // The change of the interpolated normal along the edges.
+    // Derivative of the interpolated normal along the edges.
     const auto& corner = mesh.triangles[seen.piece.part];
     const auto position = [&](std::size_t k) {
         return source.placement.outer_from_inner.point(mesh.positions[corner[k]]);
@@ -410,7 +410,7 @@ SectionCurvatures ConeTracer::curvatures(const Seen& seen, const ShadingPoint& p
         const Vec2 c = in_edges(d, a, b);
         return dot(c.x * na + c.y * nb, d);
     };
-    // Vertex normals face outward; those that the cone sees from behind are turned.
+    // Vertex normals face outward; they are reversed for a cone from behind.
     const double sign = dot(normal(0), n) < 0.0 ? -1.0 : 1.0;
     return {sign * section(along), sign * section(cross(n, along))};
 }

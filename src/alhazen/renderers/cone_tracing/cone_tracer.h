@@ -1,12 +1,13 @@
 #pragma once
-/// The radiance along a cone: what it sees, shaded where each piece is; reflected, refracted and
-/// shadow cones from there.
+/// The radiance along a cone: visible pieces, their shading, and the reflected, refracted and
+/// shadow cones from them.
 ///
 /// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, sections 3 to 5.
 /// Differs: shading is that of `whitted` (local_shading.h), by the conventions of the scene. A
-/// light without extent is seen from the whole footprint of a piece: the shadow cone begins as wide
-/// as the piece and ends in the light, so edges of shadows are as smooth as those of objects.
-/// Conventions: as in Whitted. Threads: used by one thread; memory is kept.
+/// light without extent is seen from the whole footprint of a piece: the shadow cone starts with
+/// the width of the piece and ends in the light, so that edges of shadows are as smooth as those of
+/// objects.
+/// Conventions: as in Whitted. Threads: used by one thread; memory is reused.
 
 #include <deque>
 
@@ -21,73 +22,73 @@ namespace alhazen {
 /// The history of a cone.
 struct ConePath {
     ConeStart start;
-    bool inside = false;        ///< it starts inside something transparent
+    bool inside = false;        ///< starts inside a transparent object
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
-    Rgb absorption;             ///< of the medium it starts in
+    Rgb absorption;             ///< absorption of the medium it starts in
 };
 
-/// Which of the cones to a light this is: a large piece is asked in parts.
+/// Identifies one of the cones to a light: a large piece has several.
 struct ConeToLight {
-    std::size_t light = 0;  ///< of Scene::lights
+    std::size_t light = 0;  ///< index in Scene::lights
     int part = 0, parts = 1;
-    double weight = 1;  ///< of the part
+    double weight = 1;  ///< weight of the part of the piece
 };
 
-/// Watches cones while they are traced, in the order of the calls: a piece is shaded between
-/// `begin_piece` and `end_piece`, with the cones that leave it in between.
+/// Observer of traced cones, called in order: a piece is shaded between `begin_piece` and
+/// `end_piece`, and cones that leave it are reported in between.
 class ConeWatcher {
   public:
     virtual ~ConeWatcher() = default;
-    /// `cone`: as wide as was searched, of `whole`.
+    /// `cone`: the narrowed cone that was searched, a part of `whole`.
     virtual void begin_cone(const ConeRay& whole, const ConeRay& cone, const ConePath& path,
                             int depth) = 0;
-    /// `weight`: of the cone; `radius`: of the piece.
+    /// `weight`: share of the cone; `radius`: of the piece.
     virtual void begin_piece(const ConePiece& piece, double weight, double radius, double t,
                              const ShadingPoint& point) = 0;
     virtual void end_piece(const Rgb& color) = 0;
-    /// `left`: of the cone, what nothing covers.
+    /// `left`: share of the cone that nothing covers.
     virtual void end_cone(double left, const Rgb& radiance) = 0;
-    /// A cone of a part of the piece; `distance`: of the light.
+    /// A shadow cone of a part of the piece; `distance`: of the light.
     virtual void shadow_cone(const ConeRay& cone, double distance, const Rgb& through,
                              const ConeToLight& to) = 0;
 };
 
-/// The cone from a point that just holds a sphere of light.
+/// The cone from a point that encloses a spherical light.
 [[nodiscard]] ConeRay cone_to_light(const Vec3& point, const Vec3& center, double radius);
 
 class ConeTracer {
   public:
-    /// All must outlive the object.
+    /// All arguments must outlive the object.
     ConeTracer(const RenderJob& job, const ConeScene& scene, bool tables, RayCounters& counters);
 
-    /// `geometry`: gets what most of the cone shows; may be null.
+    /// `geometry` receives the geometry of the piece with the largest share; may be null.
     [[nodiscard]] Rgb trace(const ConeRay& cone, const ConePath& path, int depth,
                             PixelGeometry* geometry = nullptr);
-    /// What is left of the light that comes down a cone. The light beyond `start.range.z_max`.
+    /// Transmittance of a cone towards a light, which lies beyond `start.range.z_max`.
     [[nodiscard]] Rgb let_through(const ConeRay& cone, const ConeStart& start,
                                   const ConeToLight& to = {});
-    /// May be null; must outlive the calls of `trace`.
+    /// Sets an observer, or null; it must outlive the calls of `trace`.
     void set_watcher(ConeWatcher* watcher) { watcher_ = watcher; }
 
   private:
-    /// A piece where it is shaded.
+    /// A piece at which shading takes place.
     struct Seen {
         const ConePiece& piece;
         const ConeRay& cone;
         const ConePath& path;
         Ray ray;            ///< through the middle of the piece
         double t = 0;       ///< along `ray`
-        double radius = 0;  ///< of the piece: of a disc of its size across the cone
+        double radius = 0;  ///< radius of a disc of the piece's size, perpendicular to the cone
         int depth = 0;
     };
 
     [[nodiscard]] Seen seen_at(const ConePiece& piece, const ConeRay& cone, const ConePath& path,
                                int depth) const;
     void set_point(const Seen& seen, ShadingPoint& point);
-    /// Gathers what the cone sees, and what is left of it. False where that is too much.
+    /// Gathers the visible pieces and the remainder of the cone. False if there are too many.
     [[nodiscard]] bool gather(const ConeRay& cone, const ConePath& path, int depth,
                               std::vector<SeenPiece>& pieces, double& left);
-    /// What is left of the light; false as before.
+    /// Computes the transmittance; false as in `gather`.
     [[nodiscard]] bool find_blocked(const ConeRay& cone, const ConeStart& start, Rgb& result);
     [[nodiscard]] double least_contribution() const;
     [[nodiscard]] Rgb color_of(const Seen& seen, const ShadingPoint& point);
@@ -98,7 +99,7 @@ class ConeTracer {
     [[nodiscard]] Rgb transmitted(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb transmittance_of(const ConePiece& piece, const ConeRay& cone,
                                        const ConeStart& start, double& share);
-    /// The history of a cone that leaves the piece; the caller adds its kind and contribution.
+    /// The history of a cone that leaves the piece; the caller sets its kind and contribution.
     [[nodiscard]] ConePath onward(const Seen& seen, const ShadingPoint& point,
                                   const ConeRay& cone) const;
     [[nodiscard]] bool refracts(const ShadingPoint& point, const Ray& ray, double& eta,
@@ -114,7 +115,7 @@ class ConeTracer {
     const DepthScale depth_;
     ConeSearch search_;
     ConeWatcher* watcher_ = nullptr;
-    std::deque<std::vector<SeenPiece>> frames_;  ///< by depth
+    std::deque<std::vector<SeenPiece>> frames_;  ///< by depth of recursion
 };
 
 }  // namespace alhazen

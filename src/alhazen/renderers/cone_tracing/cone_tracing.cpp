@@ -47,7 +47,7 @@ class ConeTileRenderer final : public TileRenderer {
 
   private:
     const RenderJob& job_;
-    RayCounters counters_;  ///< of the tile
+    RayCounters counters_;  ///< counts of the tile
     ConeTracer tracer_;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
 /// A binary tree of boxes for cones: the boxes that a cone may meet, nearest first.
 ///
-/// The trees of `accel` answer rays: their kernels test many boxes against one line and keep no
-/// distance for what a line misses. A cone needs a test of its own (cone_map.h) and everything it
-/// touches in order, so it has a plain tree.
+/// The trees of `accel` are for rays: their kernels test many boxes against one line and compute no
+/// distance for boxes that the line misses. A cone requires its own test (cone_map.h) and all
+/// touched boxes in order.
 ///
 /// Source: Wald, "On Fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007 (bins).
 /// Complexity: O(n log n) to build; the tree depends on the boxes alone.
@@ -20,7 +20,7 @@ class ConeTree {
   public:
     struct Node {
         Vec3 center, half;
-        std::uint32_t first = 0;  ///< of its items in `order`; of its two children
+        std::uint32_t first = 0;  ///< index of its first item in `order`, or of its first child
         std::uint32_t count = 0;  ///< items of a leaf; 0: an inner node
     };
 

@@ -18,7 +18,7 @@ void read_exact_filter(RendererSettings& given, AntialiasSettings& settings) {
     settings.radius = given.number("radius", filter.radius, SamplingPlan::kLeastRadius,
                                    SamplingPlan::kLargestRadius);
     if (filter.name == std::string("box") && settings.radius == filter.radius) return;
-    static_cast<void>(FilterIntegral(filter, settings.radius));  // refuses those without integral
+    static_cast<void>(FilterIntegral(filter, settings.radius));  // throws if it has no integral
     settings.filter = &filter;
 }
 

@@ -13,29 +13,29 @@ struct AntialiasSettings {
     static constexpr int kDeepest = 8;
     static constexpr int kLargestStep = 64;
 
-    /// Cells whose shades differ by more than this are divided: by so much of the pixel's value,
-    /// cut off at 1 in each channel, a cell may be off.
+    /// A cell is divided if its shades, clamped to 1 in each channel, differ by more than this: the
+    /// permitted error of a cell as a part of the pixel's value.
     double threshold = 0.02;
-    /// Above 0: pixel selection instead of what follows. At first one pixel in `step` of each row
-    /// and column has a ray.
+    /// Above 0: pixel selection, which ignores the settings below. The first pass has a ray in one
+    /// pixel of `step` in each row and column.
     int step = 0;
     int depth = 4;          ///< most divisions of a pixel, at most kDeepest
-    bool guarantee = true;  ///< look for objects between the rays
-    /// Look for them also where something nearer is at all corners: behind gaps that no corner ray
-    /// passes.
+    bool guarantee = true;  ///< search for objects between the rays
+    /// Search also where all corner rays hit something nearer: an object may show through a gap
+    /// between them.
     bool behind_all = false;
-    /// Shades count as parts of the pixel: by the area of their cell. Off: as they are, cut off at
-    /// 1, at every level alike.
+    /// True: differences of shades are weighted by the area of their cell. False: they count in
+    /// full at every level.
     bool weigh = true;
-    /// Cells also look at the rays of their neighbours, and pixels beside a divided one at their
-    /// centre.
+    /// A cell is also compared with the rays on its sides that neighbours have traced; a pixel next
+    /// to a divided one adds its centre.
     bool neighbours = true;
-    /// Instead of all above: the exact mean of each pixel, from renderers that know the areas of
-    /// what they show.
+    /// True: the exact mean of each pixel (Renderer::gives_exact_areas); the settings above are
+    /// ignored.
     bool exact = false;
-    const FilterEntry* filter = nullptr;  ///< of `exact`; null: the mean
+    const FilterEntry* filter = nullptr;  ///< for `exact`; null: the mean over the pixel
     double radius = 0.5;                  ///< of the filter, in pixels
-    double error = 1e-4;                  ///< of the colour of a pixel, of `exact`
+    double error = 1e-4;                  ///< for `exact`: largest error of a pixel's colour
 };
 
 /// Throws Error (Usage) for an unknown name or setting and for values out of range.

@@ -74,13 +74,13 @@ class AovSet {
     void add(AovKind kind) { bits_ |= bit(kind); }
     [[nodiscard]] bool has(AovKind kind) const { return (bits_ & bit(kind)) != 0; }
     [[nodiscard]] bool empty() const { return bits_ == 0; }
-    /// Whether a layer needs the hits of the eye rays.
+    /// True if a layer needs the hits of the eye rays.
     [[nodiscard]] bool has_geometry() const { return (bits_ & (bit(AovKind::Rays) - 1)) != 0; }
-    /// Whether a layer needs RenderJob::count_tests.
+    /// True if a layer needs RenderJob::count_tests.
     [[nodiscard]] bool has_tests() const {
         return has(AovKind::NodeVisits) || has(AovKind::BoxTests) || has(AovKind::PrimitiveTests);
     }
-    /// Whether a layer needs the cost of each pixel.
+    /// True if a layer needs the cost of each pixel.
     [[nodiscard]] bool has_costs() const {
         return has_tests() || has(AovKind::Rays) || has(AovKind::Time);
     }

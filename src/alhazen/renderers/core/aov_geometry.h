@@ -10,8 +10,8 @@
 
 namespace alhazen {
 
-/// Distance in front of the eye along the normal of the image plane; of a wide camera, which has
-/// none, that from the eye.
+/// Depth of points: the distance from the eye along the normal of the image plane; for a wide
+/// camera the distance from the eye.
 class DepthScale {
   public:
     explicit DepthScale(const Camera& camera) {

@@ -7,7 +7,8 @@
 
 namespace alhazen {
 
-/// Beer's law: exp(-absorption * distance); 1 where nothing is absorbed, over any distance.
+/// Beer's law: exp(-absorption * distance). A channel without absorption has 1 even at infinite
+/// distance.
 [[nodiscard]] inline Rgb transmittance(const Rgb& absorption, double distance) {
     const auto of = [&](double a) { return a > 0.0 ? std::exp(-a * distance) : 1.0; };
     return {of(absorption.r), of(absorption.g), of(absorption.b)};

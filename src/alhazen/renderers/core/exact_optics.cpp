@@ -15,7 +15,7 @@ namespace {
 
 using RefractionTint = ShadingConventions::RefractionTint;
 
-/// a of exp(-a) = kt. A black channel would absorb infinitely; this leaves nothing visible of it.
+/// The solution a of exp(-a) = kt, with kt at least 1e-12: a black channel has finite absorption.
 Rgb absorption_of_unit_length(const Rgb& kt) {
     const auto of = [](double k) { return -std::log(std::clamp(k, 1e-12, 1.0)); };
     return {of(kt.r), of(kt.g), of(kt.b)};
@@ -29,7 +29,7 @@ const Material& first_material(const Scene& scene, const Surface& surface) {
     return scene.materials[static_cast<std::size_t>(surface.materials[0])];
 }
 
-/// Share of a physical material's reflection that is a dielectric's.
+/// Share of the dielectric in the reflection of a physical material.
 double dielectric_share(const Scene& scene, const Surface& surface) {
     const Material& material = first_material(scene, surface);
     if (!material.metallic_roughness) return material.conductor ? 0.0 : 1.0;
@@ -38,7 +38,8 @@ double dielectric_share(const Scene& scene, const Surface& surface) {
     return 1.0 - std::clamp(metallic, 0.0, 1.0);
 }
 
-/// Reflection of a metal by its constants, from that at normal incidence in air.
+/// Multiplies the reflection of a metal by its reflectance at `cosine` in a medium of index `here`
+/// over that at normal incidence in air.
 void turn_conductor(const Conductor& metal, double cosine, double here, MaterialSample& sample) {
     for (int i = 0; i < 3; ++i) {
         const double n = metal.index[i], k = metal.extinction[i];
@@ -154,7 +155,7 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
 ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint32_t around) {
     const SurfaceMedia& media = surface.media;
     Sides sides;
-    // The solid is one volume, whatever it is made of here.
+    // The solid is one volume, whatever its media.
     std::uint32_t solid = around;
     while (solid != kOutside && !media_[solid].known) solid = media_[solid].around;
     const std::uint32_t outside = solid == kOutside ? around : remove(solid, around);
@@ -163,7 +164,7 @@ ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint
     if (media.before) {
         const MaterialSample before = medium_at(scene_, surface, *media.before);
         sides.here = before.index;
-        // A wall's own material is that of the medium entered.
+        // The material of a wall is that of the medium entered.
         if (media.after) sides.before = tint_of(before);
     }
     if (media.after) {
@@ -206,7 +207,7 @@ std::uint32_t ExactOptics::without(const Medium& volume, std::uint32_t around) {
     return around;
 }
 
-/// `around` with all that lies in `left`, but without it.
+/// `around` without `left`; volumes inside `left` are kept.
 std::uint32_t ExactOptics::remove(std::uint32_t left, std::uint32_t around) {
     if (left == around) return media_[left].around;
     const Medium kept = media_[around];

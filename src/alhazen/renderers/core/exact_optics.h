@@ -1,17 +1,17 @@
 #pragma once
-/// Fresnel's equations and Beer's law for the rays of Whitted's equation, in place of its shares
-/// and tints; and the volumes around these rays, nested ones included.
+/// Fresnel's equations and Beer's law for the rays of Whitted's equation, in place of its
+/// coefficients kr and kt; and the nested volumes around these rays.
 ///
 /// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, section 1.5.2 (fresnel.h);
 /// Beer, "Bestimmung der Absorption des rothen Lichts in farbigen Fluessigkeiten", 1852; Whitted,
 /// "An Improved Illumination Model for Shaded Display", 1980 (what they replace).
-/// Differs: light is taken as unpolarised before every surface. Shadow rays go straight through
-/// boundaries, whose reflectance is then that at the ray's angle on the thinner side: what two
-/// parallel faces leave of the light is right, where it falls is not.
-/// Conventions: a medium is a number: 0 is outside of all volumes, others stand for a volume and
-/// what lies around it. Volumes are left in any order, by the part that bounds them, else by its
-/// material. Solids that tell both sides of a surface are one volume. Eyes are outside of all.
-/// Threads: for one at a time.
+/// Differs: light is unpolarised before every surface. Shadow rays pass boundaries without bending;
+/// the reflectance is that at the ray's angle on the side of lower index. The transmittance of two
+/// parallel faces is correct, the position of the light behind them is not.
+/// Conventions: a medium is a number: 0 is outside all volumes, others identify a volume and the
+/// medium around it. Volumes may be left in any order: they are identified by the part that bounds
+/// them, else by its material. A solid that states both media of its surfaces is one volume. The
+/// eye is outside all volumes. Threads: used by one at a time.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@
 
 namespace alhazen {
 
-/// Settings of a renderer that has them; what is not given is as the scene says.
+/// Settings of a renderer that override the optics of the scene; empty: as in the scene.
 struct OpticsSettings {
     std::optional<bool> fresnel, beer;
     void adjust(Optics& optics) const {
@@ -36,30 +36,30 @@ class ExactOptics {
 
     ExactOptics(const Scene& scene, const Optics& optics);
 
-    /// Media that are made from now on are forgotten by `release(mark())`.
+    /// `release(mark)` removes all media created since `mark()` returned `mark`.
     [[nodiscard]] std::size_t mark() const { return media_.size(); }
     void release(std::size_t mark) { media_.resize(mark); }
 
-    /// Light falls by exp(-absorption * length).
+    /// Absorption per unit length: transmittance is exp(-absorption * length).
     [[nodiscard]] const Rgb& absorption(std::uint32_t medium) const {
         return media_[medium].absorption;
     }
 
-    /// Completes a point that a ray in medium `around` meets: what it reflects and lets pass, and
-    /// the medium behind it.
+    /// Completes a point hit by a ray in medium `around`: its reflection, its transmission and the
+    /// medium behind it.
     void set_media(std::uint32_t around, ShadingPoint& point);
 
-    /// Index on the side of a ray in medium `around` over that behind, at a wavelength, of a point
-    /// that `set_media` has completed.
+    /// Refractive index on the side of a ray in medium `around` over that behind, at wavelength
+    /// `nm`. `point` must have been completed by `set_media`.
     [[nodiscard]] double eta_by_wave(std::uint32_t around, const ShadingPoint& point,
                                      double nm) const;
 
-    /// What a straight ray meets at a surface.
+    /// The effect of a surface on a ray that passes it straight.
     struct Straight {
-        Rgb through;                      ///< of light, of all that is there
+        Rgb through;                      ///< transmittance
         std::uint32_t behind = kOutside;  ///< medium
     };
-    /// `length`: of the way since the last boundary.
+    /// `length`: distance since the last boundary.
     [[nodiscard]] Straight cross(const Surface& surface, const MaterialSample& material,
                                  const Vec3& direction, std::uint32_t around, double length);
 
@@ -68,15 +68,15 @@ class ExactOptics {
         std::uint64_t part = 0;      ///< that bounds it
         std::uint32_t material = 0;  ///< of it
         std::uint32_t around = kOutside;
-        bool known = false;  ///< told by a solid
+        bool known = false;  ///< stated by a solid
         double index = 1;
         Rgb absorption;
     };
-    /// Of a surface, on the way of a ray.
+    /// The two sides of a surface along a ray.
     struct Sides {
         double here = 1, beyond = 1;  ///< indices
         std::uint32_t behind = kOutside;
-        Rgb before{1, 1, 1};  ///< tint of the medium that is left at a wall
+        Rgb before{1, 1, 1};  ///< at a wall: tint of the medium that is left
     };
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
@@ -84,7 +84,7 @@ class ExactOptics {
     [[nodiscard]] Sides known_sides_of(const Surface& surface, std::uint32_t around);
     [[nodiscard]] Medium medium_of(const Surface& surface, const MaterialSample& sample) const;
     std::uint32_t enter(Medium medium, std::uint32_t around);
-    /// The medium where `volume` has been left.
+    /// The medium after `volume` has been left.
     [[nodiscard]] std::uint32_t without(const Medium& volume, std::uint32_t around);
     std::uint32_t remove(std::uint32_t left, std::uint32_t around);
     [[nodiscard]] Rgb tint_of(const MaterialSample& sample) const;
@@ -93,7 +93,7 @@ class ExactOptics {
 
     const Scene& scene_;
     Optics optics_;
-    bool tints_events_;  ///< kt of Whitted's materials counts at every surface
+    bool tints_events_;  ///< kt of Whitted's materials is applied at every surface
     std::vector<Medium> media_;
 };
 

@@ -12,8 +12,8 @@ namespace alhazen {
 
 namespace {
 
-/// `v`, a vector in the plane of `dpdu` and `dpdv`, in texture coordinates (least squares). Zero
-/// where they do not span a plane.
+/// The texture coordinates of the vector `v` in the plane of `dpdu` and `dpdv` (least squares).
+/// Zero if these do not span a plane.
 Vec2 in_coordinates(const Vec3& v, const Vec3& dpdu, const Vec3& dpdv) {
     const double uu = length_squared(dpdu);
     const double vv = length_squared(dpdv);
@@ -29,7 +29,7 @@ bool has_normal_map(const Scene& scene, const Surface& surface) {
     return material.normal_map.texture != kNoTexture;
 }
 
-/// The interpolated normal, modified by the material's normal map, which is an image (`validate`).
+/// The interpolated normal, modified by the material's normal map (an image: see `validate`).
 Vec3 mapped_normal(const Scene& scene, const Surface& surface,
                    const std::array<UvFootprint, 2>& footprint) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
@@ -51,7 +51,7 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface,
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
 }
 
-/// `n`, or the nearest direction that faces the viewer where a mapped normal faces away.
+/// Returns `n`, or the nearest direction that faces the viewer if `n` faces away.
 Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
     constexpr double kLeastCosine = 1e-3;
     const double cosine = dot(n, view);
@@ -111,7 +111,7 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
 
 namespace {
 
-/// Evaluates the material; false where it is shared by many points.
+/// Evaluates the material. False if its sample is shared by many points.
 bool set_material(const Scene& scene, const Vec3& direction, double width, MaterialCache* constant,
                   std::array<UvFootprint, 2>& footprint, ShadingPoint& point) {
     const Surface& surface = point.surface;
@@ -122,13 +122,13 @@ bool set_material(const Scene& scene, const Vec3& direction, double width, Mater
     if (scene.has_mipmaps && width > 0.0) footprint = footprint_at(surface, direction, width);
     const SolidAperture aperture =
         scene.has_solid_textures ? aperture_at(surface, direction, width) : SolidAperture{};
-    // In place: it is large.
+    // Constructed in place because it is large.
     ::new (&point.own) MaterialSample(material_at(scene, surface, footprint, aperture));
     point.material = &point.own;
     return true;
 }
 
-/// The media before and behind the surface, and the material as seen from there.
+/// Sets the media before and behind the surface and the material as seen from there.
 void set_media(const Scene& scene, ShadingPoint& point) {
     const SurfaceMedia& media = point.surface.media;
     const double cosine = dot(point.view, point.normal);
@@ -150,7 +150,7 @@ void set_media(const Scene& scene, ShadingPoint& point) {
         here = before.index;
         point.medium = before.transmissive;
         point.medium_is_physical = before.physical;
-        // A wall's own material is that of the medium entered.
+        // The material of a wall is that of the medium entered.
         if (media.after) before_passes = before.transmissive;
     }
     if (media.after) {
@@ -181,8 +181,8 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
-    // The interpolated normal is turned by its own sign: near silhouettes, and in meshes wound
-    // against their normals, it may face the ray although the geometric one does not.
+    // The interpolated normal is turned by its own cosine: near silhouettes, and in meshes wound
+    // against their normals, its side differs from that of the geometric normal.
     const Vec3& shading = point.surface.shading_normal;
     const bool turned = dot(ray.direction, shading) > 0.0;
     if (varies && has_normal_map(scene, point.surface)) {
@@ -245,7 +245,7 @@ Rgb unshadowed_terms(const ShadingConventions& conventions, std::span<const Rgb>
 
 namespace {
 
-/// Whether cosine^shininess times `specular` is less than half an ulp of each channel of `sum`:
+/// True if cosine^shininess times `specular` is less than half an ulp of each channel of `sum`, by
 /// c^n <= exp(-n (1 - c)).
 bool is_lost(double cosine, double shininess, const Rgb& specular, const Rgb& sum) {
     constexpr double kExponent = 64.0;   // exp(-64) < 2^-92
@@ -274,7 +274,7 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         const Vec3 mirrored = 2.0 * cosine * point.normal - to_light;
         highlight_cosine = dot(mirrored, point.view);
     }
-    // Only the lit side: 0^0 would light every point of a material without shininess from behind.
+    // Only on the lit side: 0^0 would light every point of a material of shininess 0 from behind.
     if (highlight_cosine > 0.0) {
         const double falloff = m.physical ? cosine : 1.0;
         const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;

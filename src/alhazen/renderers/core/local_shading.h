@@ -1,10 +1,9 @@
 #pragma once
-/// Local shading, shared by the renderers: the terms of the shading equation that need only shadow
-/// rays.
+/// Local shading: the terms of the shading equation that need only shadow rays.
 ///
 /// Source: UW CSE 457, "Ray Tracing" lecture and Trace project: I = ke + sum_j [ ka ILa_j + Ashadow
 /// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977.
-/// Differs: differences between formats are read from ShadingConventions.
+/// Differs: variants of the formats are read from ShadingConventions.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,13 +17,13 @@
 
 namespace alhazen {
 
-/// The medium behind a surface, known for solids of several media.
+/// The medium behind a surface; known for solids of several media and with ExactOptics.
 struct BehindSurface {
     bool known = false;
     bool inside = false;  ///< there is a medium, not air
     double eta = 1;       ///< index on this side / index behind
     Rgb absorption;
-    std::uint32_t medium = 0;  ///< of ExactOptics, where they are in force
+    std::uint32_t medium = 0;  ///< of ExactOptics, if used
 };
 
 /// The ray that leaves `surface`, of unit `direction`, by the conventions of the scene.
@@ -36,12 +35,12 @@ struct BehindSurface {
     return ray;
 }
 
-/// A hit ready for shading: all directions on the side the ray came from.
+/// A hit ready for shading; directions are on the side from which the ray came.
 struct ShadingPoint {
     ShadingPoint() = default;
     ShadingPoint(const ShadingPoint&) = delete;  // `material` may point into it
     ShadingPoint& operator=(const ShadingPoint&) = delete;
-    /// The point's own sample, to be modified.
+    /// Returns the point's own sample for modification; copies a shared one first.
     [[nodiscard]] MaterialSample& own_material() {
         if (material != &own) {
             own = *material;
@@ -53,18 +52,19 @@ struct ShadingPoint {
     Surface surface;
     const MaterialSample* material = &own;  ///< `own`, or a shared sample
     MaterialSample own;
-    bool inside = false;   ///< the ray came through the inside of something transparent
+    bool inside = false;   ///< the ray ran inside a transparent solid
     bool entering = true;  ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
     Rgb passing;                      ///< kt of the surface; at a wall, of both media
-    Rgb medium;                       ///< kt of the medium along the ray, where it is inside
-    bool medium_is_physical = false;  ///< it absorbs by its own law
+    Rgb medium;                       ///< kt of the medium along the ray, if `inside`
+    bool medium_is_physical = false;  ///< it has an absorption; kt is not applied by distance
     Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
     Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
     Vec3 view;                        ///< unit, towards the ray's origin
 };
 
-/// The evaluated material. `footprint`: of the ray's cone, in both sets of texture coordinates.
+/// Evaluates the material at the surface. `footprint`: that of the ray's cone in both sets of
+/// texture coordinates.
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
                                          const std::array<UvFootprint, 2>& footprint = {},
                                          const SolidAperture& aperture = {});
@@ -84,12 +84,13 @@ struct ShadingPoint {
 
 /// The state of a ray at a surface.
 struct Arrival {
-    /// Whether the ray runs inside a solid. From the history of the ray, not from the normal: an
-    /// open surface has a back but no inside.
+    /// True if the ray runs inside a solid, by the history of the ray, not by the normal: an open
+    /// surface has a back but no inside.
     bool inside = false;
     double width = 0;  ///< of the ray's cone at the hit
     float time = 0;    ///< RayQuery::time
-    /// Whether it meets the backs of single-sided surfaces, too: light that is followed does.
+    /// True if the ray hits the backs of single-sided surfaces: in light transport, all but eye
+    /// rays.
     bool meets_backs = false;
     std::uint32_t medium = 0;  ///< of PointNeeds::optics
 };
@@ -100,16 +101,17 @@ class ExactOptics;
 struct PointNeeds {
     CoordinateNeed coordinates = CoordinateNeed::all();
     MaterialCache* constant = nullptr;  ///< shared samples; may be null
-    ExactOptics* optics = nullptr;      ///< in force; null: shares and tints of the equation
+    ExactOptics* optics = nullptr;      ///< null: coefficients kr and kt of the equation
 };
 
-/// Sets all of `point`, in place because it is large. `ray.direction` must be unit. The material is
-/// that for this ray: textures filtered, Fresnel's share for its angle, coverage 0 on the back of a
-/// single-sided surface.
+/// Sets all of `point`. `ray.direction` must be unit. The material is evaluated for this ray:
+/// textures filtered, Fresnel reflectance at its angle, coverage 0 on the back of a single-sided
+/// surface.
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point);
 
-/// The same where `point.surface` is already set, by a renderer that finds surfaces without rays.
+/// As `set_shading_point` with `point.surface` already set, for renderers that find surfaces
+/// without rays.
 void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& arrival,
                             const PointNeeds& needs, ShadingPoint& point);
 
@@ -120,16 +122,16 @@ struct VisibleHit {
     double t = 0;  ///< from the origin of the ray; `hit.t` counts from the last surface passed
 };
 
-/// Finds the first surface along an eye ray with a coverage above 0. Passes straight through
-/// others, at most kMaxPassedSurfaces of them.
+/// Finds the first surface along an eye ray with a coverage above 0. At most kMaxPassedSurfaces
+/// surfaces of coverage 0 are passed.
 [[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
                                      bool inside, TraversalStats* stats, VisibleHit& found);
 inline constexpr int kMaxPassedSurfaces = 4096;
 
-/// Rays end behind partly covering surfaces where less than this fraction of them is left.
+/// Rays end behind partly covering surfaces when their transmittance is below this.
 inline constexpr double kLeastTransmittance = 1.0 / 4096;
 
-/// [light] Ambient terms for `unshadowed_terms`: the same at every point.
+/// [light] Ambient terms for `unshadowed_terms`; independent of the point.
 [[nodiscard]] std::vector<Rgb> ambient_terms(std::span<const Light> lights);
 
 /// Emission and the ambient terms of all lights.
@@ -141,7 +143,7 @@ inline constexpr double kLeastTransmittance = 1.0 / 4096;
                                      const ShadingPoint& point, const LightSample& light,
                                      double cosine);
 
-/// Emission, the ambient terms and the light of all lamps that reaches the point unhindered.
+/// Emission, the ambient terms and the unoccluded light of all lights.
 [[nodiscard]] Rgb unhindered_light(const Scene& scene, std::span<const Rgb> ambient,
                                    const ShadingPoint& point);
 

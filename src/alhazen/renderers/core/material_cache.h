@@ -1,8 +1,8 @@
 #pragma once
-/// Samples of the materials that are the same at every point, each evaluated once.
+/// Samples of the materials that are constant over their surfaces, each evaluated once.
 ///
-/// Conventions: for surfaces without vertex colours. The table is small: materials evict each
-/// other. Threads: used by one thread.
+/// Conventions: for surfaces without vertex colours. The table is small: materials of the same
+/// slot evict each other. Threads: used by one thread.
 
 #include <array>
 
@@ -15,7 +15,7 @@ class MaterialCache {
     /// The scene must outlive the cache and keep its materials.
     explicit MaterialCache(const Scene& scene) : scene_(scene) {}
 
-    /// Null where the material depends on the point. Valid until the next call.
+    /// The sample of a material; null if it depends on the point. Valid until the next call.
     [[nodiscard]] const MaterialSample* find(MaterialId id) {
         Place& place = places_[static_cast<std::uint32_t>(id) % kPlaces];
         if (place.id != id || !place.used) fill(id, place);

@@ -1,5 +1,5 @@
 #pragma once
-/// Photons as points in space, for looking at them.
+/// Photons as points in space, for display.
 
 #include <array>
 #include <cstdint>
@@ -9,9 +9,9 @@ namespace alhazen {
 
 struct CloudPhoton {
     std::array<float, 3> position{};
-    std::array<float, 3> direction{};  ///< unit, in which it travelled
+    std::array<float, 3> direction{};  ///< unit, of travel
     std::array<float, 3> power{};
-    std::uint8_t caustic = 0;  ///< 1: of the map of caustics
+    std::uint8_t caustic = 0;  ///< 1: from the caustic map
 };
 
 struct PhotonCloud {

@@ -3,7 +3,7 @@
 /// time.
 ///
 /// Conventions: eye rays are traced in batches; neighbours in a batch are neighbours in the film.
-/// All memory is kept from tile to tile. Threads: used by one thread.
+/// Memory is reused from tile to tile. Threads: used by one thread.
 
 #include <algorithm>
 #include <memory>
@@ -55,9 +55,9 @@ class PixelLoop {
     }
 
   private:
-    /// Every pixel has one sample, and no AOVs are recorded.
+    /// True if every pixel has one sample and no AOVs are recorded.
     [[nodiscard]] bool is_plain() const { return Sampler::kSeparable && job_.aovs == nullptr; }
-    /// As `run`.
+    /// `run` for `is_plain`.
     template <class Estimator>
     void run_plain(Film& film, Estimator& estimator) {
         std::span<const Pixel> rest = pixels_;
@@ -92,12 +92,12 @@ class PixelLoop {
         }
     }
 
-    /// The column and the row of the eye ray of a pixel's only sample, added.
+    /// The sum of column and row of the eye ray of a pixel's only sample.
     [[nodiscard]] Vec3 separable_sum(const Pixel& pixel) const {
         return columns_[static_cast<std::size_t>(pixel.i)] +
                rows_[static_cast<std::size_t>(pixel.j)];
     }
-    /// The same of sample s.
+    /// The sum of column and row of the eye ray of sample `s`.
     [[nodiscard]] Vec3 sum_of(const Pixel& pixel, int s) const {
         if constexpr (Sampler::kSeparable) {
             return separable_sum(pixel);
@@ -126,7 +126,7 @@ class PixelLoop {
         return true;
     }
 
-    /// As `take`, where each sample is a pixel and no AOVs are recorded.
+    /// As `take`, for `is_plain`.
     void take_pixels(Film& film, std::span<const Rgb> found) {
         const Pixel* pixel = pixels_.data() + done_;
         Rgb* const corner = film.from(tile_.x0, tile_.y0);
@@ -166,8 +166,8 @@ class PixelLoop {
     EyeRays eye_;
     std::optional<Sampler> sampler_;    ///< of the frame
     std::vector<Vec3> columns_, rows_;  ///< of the tile, where the sampler is separable
-    std::vector<Vec3> sums_;            ///< of a column and a row
-    std::size_t gathered_ = 0;          ///< of them
+    std::vector<Vec3> sums_;            ///< [ray] of a column and a row
+    std::size_t gathered_ = 0;          ///< rays
     std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
     PixelBox tile_;
@@ -199,8 +199,8 @@ class PixelRenderer final : public TileRenderer {
     PixelLoop<Sampler, Filter> loop_;
 };
 
-/// A RoundRenderer where the job has a round; else a PixelRenderer with the sampler for the job's
-/// samples per pixel, and the box filter.
+/// Returns a RoundRenderer if the job has a round, else a PixelRenderer with the sampler for the
+/// job's samples per pixel and the box filter.
 template <RadianceEstimator Estimator, class... More>
 [[nodiscard]] std::unique_ptr<TileRenderer> make_pixel_renderer(const RenderJob& job,
                                                                 std::size_t rays_at_once,

@@ -1,13 +1,13 @@
 #pragma once
-/// The order in which the pixels of a tile are rendered: blocks, and in these cells of eight, whose
-/// rays form a packet, so that neighbours in the list are neighbours in the film.
+/// The order in which the pixels of a tile are rendered: by blocks of 8 x 8 pixels, in each by
+/// cells of 4 x 2 pixels, whose rays form a packet.
 
 #include <algorithm>
 #include <vector>
 
 namespace alhazen {
 
-/// Counted from the corner of the tile.
+/// A pixel, relative to the corner of the tile.
 struct TilePixel {
     int i, j;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Counts of rays by kind, as in published counts.
+/// Counts of rays by kind.
 
 #include <array>
 #include <cstdint>
@@ -9,8 +9,7 @@
 
 namespace alhazen {
 
-/// `hit` counts rays that hit a surface; for shadow rays, those with anything in front of the
-/// light.
+/// `hit` counts rays that hit a surface; of shadow rays those with any surface before the light.
 struct RayCount {
     std::uint64_t cast = 0, hit = 0;
 };

@@ -15,8 +15,8 @@ inline Vec3 mirror(const Vec3& d, const Vec3& n) {
     return normalize(d - (2.0 * dot(d, n)) * n);
 }
 
-/// Snell's law, `eta` = index on the incoming side / index beyond. False for total internal
-/// reflection.
+/// Sets `direction` by Snell's law; `eta` = index on the incoming side / index beyond. False for
+/// total internal reflection.
 [[nodiscard]] inline bool refract(const Vec3& d, const Vec3& n, double eta, Vec3& direction) {
     const double cos_i = -dot(d, n);
     const double k = 1.0 - eta * eta * (1.0 - cos_i * cos_i);

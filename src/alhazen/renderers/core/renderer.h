@@ -1,7 +1,7 @@
 #pragma once
-/// The interface of all renderers: a renderer fills the crop of a film. It divides the work (tiles,
-/// scan lines, passes) by its own strategy; `tiles.h` is the strategy for independent pixels.
-/// docs/design/renderers.md; to add one: CONTRIBUTING.md.
+/// The interface of all renderers. A renderer fills the crop of a film and divides the work (tiles,
+/// scan lines, passes) itself; `tiles.h` does so for independent pixels.
+/// Design: docs/design/renderers.md. To add one: CONTRIBUTING.md.
 ///
 /// Conventions: a pixel depends on the scene, the camera, the sampling and its own coordinates,
 /// never on RenderControl.
@@ -20,7 +20,7 @@
 
 namespace alhazen {
 
-/// Settings of the execution. Change no pixel and no count.
+/// Settings of the execution. They change no pixel and no count.
 struct RenderControl {
     int threads = 0;                   ///< largest number; 0 = all available cores
     int tile_size = 32;                ///< side in pixels, at least 1; for renderers with tiles
@@ -46,21 +46,21 @@ struct RenderJob {
     std::uint64_t seed = 0;
     bool count_tests = false;  ///< fill RayCounters::tests (rays are always counted)
     RayCone cone{};            ///< of each eye ray; zero: textures are not filtered by distance
-    /// Moves the camera, which is as the shutter opens; null: it rests.
+    /// Motion of the camera; `camera` is its state when the shutter opens. Null: at rest.
     const TransformMotion* camera_motion = nullptr;
-    AovFilm* aovs = nullptr;  ///< filled besides the film; may be null
+    AovFilm* aovs = nullptr;  ///< filled in addition to the film; may be null
     /// The source of `scene`, with all shapes and meshes: the geometry for renderers without an
-    /// aggregate. Null where unknown.
+    /// aggregate. Null: unknown.
     const SceneDescription* description = nullptr;
-    /// Adaptive supersampling instead of `samples_per_pixel`, for renderers that answer single
-    /// rays; null: none.
+    /// Adaptive supersampling instead of `samples_per_pixel`, for renderers with
+    /// `answers_single_rays`; null: none.
     const AntialiasSettings* antialias = nullptr;
-    /// Sampler, filter and stop rules by name, for renderers in tiles; null: the samples of
-    /// samplers.h, and their mean.
+    /// Sampler, filter and stop rules, for renderers with `takes_samplers`; null: the samplers of
+    /// samplers.h and the box filter.
     const SamplingPlan* sampling = nullptr;
     const SampleRound* round = nullptr;  ///< of `sampling`, while it is rendered (rounds.h)
-    bool spectral = false;               ///< light by wavelengths, not by channels of colour
-    PhotonCloud* photons = nullptr;      ///< filled by renderers that have some; may be null
+    bool spectral = false;               ///< light by wavelengths instead of colour channels
+    PhotonCloud* photons = nullptr;      ///< filled by renderers with photons; may be null
     PathRecord* path = nullptr;          ///< filled by `path_tracing`; may be null
     RenderControl control{};
 
@@ -73,15 +73,15 @@ struct RenderJob {
 struct RenderReport {
     RayCounters counters;
     std::size_t done = 0, parts = 0;  ///< of the work, as reported to RenderControl::progress
-    int threads = 1;                  ///< largest number in force
+    int threads = 1;                  ///< largest number used
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
     std::shared_ptr<const AntialiasReport> antialias;  ///< of RenderJob::antialias, else null
     std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
 
     std::shared_ptr<const SamplingReport> sampling;  ///< of RenderJob::sampling, else null
-    /// For the user: what the picture lacks, what was mended.
+    /// Warnings for the user: limitations of the picture and repairs.
     std::vector<std::string> notes;
-    /// For the user: what was found out on the way, nothing to worry about.
+    /// Informational messages for the user.
     std::vector<std::string> remarks;
 
     /// False after a stop.
@@ -95,59 +95,59 @@ class Renderer {
     /// stop; unfinished pixels are unchanged. May be called from many threads, with different
     /// films.
     [[nodiscard]] virtual RenderReport render(const RenderJob& job, Film& film) const = 0;
-    /// False: `render` takes a scene without an aggregate, so none is built for it; geometry is
-    /// read from RenderJob::description.
+    /// False: `render` reads the geometry from RenderJob::description; no aggregate is built.
     [[nodiscard]] virtual bool needs_aggregate() const { return true; }
-    /// True: `render` heeds RenderJob::antialias.
+    /// True if `render` supports RenderJob::antialias.
     [[nodiscard]] virtual bool answers_single_rays() const { return false; }
-    /// True: `render` heeds RenderJob::sampling.
+    /// True if `render` supports RenderJob::sampling.
     [[nodiscard]] virtual bool takes_samplers() const { return false; }
-    /// True: rays are distributed over lenses, time, lights with extent and rough reflections;
-    /// others see through the centre of the lens, as the shutter opens.
+    /// True if rays are distributed over the lens, the shutter time, area lights and rough
+    /// reflections. Others use the centre of the lens and the time at which the shutter opens.
     [[nodiscard]] virtual bool distributes() const { return false; }
-    /// True: lights with extent throw penumbras.
+    /// True if area lights cast penumbras.
     [[nodiscard]] virtual bool lights_have_extent() const { return distributes(); }
-    /// What the settings of the renderer change in the conventions of the scene.
+    /// Applies the settings of the renderer to the conventions of the scene.
     virtual void adjust(ShadingConventions& /*conventions*/) const {}
-    /// True: ShadingConventions::optics are heeded, or go without saying.
+    /// True if `render` uses ShadingConventions::optics or always has exact optics.
     [[nodiscard]] virtual bool heeds_optics() const { return follows_light(); }
-    /// True: cameras that see all around are taken, too.
+    /// True if `render` supports WideCamera.
     [[nodiscard]] virtual bool takes_wide_cameras() const { return true; }
-    /// True: light is scattered inside volumes, too (Material::scattering).
+    /// True if light is scattered inside volumes (Material::scattering).
     [[nodiscard]] virtual bool scatters_in_volumes() const { return false; }
-    /// True: light is followed from surface to surface, and the environment lights the scene.
+    /// True if light is followed from surface to surface and the environment lights the scene.
     [[nodiscard]] virtual bool follows_light() const { return false; }
-    /// Samples per pixel where nothing is said.
+    /// Default number of samples per pixel.
     [[nodiscard]] virtual int usual_samples() const { return 1; }
-    /// True: `render` heeds AntialiasSettings::exact.
+    /// True if `render` supports AntialiasSettings::exact.
     [[nodiscard]] virtual bool gives_exact_areas() const { return false; }
-    /// Above 0: RenderJob::description has to have triangles within this distance in place of its
+    /// Above 0: RenderJob::description must have triangles within this distance in place of its
     /// exact shapes.
     [[nodiscard]] virtual double takes_triangles_within() const { return 0.0; }
-    /// True: `render` heeds RenderJob::spectral.
+    /// True if `render` supports RenderJob::spectral.
     [[nodiscard]] virtual bool takes_wavelengths() const { return false; }
-    /// True: `render` fills RenderJob::photons.
+    /// True if `render` fills RenderJob::photons.
     [[nodiscard]] virtual bool has_photons() const { return false; }
-    /// True: reports have RenderReport::scan_lines.
+    /// True if `render` sets RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };
 
-/// A renderer by name, and what it does in one line.
+/// Name, one-line description and factory of a renderer.
 struct RendererEntry {
     const char* name;
     const char* description;
     /// Throws Error (Usage) for an invalid setting.
     std::unique_ptr<Renderer> (*make)(RendererSettings& settings);
-    bool follows_paths = false;  ///< its setting `depth` is the most scatterings of a path
+    bool follows_paths = false;  ///< its setting `depth` is the largest number of scatterings
 };
 
 /// The table of renderers. ADD A RENDERER HERE (renderer_list.cpp: one line).
 [[nodiscard]] std::span<const RendererEntry> renderers();
-/// The renderer of "NAME" or "NAME:SETTING=VALUE,...". Throws Error (Usage) listing the names for
-/// an unknown one, the settings of a renderer for an unknown setting.
+/// Creates the renderer of "NAME" or "NAME:SETTING=VALUE,...". Throws Error (Usage) for an unknown
+/// name, listing all names, and for an unknown setting, listing those of the renderer.
 [[nodiscard]] std::unique_ptr<Renderer> make_renderer(const std::string& text);
-/// The text of a renderer whose rays are reflected and refracted `depth` times after the eye ray:
-/// what follows paths gets a setting, unless it has one; others take it from the scene.
+/// Returns the text of the renderer with `depth` as the largest number of reflections and
+/// refractions: adds the setting if the renderer `follows_paths` and the text has none; other
+/// renderers take it from the scene.
 [[nodiscard]] std::string with_depth(const std::string& text, int depth);
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
 #pragma once
-/// Settings of renderers, and of other things with a name, as users write them:
+/// Parser of a name with settings, as users write it for renderers and others:
 /// "NAME:SETTING=VALUE,...".
 ///
-/// Conventions: a setting is read once; what was not read is unknown to the renderer. All functions
+/// Conventions: each setting is read once; settings that were not read are unknown. All functions
 /// throw Error (Usage).
 
 #include <map>
@@ -14,17 +14,17 @@ namespace alhazen {
 
 class RendererSettings {
   public:
-    /// Splits the text; `name` is that of the renderer. Errors call it `subject`.
+    /// Splits the text. `subject`: the kind of thing that is named, for error messages.
     explicit RendererSettings(const std::string& text, const char* subject = "renderer");
 
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// Within [least, most].
+    /// The value of a setting in [least, most], or `fallback`.
     [[nodiscard]] double number(const char* setting, double fallback, double least, double most);
     [[nodiscard]] int whole(const char* setting, int fallback, int least, int most);
-    /// The index among `names`.
+    /// The index in `names` of the value of a setting, or `fallback`.
     [[nodiscard]] std::size_t choice(const char* setting, std::size_t fallback,
                                      std::span<const char* const> names);
-    /// Refuses settings that were not read.
+    /// Throws if a setting was not read.
     void finish() const;
 
   private:

@@ -4,8 +4,8 @@
 /// Source: Cook, Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, sections 4.1 and
 /// 4.2 (gloss, translucency); Phong 1975 (cos^n about the mirror direction); Walter et al. 2007
 /// (normals of roughness alpha as a Blinn-Phong lobe of exponent 2 / alpha^2 - 2).
-/// Conventions: alpha = roughness^2. The lobe of directions has a quarter of the exponent of that
-/// of normals, which lie half as far apart.
+/// Conventions: alpha = roughness^2. The lobe of directions has a quarter of the exponent of the
+/// lobe of normals, whose angles are half as large.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// n of the lobe cos^n of a roughness above 0.
+/// The exponent n of the lobe cos^n for a roughness above 0.
 [[nodiscard]] inline double lobe_exponent(double roughness) {
     const double alpha = roughness * roughness;
     return std::max(0.0, 0.25 * (2.0 / (alpha * alpha) - 2.0));
@@ -32,8 +32,8 @@ namespace alhazen {
     return normalize(cosine * axis + (scale * p.x) * a + (scale * p.y) * b);
 }
 
-/// Half the angle of the cone whose directions, taken evenly, spread as far: the mean of sin^2 in
-/// the lobe is 2 / (n + 3), in a narrow cone of half angle a it is sin^2(a) / 2.
+/// The half angle of the cone of uniform directions with the spread of the lobe: the mean of sin^2
+/// is 2 / (n + 3) in the lobe and sin^2(a) / 2 in a narrow cone of half angle a.
 [[nodiscard]] inline double lobe_half_angle(double roughness) {
     if (!(roughness > 0.0)) return 0.0;
     return std::asin(std::min(1.0, 2.0 / std::sqrt(lobe_exponent(roughness) + 3.0)));

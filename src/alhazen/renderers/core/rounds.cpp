@@ -20,9 +20,9 @@ namespace {
 
 using RoundClock = std::chrono::steady_clock;
 
-/// Samples after which pixels may end.
+/// Smallest number of samples after which a pixel may end.
 constexpr std::uint32_t kLeastSamples = 16;
-/// Below this value noise is measured absolutely.
+/// Pixel values below this count as this in the noise.
 constexpr double kDark = 0.01;
 
 /// Renders one film.
@@ -64,7 +64,7 @@ class RoundRender {
     }
 
   private:
-    /// Samples of the next round.
+    /// Samples per pixel of the next round.
     [[nodiscard]] std::uint32_t next_count() const {
         if (!plan_.has_rounds()) return most_;
         std::uint32_t count = std::max(samples_, plan_.seconds ? 1u : kLeastSamples / 2);
@@ -72,7 +72,7 @@ class RoundRender {
         return std::min(count, most_ - samples_);
     }
 
-    /// The largest power of two, up to the next doubling, for which there is time.
+    /// The largest power of two, up to the next doubling, that fits into the time limit.
     [[nodiscard]] std::uint32_t count_in_time() const {
         const std::uint32_t doubled = std::bit_ceil(samples_ + 1);
         std::uint32_t count = std::bit_floor(doubled - samples_);
@@ -117,7 +117,7 @@ class RoundRender {
         return report;
     }
 
-    /// After a doubling, or at the end: the noise of all pixels, and which of them want more.
+    /// After a doubling and at the end: finds the noise of all pixels and those to continue.
     void measure_noise() {
         const bool doubled = std::has_single_bit(samples_);
         if (samples_ >= kLeastSamples && (doubled || samples_ == most_)) {
@@ -133,7 +133,7 @@ class RoundRender {
         return &film_.at(film_.crop().x0, film_.crop().y0);
     }
 
-    /// Of pixels that were in the round.
+    /// Sets the noise of the pixels that were in the round.
     void find_noise() {
         // V is the mean of nA and nB samples, whose own means are A and B: the variance of V is
         // that of A - B times nA nB / n^2, and A - B is (A - V) n / nB.
@@ -144,7 +144,7 @@ class RoundRender {
             if (wanted_[k] == 0) continue;
             const Rgb& now = first_pixel()[k];
             const Rgb change = now - before_[k];
-            // Where samples are even the change is often 0 by symmetry, but their variance is not.
+            // For stratified samples the change is often 0 by symmetry; their variance is not.
             const double error = std::max(
                 scale * Rgb{std::abs(change.r), std::abs(change.g), std::abs(change.b)}.max(),
                 sums_[k].deviation() / even);
@@ -152,7 +152,7 @@ class RoundRender {
         }
     }
 
-    /// Pixels whose noise, or that of one of the eight around them, is above the limit.
+    /// Keeps the pixels whose noise, or that of one of the eight around them, is above the limit.
     void find_wanting() {
         const int width = film_.crop().width(), height = film_.crop().height();
         const auto at = [&](int x, int y) {
@@ -193,13 +193,13 @@ class RoundRender {
     RoundClock::time_point begin_;
     std::unique_ptr<Sampler> sampler_;
     std::optional<SharedFilm> shared_;
-    std::vector<SampleSum> sums_;       ///< [pixel] with several rounds
-    std::vector<std::uint8_t> wanted_;  ///< [pixel] with a limit of the noise
-    std::vector<float> noise_;          ///< the same
+    std::vector<SampleSum> sums_;       ///< [pixel]; only with several rounds
+    std::vector<std::uint8_t> wanted_;  ///< [pixel]; only with a limit of the noise
+    std::vector<float> noise_;          ///< [pixel]; only with a limit of the noise
     std::vector<Rgb> before_;           ///< the film at the last doubling
     std::uint32_t samples_before_ = 0;
-    std::uint32_t samples_ = 0;  ///< of the pixels that want more, so far
-    std::uint64_t wanting_ = 0;  ///< pixels
+    std::uint32_t samples_ = 0;  ///< so far, of each pixel that continues
+    std::uint64_t wanting_ = 0;  ///< pixels that continue
     double last_seconds_ = 0, last_work_ = 0;
     SamplingReport report_;
 };

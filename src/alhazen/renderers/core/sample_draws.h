@@ -1,7 +1,6 @@
 #pragma once
-/// The numbers of a batch of samples. The first pairs of dimensions are drawn for all samples that
-/// are left at once, when the first of them asks: neighbours in a pixel then share most of the
-/// work.
+/// The random numbers of a batch of samples. The first pairs of dimensions are drawn for all
+/// remaining samples together on first use, since samples of a pixel share most of the work.
 ///
 /// Conventions: values are those of Sampler::at. Threads: used by one thread.
 
@@ -16,18 +15,18 @@ namespace alhazen {
 
 class SampleDraws {
   public:
-    /// `together`: pairs that most samples use.
+    /// `together`: number of pairs that are drawn for all samples together.
     SampleDraws(const Sampler& sampler, std::uint32_t together)
         : sampler_(sampler), together_(together) {}
 
-    /// `ids`: of the samples from now on; they must stay valid.
+    /// Begins a batch. `ids` must stay valid.
     void begin(std::span<const SampleId> ids) {
         ids_ = ids;
         left_.resize(ids.size());
         for (std::uint32_t i = 0; i < ids.size(); ++i) left_[i] = i;
         for (std::vector<Vec2>& pair : together_) pair.clear();
     }
-    /// `left`: the samples of the batch that ask from now on, fewer and fewer.
+    /// Limits further draws to the samples `left` of the batch, a subset of those before.
     void keep(std::span<const std::uint32_t> left) { left_.assign(left.begin(), left.end()); }
     [[nodiscard]] Vec2 at(std::uint32_t sample, std::uint32_t pair) {
         if (pair >= together_.size()) {

@@ -1,9 +1,9 @@
 #pragma once
-/// The loop over the pixels of a tile for samplers and filters by name: a round of samples for each
-/// pixel that wants more.
+/// The loop over the pixels of a tile for a SamplingPlan: a round of samples for each pixel that
+/// is not done.
 ///
-/// Conventions: those of PixelLoop. A pixel has the samples of its sampler in their order, whatever
-/// the tiles are. Threads: used by one thread.
+/// Conventions: those of PixelLoop. A pixel has the samples of its sampler in order, independent of
+/// the tiles. Threads: used by one thread.
 
 #include <algorithm>
 #include <cstdint>
@@ -23,28 +23,29 @@
 
 namespace alhazen {
 
-/// A part of the time that the shutter is open.
+/// An interval of the time that the shutter is open (0 to 1).
 struct ShutterPart {
     double begin = 0, length = 1;
-    /// The moment for a number drawn in [0, 1); below 1, where the double may round up to it.
+    /// The time for `u` in [0, 1); below 1 after rounding to float.
     [[nodiscard]] float at(double u) const {
         return std::min(static_cast<float>(begin + length * u), 0x1.fffffep-1f);
     }
 };
 
-/// Samples first .. first + count - 1 of pixels.
+/// Samples first .. first + count - 1 of all pixels that are not done.
 struct SampleRound {
     const Sampler& sampler;
     const FilterKernel& filter;
     std::uint32_t first, count;
     /// [pixel of the crop] 0 where the pixel is done; empty: none is.
     std::span<const std::uint8_t> wanted;
-    /// [pixel of the crop] the samples so far, added to; empty: this round is the only one.
+    /// [pixel of the crop] sums of all rounds, which are added to; empty: this is the only round.
     std::span<SampleSum> sums;
     std::uint64_t seed = 0;  ///< of the sampler
-    /// Takes the samples for all pixels in reach, too; `filter` is then the box of one pixel.
+    /// Receives each sample for all pixels in reach; `filter` is then the box of one pixel. Null:
+    /// samples are not shared.
     SharedFilm* shared = nullptr;
-    ShutterPart shutter{};  ///< in which the samples are
+    ShutterPart shutter{};  ///< interval of the times of the samples
 };
 
 class SampleLoop {
@@ -67,7 +68,7 @@ class SampleLoop {
         }
     }
 
-    /// Adds the round to the pixels of the tile. Returns early after a stop, with whole pixels
+    /// Adds the round to the pixels of the tile. After a stop, returns early with whole pixels
     /// only.
     template <class Estimator>
     void run(const PixelBox& tile, Film& film, Estimator& estimator) {
@@ -102,7 +103,8 @@ class SampleLoop {
                       [&](const TilePixel& p) { return round_.wanted[index(film, p)] == 0; });
     }
 
-    /// Adds the samples of a pixel to the batch, and traces it where it is full.
+    /// Adds the samples of a pixel to the batch; traces the batch when it is full. False after a
+    /// stop.
     template <class Estimator>
     bool gather(const TilePixel& pixel, Film& film, Estimator& estimator) {
         const SamplePixel place{tile_.x0 + pixel.i, tile_.y0 + pixel.j};
@@ -126,7 +128,7 @@ class SampleLoop {
         }
         return true;
     }
-    /// Film coordinates of a place beside the centre of a pixel.
+    /// Film coordinates of the centre of a pixel plus `offset` in pixels.
     [[nodiscard]] static Vec2 film_place(const Film& film, const SamplePixel& pixel,
                                          const Vec2& offset) {
         const int from_bottom = film.frame_height() - 1 - pixel.y;
@@ -186,21 +188,21 @@ class SampleLoop {
     RayCounters& counters_;
     AovRecorder aovs_;
     EyeRays eye_;
-    std::vector<Vec3> sums_;     ///< of a column and a row
-    std::vector<double> signs_;  ///< of the filter
+    std::vector<Vec3> sums_;     ///< [ray] of a column and a row
+    std::vector<double> signs_;  ///< [ray] of the filter
     std::vector<SampleId> ids_;  ///< of the gathered rays, for a SampleEstimator
     std::vector<Vec2> points_;
     std::size_t gathered_ = 0;
     std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
     PixelBox tile_;
-    std::vector<TilePixel> pixels_;  ///< of the tile that want samples, in rendering order
+    std::vector<TilePixel> pixels_;  ///< of the tile that are not done, in rendering order
     std::size_t done_ = 0;           ///< finished pixels
     std::uint32_t taken_ = 0;        ///< samples of the current pixel
     SampleSum own_;                  ///< of the current pixel in this round
-    std::vector<Vec2> offsets_;      ///< of gathered samples in their pixels, where they are shared
+    std::vector<Vec2> offsets_;      ///< [ray] of shared samples from the centre of their pixel
     std::optional<SharedFilm::Spread> spread_;  ///< of the current pixel
-    std::vector<Vec2> places_;  ///< film coordinates of gathered samples, with AOVs only
+    std::vector<Vec2> places_;  ///< film coordinates of gathered samples; only with AOVs
 };
 
 /// Renders a round of tiles by SampleLoop.

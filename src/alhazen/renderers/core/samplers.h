@@ -26,7 +26,7 @@ concept PixelSampler = requires(const S& sampler, const RenderJob& job, int n) {
     { S::kSeparable } -> std::convertible_to<bool>;
 };
 
-/// One sample per pixel: the point given by the scene's conventions.
+/// One sample per pixel, at the point given by the scene's conventions.
 class PointSampler {
   public:
     using PixelSample = SamplingConventions::PixelSample;

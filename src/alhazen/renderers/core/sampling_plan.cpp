@@ -25,7 +25,7 @@ void read_sampler(const std::string& text, SamplingPlan& plan) {
     given.finish();
 }
 
-/// Their weights must be far from 0.
+/// Throws for a radius or a filter with which the weights of shared samples may sum to nearly 0.
 void check_shared(const SamplingPlan& plan, const std::string& filter) {
     if (plan.radius < SamplingPlan::kLeastShared || plan.radius > SamplingPlan::kLargestShared) {
         throw Error(ErrorKind::Usage,

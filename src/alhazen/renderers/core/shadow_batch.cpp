@@ -13,10 +13,9 @@ namespace {
 
 using ShadowTint = ShadingConventions::ShadowTint;
 
-/// Rays per cast: enough to fill the stream kernel, few enough to stay in the cache with their
-/// data.
+/// Rays per cast: enough to fill the stream kernel, and few enough for the cache.
 constexpr std::size_t kMostRays = 512;
-/// Crossings of all rays are found at once where more than one ray in `kFewMeet` hits something.
+/// Crossings are searched on all rays if more than one ray in `kFewMeet` hits something.
 constexpr std::uint64_t kFewMeet = 4;
 
 }  // namespace
@@ -118,23 +117,22 @@ void ShadowBatch::find_met_by_light(std::span<bool> met) {
     }
 }
 
-/// Whether to find first which rays hit anything, and crossings only for these: where that is
-/// faster for many rays at once. False while counting: counted tests must not depend on earlier
-/// rays.
+/// True if it is faster to find first which rays hit anything, and crossings only for these. False
+/// while tests are counted: counts must not depend on earlier rays.
 bool ShadowBatch::asks_first() const {
     if (opaque_) return true;
     return stats_ == nullptr && kFewMeet * count_.hit <= count_.cast &&
            scene_.aggregate->gains_by_batches(coherence_);
 }
 
-/// Transmittance along the ray; `met`: false where nothing is in between.
+/// Transmittance along the ray. `met`: the ray hits some surface.
 Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     if (opaque_) {
         count_.hit += met;
         return met ? Rgb{0, 0, 0} : Rgb{1, 1, 1};
     }
     crossings_.clear();
-    // A ray that hits may have no crossing: the back of a single-sided surface.
+    // A hit on the back of a single-sided surface is no crossing.
     const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query(path.time));
     count_.hit += blocked || !crossings_.empty();
     if (blocked) return {};
@@ -232,7 +230,7 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     return tint;
 }
 
-/// Transmittance of one surface, where light enters or leaves `medium`; `inside`: the distance
+/// Transmittance of a surface at which light enters or leaves `medium`. `inside`: the distance
 /// since the last surface.
 Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSample& medium,
                                bool leaving, double inside) const {
@@ -244,7 +242,7 @@ Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSam
     return leaving ? power(medium.transmissive, inside) : Rgb{1, 1, 1};
 }
 
-/// Transmittance of the innermost volume that was entered.
+/// Transmittance of the innermost volume over a distance.
 Rgb ShadowBatch::through_medium(double distance) const {
     return media_.empty() ? Rgb{1, 1, 1} : transmittance(media_.back(), distance);
 }

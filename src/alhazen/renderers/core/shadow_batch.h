@@ -1,11 +1,11 @@
 #pragma once
-/// Direct light of many points: shadow rays are gathered, then cast together.
+/// Direct light at many points, by shadow rays that are gathered and cast together.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (shadow rays); UW CSE
 /// 457, Trace project (light through transparent surfaces).
-/// Differs: where few rays hit anything, crossings are found for these only; where batches are no
-/// faster than single rays, each is cast at once. ShadingConventions::ShadowTint defines the effect
-/// of a crossing.
+/// Differs: if few rays hit anything, crossings are found for these only; if batches are no faster
+/// than single rays, each ray is cast at once. ShadingConventions::ShadowTint defines the effect of
+/// a crossing.
 
 #include <cstdint>
 #include <memory>
@@ -26,22 +26,21 @@ class ShadowBatch {
   public:
     ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
-    /// From now on light passes boundaries as exact optics have it, in the media of `Path::medium`.
+    /// Uses exact optics for all further rays; media are those of `Path::medium`.
     void use(ExactOptics& optics) { optics_ = &optics; }
-    /// Adds to `sum`, now or in `finish`, the arriving part of `light.intensity` times the
-    /// reflected `fraction`. Sums are added to in the order of the calls. `path`: that of the ray
-    /// that hit `surface`. `path` and `sum` must stay valid until `finish`. `number`: of the light
-    /// in the scene, for coherent rays.
+    /// Adds transmittance * `light.intensity` * `fraction` to `sum`, now or in `finish`, in the
+    /// order of the calls. `path`: that of the ray that hit `surface`. `path` and `sum` must stay
+    /// valid until `finish`. `number`: of the light in the scene, for coherent rays.
     void add(const LeavingRays& surface, const LightSample& light, const Rgb& fraction,
              const Path& path, Rgb& sum, std::size_t number = 0);
     /// Casts the gathered rays.
     void finish();
-    /// From now on, while no ray is gathered. Coherent: the surfaces are neighbours; the rays to
-    /// one light are cast together then, and are coherent where it is a point.
+    /// Sets the coherence of further surfaces; no ray may be gathered. Coherent: the surfaces are
+    /// neighbours; rays to the same light are cast together, as coherent ones if it is a point.
     void expect(Coherence coherence);
 
-    /// Whether batches gain nothing: `arriving` does the same, and what the surface reflects is
-    /// computed only where light arrives.
+    /// True if batches are no faster than `arriving`, with which the reflected fraction need be
+    /// computed only if light arrives.
     [[nodiscard]] bool casts_at_once() const { return at_once_; }
     /// Transmittance from the light to the surface, by a ray that is cast now.
     [[nodiscard]] Rgb arriving(const LeavingRays& surface, const LightSample& light,
@@ -70,9 +69,9 @@ class ShadowBatch {
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
-    /// The surface at a crossing, as its material needs it; until the next call.
+    /// The surface at a crossing. Valid until the next call.
     [[nodiscard]] const Surface& crossed(const Ray& ray, const Hit& hit, float time);
-    /// Its material; until the next call.
+    /// The material of a surface. Valid until the next call.
     [[nodiscard]] const MaterialSample& material_of(const Surface& surface);
     [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
                                     bool leaving, double inside) const;
@@ -83,22 +82,22 @@ class ShadowBatch {
     RayCount& count_;
     TraversalStats* stats_;
     ExactOptics* optics_ = nullptr;
-    bool opaque_;  ///< any surface in between blocks the light
+    bool opaque_;  ///< every surface blocks the light
     Coherence coherence_ = Coherence::Any;
     bool at_once_ = false;
     MaterialCache constant_;
-    // That wait.
+    // Gathered rays.
     std::size_t count_waiting_ = 0;
     std::unique_ptr<Ray[]> rays_;
     std::unique_ptr<Waiting[]> waiting_;
     std::vector<float> times_;  ///< [ray]; where something moves
     std::unique_ptr<bool[]> met_;
-    std::vector<std::uint64_t> order_;  ///< number of the light, then of the ray in 32 bits
+    std::vector<std::uint64_t> order_;  ///< number of the light << 32 | number of the ray
     std::vector<Ray> sorted_;
     std::unique_ptr<bool[]> sorted_met_;
     std::vector<Hit> crossings_;
-    Surface surface_;         ///< that of `crossed`
-    MaterialSample own_;      ///< that of `material_of`
+    Surface surface_;         ///< result of `crossed`
+    MaterialSample own_;      ///< result of `material_of`
     MaterialSample medium_;   ///< between the surfaces of a solid of several media
     std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last
 };

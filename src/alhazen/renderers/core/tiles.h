@@ -2,7 +2,7 @@
 /// Rendering in tiles: the crop of the film is divided into squares, which all threads render.
 ///
 /// For renderers of independent pixels. Others (scan lines, beam trees, passes over the whole film)
-/// implement Renderer themselves, or call `render_tiles` once per pass.
+/// implement Renderer directly, or call `render_tiles` once per pass.
 /// Conventions: pixels and counters depend neither on the tile size nor on the threads.
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace alhazen {
 
-/// Renders tiles of a job, one after the other; memory is kept from tile to tile. Threads: used by
-/// one at a time.
+/// Renders tiles of a job, one after the other; memory is reused from tile to tile. Threads: used
+/// by one at a time.
 class TileRenderer {
   public:
     virtual ~TileRenderer() = default;
@@ -30,7 +30,7 @@ using MakeTileRenderer = std::function<std::unique_ptr<TileRenderer>()>;
 [[nodiscard]] RenderReport render_tiles(const RenderJob& job, Film& film,
                                         const MakeTileRenderer& make);
 
-/// A renderer whose only work is that of its tiles.
+/// A renderer that has no work besides its tiles.
 class TiledRenderer : public Renderer {
   public:
     /// `job` must outlive the result. Called from many threads.

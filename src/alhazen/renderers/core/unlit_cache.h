@@ -1,9 +1,9 @@
 #pragma once
-/// Unlit cache: colours of the materials that are the same at every point and from every direction.
-/// A hit on one of them needs no surface.
+/// Unlit cache: colours of the materials whose colour depends neither on the point nor on the
+/// direction. A hit on one of them needs no surface.
 ///
-/// Conventions: for rays through air; the colour has the bits of shading the surface. Threads: used
-/// by one thread.
+/// Conventions: for rays through air; the colour is bit for bit that of shading the surface.
+/// Threads: used by one thread.
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ class UnlitCache {
     /// `ambient`: as for `unshadowed_terms`. The scene must outlive the cache.
     UnlitCache(const Scene& scene, std::span<const Rgb> ambient);
 
-    /// Null where the colour depends on the surface.
+    /// The colour of a hit; null if it depends on the surface.
     [[nodiscard]] const Rgb* find(const Hit& hit) {
         if (colors_.empty()) return nullptr;
         if (hit.path.size() > 1) return look_up(hit);
@@ -49,7 +49,7 @@ class UnlitCache {
     [[nodiscard]] const Rgb* look_up(const Hit& hit) const;
 
     const Scene& scene_;
-    std::vector<std::optional<Rgb>> colors_;  ///< [material]; empty where no material is unlit
+    std::vector<std::optional<Rgb>> colors_;  ///< [material]; empty if no material is unlit
     std::array<Known, kKnown> known_;
 };
 

@@ -3,7 +3,7 @@
 /// batches.
 ///
 /// Conventions: surfaces are reported one at a time, in any order of the rays; a reported point is
-/// valid until the next. Memory is kept from batch to batch.
+/// valid until the next. Memory is reused from batch to batch.
 
 #include <cstdint>
 #include <span>
@@ -17,30 +17,30 @@ namespace alhazen {
 
 class VisibleBatch {
   public:
-    /// `follows_light`: rays that are no eye rays meet the backs of single-sided surfaces.
+    /// `follows_light`: rays other than eye rays hit the backs of single-sided surfaces.
     VisibleBatch(const Scene& scene, TraversalStats* stats, bool follows_light = false)
         : scene_(scene), stats_(stats), follows_light_(follows_light), constant_(scene) {}
-    /// From now on surfaces are as exact optics have them, in the media of `path(k).medium`.
+    /// Uses exact optics for all further surfaces; media are those of `path(k).medium`.
     void use(ExactOptics& optics) { optics_ = &optics; }
-    /// From now on surfaces of coverage 0 are reported that may be openings into volumes.
+    /// Reports surfaces of coverage 0, too, that may be openings into volumes.
     void report_openings() { reports_openings_ = true; }
 
     /// `path(k)` returns `kind`, `cone`, `inside` and `time` of ray k. Calls `tell(k, point, t)`
-    /// once for each ray: with a null pointer where nothing is seen, else with the point and its
+    /// once for each ray: with a null pointer if nothing is hit, else with the point and its
     /// distance from the origin of the ray. `tell` must not change rays or paths that are not yet
     /// reported.
     template <class PathOf, class Tell>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
         find(rays, coherence, path, tell, [](std::size_t, const Hit&) { return false; });
     }
-    /// The same, but `take(k, hit)` receives the first hit of each ray before its surface is found;
-    /// the ray is done where it returns true.
+    /// As above, with `take(k, hit)` called for the first hit of each ray before its surface is
+    /// found; if it returns true the ray is done.
     template <class PathOf, class Tell, class Take>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
               Take&& take) {
         go_on(closest(rays, coherence, path), rays, path, tell, take);
     }
-    /// The same, from the first hits that `find` gave to `take` for the same rays.
+    /// Continues from the first hits that `find` passed to `take` for the same rays.
     template <class PathOf, class Tell, class Take>
     void go_on(std::span<const Hit> first, std::span<const Ray> rays, PathOf&& path, Tell&& tell,
                Take&& take) {
@@ -107,12 +107,12 @@ class VisibleBatch {
         }
         return std::span(hits_).first(rays.size());
     }
-    /// At `times_` where something moves.
+    /// Finds the closest hits, at `times_` if something moves.
     void trace(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, RayMask mask);
     void trace_chosen(std::span<const Ray> rays, Coherence coherence, RayMask mask);
 
-    /// Reports the hit, or queues the ray to continue behind it. `rest`: ray k from the last
-    /// surface on, `distance` behind the origin of `whole`.
+    /// Reports the hit, or queues the ray to continue behind it. `rest`: ray k behind the last
+    /// surface, `distance` from the origin of `whole`.
     template <class AnyPath, class Tell>
     void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
               const AnyPath& path, Tell&& tell) {
@@ -140,8 +140,8 @@ class VisibleBatch {
     ShadingPoint point_;
     const Hit* reported_ = nullptr;
     std::vector<Hit> hits_;
-    std::vector<float> times_;  ///< [ray]; where something moves
-    // Of the rays of one kind, where parts have visibility masks.
+    std::vector<float> times_;  ///< [ray]; only if something moves
+    // Rays of one kind; only if parts have visibility masks.
     std::vector<std::size_t> chosen_;
     std::vector<Ray> chosen_rays_;
     std::vector<Hit> chosen_hits_;

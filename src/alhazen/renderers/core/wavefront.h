@@ -6,9 +6,9 @@
 /// Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008, and Laine, Karras and Aila,
 /// "Megakernels Considered Harmful: Wavefront Path Tracing on GPUs", HPG 2013 (a generation at a
 /// time).
-/// Differs: colours return from the last generation to the first, by the arithmetic of the
-/// recursion in its order, instead of carrying throughputs along; and a generation is bounded:
-/// further rays wait until the rays before them have their radiance.
+/// Differs: radiance returns from the last generation to the first, by the arithmetic and in the
+/// order of the recursion, instead of throughputs being carried along. The size of a generation is
+/// bounded: further rays wait until the radiance of those before is known.
 
 #include <cstdint>
 #include <limits>
@@ -25,13 +25,13 @@ namespace alhazen {
 /// The history of a ray.
 struct Path {
     RayKind kind = RayKind::Eye;
-    bool inside = false;        ///< it starts inside something transparent
+    bool inside = false;        ///< it starts inside a transparent solid
     std::uint32_t sample = 0;   ///< of its batch of eye rays
     float time = 0;             ///< RayQuery::time
-    float nm = 0;               ///< its wavelength, from the first dispersing surface on; else 0
+    float nm = 0;               ///< wavelength behind a dispersing surface; else 0
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
-    std::uint32_t medium = 0;   ///< of ExactOptics, where they are in force
+    std::uint32_t medium = 0;   ///< of ExactOptics, if used
     RayCone cone;
 };
 
@@ -56,7 +56,7 @@ class Generation {
         paths_.push_back(path);
         return static_cast<std::uint32_t>(rays_.size() - 1);
     }
-    /// That of the last ray, which may be changed until another is added.
+    /// The path of the last ray. Valid until another is added.
     [[nodiscard]] Path& last_path() { return paths_.back(); }
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
     /// Allocates the radiance of the rays, black. Call after the last ray is added.
@@ -79,23 +79,23 @@ struct MetSurface {
 
     std::uint32_t ray = 0;                                     ///< that hit it
     std::uint32_t reflected = kNotSent, refracted = kNotSent;  ///< rays of the next generation
-    bool lit = false;       ///< otherwise its colour is `own` only
-    bool filtered = false;  ///< all its light is multiplied by `filter`
-    bool split = false;     ///< `refracted` is the first of its rays in Wavefront::split
-    Rgb share;              ///< of the ray's light
+    bool lit = false;                                          ///< false: its colour is `own` only
+    bool filtered = false;  ///< its light is multiplied by `filter`
+    bool split = false;     ///< `refracted` is the index of its first ray in Wavefront::split
+    Rgb share;              ///< weight of its light in the radiance of the ray
     Rgb own;                ///< emission and ambient light
-    Rgb direct;             ///< of unoccluded lights
+    Rgb direct;             ///< light of unoccluded lights
     Rgb kr, kt;             ///< factors of the radiance of the two rays
-    Rgb filter;
+    Rgb filter;             ///< by distance in the medium
 };
 
-/// The work on one generation: some of its rays at a time.
+/// The state of the work on some rays of one generation.
 struct Wavefront {
     std::vector<MetSurface> met;
     Generation next;                   ///< the secondary rays of `met`
-    std::vector<std::uint32_t> split;  ///< rays of `next` for each wavelength of what disperses
-    std::vector<Rgb> left;  ///< by ray: transmittance of the partly covering surfaces so far
-    /// Rays that have not ended: numbers and, from the second surface on, the rest of each ray.
+    std::vector<std::uint32_t> split;  ///< rays of `next`, by wavelength, of dispersing surfaces
+    std::vector<Rgb> left;             ///< [ray] transmittance so far, of surfaces and media
+    /// Rays that have not ended: their numbers and, behind the first surface, their remainders.
     std::vector<std::uint32_t> active;
     std::vector<Ray> rays;
     /// The active rays that continue behind the surfaces in `met`.

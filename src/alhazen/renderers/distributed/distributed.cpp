@@ -20,7 +20,7 @@ namespace {
 enum Pair : std::uint32_t { kLensPair = 1, kTimePair = 2, kFirstBouncePair = 3 };
 enum BouncePair : std::uint32_t { kReflectedLobe = 0, kRefractedLobe = 1, kFirstLight = 2 };
 
-/// Draws from the sampler of the round.
+/// Random choices of the recursion, from the sampler of the round.
 class SamplerChance {
   public:
     explicit SamplerChance(const RenderJob& job)
@@ -28,7 +28,7 @@ class SamplerChance {
           bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight),
           draws_(job.round->sampler, std::min(kFirstBouncePair + bounce_, kMostTogether)) {}
 
-    /// `ids`: of the eye rays from now on.
+    /// `ids`: of the following eye rays.
     void begin(std::span<const SampleId> ids) { draws_.begin(ids); }
 
     [[nodiscard]] Vec2 draw(std::uint32_t sample, std::uint32_t pair) {
@@ -39,10 +39,10 @@ class SamplerChance {
                     kFirstBouncePair + static_cast<std::uint32_t>(depth) * bounce_ + pair);
     }
 
-    /// Drawn where something moves.
+    /// Sampled only if something moves.
     [[nodiscard]] float time(std::uint32_t sample) {
         if (!moves_) return 0.0f;
-        // Below 1, where the double may round up to it.
+        // Clamped below 1, to which the double may be rounded.
         return std::min(static_cast<float>(draw(sample, kTimePair).x), 0x1.fffffep-1f);
     }
 
@@ -54,7 +54,7 @@ class SamplerChance {
         return sample_extent(*area, point, draw(path, depth, pair));
     }
 
-    /// Replaces an exact direction by one of the lobe of a rough material.
+    /// Replaces an exact direction by a sample of the lobe of a rough material.
     void spread(RayKind kind, const ShadingPoint& point, const Path& path, int depth,
                 Vec3& direction) {
         const double roughness = point.material->roughness;
@@ -63,18 +63,18 @@ class SamplerChance {
         const double n = lobe_exponent(roughness);
         const Vec3 drawn =
             in_lobe(direction, n, draw(path, depth, reflected ? kReflectedLobe : kRefractedLobe));
-        // On the side of the surface that the exact direction is on.
+        // Mirrors the sample to the side of the surface on which the exact direction lies.
         const double side = dot(direction, point.geometric), cosine = dot(drawn, point.geometric);
         direction = side * cosine < 0.0 ? drawn - (2.0 * cosine) * point.geometric : drawn;
     }
 
   private:
-    /// Bounds the memory where lights are many: 4 KiB for each pair.
+    /// Bounds the memory for scenes with many lights: 4 KiB per pair.
     static constexpr std::uint32_t kMostTogether = 4096;
 
     bool moves_;
-    std::uint32_t bounce_;  ///< pairs of one
-    SampleDraws draws_;     ///< most samples use the pairs up to the first bounce
+    std::uint32_t bounce_;  ///< pairs per bounce
+    SampleDraws draws_;     ///< caches the pairs up to the first bounce, which most samples use
 };
 
 class DistributedEstimator {
@@ -84,7 +84,7 @@ class DistributedEstimator {
         if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
     }
 
-    /// Of rays without samples: not called.
+    /// Required by the estimator concept for rays without samples; not called.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) { tree_.trace(rays, radiance); }
 
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
@@ -102,7 +102,7 @@ class DistributedEstimator {
     }
 
   private:
-    /// To where the camera is at `time`.
+    /// Moves a ray to the camera's pose at `time`.
     void carry(double time, Ray& ray) const {
         const Affine moved = motion_->at(time).outer_from_inner * camera_from_world_;
         ray = transformed(moved, ray);
@@ -112,7 +112,7 @@ class DistributedEstimator {
     RecursiveEstimator<SamplerChance> tree_;
     LensRays lens_;
     const TransformMotion* motion_;
-    Affine camera_from_world_;  ///< as the shutter opens
+    Affine camera_from_world_;  ///< at shutter open
     std::vector<Ray> drawn_;
 };
 
@@ -120,7 +120,7 @@ static_assert(SampleEstimator<DistributedEstimator>);
 
 constexpr std::size_t kSamplesAtOnce = 256;
 
-/// Tiles of a job without a round: all its samples, by the usual sampler and filter.
+/// Renders tiles of a job without a round: all samples, by the default sampler and filter.
 class OneRound final : public TileRenderer {
   public:
     explicit OneRound(const RenderJob& job)

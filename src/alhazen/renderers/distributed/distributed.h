@@ -1,14 +1,15 @@
 #pragma once
-/// Distributed ray tracing: the equation of `whitted`, with the rays of a sample spread over what
-/// is uncertain: the pixel, the lens, the surfaces of lights, rough reflections and refractions.
+/// Distributed ray tracing: the equation of `whitted`, with the rays of a sample distributed over
+/// the pixel, the lens, time, the surfaces of lights, and rough reflections and refractions.
 ///
 /// Source: Cook, Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984; Cook, "Stochastic
 /// Sampling in Computer Graphics", ACM TOG 5(1), 1986.
-/// Differs: values come from a sampler by name instead of jittered cells; each light is sampled at
-/// each point; lobes are those of Phong, and what would point below the surface is mirrored at it.
-/// Conventions: pairs of dimensions of the sampler, with d the number of bounces and L that of
-/// lights: 0 pixel; 1 lens; 2 time; from 3 + d (L + 2) on: reflected lobe, refracted lobe, the
-/// point on each light. A scene with nothing to spread has the bits of `whitted` with that sampler.
+/// Differs: samples come from a named sampler instead of jittered cells; each light is sampled at
+/// each point; lobes are those of Phong, with directions below the surface mirrored at it.
+/// Conventions: pairs of dimensions of the sampler, with d the number of bounces and L the number
+/// of lights: 0 pixel; 1 lens; 2 time; from 3 + d (L + 2) on: reflected lobe, refracted lobe, the
+/// point on each light. A scene with nothing to distribute has the bits of `whitted` with that
+/// sampler.
 
 #include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/tiles.h"
@@ -19,9 +20,9 @@ class Distributed final : public TiledRenderer {
   public:
     explicit Distributed(const OpticsSettings& optics = {}) : optics_(optics) {}
 
-    /// Without RenderJob::round nothing is spread: the tile is that of `whitted`.
+    /// Without RenderJob::round nothing is distributed: the tile is that of `whitted`.
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
-    /// Without RenderJob::sampling: `sobol` and `box`.
+    /// Without RenderJob::sampling: uses `sobol` and `box`.
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool distributes() const override { return true; }
     [[nodiscard]] int usual_samples() const override { return 16; }

@@ -1,8 +1,8 @@
 #pragma once
-/// Which boundary curves patches share, as weights that cancel where two sides agree.
+/// Weights of the boundary curves of patches that cancel where two sides agree.
 ///
 /// Conventions: a curve of two patches has a random weight on one side and its negative on the
-/// other, by the direction of the curve; a curve of one patch has 0. Curves are shared where their
+/// other, by the direction of the curve; a curve of one patch has 0. Curves are shared if their
 /// control points are equal.
 
 #include <array>
@@ -31,7 +31,7 @@ class BoundarySeams {
     void add(const BezierNet& net, std::uint32_t piece, int side);
     void set(const Side& side, std::uint64_t weight);
 
-    std::map<Key, Side> open_;  ///< met once
+    std::map<Key, Side> open_;  ///< curves found once so far
     std::map<std::uint32_t, std::array<std::uint64_t, 4>> weights_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Counts what cracks between the polygons of patches show.
+/// Counts samples in cracks between the polygons of patches.
 
 #include <cstdint>
 
@@ -10,12 +10,12 @@
 
 namespace alhazen {
 
-/// The samples of the crop that lie in cracks between the polygons of patches, or in overlaps,
-/// where patches are subdivided to `flatness`.
+/// Number of samples of the crop that lie in cracks or overlaps between the polygons of patches
+/// subdivided to `flatness`.
 ///
-/// Conventions: both sides of an edge cross each row of samples; where they do so at different
-/// columns, the samples between are in a crack. Each edge has its own random weight, so that gaps
-/// do not cancel.
+/// Conventions: both sides of an edge cross each row of samples; if they do so at different
+/// columns, the samples in between are in a crack. Each edge has its own random weight, so that
+/// gaps do not cancel.
 [[nodiscard]] std::uint64_t count_crack_samples(const ScanScene& scene, const ScreenView& view,
                                                 const SampleGrid& grid, ScanLineOptions options);
 

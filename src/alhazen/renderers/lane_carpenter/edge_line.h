@@ -1,11 +1,11 @@
 #pragma once
-/// Edges as lines on the grid: on which side of a line a sample lies, in whole numbers.
+/// Edges as lines on the grid, with an exact integer test of the side of a sample.
 ///
 /// Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988 (edge
 /// functions).
-/// Conventions: a line runs from its upper end (less y, then less x) to its lower one, so that the
-/// two polygons at an edge have the same line and every sample is on one side of it. `right`: the
-/// side of greater x; of a horizontal line what is above it and on it.
+/// Conventions: a line runs from its upper end (less y, then less x) to its lower one, so that both
+/// polygons at an edge have the same line and every sample is on one side of it. `right`: the side
+/// of greater x; for a horizontal line the samples above and on it.
 
 #include <cmath>
 
@@ -34,7 +34,7 @@ struct EdgeLine {
     [[nodiscard]] bool is_right(std::int32_t x, std::int32_t y) const {
         return (x - x0) * dy >= (y - y0) * dx;
     }
-    /// The first column of the row whose sample is right of the line; `columns` where none is.
+    /// The first column of the row whose sample is right of the line; `columns` if there is none.
     [[nodiscard]] int first_right(const SampleGrid& grid, std::int32_t y) const {
         const int columns = grid.columns();
         if (dy == 0) return (y - y0) * dx <= 0 ? 0 : columns;

@@ -12,10 +12,10 @@ namespace alhazen {
 
 namespace {
 
-/// Scan lines that are shaded together.
+/// Number of scan lines shaded in parallel.
 constexpr int kLinesAtOnce = 32;
 constexpr int kLinesOfBlock = 4;
-/// Tolerances below this fraction of a pixel are not tried.
+/// Least flatness, in pixels, that is tried.
 constexpr double kLeastFlatness = 0x1p-14;
 
 Vec3 eye_of(const Camera& camera) {
@@ -37,7 +37,7 @@ void tighten(const ScanScene& scene, const ScreenView& view, const SampleGrid& g
     }
 }
 
-/// Layers that count rays and time: there are none.
+/// Clears the layers of ray counts and times, as no rays are traced.
 void clear_costs(const RenderJob& job, const PixelBox& crop) {
     if (job.aovs == nullptr || !job.aovs->wanted().has_costs()) return;
     constexpr double kNone = 0.0;

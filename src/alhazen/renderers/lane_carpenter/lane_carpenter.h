@@ -5,9 +5,9 @@
 /// Defined Surfaces", CACM 23(1), 1980 (`lane_carpenter`); Clark, "A Fast Scan-Line Algorithm for
 /// Rendering Parametric Surfaces", SIGGRAPH 1979 (`clark`: all patches are subdivided first, and
 /// straight edges stay straight).
-/// Differs: the look and the layers of `ray_casting`.
+/// Differs: shading and layers are those of `ray_casting`.
 /// Conventions: geometry is read from RenderJob::description. Scan lines are shaded in parallel;
-/// pixels and counts do not depend on the threads.
+/// pixels and counts are independent of the threads.
 
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/lane_carpenter/options.h"

@@ -3,16 +3,16 @@
 
 namespace alhazen {
 
-/// What becomes of the gaps between parts of different subdivision.
+/// Treatment of the gaps between parts of different subdivision.
 enum class Cracks {
-    Show,     ///< as subdivision leaves them
-    Tighter,  ///< the tolerance is halved until no sample lies in one
-    Clark,    ///< a straight edge stays straight: there are none
+    Show,     ///< left as they are
+    Tighter,  ///< halve the tolerance until no sample lies in one
+    Clark,    ///< a straight edge stays straight, which avoids gaps
 };
 
 enum class SplitRule {
     Needed,  ///< along a direction that is not flat
-    Both,    ///< always into four
+    Both,    ///< always in both directions
 };
 
 struct ScanLineOptions {

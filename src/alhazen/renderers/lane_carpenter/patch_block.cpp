@@ -197,13 +197,13 @@ HWY_INLINE FourPlane select(const FourMask& mask, const FourPlane& yes, const Fo
     return result;
 }
 
-/// What a step of Newton's method changes: the point, u and v.
+/// The result of a step of Newton's method: the point, u and v.
 struct FourSolution {
     FourVec point;
     Four u, v;
 };
 
-/// A step in the lanes of `active`. Returns the lanes where it was longer than the error.
+/// A step in the lanes of `active`. Returns the lanes whose step was longer than the error.
 HWY_INLINE FourMask step_four(const FourPlane& plane, const FourVec& origin,
                               const FourVec& direction, const Four& error, const FourMask& active,
                               FourSolution& solution) {

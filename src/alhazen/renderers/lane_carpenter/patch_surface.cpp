@@ -36,7 +36,7 @@ struct Bernstein {
         value = {yy * y, 3.0 * yy * x, 3.0 * y * xx, xx * x};
         slope = {-3.0 * yy, 3.0 * (yy - xy), 3.0 * (xy - xx), 3.0 * xx};
     }
-    /// From the polynomials of one degree less.
+    /// Computed from the polynomials of one degree less.
     void set_slope(int degree) {
         const double n = degree;
         slope[0] = -n * value[0];
@@ -102,12 +102,12 @@ PatchTangents tangents_at(const ScanPiece& piece, double u, double v) {
                             : rational_tangents(piece.net, u, v);
 }
 
-/// Within [0, 1].
+/// Clamps to [0, 1].
 double limited(double x) {
     return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x;
 }
 
-/// Where a ray meets the tangent plane: its distance, and the change of the parameters.
+/// The intersection of a ray with the tangent plane: distance, and change of the parameters.
 struct TangentStep {
     bool found = false;
     Vec3 point, offset;
@@ -129,8 +129,8 @@ TangentStep tangent_step(const PatchTangents& at, const Vec3& normal, double squ
     return step;
 }
 
-/// The parameters of a triangle (s, t) from those of the square whose edge v = 1 is its corner, and
-/// the derivatives by them.
+/// Converts parameters and derivatives from the square whose edge v = 1 is a corner to those of the
+/// triangle (s, t).
 void to_triangle(Vec2& uv, Surface& surface) {
     const double rest = 1.0 - uv.y;
     if (rest > 1e-9) {
@@ -141,13 +141,14 @@ void to_triangle(Vec2& uv, Surface& surface) {
     uv.x *= rest;
 }
 
-/// The unit normal where the tangents span no plane; towards the eye for a patch without area.
+/// The unit normal if the tangents span no plane; for a patch without area it points towards the
+/// eye.
 Vec3 limit_normal(const ScanPiece& piece, Vec2 uv, const Ray& ray) {
     const Vec3 normal = patch_normal(piece.net, uv.x, uv.y);
     return normal == Vec3{} ? -ray.direction : normal;
 }
 
-/// Texture coordinates and their derivatives, from those of the piece.
+/// Sets texture coordinates and their derivatives from those of the piece.
 void set_coordinates(const ScanSource& source, const ScanPiece& piece, Vec2 uv, Surface& surface) {
     const Vec2 size = piece.hi - piece.lo;
     if (size != Vec2{1, 1}) {
@@ -207,7 +208,7 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const Pat
         const Vec3 limit = limit_normal(piece, uv, block.rays[lane]);
         x = limit.x, y = limit.y, z = limit.z;
     }
-    // From registers: a copy of the whole vector waits for its parts.
+    // Set by components: a copy of the whole vector would wait for its stores.
     surface.normal = {sign * x, sign * y, sign * z};
     surface.shading_normal = {sign * x, sign * y, sign * z};
     const double error = block.error[lane];

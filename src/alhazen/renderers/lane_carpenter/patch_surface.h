@@ -1,9 +1,9 @@
 #pragma once
-/// The surface of a patch at its parameters, for shading.
+/// The surface of a patch at given parameters, for shading.
 ///
 /// Conventions: those of Surface. The point is where the eye ray meets the tangent plane at the
-/// given parameters, which are corrected alike: a step of Newton's method, and a second one where
-/// the first is longer than a quarter of the bound of the error.
+/// given parameters, which are corrected accordingly: a step of Newton's method, and a second one
+/// if the first is longer than a quarter of the bound of the error.
 /// Complexity: linear in the control points.
 
 #include <vector>
@@ -18,7 +18,7 @@ namespace alhazen {
 /// its texture coordinates.
 void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 parameters,
                        const Ray& ray, double error, Surface& surface);
-/// The same from a lane of a block whose points are found. Texture coordinates only `with_uv`.
+/// The same from a lane of a block after find_patch_points. Texture coordinates only if `with_uv`.
 void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const PatchBlock& block,
                        std::size_t lane, bool with_uv, Surface& surface);
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The patch table and the active-patch table of Fig. 15.54 (scan_lines.h).
 ///
-/// Conventions: a patch waits in the bucket of the row where it begins; an active one is split, and
-/// its parts go to either table, until they are flat.
+/// Conventions: a patch is stored in the bucket of the row where it begins; an active one is split,
+/// and its parts are added to either table, until they are flat.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,8 +20,8 @@ class BoundarySeams;
 
 class PatchTables {
   public:
-    /// All but `view` and `options` must outlive the object. `keeps_seams`: sub-patches know the
-    /// weights of BoundarySeams.
+    /// All arguments except `view` and `options` must outlive the object. `keeps_seams`:
+    /// sub-patches store the weights of BoundarySeams.
     PatchTables(const ScanScene& scene, const ScreenView& view, const SampleGrid& grid,
                 const ScanLineOptions& options, bool keeps_seams);
 
@@ -30,7 +30,7 @@ class PatchTables {
         return {net.degree_u, net.degree_v};
     }
 
-    /// Splits what begins at rows up to `row`; calls `draw(patch)` with what is flat.
+    /// Splits the patches that begin at rows up to `row`; calls `draw(patch)` for flat ones.
     template <class Draw>
     void advance(int row, ScanLineReport& report, Draw&& draw) {
         std::uint32_t& first = buckets_[static_cast<std::size_t>(row)];
@@ -64,7 +64,7 @@ class PatchTables {
 
     void add_piece(std::uint32_t piece, const BoundarySeams* seams);
     void split(const SubPatch& patch, int row, ScanLineReport& report);
-    /// Into the active table where it has begun, else into its bucket.
+    /// Adds a patch to the active table if it has begun, else to its bucket.
     void place(std::uint32_t index, int row);
 
     const ScanScene& scene_;

@@ -1,9 +1,9 @@
 #pragma once
-/// The polygon table of Fig. 15.54 (scan_lines.h): polygons wait in the buckets of the scan lines
-/// where they begin, and are active while scan lines cross them.
+/// The polygon table of Fig. 15.54 (scan_lines.h): polygons are stored in the buckets of the scan
+/// lines where they begin, and are active while scan lines cross them.
 ///
-/// Conventions: a polygon has `first_row`, `end_row` (one beyond its last) and `next` for its
-/// bucket. It is named by its slot, which is used again when it has left.
+/// Conventions: a polygon has `first_row`, `end_row` (one past its last) and `next` for its bucket.
+/// It is identified by its slot, which is reused after it has left.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@ class PolygonTable {
 
     explicit PolygonTable(int rows) : buckets_(static_cast<std::size_t>(rows), kNone) {}
 
-    /// A free slot; its polygon is that of before.
+    /// Returns a free slot, whose polygon still has its old value.
     [[nodiscard]] std::uint32_t take() {
         ++live_;
         most_ = std::max(most_, live_);
@@ -37,21 +37,21 @@ class PolygonTable {
     }
     [[nodiscard]] Polygon& operator[](std::uint32_t slot) { return polygons_[slot]; }
 
-    /// Into the bucket of its first row, or of `row` where it has begun.
+    /// Adds a polygon to the bucket of its first row, or of `row` if it has begun.
     void put(std::uint32_t slot, int row) {
         Polygon& polygon = polygons_[slot];
         std::uint32_t& first = buckets_[static_cast<std::size_t>(std::max(row, polygon.first_row))];
         polygon.next = first;
         first = slot;
     }
-    /// The bucket's polygons become active.
+    /// Activates the polygons in the row's bucket.
     void enter(int row) {
         for (std::uint32_t slot = buckets_[static_cast<std::size_t>(row)]; slot != kNone;
              slot = polygons_[slot].next) {
             active_.push_back(slot);
         }
     }
-    /// Polygons that end at the row are given back.
+    /// Frees polygons that end at the row.
     void leave(int row) {
         std::size_t kept = 0;
         for (const std::uint32_t slot : active_) {
@@ -64,7 +64,7 @@ class PolygonTable {
         active_.resize(kept);
     }
 
-    /// The slots of what crosses the row.
+    /// The slots of the polygons that cross the row.
     [[nodiscard]] const std::vector<std::uint32_t>& active() const { return active_; }
     [[nodiscard]] std::size_t live() const { return live_; }
     /// The largest `live` so far.

@@ -1,9 +1,9 @@
 #pragma once
-/// The samples of a crop, on the grid of edges: columns and rows of one sample a pixel, or several
-/// samples anywhere in each pixel.
+/// The samples of a crop, on the grid of edges: one sample per pixel in columns and rows, or
+/// several samples anywhere in each pixel.
 ///
 /// Conventions: those of PixelSampler and ScreenView. Rows and columns count from the corner of the
-/// crop. With several samples a pixel, row j is the interval [j, j + 1) of the frame.
+/// crop. With several samples per pixel, row j is the interval [j, j + 1) of the frame.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// Whole numbers from begin up to end.
+/// The integers from begin up to, but not including, end.
 struct IndexRange {
     int begin = 0, end = 0;
     [[nodiscard]] bool empty() const { return begin >= end; }
@@ -35,7 +35,7 @@ class SampleGrid {
         for (int j = 0; j < rows(); ++j) ys_.push_back(grid_at(0, j, 0).y);
         if (columns() > 1) {
             columns_per_unit_ = (columns() - 1) / (double(xs_.back()) - xs_.front());
-            // Columns are off by half a unit each, places on lines by much less.
+            // Rounding of columns, half a unit each; that of positions on lines is much smaller.
             column_slack_ = 2.0 * columns_per_unit_;
         }
     }
@@ -54,17 +54,16 @@ class SampleGrid {
         const Vec2 p = film_at(column, row, sample);
         return {view_.to_grid(p.x * frame_width_), view_.to_grid((1.0 - p.y) * frame_height_)};
     }
-    /// Of the samples in a column, or in a row; with one sample a pixel.
+    /// Grid coordinate of the samples in a column, or in a row; with one sample per pixel.
     [[nodiscard]] std::int32_t x(int column) const { return xs_[static_cast<std::size_t>(column)]; }
     [[nodiscard]] std::int32_t y(int row) const { return ys_[static_cast<std::size_t>(row)]; }
 
     [[nodiscard]] const std::int32_t* xs() const { return xs_.data(); }
-    /// The column at a place, as a fraction; with one sample a pixel. Off by less than
-    /// column_slack().
+    /// The fractional column at `x`, accurate to column_slack(); with one sample per pixel.
     [[nodiscard]] double column_of(double x) const { return (x - xs_.front()) * columns_per_unit_; }
     [[nodiscard]] double column_slack() const { return column_slack_; }
 
-    /// The extent of the samples, pixels of the frame.
+    /// Extent of the samples, in pixels of the frame.
     [[nodiscard]] double left() const {
         return several_ ? crop_.x0 : (xs_.front() - 1.0) / view_.grid_per_pixel();
     }
@@ -78,7 +77,7 @@ class SampleGrid {
         return several_ ? crop_.y1 : (ys_.back() + 1.0) / view_.grid_per_pixel();
     }
 
-    /// Rows that may have samples in [lo, hi], pixels of the frame.
+    /// Rows that may have samples in [lo, hi], in pixels of the frame.
     [[nodiscard]] IndexRange rows_in(double lo, double hi) const {
         return range(ys_, crop_.y0, lo, hi);
     }
@@ -87,7 +86,7 @@ class SampleGrid {
     }
 
   private:
-    /// The samples at a place within [lo - 1 grid unit, hi + 1 grid unit].
+    /// Indices of the samples at positions in [lo - 1 grid unit, hi + 1 grid unit].
     [[nodiscard]] IndexRange range(const std::vector<std::int32_t>& at, int first, double lo,
                                    double hi) const {
         const int count = static_cast<int>(at.size());
@@ -102,7 +101,7 @@ class SampleGrid {
         const double scale = view_.grid_per_pixel();
         const double least = lo * scale - 1.0, most = hi * scale + 1.0;
         const std::int32_t* const places = at.data();
-        // Samples lie in the middle of pixels or near it: most steps below find nothing to do.
+        // Samples lie near the middle of pixels: the loops below seldom iterate.
         IndexRange result{near(lo + 0.5), near(hi + 0.5)};
         while (result.begin > 0 && places[result.begin - 1] >= least) --result.begin;
         while (result.begin < count && places[result.begin] < least) ++result.begin;

@@ -144,12 +144,12 @@ class ScanLines::Impl {
         }
     }
 
-    /// The place in the tables of a piece or a facet, which breaks ties of depth.
+    /// Position of a piece or a facet in the tables; breaks ties of depth.
     [[nodiscard]] std::uint32_t rank(std::uint32_t owner) {
         return (owner & kOutline) != 0 ? outlines_[owner & ~kOutline].facet | kOutline
                                        : quads_[owner >> 1].piece;
     }
-    /// Whether a surface takes a sample from `owner` at the same depth.
+    /// True if a surface replaces `owner` at a sample of equal depth.
     [[nodiscard]] bool wins_tie(std::uint32_t surface, std::uint32_t owner) {
         return owner == kNone || rank(surface) < rank(owner);
     }
@@ -181,7 +181,7 @@ class ScanLines::Impl {
     void draw_quad(const ScanQuad& quad, std::uint32_t slot, ScanRow& row) {
         const bool veil = some_may_pass_ && scene_.may_pass(scene_.pieces[quad.piece]);
         if (grid_.several()) return draw_quad_samples(quad, slot, veil, row);
-        // Plain arrays: this is the innermost loop.
+        // Plain arrays, for speed of this innermost loop.
         int first[5];
         const EdgeLine* const edges = quad.lines.data();
         for (std::size_t k = 0; k < 5; ++k) first[k] = edges[k].first_right(grid_, y_);
@@ -328,8 +328,8 @@ class ScanLines::Impl {
     const ScanScene& scene_;
     ScreenView view_;
     const SampleGrid& grid_;
-    const std::int32_t* xs_;  ///< of the grid
-    double most_nearness_;    ///< of what is before the eye
+    const std::int32_t* xs_;  ///< x of the grid's columns
+    double most_nearness_;    ///< largest nearness in front of the eye
     bool with_chords_, some_may_pass_;
     bool split_ahead_ = false;
     PatchTables patches_;
@@ -339,7 +339,7 @@ class ScanLines::Impl {
     std::int32_t y_ = 0;
     std::vector<double> nearness_;      ///< [sample] of the nearest surface so far
     std::vector<std::uint32_t> owner_;  ///< [sample] 2 * quad + triangle, or an outline
-    std::vector<FixedPoint> places_;    ///< [sample], with several samples a pixel
+    std::vector<FixedPoint> places_;    ///< [sample], with several samples per pixel
     std::vector<int> crossings_;
     std::uint64_t most_bytes_ = 0;
     ScanLineReport report_;

@@ -1,15 +1,15 @@
 #pragma once
-/// Lane and Carpenter's algorithm: patches are split where the scan line meets them, and become
-/// polygons where they are flat.
+/// Lane and Carpenter's algorithm: patches are split where the scan line meets them, and converted
+/// to polygons once they are flat.
 ///
 /// Source: Lane, Carpenter, Whitted and Blinn, "Scan Line Methods for Displaying Parametrically
 /// Defined Surfaces", CACM 23(1), 1980; Foley, van Dam, Feiner and Hughes, "Computer Graphics:
 /// Principles and Practice", 2nd ed., 1990, Fig. 15.54.
-/// Differs: hidden surfaces by the depth of each sample along the spans; a patch between the
-/// samples is dropped.
-/// Conventions: `next` gives the scan lines of the crop from the top. Which surface is seen at a
-/// sample depends neither on the order of the patches nor on the crop.
-/// Complexity: O(n log n) for n polygons; memory: patches that wait below or cross the scan line.
+/// Differs: hidden surfaces are removed by the depth of each sample along the spans; a patch
+/// between the samples is dropped.
+/// Conventions: `next` gives the scan lines of the crop from the top. The visible surface at a
+/// sample is independent of the order of the patches and of the crop.
+/// Complexity: O(n log n) for n polygons; memory: patches that lie below or cross the scan line.
 
 #include <memory>
 #include <span>
@@ -22,30 +22,30 @@
 
 namespace alhazen {
 
-/// What is seen at a sample.
+/// The visible surface at a sample.
 struct ScanSample {
     static constexpr std::uint32_t kNothing = 0xFFFFFFFFu;
     static constexpr std::uint32_t kFacet = 0x80000000u;  ///< bit of a facet's number
 
-    std::uint32_t item = kNothing;  ///< number of the piece, or of the facet
+    std::uint32_t item = kNothing;  ///< index of the piece, or of the facet
     double nearness = 0;
     double u = 0, v = 0;  ///< in the unit square of the piece
 };
 
-/// A surface that may let the eye pass.
+/// A surface that may be transparent.
 struct ScanVeil {
-    std::uint32_t sample = 0;  ///< column * samples + number in the pixel
+    std::uint32_t sample = 0;  ///< column * samples + index in the pixel
     ScanSample seen;
 };
 
 struct ScanRow {
-    std::vector<ScanSample> samples;  ///< [column][sample]: the nearest that lets nothing pass
-    std::vector<ScanVeil> veils;      ///< before it, by sample, the nearest first
+    std::vector<ScanSample> samples;  ///< [column][sample]: the nearest opaque surface
+    std::vector<ScanVeil> veils;      ///< in front of it, by sample, the nearest first
 };
 
 class ScanLines {
   public:
-    /// All must outlive the object.
+    /// All arguments must outlive the object.
     ScanLines(const ScanScene& scene, const ScreenView& view, const SampleGrid& grid,
               const ScanLineOptions& options);
     ~ScanLines();

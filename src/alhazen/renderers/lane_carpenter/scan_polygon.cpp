@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// 2 * the area of three corners, positive where they turn from x to y.
+/// Twice the signed area of three corners, positive if they turn from x to y.
 std::int64_t doubled_area(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c) {
     return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
            (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
@@ -41,7 +41,7 @@ void set_triangle(const ScanQuad& quad, std::array<std::uint8_t, 3> corners,
 
 using Loop = std::vector<HomogeneousPoint>;
 
-/// Less in a fixed order, so that an edge is cut at the same point from both sides.
+/// A total order, so that an edge is cut at the same point from both sides.
 bool comes_before(const HomogeneousPoint& a, const HomogeneousPoint& b) {
     if (a.x != b.x) return a.x < b.x;
     if (a.y != b.y) return a.y < b.y;
@@ -107,7 +107,7 @@ void set_quad(const ScreenView& view, const SampleGrid& grid, int degree_u, int 
     quad.first_row = rows.begin;
     quad.end_row = rows.end;
     for (std::size_t side = 0; side < 4; ++side) {
-        const bool falls = side >= 2;  // the side runs against its parameter
+        const bool falls = side >= 2;  // the side is traversed against its parameter
         if (with_chords && patch.is_straight(side)) {
             quad.lines[side] = EdgeLine(patch.chords[side].from, patch.chords[side].to);
         } else {

@@ -3,9 +3,8 @@
 /// edge list.
 ///
 /// Conventions: a quadrilateral is two triangles at the diagonal from (u0, v0) to (u1, v1); a
-/// triangle is the samples on the inner sides of three lines, thus neighbours with one line share
-/// no sample and leave none out, whatever their corners are. A facet is inside by the odd-even
-/// rule.
+/// triangle consists of the samples on the inner sides of three lines, so that neighbours at one
+/// line partition the samples, whatever their corners are. A facet is inside by the odd-even rule.
 
 #include <array>
 #include <vector>
@@ -18,9 +17,9 @@ namespace alhazen {
 /// A triangle of a quadrilateral.
 struct ScanTriangle {
     std::array<std::uint8_t, 3> corners{}, lines{};
-    std::array<bool, 3> inner_right{};  ///< [line] which side is inside
-    bool empty = true;                  ///< it is a line in the picture
-    NearnessPlane nearness;             ///< of the grid, not of pixels
+    std::array<bool, 3> inner_right{};  ///< [line] the inside is to the right
+    bool empty = true;                  ///< it degenerates to a line in the picture
+    NearnessPlane nearness;             ///< in grid units, not pixels
     double least = 0, most = 0;         ///< nearness of the corners
 };
 
@@ -43,8 +42,8 @@ struct ScanQuad {
     [[nodiscard]] Vec2 parameters_at(std::size_t triangle, double x, double y) const;
 };
 
-/// The quadrilateral of a sub-patch whose step is Draw. `with_chords`: straight sides lie on their
-/// chords.
+/// Makes the quadrilateral of a sub-patch whose step is Draw. `with_chords`: straight sides lie on
+/// their chords.
 void set_quad(const ScreenView& view, const SampleGrid& grid, int degree_u, int degree_v,
               const SubPatch& patch, bool with_chords, ScanQuad& quad);
 
@@ -53,11 +52,11 @@ struct ScanOutline {
     std::uint32_t next = 0;  ///< in the bucket
     std::int32_t first_row = 0, end_row = 0;
     std::vector<EdgeLine> lines;
-    NearnessPlane nearness;  ///< of the grid
+    NearnessPlane nearness;  ///< in grid units
 };
 
-/// Clips the loops of a facet in screen space to the view and makes their edge list; false where
-/// nothing of it can be seen. `plane` is in pixels.
+/// Clips the loops of a facet in screen space to the view and makes their edge list; false if it is
+/// invisible. `plane` is in pixels.
 bool set_outline(const ScreenView& view, const SampleGrid& grid,
                  std::vector<std::vector<HomogeneousPoint>>& loops, const NearnessPlane& plane,
                  ScanOutline& outline);

@@ -33,7 +33,7 @@ bool passes(const Material& material) {
     return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
 }
 
-/// Walks the objects of a description as the compiler of scenes does.
+/// Traverses the objects of a description like the scene compiler.
 class ScanGatherer {
   public:
     ScanGatherer(const SceneDescription& description, const Scene& scene, const Vec3& eye)
@@ -53,10 +53,11 @@ class ScanGatherer {
     ScanScene gather() {
         add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
         if (!refused_.empty()) {
-            throw Error(ErrorKind::Usage,
-                        "scan lines take patches, the shapes that are patches, and polygons; "
-                        "these are neither: " +
-                            refused_);
+            throw Error(
+                ErrorKind::Usage,
+                "scan lines support only patches, the shapes that are patches, and polygons; "
+                "unsupported: " +
+                    refused_);
         }
         return std::move(result_);
     }
@@ -157,8 +158,8 @@ class ScanGatherer {
             *own);
     }
 
-    /// What is prepared for rays takes longer than the picture: patches need it only where it
-    /// matters which side is outside.
+    /// Preparation for rays takes longer than the picture: patches need it only if their outside
+    /// matters.
     [[nodiscard]] bool must_prepare(const AnyShape& shape, MaterialId id) const {
         if (std::holds_alternative<BezierPatch>(shape)) return false;
         if (!std::holds_alternative<PatchMesh>(shape)) return true;
@@ -179,7 +180,7 @@ class ScanGatherer {
         }
         add_pieces(pieces, [&](std::size_t k) { return mesh.is_closed && mesh.inward[k]; });
     }
-    /// Parameters from the first knot to the last one become those of the unit square.
+    /// Maps parameters from the first to the last knot to the unit square.
     void add_pieces(const NurbsSurface& s) {
         std::vector<BezierPiece> pieces;
         append_pieces(s, pieces);
@@ -282,7 +283,7 @@ class ScanGatherer {
         return true;
     }
 
-    /// Four quarters that reach to infinity.
+    /// Four quadrants with corners at infinity.
     void add_plane(const Vec3& point, const Vec3& normal) {
         const auto [a, b] = plane_axes(normal);
         const std::array<Vec3, 4> around{a, b, -a, -b};

@@ -1,9 +1,10 @@
 #pragma once
-/// The geometry of a description for scan lines: Bezier patches in world space, and flat facets.
+/// The geometry of a description for scan conversion: Bezier patches in world space, and flat
+/// facets.
 ///
-/// Source: exact_forms.h (the patches that shapes exactly are).
-/// Conventions: numbers of parts and instances are those of Surface. Everything that has no such
-/// form (solids of CSG, blobs, algebraic surfaces) is refused by name, all at once.
+/// Source: exact_forms.h (shapes as exact patches).
+/// Conventions: indices of parts and instances are those of Surface. All parts without such a form
+/// (solids of CSG, blobs, algebraic surfaces) are refused by name, in one message.
 
 #include <string>
 #include <vector>
@@ -23,10 +24,10 @@ struct ScanSource {
     bool mirrored = false;  ///< it reverses orientation
     MaterialId material{0};
     std::uint32_t part = 0, instance = 0;
-    bool may_pass = false;     ///< a point of it may be missing, or unseen from behind
+    bool may_pass = false;     ///< a point may be transparent by coverage, or invisible from behind
     bool is_patch = false;     ///< u and v of its pieces are the shape's own parameters
     bool is_triangle = false;  ///< its piece is a triangle with a collapsed edge (steiner_patch)
-    bool is_by_ray = false;    ///< the shape's own test completes the hit
+    bool is_by_ray = false;    ///< the hit is completed by the shape's ray intersection
 };
 
 /// A patch of a source.
@@ -35,17 +36,17 @@ struct ScanPiece {
     std::uint32_t source = 0, part = 0;
     Vec2 lo{0, 0}, hi{1, 1};
     bool polynomial = false;  ///< all weights are 1
-    bool trimmed = false;     ///< trimming loops of the NURBS surface leave a part of it out
+    bool trimmed = false;     ///< trimming loops of the NURBS surface remove a part of it
     bool inward = false;      ///< du x dv points into the solid
 };
 
 /// A flat polygon with the odd-even rule, or a triangle of a mesh.
 struct ScanFacet {
     std::uint32_t source = 0;
-    std::uint32_t part = 0;   ///< of the shape, or the triangle's number
+    std::uint32_t part = 0;   ///< part of the shape, or index of the triangle
     std::uint32_t first = 0;  ///< in ScanScene::loops; loops of a shape's facet
     std::uint32_t loops = 0;  ///< 0: a triangle
-    Vec3 point, normal;       ///< its plane, world space; of no length for a triangle
+    Vec3 point, normal;       ///< its plane, world space; zero for a triangle
 };
 
 struct ScanScene {
@@ -53,15 +54,15 @@ struct ScanScene {
     std::vector<ScanPiece> pieces;
     std::vector<ScanFacet> facets;
     std::vector<std::vector<HomogeneousPoint>> loops;  ///< world space; w = 0: at infinity
-    double farthest = 0;  ///< distance from the eye that no finite corner exceeds
+    double farthest = 0;  ///< upper bound of the distance of finite corners from the eye
 
-    /// Whether what lies behind a point of the piece may be seen there.
+    /// True if surfaces behind a point of the piece may be visible.
     [[nodiscard]] bool may_pass(const ScanPiece& piece) const {
         return piece.trimmed || sources[piece.source].may_pass;
     }
 };
 
-/// Throws Error (Usage) naming every part that cannot take part.
+/// Throws Error (Usage) naming every part that is not supported.
 [[nodiscard]] ScanScene scan_scene(const SceneDescription& description, const Scene& scene,
                                    const Vec3& eye);
 

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The weights of the second and third corner where a ray meets the plane of a triangle.
+/// The weights of the second and third corner at the intersection of a ray with a triangle's plane.
 Hit triangle_hit(const std::array<Vec3, 3>& corners, const Ray& ray) {
     const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
     const Vec3 p = cross(ray.direction, e2);
@@ -24,7 +24,7 @@ Hit triangle_hit(const std::array<Vec3, 3>& corners, const Ray& ray) {
     return hit;
 }
 
-/// Of several crossings the one nearest to `t`; false without any.
+/// The crossing nearest to `t`; false if there is none.
 bool nearest_crossing(const AnyShape& shape, const Ray& ray, double t, ShapeHits& hits, Hit& hit) {
     hits.clear();
     std::visit([&](const auto& s) { append_hits(s, ray, hits); }, shape);
@@ -37,7 +37,7 @@ bool nearest_crossing(const AnyShape& shape, const Ray& ray, double t, ShapeHits
     return best < std::numeric_limits<double>::infinity();
 }
 
-/// As before the first hit.
+/// Resets optional fields to those before the first hit.
 void reset_extras(Surface& surface) {
     surface = Surface{};
 }
@@ -94,7 +94,7 @@ void ScanShading::set_facet(const ScanFacet& facet, const Ray& ray) {
     const Hit hit = triangle_hit(triangle_corners(source, facet.part), ray);
     const Placement placement{source.world_from_own, source.own_from_world};
     PlacedMesh mesh;
-    // Shared without counting: the description outlives the picture.
+    // A non-owning pointer: the description outlives the picture.
     mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), source.mesh);
     mesh.material = source.material;
     set_mesh_surface(mesh, facet.part, source.placed ? &placement : nullptr, hit, point_.surface);
@@ -161,7 +161,7 @@ void ScanShading::complete_point(std::uint32_t source_index, const Ray& ray) {
 
 Rgb ScanShading::color_of_point() const {
     const double coverage = point_.material->coverage;
-    // No copy, here and where it is kept: a load of the whole waits for the stores of its parts.
+    // Avoids a copy, here and below: a load of the whole would wait for the stores of its parts.
     if (coverage == 1.0) return unhindered_light(job_.scene, ambient_, point_);
     const Rgb color = coverage * unhindered_light(job_.scene, ambient_, point_);
     return coverage < 1.0 ? color + (1.0 - coverage) * job_.scene.background : color;
@@ -187,7 +187,7 @@ void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const 
         for (std::size_t k = 0; k < block_.count; ++k) {
             set_patch_surface(scene_, piece, block_, k, with_uv, surface);
             surface.materials[0] = source.material;
-            // Only textures ask for the distance.
+            // Only textures need the distance.
             if (with_uv) t_ = distance(seen[k].nearness, rays[k]);
             complete_point(piece.source, rays[k]);
             const Rgb color = color_of_point();

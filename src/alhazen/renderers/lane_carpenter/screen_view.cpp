@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The least depth over the largest distance of the scene.
+/// Least depth relative to the largest distance of the scene.
 constexpr double kLeastDepth = 0x1p-30;
 
 }  // namespace

@@ -1,12 +1,12 @@
 #pragma once
-/// The screen space of a camera in homogeneous coordinates, and the fixed grid that edges lie on.
+/// The screen space of a camera in homogeneous coordinates, and the fixed-point grid of edges.
 ///
 /// Source: Blinn and Newell, "Clipping Using Homogeneous Coordinates", SIGGRAPH 1978.
-/// Conventions: a point has x / w and y / w in pixels of the frame, y downward, and the nearness
-/// z / w: affine in x and y along a plane, larger is nearer to the eye. It is 1 / depth for a
-/// perspective camera, minus the depth for a parallel one; depth counts along the camera's look,
-/// whose length is 1. Points before the eye have w > 0. Homogeneous points of a scene are (w P, w)
-/// with w > 0, or directions (P, 0): points at infinity.
+/// Conventions: a point has x / w and y / w in pixels of the frame, y downward, and the nearness z
+/// / w: affine in x and y along a plane, larger is nearer to the eye. It is 1 / depth for a
+/// perspective camera, minus the depth for a parallel one; depth is measured along the camera's
+/// view direction, whose length is 1. Points in front of the eye have w > 0. Homogeneous points of
+/// a scene are (w P, w) with w > 0, or directions (P, 0): points at infinity.
 
 #include <cstdint>
 
@@ -30,12 +30,12 @@ struct ScreenPoint {
 /// Nearness along a plane: x * gx + y * gy + at_origin, pixels.
 struct NearnessPlane {
     double gx = 0, gy = 0, at_origin = 0;
-    bool seen = false;  ///< false: the plane is a line in the picture
+    bool seen = false;  ///< false: the plane degenerates to a line in the picture
 };
 
 class ScreenView {
   public:
-    /// `farthest`: of the scene's points from the eye; sets the least depth that is not cut off.
+    /// `farthest`: largest distance of the scene's points from the eye; determines the near plane.
     ScreenView(const Camera& camera, int frame_width, int frame_height, double farthest);
 
     [[nodiscard]] HomogeneousPoint on_screen(const HomogeneousPoint& world) const {
@@ -45,24 +45,24 @@ class ScreenView {
         const double w = parallel_ ? world.w : c;
         return {(a + 0.5 * w) * width_, (0.5 * w - b) * height_, parallel_ ? -c : world.w, w};
     }
-    /// Whether a point is before the eye by at least the least depth.
+    /// True if a point is in front of the eye by at least the least depth.
     [[nodiscard]] bool in_front(const HomogeneousPoint& p) const {
         return parallel_ ? p.w > 0.0 : p.w >= least_depth_ * p.z && p.w > 0.0;
     }
-    /// Signed: positive before the plane at the least depth.
+    /// Signed: positive in front of the near plane.
     [[nodiscard]] double before_eye(const HomogeneousPoint& p) const {
         return parallel_ ? -p.z : p.w - least_depth_ * p.z;
     }
     [[nodiscard]] NearnessPlane nearness_of(const Vec3& point, const Vec3& normal) const;
 
     [[nodiscard]] bool parallel() const { return parallel_; }
-    /// The camera's look; of length 1 for a parallel one.
+    /// The camera's view direction; of length 1 for a parallel camera.
     [[nodiscard]] const Vec3& look() const { return look_; }
-    /// Depth that a vector adds.
+    /// Change of depth along a vector.
     [[nodiscard]] double depth_of(const Vec3& v) const { return dot(to_look_, v); }
-    /// Largest nearness that is before the eye.
+    /// Largest nearness in front of the eye.
     [[nodiscard]] double most_nearness() const;
-    /// Pixels for a change of the nearness by 1, where the nearness is `at`.
+    /// Pixels per unit of nearness, where the nearness is `at`.
     [[nodiscard]] double pixels_of_nearness(double at) const {
         return parallel_ ? depth_pixels_ : depth_pixels_ / at;
     }
@@ -71,7 +71,7 @@ class ScreenView {
         return parallel_ ? pixel_ : pixel_ / nearness;
     }
 
-    /// Coordinates of edges are at most `kMostGrid`; those of pixels at most `reach`.
+    /// Largest coordinate of edges on the grid, and, as `reach`, of pixels.
     static constexpr std::int32_t kMostGrid = 1 << 30;
     [[nodiscard]] double reach() const { return reach_; }
     [[nodiscard]] double grid_per_pixel() const { return grid_; }

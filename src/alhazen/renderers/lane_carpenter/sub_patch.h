@@ -1,12 +1,12 @@
 #pragma once
-/// Sub-patches: parts of a patch in homogeneous screen space, with what is known of their edges,
-/// and the memory that holds them.
+/// Sub-patches: parts of a patch in homogeneous screen space with the state of their edges, and a
+/// memory pool for them.
 ///
 /// Source: Lane, Carpenter, Whitted and Blinn, "Scan Line Methods for Displaying Parametrically
 /// Defined Surfaces", CACM 23(1), 1980; Clark, "A Fast Scan-Line Algorithm for Rendering Parametric
 /// Surfaces", SIGGRAPH 1979 (edges that stay straight).
-/// Conventions: sides in the order of boundary_curve: v = 0, u = 1, v = 1, u = 0, each towards
-/// rising parameters. Rows are those of SampleGrid.
+/// Conventions: sides are in the order of boundary_curve: v = 0, u = 1, v = 1, u = 0, each towards
+/// ascending parameters. Rows are those of SampleGrid.
 
 #include <array>
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace alhazen {
 
-/// A line through two points of the grid, towards rising parameters.
+/// A line through two points of the grid, towards ascending parameters.
 struct EdgeChord {
     FixedPoint from, to;
 };
 
 /// The next step for a sub-patch.
 enum class PatchStep : std::uint8_t {
-    None,    ///< it is not seen
+    None,    ///< it is invisible
     Draw,    ///< it is flat
     SplitU,  ///< it is flat along v
     SplitV,
@@ -36,11 +36,11 @@ struct SubPatch {
     std::uint32_t next = 0;  ///< in the bucket
     std::int32_t first_row = 0;
     PatchStep step = PatchStep::None;
-    bool projects = true;             ///< all control points are before the eye
+    bool projects = true;             ///< all control points are in front of the eye
     std::uint8_t straight_sides = 0;  ///< bit of each side that is known to be straight
     double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
-    std::array<EdgeChord, 4> chords{};     ///< of straight sides: lines that no split moves
-    std::array<std::uint64_t, 4> seams{};  ///< weights for the test of cracks
+    std::array<EdgeChord, 4> chords{};     ///< of straight sides: lines unchanged by splitting
+    std::array<std::uint64_t, 4> seams{};  ///< weights for counting cracks
     HomogeneousPoint* points = nullptr;    ///< u-major, in screen space
 
     [[nodiscard]] bool is_straight(std::size_t side) const {
@@ -48,7 +48,7 @@ struct SubPatch {
     }
 };
 
-/// Memory for sub-patches of at most `points` control points, used again.
+/// A pool of sub-patches with at most `points` control points each.
 class SubPatchPool {
   public:
     explicit SubPatchPool(std::size_t points) : points_(points) {}
@@ -69,7 +69,7 @@ class SubPatchPool {
         return blocks_[index / kBlock]->patches[index % kBlock];
     }
     [[nodiscard]] std::size_t live() const { return live_; }
-    /// Largest number at one time.
+    /// Largest number in use at one time.
     [[nodiscard]] std::size_t most() const { return most_; }
     [[nodiscard]] std::size_t bytes_each() const {
         return sizeof(SubPatch) + points_ * sizeof(HomogeneousPoint);

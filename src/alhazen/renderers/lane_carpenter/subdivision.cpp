@@ -11,10 +11,10 @@ namespace alhazen {
 
 namespace {
 
-/// Smaller parts of a patch count as flat; larger ones that reach behind the eye are split.
+/// Smaller parts of a patch count as flat; larger ones that extend behind the eye are split.
 constexpr double kLeastPart = 0x1p-24;
 
-/// The first control point of a side, the step to the next one, and the degree.
+/// The first control point of a side, the stride, and the degree.
 struct SidePoints {
     int first, stride, degree;
 };
@@ -26,7 +26,7 @@ SidePoints side_points(PatchDegrees degrees, std::size_t side) {
     return {0, 1, degrees.v};
 }
 
-/// Both halves of a curve of any degree.
+/// Halves a curve of any degree.
 void halve_any(const HomogeneousPoint* from, int degree, int stride, HomogeneousPoint* low,
                HomogeneousPoint* high) {
     HomogeneousPoint row[kMaxPatchOrder];
@@ -37,8 +37,7 @@ void halve_any(const HomogeneousPoint* from, int degree, int stride, Homogeneous
         for (int i = 0; i < n; ++i) row[i] = 0.5 * (row[i] + row[i + 1]);
     }
 }
-/// The same of a cubic, coordinate by coordinate: whole points would be copied before their parts
-/// are stored.
+/// Halves a cubic, coordinate by coordinate, which avoids waiting for stores of parts of points.
 void halve_cubic(const HomogeneousPoint* from, int stride, HomogeneousPoint* low,
                  HomogeneousPoint* high) {
     const auto halve = [&](double HomogeneousPoint::*axis) {
@@ -61,7 +60,7 @@ void halve_cubic(const HomogeneousPoint* from, int stride, HomogeneousPoint* low
     halve(&HomogeneousPoint::z);
     halve(&HomogeneousPoint::w);
 }
-/// Curves that start `step` apart. The halves may not overlap the net.
+/// Halves curves that start `step` apart. The output must not overlap the net.
 void halve_curves(const HomogeneousPoint* net, int count, int step, int degree, int stride,
                   HomogeneousPoint* low, HomogeneousPoint* high) {
     for (int k = 0; k < count * step; k += step) {
@@ -275,7 +274,7 @@ int Subdivision::split(PatchDegrees degrees, const SubPatch& parent,
         child.v0 = parent.v0;
         child.v1 = parent.v1;
     };
-    /// A new edge between two children: side `a` of one, side `b` of the other.
+    /// Sets the new edge between two children: side `a` of one, side `b` of the other.
     const auto join = [&](SubPatch& low, std::size_t a, SubPatch& high, std::size_t b) {
         low.straight_sides &= static_cast<std::uint8_t>(~(1u << a));
         high.straight_sides &= static_cast<std::uint8_t>(~(1u << b));

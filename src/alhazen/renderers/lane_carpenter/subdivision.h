@@ -7,10 +7,10 @@
 /// Rendering Parametric Surfaces", SIGGRAPH 1979 (an edge that is straight is replaced by its
 /// chord).
 /// Differs: control points of a straight edge move to the nearest points of the chord, not to its
-/// thirds. Distances count depth, too, in pixels at the depth of the point, so that depths are as
+/// thirds. Distances include depth, in pixels at the depth of the point, so that depths are as
 /// exact as silhouettes.
-/// Conventions: whether an edge is straight depends on its own control points alone, read in either
-/// direction: two patches that share an edge decide alike.
+/// Conventions: whether an edge is straight depends only on its own control points, in either
+/// direction: two patches that share an edge agree.
 /// Complexity: constant for a sub-patch.
 
 #include <array>
@@ -33,22 +33,22 @@ void halve_net_u(PatchDegrees degrees, const HomogeneousPoint* net, HomogeneousP
 void halve_net_v(PatchDegrees degrees, const HomogeneousPoint* net, HomogeneousPoint* low,
                  HomogeneousPoint* high);
 
-/// The segment between two points of the picture, in pixels of three dimensions; the same bits with
-/// the points exchanged.
+/// The segment between two points of the picture, in pixels of three dimensions; the same bits if
+/// the points are exchanged.
 struct ScreenChord {
     ScreenPoint from;
-    double scale = 0;  ///< pixels for a change of the nearness by 1
+    double scale = 0;  ///< pixels per unit of nearness
     Vec3 along;
-    double squared = 0;  ///< its length
+    double squared = 0;  ///< squared length
 
     ScreenChord(const ScreenView& view, const ScreenPoint& a, const ScreenPoint& b);
-    /// Whether the square of the distance of `p` is at most `squared_distance`.
+    /// True if the squared distance of `p` is at most `squared_distance`.
     [[nodiscard]] bool is_within(const ScreenPoint& p, double squared_distance) const;
 };
 
 class Subdivision {
   public:
-    /// `keeps_seams`: no sub-patch with an edge between samples is left out.
+    /// `keeps_seams`: sub-patches with an edge between samples are not dropped.
     Subdivision(const ScreenView& view, const SampleGrid& grid, const ScanLineOptions& options,
                 double flatness, bool keeps_seams)
         : view_(view),
@@ -58,10 +58,10 @@ class Subdivision {
           keeps_seams_(keeps_seams),
           squared_(flatness * flatness) {}
 
-    /// Sets step, rows and edges of a sub-patch whose parameters and points are set.
+    /// Sets step, rows and edges of a sub-patch from its parameters and points.
     void judge(PatchDegrees degrees, SubPatch& patch) const;
 
-    /// Splits by `parent.step` into the children, which are not yet judged. Returns their number.
+    /// Splits by `parent.step` into children, which must then be judged. Returns their number.
     int split(PatchDegrees degrees, const SubPatch& parent,
               const std::array<SubPatch*, 4>& children) const;
 
@@ -71,10 +71,10 @@ class Subdivision {
     void judge_before_eye(PatchDegrees degrees, SubPatch& patch) const;
     [[nodiscard]] bool is_out_of_view(PatchDegrees degrees, const SubPatch& patch) const;
     void find_straight_sides(PatchDegrees degrees, SubPatch& patch, Projected& at) const;
-    /// Moves the control points of a side to the nearest points of its chord: the parameters along
-    /// it stay where they are, so that the patch beside it does not slide.
+    /// Moves the control points of a side to the nearest points of its chord, which preserves the
+    /// parameters along it, so that the adjacent patch does not slide.
     void straighten(PatchDegrees degrees, std::size_t side, SubPatch& patch, Projected& at) const;
-    /// Where the point of the chord from a to b that is nearest to p lies, 0 to 1.
+    /// Parameter, 0 to 1, of the point of the chord from a to b that is nearest to p.
     [[nodiscard]] double share_of_chord(const ScreenPoint& p, const ScreenPoint& a,
                                         const ScreenPoint& b) const;
     [[nodiscard]] bool in_reach(const ScreenPoint& p) const {

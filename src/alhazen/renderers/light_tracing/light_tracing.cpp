@@ -23,10 +23,10 @@ namespace alhazen {
 
 namespace {
 
-/// Pairs of dimensions: of the light, then of the lens at each vertex, then of the walk.
+/// Pairs of dimensions: of the light, of the lens at each vertex, of the walk.
 constexpr std::uint32_t kEmissionPairs = 1u << 12, kSplatPairs = 2u << 12, kWalk = 3u << 12;
 
-/// The light paths of tiles: as many for each pixel as it has samples.
+/// Traces the light paths of tiles: as many for each pixel as it has samples.
 class LightTiles final : public TileRenderer {
   public:
     LightTiles(const RenderJob& job, const Illumination& lights, const PathSettings& settings,
@@ -104,9 +104,9 @@ class LightTiles final : public TileRenderer {
     RandomWalk walk_;
     LightBatch joins_;
     SplatFilm& splats_;
-    std::vector<SampleId> ids_;  ///< of the pixel at hand
+    std::vector<SampleId> ids_;  ///< samples of the current pixel
     std::vector<PathVertex> vertices_;
-    MediumStack behind_;  ///< the surface at hand
+    MediumStack behind_;  ///< at the current surface
 };
 
 }  // namespace
@@ -119,11 +119,12 @@ RenderReport LightTracing::render(const RenderJob& job, Film& film) const {
                     "or a limit of --time");
     }
     const Illumination lights(job.scene);
-    // What the eye sees of the lights themselves.
+    // Adds the directly visible lights.
     RenderReport report = trace_paths(job, lights, {.depth = 0}, film);
     if (lights.leaves_some_to_chance()) {
         report.notes.push_back(
-            "light_tracing: some emitting surfaces send no light, for they cannot be sampled; "
+            "light_tracing: some emitting surfaces emit no light paths because they cannot be "
+            "sampled; "
             "path_tracing finds their light");
     }
     if (!report.complete() || !lights.shines()) return report;

@@ -1,13 +1,13 @@
 #pragma once
-/// Light tracing: paths from the lights, each of their vertices, on surfaces and in volumes, joined
-/// to the lens.
+/// Light tracing: paths from the lights, each of whose vertices, on surfaces and in volumes, is
+/// connected to the lens.
 ///
 /// Source: Arvo, "Backward Ray Tracing", SIGGRAPH 1986 course notes; Dutre, Lafortune and Willems,
 /// "Monte Carlo Light Tracing with Direct Computation of Pixel Intensities", Compugraphics 1993.
-/// Differs: what the eye sees of lights and of the environment themselves, not in mirrors nor
-/// through glass, is found by eye rays. Singular surfaces are black.
-/// Conventions: as many paths as samples of the whole frame, so that a pixel does not depend on the
-/// crop. The sum of each pixel is exact but for one rounding of each term: same bits for any
+/// Differs: directly visible lights and environment, not in mirrors nor through glass, are found by
+/// eye rays. Singular surfaces are black.
+/// Conventions: as many paths as samples of the whole frame, so that a pixel is independent of the
+/// crop. The sum of each pixel is exact except for one rounding of each term: same bits for any
 /// threads.
 
 #include "alhazen/renderers/light_transport/light_transport_renderer.h"

@@ -1,7 +1,7 @@
 #pragma once
-/// BSDFs that are the same at every point of their material, each made once.
+/// BSDFs of the materials that are constant over their surfaces, each created once.
 ///
-/// Conventions: those of MaterialCache; of colour channels, for surfaces without vertex colours.
+/// Conventions: those of MaterialCache; for colour channels and surfaces without vertex colours.
 
 #include <array>
 #include <memory>
@@ -17,11 +17,12 @@ class BsdfCache {
     /// The scene must outlive the cache and keep its materials.
     explicit BsdfCache(const Scene& scene, bool keeps = false) : scene_(scene), keeps_(keeps) {}
 
+    /// True if replaced BSDFs are kept until `release`.
     [[nodiscard]] bool keeps() const { return keeps_; }
-    /// Frees what has been replaced.
+    /// Frees the replaced BSDFs.
     void release() { replaced_.clear(); }
-    /// Null where it depends on the point, or on wavelengths. Valid until the next call; where the
-    /// cache keeps what it replaces, until `release`.
+    /// The BSDF of a material; null if it depends on the point or on wavelengths. Valid until the
+    /// next call; if replaced BSDFs are kept, until `release`.
     [[nodiscard]] const Bsdf* find(MaterialId id, const BsdfPlace& place) {
         if (place.etas != nullptr || place.waves.is_spectral()) return nullptr;
         Entry& entry = entries_[static_cast<std::uint32_t>(id) % kEntries];
@@ -34,11 +35,11 @@ class BsdfCache {
 
   private:
     static constexpr std::size_t kEntries = 32;
-    /// From outside of the volume that the surface bounds, or from inside.
+    /// The BSDF from outside or from inside the volume that the surface bounds.
     struct Side {
         double eta = 0;  ///< BsdfPlace::eta
         bool made = false;
-        std::unique_ptr<Bsdf> bsdf;  ///< its room is kept
+        std::unique_ptr<Bsdf> bsdf;  ///< its memory is reused
     };
     struct Entry {
         MaterialId id{};

@@ -28,7 +28,7 @@ Affine CameraLens::moved(double time) const {
 }
 
 Vec2 CameraLens::film_of(const Vec3& v) const {
-    // v - forward = a right + b up, solved by the reciprocal basis.
+    // Solves v - forward = a right + b up by the reciprocal basis.
     const Vec3 rest = v - plane_.forward;
     const Vec3 n = cross(plane_.right, plane_.up);
     const double squared = length_squared(n);

@@ -1,5 +1,5 @@
 #pragma once
-/// The camera as a receiver of light: points joined to its lens.
+/// The camera as a receiver of light: connections of points to its lens.
 ///
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 8.3.2
 /// and appendix 8.A (importance of a camera).
@@ -14,13 +14,13 @@
 
 namespace alhazen {
 
-/// A point joined to the lens.
+/// A connection of a point to the lens.
 struct LensConnection {
     Vec3 to_lens;         ///< unit, from the point
     double distance = 0;  ///< to the lens
     Vec2 film;            ///< in [0, 1)
-    /// Density of eye rays of the frame there: by area across the direction at the point. A path
-    /// that reaches the point with a weight counts by it, times this.
+    /// Density of eye rays of the frame at the point, by area perpendicular to the direction. The
+    /// contribution of a path is its weight at the point times this.
     double density = 0;
 };
 
@@ -28,14 +28,14 @@ class CameraLens {
   public:
     explicit CameraLens(const RenderJob& job);
 
-    /// `u`: the place on the lens. Empty where the point is not in the picture.
+    /// `u`: random numbers for the point on the lens. Empty if the point is not in the picture.
     [[nodiscard]] std::optional<LensConnection> connect(const Vec3& point, const Vec2& u,
                                                         double time) const;
     /// Density by solid angle of the eye ray along unit `direction`; 0 for parallel cameras, whose
     /// rays have a density by area alone (`parallel_density`).
     [[nodiscard]] double direction_density(const Vec3& direction, double time) const;
     [[nodiscard]] bool is_parallel() const { return parallel_; }
-    /// Of parallel rays, by area across them.
+    /// Density of the rays of a parallel camera by area perpendicular to them.
     [[nodiscard]] double parallel_density() const { return parallel_density_; }
 
   private:
@@ -47,8 +47,8 @@ class CameraLens {
     double focus_ = 0;  ///< distance to the plane of focus; 0: a pinhole
     PicturePlane plane_;
     Vec3 normal_;   ///< unit, of the picture, along the view
-    double depth_;  ///< of the picture in front of the eye
-    double area_;   ///< of the picture there
+    double depth_;  ///< distance of the picture plane from the eye
+    double area_;   ///< of the picture in that plane
     std::optional<WideView> wide_;
     bool parallel_ = false;
     double parallel_density_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Eye rays spread over the lens and the time of the shutter.
+/// Eye rays distributed over the lens and the shutter time.
 
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
@@ -26,24 +26,24 @@ class CameraRays {
 
     /// ScatteringMedia::are_followed.
     [[nodiscard]] bool follows_volumes() const { return follows_volumes_; }
-    /// Around the start of an eye ray: that of the eye as the shutter opens; of parallel cameras,
-    /// whose rays begin at many places, each its own.
+    /// The volumes around the origin of an eye ray: those of the eye when the shutter opens; for
+    /// parallel cameras those of each ray.
     [[nodiscard]] MediumStack media(const Ray& ray, float time) const {
         return parallel_ ? finder_.around(ray.origin, time) : media_;
     }
 
-    /// The moment of a sample.
+    /// The time of a sample.
     [[nodiscard]] float time(const PathChance& chance, const SampleId& id) const {
         return moves_ ? chance.time(id) : 0.0f;
     }
-    /// Of the picture, at a time.
+    /// The up direction of the picture at a time.
     [[nodiscard]] Vec3 up(float time) const {
         if (motion_ == nullptr) return up_;
         return (motion_->at(time).outer_from_inner * camera_from_world_).vector(up_);
     }
-    /// Whether the picture shows left what is right.
+    /// True if left and right are exchanged in the picture.
     [[nodiscard]] bool is_mirrored() const { return mirrored_; }
-    /// The ray of a sample for the one through the centre of the lens.
+    /// The ray of a sample; `ray`: that through the centre of the lens.
     [[nodiscard]] Ray through_lens(const PathChance& chance, const SampleId& id, const Ray& ray,
                                    float time) const {
         Ray drawn = lens_.open() ? lens_.through(ray, chance.draw(id, PathChance::kLens)) : ray;
@@ -63,7 +63,7 @@ class CameraRays {
     bool mirrored_ = false;
     Vec3 up_;
     MediumStack media_;
-    Affine camera_from_world_;  ///< as the shutter opens
+    Affine camera_from_world_;  ///< when the shutter opens
 };
 
 }  // namespace alhazen

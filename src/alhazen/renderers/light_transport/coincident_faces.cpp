@@ -14,18 +14,18 @@ namespace alhazen {
 
 namespace {
 
-/// Rays leave a surface that many error bounds away from it (leaving_ray): what lies within meets
-/// none of them.
+/// Rays begin that many error bounds away from the surface that they leave (leaving_ray): they miss
+/// all faces within.
 constexpr double kErrorsAway = 32.0, kLeastCosine = 1e-3;
 
-/// The `number`-th direction in which a ray that crosses a surface along `direction` looks for ends
-/// of volumes: straight on, then nearly along the surface.
+/// The `number`-th direction in which ends of volumes are searched for, if a ray crosses a surface
+/// along `direction`: straight on, then nearly along the surface.
 Vec3 outward(const ShadingPoint& point, const Vec3& direction, std::size_t number) {
     if (number == 0) return direction;
     constexpr double kInward = 0.1;
     const Vec3& n = point.geometric;
     const ShadingFrame frame = ShadingFrame::of(dot(direction, n) > 0.0 ? n : -n, {});
-    // Along no edge of what people build: 0.8 and 0.6, in turns of a right angle.
+    // 0.8 and 0.6, in steps of a right angle: unlikely to be along an edge of the model.
     const Vec3 x = 0.8 * frame.x + 0.6 * frame.y, y = 0.8 * frame.y - 0.6 * frame.x;
     const Vec3 along = number == 1 ? x : number == 2 ? -x : number == 3 ? y : -y;
     return normalize(along + kInward * frame.z);
@@ -140,7 +140,7 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& o
             within_.push_back({volume.part, volume.material, entered_.size()});
             continue;
         }
-        // As MediumStack leaves them.
+        // As in MediumStack::leave.
         auto left = std::find_if(within_.rbegin(), within_.rend(),
                                  [&](const Within& w) { return w.part == volume.part; });
         if (left == within_.rend()) {

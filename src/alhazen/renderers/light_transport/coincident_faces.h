@@ -2,12 +2,12 @@
 /// Faces of other parts that coincide with the boundary of a volume: a liquid in its glass, two
 /// clouds that touch, a block of glass on its table.
 ///
-/// Conventions: a ray meets one of them, that of the lowest primitive, and what leaves it begins
-/// beyond all. So they are one surface here. Where one is opaque, that one is met. Else all are
-/// crossed at once: one boundary between the volumes before and behind, with the look of the face
-/// that was hit. Of volumes that are entered together that which is left last lies outermost,
-/// whichever is named first; of those that no ray tells apart the lowest primitive does. Faces that
-/// cover in part, thin sheets and solids of several media do not count.
+/// Conventions: a ray hits one of the faces, that of the lowest primitive, and rays that leave it
+/// begin beyond all of them; so the faces are treated as one surface. If one is opaque, it is the
+/// surface hit. Else all are crossed together: one boundary between the volumes before and behind,
+/// with the BSDF of the face that was hit. Of volumes entered together the one that is left last is
+/// outermost, independent of the order of the parts; if no ray distinguishes them, the one of the
+/// lowest primitive. Partly covering faces, thin sheets and solids of several media are ignored.
 
 #include <array>
 #include <cstddef>
@@ -21,54 +21,54 @@
 
 namespace alhazen {
 
-/// A face that is crossed together with another.
+/// A face that is crossed together with the one that was hit.
 struct OtherFace {
     Medium inside;  ///< of the volume that it bounds
     bool entering = true;
-    bool around = false;   ///< of the volume that the face that was hit bounds
-    bool endless = false;  ///< it bounds what has no end
+    bool around = false;   ///< its volume surrounds that of the face that was hit
+    bool endless = false;  ///< its primitive is unbounded
 };
-/// Of volumes that are entered, the outermost first.
+/// Faces that are entered come first, the outermost volume first.
 using OtherFaces = std::vector<OtherFace>;
 
 class CoincidentFaces {
   public:
     explicit CoincidentFaces(const Scene& scene);
-    /// Shares what is known of the scene, and looks anew.
+    /// Shares the data of the scene; the results of `find` are not copied.
     CoincidentFaces(const CoincidentFaces& known) : scene_(known.scene_), kinds_(known.kinds_) {}
     CoincidentFaces& operator=(const CoincidentFaces&) = delete;
     ~CoincidentFaces() = default;
 
-    /// Looks at the point where a ray along `direction` met a surface.
+    /// Finds the faces at the point where a ray along `direction` hit a surface.
     void find(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
               RayMask mask);
-    /// Those that are crossed with it.
+    /// The faces that are crossed with the surface.
     [[nodiscard]] const OtherFaces& others() const { return others_; }
-    /// An opaque one, along `ray()`; none: the surface itself is met.
+    /// The hit of an opaque face along `ray()`; none: the surface itself is hit.
     [[nodiscard]] const std::optional<Hit>& opaque() const { return opaque_; }
-    /// Along which they were found.
+    /// The ray along which the faces were found.
     [[nodiscard]] const Ray& ray() const { return ray_; }
 
   private:
     enum class Kind : std::uint8_t { BoundsVolume, Opaque, Neither };
 
-    /// One of those that are entered together: where rays from there leave its volume.
+    /// One of the volumes that are entered together.
     struct Entered {
-        std::array<double, 5> left{};
-        std::size_t other = 0;  ///< in `others_`; its size: the face that was hit
+        std::array<double, 5> left{};  ///< [direction of `follow`] distance at which it is left
+        std::size_t other = 0;         ///< index in `others_`; its size: the face that was hit
     };
-    /// What a ray is in, on its way out of them.
+    /// A volume around a ray of `follow`.
     struct Within {
         std::uint64_t part = 0;
         std::uint32_t material = 0;
-        std::size_t entered = 0;  ///< in `entered_`; its size: none of them
+        std::size_t entered = 0;  ///< index in `entered_`; its size: another volume
     };
 
     void look_at(const Hit& hit, const Arrival& arrival);
-    /// Sorts what is entered.
+    /// Sorts the faces that are entered.
     void sort_entered(const ShadingPoint& point, const Vec3& direction, const Arrival& arrival,
                       RayMask mask);
-    /// Follows a ray out of all that is entered, its `number`-th.
+    /// Follows ray `number` out of all volumes that are entered; sets Entered::left.
     void follow(const Ray& ray, std::size_t number, const Medium& own, const Arrival& arrival,
                 RayMask mask);
 

@@ -1,8 +1,8 @@
 #pragma once
-/// What a surface emits towards the ray that met it, at the wavelengths of a path.
+/// The radiance that a surface emits towards the ray that hit it, at the wavelengths of a path.
 ///
-/// Conventions: a single-sided surface shines to its front alone, as its emitter does (emitter.h);
-/// what is unlit lights nothing and shows its colour on both sides.
+/// Conventions: a single-sided surface emits on its front only, as its emitter does (emitter.h); an
+/// unlit one shows its colour on both sides and lights nothing.
 
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/shading/spectrum/wavelengths.h"

@@ -1,10 +1,12 @@
 #pragma once
-/// How likely walks are to get along a way through volumes that scatter, for the weights of paths.
+/// Probabilities that a random walk passes a segment through scattering volumes, for the weights of
+/// paths.
 ///
 /// Source: Pauly, Kollig and Keller, "Metropolis Light Transport for Participating Media", EGWR
 /// 2000 (densities of vertices in volumes).
-/// Differs: channels count alike, whichever of them drew the distance (volume_scattering.h), so
-/// that the density depends on the way alone: not on its direction, nor on how a path was found.
+/// Differs: all channels have the same weight, whichever of them drew the distance
+/// (volume_scattering.h): the density depends on the segment only, neither on its direction nor on
+/// how the path was found.
 
 #include <cmath>
 
@@ -14,9 +16,9 @@ namespace alhazen {
 
 class FreeFlight {
   public:
-    /// Of a way without parts.
+    /// Begins an empty segment.
     void begin() { scatters_ = false; }
-    /// A part of the way, in a medium that scatters; `length` may be infinite.
+    /// Adds a part in a scattering medium; `length` may be infinite.
     void add(const Spectrum& extinction, double length) {
         if (!scatters_) depth_ = {};
         scatters_ = true;
@@ -25,9 +27,9 @@ class FreeFlight {
         }
     }
     [[nodiscard]] bool scatters() const { return scatters_; }
-    /// The probability of coming to its end.
+    /// The probability of reaching the end of the segment.
     [[nodiscard]] double passing() const { return scatters_ ? mean(Spectrum::all(1)) : 1.0; }
-    /// By length: of being scattered at its end, in a medium of that extinction.
+    /// The density by length of stopping at its end, in a medium of that extinction.
     [[nodiscard]] double stopping(const Spectrum& extinction) const { return mean(extinction); }
 
   private:
@@ -37,7 +39,7 @@ class FreeFlight {
         return sum / Spectrum::kCount;
     }
 
-    Spectrum depth_;  ///< optical
+    Spectrum depth_;  ///< optical depth
     bool scatters_ = false;
 };
 

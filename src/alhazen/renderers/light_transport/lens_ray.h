@@ -1,5 +1,5 @@
 #pragma once
-/// The rays that join light paths to the lens.
+/// Rays that connect light paths to the lens.
 
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// The ray from the lens to a vertex, which ends before it.
+/// The ray from the lens to a vertex; it ends just before the vertex.
 [[nodiscard]] inline Ray from_lens(const PathVertex& v, const LensConnection& joined) {
     const Ray back = v.leaving(joined.to_lens, joined.distance);
     const Vec3 lens = back.at(joined.distance);
@@ -17,9 +17,9 @@ namespace alhazen {
     return ray;
 }
 
-/// The volumes around the start of that ray. Where none scatters and no boundary is open, those at
-/// the vertex: one is all along it. `behind`: as of PathVertex::media_along; the result may be in
-/// it.
+/// The volumes around the origin of that ray. If none scatters and no boundary is open, those at
+/// the vertex, since the whole ray is in one volume. `behind`: storage, as in
+/// PathVertex::media_along.
 [[nodiscard]] inline const MediumStack& media_from_lens(const CameraRays& camera, const Ray& ray,
                                                         float time, const PathVertex& v,
                                                         MediumStack& behind) {

@@ -10,10 +10,10 @@ namespace alhazen {
 
 namespace {
 
-/// Rays per cast: enough to fill the stream kernel, few enough to stay in the cache.
+/// Rays per cast: enough to fill the stream kernel, and few enough for the cache.
 constexpr std::size_t kMostLightRays = 512;
 
-/// What a medium leaves of light; null: there is none.
+/// The transmittance of a medium, absorption only; null: 1.
 Spectrum left_by(const Medium* medium, double length, const Wavelengths& waves) {
     if (medium == nullptr || medium->absorption.is_black()) return Spectrum::all(1);
     return transmittance(waves.absorption(medium->absorption), length);
@@ -38,7 +38,7 @@ void LightBatch::add(const Ray& ray, float time, const MediumStack& media, const
                      const Spectrum& light, Spectrum& sum) {
     if (rays_.size() == kMostLightRays) finish();
     const Medium* const medium = media.here();
-    // Volumes that are followed may end on its way.
+    // If volumes are followed, this one may end along the ray.
     const Spectrum left =
         media_.are_followed() || medium == nullptr || medium->absorption.is_black()
             ? light
@@ -107,7 +107,7 @@ bool LightBatch::find_crossings(const Ray& ray, float time, RayKind kind) {
     crossings_.clear();
     if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return false;
     if (has_single_sided_ && kind != RayKind::Eye) {
-        // Their backs are no crossings.
+        // The backs of single-sided surfaces are missing in `crossings_`.
         if (crossings_.empty()) return false;
         crossings_.clear();
         scene_.aggregate->all_hits(ray, crossings_, query(time, kind));

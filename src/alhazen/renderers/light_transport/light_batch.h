@@ -1,10 +1,10 @@
 #pragma once
-/// Light that may be blocked: connections between points are gathered, then cast together.
+/// Light along connections between points, which are gathered and tested for occlusion together.
 ///
-/// Conventions: alpha coverage and thin sheets let light through, tinted; what bends light blocks
-/// it, for a straight connection does not exist there. Where volumes scatter, boundaries that do
-/// not bend it let it into the next volume; so do the openings of those that cover in part.
-/// Single-sided surfaces block from both sides; the eye alone does not see their backs.
+/// Conventions: uncovered parts and thin sheets transmit light, tinted; refracting surfaces block
+/// it, since the connection is straight. If volumes scatter, boundaries without refraction transmit
+/// it into the next volume; so do the openings of partly covering boundaries. Single-sided surfaces
+/// block light from both sides; only eye rays pass their backs.
 
 #include <memory>
 #include <span>
@@ -19,26 +19,26 @@
 
 namespace alhazen {
 
-/// Of the distance between two points: where a ray from one to the other ends, so that what holds
-/// the other does not block it.
+/// The end of a ray between two points, as a part of their distance, so that the surface of the
+/// other point does not block it.
 inline constexpr double kBeforeEnd = 1.0 - 1e-7;
 
 class LightBatch {
   public:
     LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
-    /// Adds `light` to `sum`, now or in `finish`, times what passes along `ray` up to its t_max;
-    /// `media`: around its beginning; `waves` stays until `finish`. Sums are added to in the order
-    /// of the calls.
+    /// Adds `light` times the transmittance of `ray` up to its t_max to `sum`, in `finish` or
+    /// before, in the order of the calls. `media`: around the origin of the ray. `waves` and `sum`
+    /// must stay valid until `finish`.
     void add(const Ray& ray, float time, const MediumStack& media, const Wavelengths& waves,
              const Spectrum& light, Spectrum& sum);
     /// Casts the gathered rays.
     void finish();
 
-    /// The share that passes along one ray. `flight`: that of a walk there; null: it is not asked.
+    /// The transmittance of one ray. Adds the parts in scattering media to `flight`; may be null.
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, const MediumStack& media,
                                    const Wavelengths& waves, FreeFlight* flight = nullptr);
-    /// The same along a ray from the eye.
+    /// As `passing`, for an eye ray.
     [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const MediumStack& media,
                                 const Wavelengths& waves, FreeFlight* flight = nullptr);
 
@@ -53,19 +53,20 @@ class LightBatch {
         return {stats_, mask_of(kind), time};
     }
     void find_met(std::span<bool> met);
-    /// Finds what a ray passes; false: something blocks it.
+    /// Finds the surfaces that a ray passes. False if one blocks it.
     [[nodiscard]] bool find_crossings(const Ray& ray, float time, RayKind kind);
-    /// Of a ray that meets something.
+    /// The transmittance of the surfaces on a ray that hits some.
     [[nodiscard]] Spectrum through_surfaces(const Ray& ray, float time, RayKind kind,
                                             const Wavelengths& waves);
-    /// What the volumes on its way leave, too. `met`: whether it meets something.
+    /// The transmittance of the surfaces and volumes on a ray. `met`: it hits some surface.
     [[nodiscard]] Spectrum through_volumes(const Ray& ray, float time, RayKind kind,
                                            const MediumStack& media, const Wavelengths& waves,
                                            bool met, FreeFlight* flight);
-    /// `media`: those before it, then those behind; null: it cannot lie between volumes.
+    /// The transmittance of a surface. `media`: the volumes before it, then those behind it; null:
+    /// volumes are not followed.
     [[nodiscard]] Spectrum through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
                                    const Wavelengths& waves, MediumStack* media);
-    /// Takes the face of that hit from those that have been crossed, if it is one of them.
+    /// Removes the face of the hit from `crossed_`. False if it is none of them.
     [[nodiscard]] bool take_crossed(const Hit& hit);
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, RayKind kind,
                                    const MediumStack& media, const Wavelengths& waves,
@@ -80,10 +81,10 @@ class LightBatch {
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::vector<float> times_;
-    std::vector<MediumStack> around_;  ///< [ray]; where volumes are followed
+    std::vector<MediumStack> around_;  ///< [ray]; only if volumes are followed
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
-    OtherFaces crossed_;  ///< that coincide with the last crossing, and need not be crossed again
+    OtherFaces crossed_;  ///< faces that were crossed with a surface and are still to be skipped
 };
 
 }  // namespace alhazen

@@ -13,7 +13,7 @@ constexpr std::array kKinds{AovKind::Emission,     AovKind::Direct,   AovKind::I
 constexpr std::array kPolarization{AovKind::PolarizationDegree, AovKind::PolarizationAngle,
                                    AovKind::Stokes};
 
-/// Of the layers but the variance.
+/// The part of the light for a layer other than the variance.
 Spectrum part_of(AovKind kind, const LightParts& parts) {
     switch (kind) {
         case AovKind::Emission:
@@ -35,7 +35,7 @@ double luminance(const Rgb& c) {
     return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
 }
 
-/// Of the mean.
+/// The variance of the mean.
 Rgb variance(const SampleSum& sum) {
     if (sum.count < 2) return {};
     const double n = sum.count;
@@ -116,7 +116,7 @@ void LightLayers::write_polarization(AovFilm& film, int x, int y, std::size_t pi
     const double light = sum_of(*intensity_, pixel).value(mean_sign_).r;
     const Rgb s = sum_of(*stokes_, pixel).value(mean_sign_);
     const double q = s.r, u = s.g, v = s.b;
-    // Rounding, and lobes of a filter below 0, may give more than there is.
+    // Rounding and negative lobes of the filter may give a degree above 1.
     const double degree =
         light > 0.0 ? std::min(1.0, std::sqrt(q * q + u * u + v * v) / light) : 0.0;
     film.set(AovKind::PolarizationDegree, x, y, std::array{degree});

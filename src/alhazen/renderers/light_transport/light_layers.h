@@ -1,15 +1,15 @@
 #pragma once
-/// The light of pixels by the way on which it came to the eye, as layers of the picture.
+/// Layers of the picture: the light of pixels by the kind of its path.
 ///
 /// Source: Lafortune, "Mathematical Models and Monte Carlo Algorithms for Physically Based
 /// Rendering", 1996 (light by the number and kind of its scatterings); the names are those of
 /// compositing programs.
 /// Conventions: emission, direct and indirect light (no, one, more scatterings) sum to the picture,
 /// and so do emission, diffuse, specular and transmitted light, by the first scattering from the
-/// eye. What goes straight through thin sheets and cut-outs is not scattered there. The variance is
-/// that of the mean of a pixel whose samples are independent. Polarisation is that of the
-/// luminance: degree, angle and Stokes vector of the mean of the samples. Threads: `add` may be
-/// called at the same time for different pixels.
+/// eye. Straight passage through thin sheets and cut-outs is no scattering. The variance is that of
+/// the mean of a pixel, for independent samples. Polarisation is that of the luminance: degree,
+/// angle and Stokes vector of the mean of the samples. Threads: `add` may be called at the same
+/// time for different pixels.
 
 #include <array>
 #include <cstdint>
@@ -24,10 +24,10 @@
 
 namespace alhazen {
 
-/// What the first scattering from the eye did with light.
+/// The kind of the first scattering from the eye.
 struct FirstScattering {
     bool transmitted = false;
-    Spectrum diffuse{};  ///< share of matt lobes in what was reflected
+    Spectrum diffuse{};  ///< share of diffuse lobes in the reflected light
 };
 
 /// The light of one sample.
@@ -46,9 +46,9 @@ struct LightParts {
         [[nodiscard]] Spectrum sum() const { return diffuse + specular + transmitted; }
     };
     Scattered direct, indirect;
-    StokesLight polarized;  ///< all of it, where light is polarised
+    StokesLight polarized;  ///< sum of all parts; only with polarisation
 
-    /// `scatterings`: of the light on its way.
+    /// `scatterings`: number along the path.
     void add(const Spectrum& light, int scatterings, const FirstScattering& first) {
         if (scatterings == 0) {
             emission += light;
@@ -63,7 +63,7 @@ class LightLayers {
     /// `mean_sign`: of the filter.
     LightLayers(const PixelBox& crop, const AovSet& wanted, double mean_sign);
 
-    /// Whether any of them is wanted.
+    /// True if any of the layers is wanted.
     [[nodiscard]] static bool has_any(const AovSet& wanted);
 
     /// `radiance`: the sum of the parts as a colour.

@@ -52,7 +52,7 @@ void LightStarts::begin_from_infinity(WalkStart& start) const {
 }
 
 bool LightStarts::begin_before_all(Ray& ray, float time) const {
-    // Further away numbers do not tell where what is bounded lies.
+    // At larger distances, coordinates do not resolve the bounded geometry.
     constexpr double kMostRadii = 1e8;
     const double far = kMostRadii * radius_;
     const RayQuery query{nullptr, kAllRays, time};

@@ -1,10 +1,10 @@
 #pragma once
-/// Where light paths begin: at what shines, or before all that lies in the way of light from afar.
+/// The first rays of light paths: from emitters, or from in front of the scene for far lights.
 ///
-/// Conventions: rays of the environment and of parallel light come from a disc before all that is
-/// bounded (Illumination::emit). Where something is endless they begin before its last crossing, so
-/// that it reflects, bends or blocks them as it does any light. What comes from afar in a volume
-/// without end that takes light is black.
+/// Conventions: rays of the environment and of directional lights come from a disc in front of all
+/// bounded geometry (Illumination::emit). In scenes with unbounded geometry they begin before their
+/// first crossing of it, so that it reflects, refracts or blocks them. Light from infinity through
+/// an unbounded volume that absorbs or scatters is black.
 /// Threads: const functions may be called from many.
 
 #include <vector>
@@ -20,24 +20,24 @@ class LightStarts {
   public:
     explicit LightStarts(const Scene& scene);
 
-    /// The walk of a ray of light. Its throughput is black where it carries nothing.
+    /// The start of the walk of a ray of light. Its throughput is black if no light arrives.
     [[nodiscard]] WalkStart of(const LightRay& light, float time, const Wavelengths& waves) const;
 
   private:
-    /// Moves the origin back. False where something opaque lies too far away to begin before it:
-    /// no light comes through.
+    /// Moves the origin in front of all crossings. False if an opaque surface is too far away for
+    /// that: no light passes.
     [[nodiscard]] bool begin_before_all(Ray& ray, float time) const;
-    /// Moves the beginning of light from afar before all that is endless, into the volumes there.
+    /// Moves the start of a far light in front of all unbounded geometry; sets the volumes there.
     void begin_from_infinity(WalkStart& start) const;
 
     const Scene& scene_;
     MediaFinder media_;
     ScatteringMedia scattering_;
     bool is_endless_;
-    double radius_;  ///< of a sphere around what is bounded
+    double radius_;  ///< of a sphere around all bounded geometry
 };
 
-/// Gives the vertices of a path from a point the light's own falloff over its first distance.
+/// Applies the falloff of a point light over the first segment to the vertices of its path.
 void set_falloff(const Illumination& lights, const LightRay& light, const Wavelengths& waves,
                  std::vector<PathVertex>& vertices);
 

@@ -1,11 +1,11 @@
 #pragma once
-/// What all renderers that follow light from surface to surface have in common.
+/// The common base of the renderers that follow light from surface to surface.
 
 #include "alhazen/renderers/core/renderer.h"
 
 namespace alhazen {
 
-/// Without RenderJob::sampling: `sobol` and `box`.
+/// Without RenderJob::sampling the sampler is `sobol` and the filter `box`.
 class LightTransportRenderer : public Renderer {
   public:
     [[nodiscard]] bool takes_samplers() const override { return true; }

@@ -1,5 +1,5 @@
 #pragma once
-/// Directions of matt surfaces for eight points in lanes.
+/// Diffuse directions for eight points in lanes.
 
 #include <cstddef>
 #include <span>
@@ -10,8 +10,8 @@ namespace alhazen {
 
 inline constexpr std::size_t kMostMattDirections = 8;
 
-/// directions[i] is `cosine_direction(u[i])` (microfacets/local_directions.h), bit for bit; at most
-/// kMostMattDirections. u in [0, 1).
+/// Sets directions[i] to `cosine_direction(u[i])` (microfacets/local_directions.h), bit for bit.
+/// `u`: at most kMostMattDirections, in [0, 1).
 void set_matt_directions(std::span<const Vec2> u, Vec3* directions);
 
 }  // namespace alhazen

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Along no axis and no diagonal of what people build.
+/// Unlikely to be parallel to an edge of the model.
 const Vec3 kFromAfar = normalize(Vec3{0.7548776662, 0.5698402910, -0.3247179572});
 
 }  // namespace
@@ -48,7 +48,7 @@ MediumStack MediaFinder::without_end_around(const Vec3& point, float time) const
 double MediaFinder::way_before_all(const Vec3& direction, const Vec3& point, float time) const {
     const double way = length(point - center_) + 2.0 * radius_;
     if (!reaches_infinity_) return way;
-    // Further away numbers do not tell where the point lies.
+    // At larger distances, coordinates do not resolve the point.
     constexpr double kMostRadii = 1e8;
     std::vector<Hit> crossings;
     scene_.aggregate->all_hits({point, -direction, 0.0, kMostRadii * radius_}, crossings,

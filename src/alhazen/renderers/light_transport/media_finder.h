@@ -1,9 +1,10 @@
 #pragma once
-/// The volumes around a point at which a path begins: an eye under water, a lamp in glass.
+/// The volumes around a point at which a path begins: an eye under water, a light in glass.
 ///
-/// Conventions: found by a straight ray from afar to the point, which crosses what bounds volumes.
-/// A volume without end may lie around all of that ray; a ray from the other side finds those.
-/// What lies all along both ways, or further away than 1e8 times what is bounded, is not found.
+/// Conventions: volumes are found by their boundaries along a straight ray from outside to the
+/// point. An unbounded volume may contain that whole ray; it is found by a second ray from the
+/// opposite side. Not found: volumes that contain both rays, and boundaries farther away than 1e8
+/// times the radius of the bounded geometry.
 
 #include "alhazen/renderers/light_transport/coincident_faces.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
@@ -15,10 +16,10 @@ class MediaFinder {
   public:
     explicit MediaFinder(const Scene& scene);
 
-    /// False: the scene has no volumes, and no point lies in one.
+    /// False if the scene has no volumes.
     [[nodiscard]] bool has_volumes() const { return has_volumes_; }
     [[nodiscard]] MediumStack around(const Vec3& point, float time) const;
-    /// Those without end: no other, closed or open, reaches to a point that is infinitely far away.
+    /// The unbounded volumes around the point: only these reach to infinity.
     [[nodiscard]] MediumStack without_end_around(const Vec3& point, float time) const;
 
   private:
@@ -26,17 +27,17 @@ class MediaFinder {
         MediumStack all, endless;
     };
 
-    /// Along a ray that goes to the point.
+    /// The volumes by a ray along `direction` that ends at the point.
     [[nodiscard]] Found along(const Vec3& direction, const Vec3& point, float time) const;
-    /// How far before the point all crossings lie.
+    /// A distance from the point against `direction` beyond all crossings.
     [[nodiscard]] double way_before_all(const Vec3& direction, const Vec3& point, float time) const;
     [[nodiscard]] bool is_endless(const Hit& hit) const;
 
     const Scene& scene_;
-    CoincidentFaces faces_;  ///< what is known of the scene
+    CoincidentFaces faces_;  ///< copied for each search
     bool has_volumes_;
     bool reaches_infinity_ = false;
-    Vec3 center_;  ///< of a sphere around what is bounded
+    Vec3 center_;  ///< of a sphere around all bounded geometry
     double radius_ = 1;
 };
 

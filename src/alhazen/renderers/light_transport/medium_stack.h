@@ -1,10 +1,10 @@
 #pragma once
 /// The volumes around the end of a path, innermost last.
 ///
-/// Conventions: a volume is known by the part that bounds it, so that volumes which overlap are
-/// left in any order. A part that was not entered leaves the innermost volume of its material: a
-/// boundary may be made of several parts. Where a solid tells the media on both sides of a surface,
-/// its word counts. More than kMost volumes around one point: the outermost are forgotten.
+/// Conventions: a volume is identified by the part that bounds it, so that overlapping volumes may
+/// be left in any order. Leaving a part that was not entered leaves the innermost volume of its
+/// material: a boundary may consist of several parts. Media stated by a solid replace the stack.
+/// Beyond kMost volumes around a point, the outermost are dropped.
 
 #include <cstdint>
 
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// Of a part as it was placed.
+/// The identity of a placed part.
 [[nodiscard]] inline std::uint64_t part_number(const HitParts& parts) {
     return std::uint64_t{parts.instance} << 32 | parts.part;
 }
@@ -23,7 +23,7 @@ namespace alhazen {
 struct Medium {
     std::uint64_t part = 0;  ///< that bounds it
     double index = 1;
-    Rgb absorption;  ///< light falls by exp(-absorption * length)
+    Rgb absorption;  ///< per unit length: transmittance is exp(-absorption * length)
     std::uint32_t material = 0;
 };
 
@@ -31,15 +31,15 @@ class MediumStack {
   public:
     static constexpr std::size_t kMost = 8;
 
-    /// Not defaulted: the room for media would be zeroed first.
+    /// Not defaulted: that would zero the storage first.
     MediumStack() {}  // NOLINT(modernize-use-equals-default)
 
     [[nodiscard]] bool empty() const { return media_.empty(); }
-    /// Null outside all volumes.
+    /// The innermost volume; null outside all volumes.
     [[nodiscard]] const Medium* here() const {
         return media_.empty() ? nullptr : &media_.back().value;
     }
-    /// The medium where the volume has been left; null outside.
+    /// The innermost volume after `volume` is left; null outside all volumes.
     [[nodiscard]] const Medium* without(const Medium& volume) const {
         const std::size_t left = place_of(volume);
         for (std::size_t i = media_.size(); i-- > 0;) {
@@ -51,7 +51,7 @@ class MediumStack {
         if (media_.full()) remove(0);
         media_.push_back(medium);
     }
-    /// Puts around them the volumes of `other` that `known` lacks, by part or by material.
+    /// Adds the volumes of `other` that `known` lacks (by part and by material) as outermost ones.
     void surround(const MediumStack& other, const MediumStack& known) {
         MediumStack all;
         for (const Unmade<Medium>& m : other.media_) {
@@ -61,7 +61,7 @@ class MediumStack {
         for (const Unmade<Medium>& m : media_) all.enter(m.value);
         *this = all;
     }
-    /// Nothing happens where the volume was never entered.
+    /// Does nothing if the volume was not entered.
     void leave(const Medium& volume) {
         if (const std::size_t i = place_of(volume); i < media_.size()) remove(i);
     }

@@ -1,13 +1,14 @@
 #pragma once
 /// The random numbers of paths: from the sampler of the round for the first bounces, from a hash
-/// for those behind, where stratification no longer shows.
+/// for further ones, where stratification has no visible effect.
 ///
 /// Source of the shifts between pixels: Roberts, "The Unreasonable Effectiveness of Quasirandom
 /// Sequences", 2018 (R2).
 /// Conventions: pairs of dimensions: 0 the pixel, 1 the lens, 2 the time; from 3 + 4 b on those of
 /// bounce b: direction of the BSDF, place on a light, the two choices (lobe, light), roulette.
-/// Wavelengths are of no pair: the heroes of a pixel's samples lie a golden ratio apart, and those
-/// of neighbours are shifted by a quarter of R2, for the four of a path are a quarter apart.
+/// Wavelengths use no pair: the hero wavelengths of a pixel's samples are a golden ratio apart, and
+/// those of neighbouring pixels are shifted by a quarter of R2, since the four of a path are a
+/// quarter apart.
 
 #include <algorithm>
 #include <cmath>
@@ -37,14 +38,13 @@ class PathChance {
           hero_(random_at(seed_, kHero, 0, 0)),
           draws_(sampler_, kByHash) {}
 
-    /// `ids`: of the samples from now on, for `draw` and `waves` by their number in the
-    /// batch.
+    /// Begins a batch for `draw` and `waves` by the number in the batch. `ids` must stay valid.
     void begin(std::span<const SampleId> ids) {
         ids_ = ids;
         draws_.begin(ids);
         keys_.clear();
     }
-    /// `left`: the samples of the batch that ask `draw` from now on.
+    /// Limits further draws to the samples `left` of the batch.
     void keep(std::span<const std::uint32_t> left) { draws_.keep(left); }
     [[nodiscard]] Vec2 draw(std::uint32_t sample, int bounce, BouncePair pair) {
         const std::uint32_t p = pair_of(bounce, pair);
@@ -58,12 +58,12 @@ class PathChance {
     [[nodiscard]] Vec2 draw(const SampleId& id, int bounce, BouncePair pair) const {
         return draw(id, pair_of(bounce, pair));
     }
-    /// Whether the path stops at a surface that is there by `coverage`, the `met`-th on its way.
+    /// True if the path stops at a surface of that coverage, the `met`-th along the path.
     [[nodiscard]] bool stops(const SampleId& id, std::uint32_t met, double coverage) const {
         if (coverage >= 1.0) return true;
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
-    /// Of a sample of the batch: channels, or wavelengths where the job asks for them.
+    /// The wavelengths of a sample of the batch; channels unless the job is spectral.
     [[nodiscard]] Wavelengths waves(std::uint32_t sample) const {
         if (!spectral_) return {};
         constexpr double kGolden = 0.6180339887498949;
@@ -73,13 +73,13 @@ class PathChance {
         return Wavelengths::drawn(std::min(u - std::floor(u), 0x1.fffffffffffffp-1));
     }
     [[nodiscard]] bool is_spectral() const { return spectral_; }
-    /// Where a path scatters inside a volume, by the number of its stretch.
+    /// Numbers for the scattering in a volume, by the number of the ray segment through volumes.
     [[nodiscard]] Vec2 in_volume(const SampleId& id, std::uint32_t stretch) const {
         const std::uint64_t place = kVolume + 2 * std::uint64_t{stretch};
         return {random_at(seed_, id.pixel.id(), id.number, place),
                 random_at(seed_, id.pixel.id(), id.number, place + 1)};
     }
-    /// Numbers of what draws many: the `number`-th of a place (a bounce, say) of the sample.
+    /// Further numbers: the `number`-th of a place (such as a bounce) of the sample.
     [[nodiscard]] double extra(const SampleId& id, std::uint32_t place,
                                std::uint32_t number) const {
         return random_at(seed_, id.pixel.id(), id.number,
@@ -92,7 +92,7 @@ class PathChance {
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
     static constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
     static constexpr std::uint64_t kExtra = std::uint64_t{1} << 62;
-    static constexpr std::uint64_t kHero = 0x68657230;  ///< of nothing else that is drawn
+    static constexpr std::uint64_t kHero = 0x68657230;  ///< unused by other draws
 
     [[nodiscard]] static std::uint32_t pair_of(int bounce, BouncePair pair) {
         return kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair;
@@ -102,7 +102,7 @@ class PathChance {
         return {random_at(key, 2 * std::uint64_t{pair}),
                 random_at(key, 2 * std::uint64_t{pair} + 1)};
     }
-    /// Of a sample of the batch.
+    /// The hash key of a sample of the batch.
     [[nodiscard]] std::uint64_t key_of(std::uint32_t sample) {
         if (keys_.empty()) {
             for (const SampleId& id : ids_) {
@@ -116,10 +116,10 @@ class PathChance {
     std::uint64_t seed_;
     bool spectral_;
     ShutterPart shutter_;
-    double hero_;  ///< that of sample 0 of pixel (0, 0)
+    double hero_;  ///< of sample 0 of pixel (0, 0)
     SampleDraws draws_;
     std::span<const SampleId> ids_;
-    std::vector<std::uint64_t> keys_;  ///< [sample of the batch] of its hashes; empty: none asked
+    std::vector<std::uint64_t> keys_;  ///< [sample of the batch] of its hashes; empty: not yet set
 };
 
 }  // namespace alhazen

@@ -1,34 +1,32 @@
 #pragma once
-/// Settings of the renderers of paths.
+/// Settings of the path-based renderers.
 
 #include <cstdint>
 
 namespace alhazen {
 
 struct PathSettings {
-    /// Each bounce has its own dimensions of the sampler, and a vertex in memory.
+    /// Limit of `depth`: each bounce uses dimensions of the sampler and memory for a vertex.
     static constexpr int kMostDepth = 1024;
 
     int depth = 64;             ///< largest number of scatterings of a path
     int roulette = 4;           ///< scatterings after which a path may end by chance
-    bool manifold = false;      ///< chains of mirrors and glass are sought from each surface
-    bool polarization = false;  ///< light is polarised, and seen to be
-    /// Of renderers with photons: where smooth glass reflects and refracts at least this share of a
-    /// sample's light, both ways are followed, else one by chance.
+    bool manifold = false;      ///< light by way of mirrors and glass is found by manifold search
+    bool polarization = false;  ///< light is polarised by scattering
+    /// Renderers with photons: smooth glass is followed along both branches if each has at least
+    /// this share of a sample's light, else one branch is chosen at random.
     double split = 0.03;
-    /// Of the same: the dimmer way at smooth glass that has less than `split` is followed by one of
-    /// up to so many successive samples of a pixel, and counts as often. 1, 2, 4, 8 or 16. Not
-    /// with wavelengths, which samples have in turn, too.
+    /// Renderers with photons: the dimmer branch at smooth glass, if below `split`, is followed by
+    /// one in up to this many successive samples of a pixel, with that weight. 1, 2, 4, 8 or 16.
+    /// Not used with wavelengths, since these alternate between samples, too.
     std::uint32_t turns = 16;
-    /// Of the same: shadow rays from each surface that is seen.
+    /// Renderers with photons: number of shadow rays from each visible surface.
     std::uint32_t shadows = 1;
-    /// Of photon_mapping: of 1, 2, 4 or 8 successive samples one looks at the photons of the
-    /// surface that it sees straight, and counts for all. Not with wavelengths, of which each set
-    /// needs its looks.
+    /// photon_mapping: one in 1, 2, 4 or 8 successive samples looks up the photons at the directly
+    /// visible surface, with that weight. Not with wavelengths: each set needs its own lookups.
     std::uint32_t every = 1;
-    /// Largest contribution of indirect light to a sample, with photons that of a lamp seen by way
-    /// of mirrors and glass along one branch of its path, by the largest channel or wavelength;
-    /// 0: none.
+    /// Largest contribution to a sample, in the largest channel or wavelength, of indirect light;
+    /// with photons, of a light seen by mirrors and glass along one branch. 0: unlimited.
     double clamp = 0.0;
 };
 

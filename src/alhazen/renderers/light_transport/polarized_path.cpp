@@ -8,7 +8,8 @@ namespace alhazen {
 
 namespace {
 
-/// Across the plane through both; any direction across `view` where they are in line.
+/// The unit normal of the plane through both; if they are collinear, any direction perpendicular to
+/// `view`.
 Vec3 across_plane(const Vec3& view, const Vec3& direction) {
     const Vec3 across = cross(view, direction);
     return length_squared(across) > 1e-24 ? normalize(across) : perpendicular(view);
@@ -37,7 +38,7 @@ void PolarizedPath::scatter(const Vec3& view, const Vec3& direction, const Plane
     const Vec3 x = across_plane(view, direction);
     const Vec2 twice = twice_to_axis(x, view);
     for (auto& row : product_) {
-        // The frame is turned from x to the axis, after the scattering.
+        // Rotates the frame from x to the axis, after the scattering.
         const Spectrum i = row[0];
         const Spectrum q = twice.x * row[1] - twice.y * row[2];
         const Spectrum u = twice.y * row[1] + twice.x * row[2];

@@ -1,15 +1,15 @@
 #pragma once
-/// What a path from the eye does to polarised light: the product of its matrices on Stokes vectors,
-/// over the throughput that unpolarised light would have.
+/// The effect of a path on polarised light: the product of its Mueller matrices, over the
+/// throughput of unpolarised light.
 ///
 /// Source: Wilkie and Weidlich, "Polarised Light in Computer Graphics", SIGGRAPH Asia 2012 courses
-/// (Mueller matrices with frames, turned into each other at each scattering); Collett, "Polarized
-/// Light", 1993, chapter 5.
+/// (Mueller matrices with frames, rotated at each scattering); Collett, "Polarized Light", 1993,
+/// chapter 5.
 /// Differs: the path goes from the eye to the light, so that matrices are multiplied from the
 /// right: the product is the adjoint of that along the light.
 /// Conventions: those of shading/optics/polarization.h. The frame at the eye has x to the right of
-/// the picture and y up: light swings at atan2(U, Q) / 2 from x, counter-clockwise as the picture
-/// is seen. Lights send unpolarised light. Elements are of each wavelength.
+/// the picture and y up: the angle of polarisation is atan2(U, Q) / 2 from x, counter-clockwise in
+/// the picture. Lights emit unpolarised light. Matrix elements are spectra.
 
 #include <array>
 
@@ -41,14 +41,15 @@ class PolarizedPath {
     /// `axis`: x of the frame at the eye, across the ray.
     void begin(const Vec3& axis);
 
-    /// Light from `direction` goes to `view`, from where the path came; both away from the point.
+    /// Adds a scattering of light from `direction` to `view`, the previous vertex; both point away
+    /// from the surface.
     void scatter(const Vec3& view, const Vec3& direction, const PlaneMueller& matrix);
-    /// The same where nothing polarised is left.
+    /// Adds a scattering that depolarises light.
     void depolarize();
 
-    /// What reaches the eye of unpolarised light 1 at the end of the path; i is not below 0.
+    /// The light at the eye for unpolarised light 1 at the end of the path; i is at least 0.
     [[nodiscard]] StokesLight arrived() const;
-    /// The same after one more scattering.
+    /// As above, with one more scattering.
     [[nodiscard]] StokesLight arrived(const Vec3& view, const Vec3& direction,
                                       const PlaneMueller& matrix) const;
 
@@ -60,8 +61,8 @@ class PolarizedPath {
     std::array<std::array<Spectrum, 4>, 4> product_{};  ///< [row][column]
 };
 
-/// The frame at the eye for a ray along `direction` of a camera with this `up`; right of a picture
-/// that is not mirrored.
+/// x of the frame at the eye for a ray along `direction` of a camera with this `up`: to the right
+/// of a picture that is not mirrored.
 [[nodiscard]] Vec3 picture_axis(const Vec3& direction, const Vec3& up);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// The weight of a sample that other strategies could have drawn, too.
+/// The power heuristic: the weight of a sample that another strategy could have drawn.
 ///
 /// Source: Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
 /// SIGGRAPH 1995, equation 15, with the exponent 2.

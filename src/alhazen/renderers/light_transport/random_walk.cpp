@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-/// Numbers of events on a walk: apart from those of the other walk of the sample.
+/// Number of an event, distinct for the two walks of a sample.
 std::uint32_t of_walk(const WalkLuck& luck, std::uint32_t event) {
     return luck.first_pair << 16 | event;
 }
@@ -34,7 +34,7 @@ bool RandomWalk::scatters_within(Front& front, const Medium& medium,
 }
 
 void RandomWalk::absorb(Front& front, double length) const {
-    // What scatters has taken its share.
+    // Scattering media are handled in `scatters_within`.
     if (const Medium* const medium = front.media.here();
         medium != nullptr && scattering_.in(*medium) == nullptr) {
         front.throughput =
@@ -143,7 +143,7 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     const Vec2 u = luck.chance.draw(luck.id, pair);
     const Vec2 choices = luck.chance.draw(luck.id, pair + 1);
     const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
-    // A thin sheet is passed straight by chance, and then is no vertex.
+    // A thin sheet that is passed straight, by chance, is no vertex.
     const double straight = v.scatter.straight_probability();
     if (straight > 0.0 && straight < 1.0 && !(drawn && drawn->straight)) {
         v.throughput = (1.0 / (1.0 - straight)) * v.throughput;
@@ -223,7 +223,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         if (!front.throughput.is_finite()) return;
         if (count >= luck.roulette) {
             constexpr double kMost = 0.95;
-            // Of light its power counts, which has any scale: its share of what it began with.
+            // Light paths have power of any scale: relative to that at the start.
             const double begun = from_eye ? 1.0 : start.throughput.max();
             const double share = std::min(kMost, eta_scale_ * front.throughput.max() / begun);
             if (!(luck.chance.draw(luck.id, pair + 2).x < share)) return;

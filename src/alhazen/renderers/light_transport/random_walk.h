@@ -1,10 +1,10 @@
 #pragma once
-/// Subpaths, one ray after the other: from the eye, or from a light, through volumes that scatter.
+/// Subpaths from the eye or from a light, also through scattering volumes.
 ///
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapters 8 and
 /// 10.
-/// Conventions: densities are those of path_vertex.h. Singular directions count as of density 1 by
-/// solid angle on both sides: every way to find a path has them. Surfaces that a path passes
+/// Conventions: densities are those of path_vertex.h. Singular directions have density 1 by solid
+/// angle in both directions, since every strategy has the same factor. Surfaces that a path passes
 /// straight (coverage, thin sheets) are no vertices.
 
 #include <cstdint>
@@ -22,21 +22,21 @@ namespace alhazen {
 struct WalkStart {
     Ray ray;
     Spectrum throughput{1, 1, 1, 1};
-    const Wavelengths* waves = &kColorChannels;  ///< of the path as it begins
-    /// By solid angle; by area across the ray where it is parallel; 0: singular.
+    const Wavelengths* waves = &kColorChannels;  ///< initial wavelengths of the path
+    /// By solid angle; if `parallel`, by area perpendicular to the ray; 0: singular.
     double density = 0;
     bool parallel = false;
     float time = 0;
-    MediumStack media;  ///< around it
+    MediumStack media;  ///< around the origin
 };
 
-/// Numbers and limits of a walk.
+/// Random numbers and limits of a walk.
 struct WalkLuck {
     const PathChance& chance;
     const SampleId& id;
     std::uint32_t first_pair;  ///< of the first bounce; kWalkPairs for each
-    int most;                  ///< vertices
-    int roulette;              ///< vertices after which it may end by chance
+    int most;                  ///< largest number of vertices
+    int roulette;              ///< number of vertices after which Russian roulette begins
 };
 inline constexpr std::uint32_t kWalkPairs = 3;
 
@@ -53,8 +53,8 @@ class RandomWalk {
           bsdfs_(scene),
           faces_(scene) {}
 
-    /// Sets `vertices`. A path from the eye that leaves the scene sets `escaped`; its direction and
-    /// density by solid angle are those of the last ray.
+    /// Sets `vertices`. If a path from the eye leaves the scene, sets `escape()` to direction and
+    /// density by solid angle of its last ray.
     void walk(Transport transport, const WalkStart& start, const WalkLuck& luck,
               std::vector<PathVertex>& vertices);
 
@@ -63,12 +63,12 @@ class RandomWalk {
         Vec3 direction;
         Spectrum throughput;
         double density = 0;   ///< 1: singular
-        double backward = 1;  ///< as of PathVertex
+        double backward = 1;  ///< as in PathVertex
     };
     [[nodiscard]] const Escape& escape() const { return escape_; }
 
   private:
-    /// The end of a walk so far.
+    /// The current end of a walk.
     struct Front {
         Ray ray;
         Wavelengths waves;
@@ -80,28 +80,28 @@ class RandomWalk {
     enum class Meets : std::uint8_t { Nothing, Surface, Volume };
     enum class Step : std::uint8_t { Ends, Straight, Scattered };
 
-    /// What it stops at next: a surface, or a point in a volume where the ray then begins.
+    /// Finds the next stop: a surface, or a point in a volume, which becomes the origin of the ray.
     [[nodiscard]] Meets find(Front& front, const WalkLuck& luck, const WalkStart& start);
-    /// A medium that does not scatter takes its share of a stretch.
+    /// Applies the absorption of a medium that does not scatter.
     void absorb(Front& front, double length) const;
-    /// Goes into or out of a volume where the surface does not cover.
+    /// Enters or leaves a volume through an uncovered part of its boundary.
     void pass_opening(Front& front);
-    /// Whether a stretch of that length in a medium that scatters does, before its end.
+    /// Samples a segment of that length in a scattering medium. True if the path scatters in it.
     [[nodiscard]] bool scatters_within(Front& front, const Medium& medium,
                                        const VolumeScattering& scattering, double length,
                                        const WalkLuck& luck, const WalkStart& start);
-    /// The last vertex, and the one before; null: the first has none.
+    /// The last vertex and the one before; null for the first vertex.
     struct Ends {
         PathVertex& v;
         PathVertex* before;
-        bool last;  ///< of as many as the walk may have
+        bool last;  ///< the walk has its largest number of vertices
     };
-    /// All but what the vertex does with light. Inlined, as what follows: light_tracing takes half
-    /// a per cent fewer instructions.
+    /// Sets position, density and media of the vertex. Forced inline, as `scatter_at_surface`:
+    /// light_tracing takes half a per cent fewer instructions.
     [[gnu::always_inline]] inline void set_vertex(const Front& front, const WalkStart& start,
                                                   Meets meets, const Ends& ends);
     void set_emission(const Front& front, const Ends& ends) const;
-    /// Sets that, and goes on from there.
+    /// Sets emission and scattering of a vertex on a surface and continues the walk.
     [[nodiscard, gnu::always_inline]] inline Step scatter_at_surface(Transport transport,
                                                                      Front& front,
                                                                      const WalkLuck& luck,
@@ -119,12 +119,12 @@ class RandomWalk {
     BsdfCache bsdfs_;
     ShadingPoint point_;
     CoincidentFaces faces_;  ///< at the point
-    ScatterPoint opening_;   ///< a surface that is passed where it does not cover
+    ScatterPoint opening_;   ///< a surface that is passed at an uncovered part
     Hit hit_;
-    double travelled_ = 0;  ///< since the last vertex
-    double segment_ = 0;    ///< of it in the ray at hand
+    double travelled_ = 0;  ///< distance since the last vertex
+    double segment_ = 0;    ///< distance whose absorption is not yet applied
     std::uint32_t met_ = 0;
-    std::uint32_t stretch_ = 0;  ///< stretches through what scatters
+    std::uint32_t stretch_ = 0;  ///< number of segments through scattering media
     FreeFlight flight_;          ///< since the last vertex
     double eta_scale_ = 1;
     RayKind kind_ = RayKind::Eye;

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Of blended materials their weighted sum.
+/// Sets the BSDF at the point; for blended materials the weighted sum.
 void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, Bsdf& bsdf) {
     const SurfaceLookup lookup{
         {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
@@ -187,7 +187,7 @@ std::optional<Scattered> ScatterPoint::in_world(const BsdfSample& drawn) const {
 }
 
 std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transport) const {
-    // The lowest choice reflects, the highest refracts.
+    // The lowest choice gives reflection, the highest refraction.
     const auto reflected = sample(0.0, {}, transport);
     if (!reflected || !reflected->singular || reflected->transmitted) return std::nullopt;
     const auto refracted = sample(0x1.fffffffffffffp-1, {}, transport);
@@ -195,7 +195,7 @@ std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transp
         refracted->dispersed) {
         return std::nullopt;
     }
-    // Else there are other lobes.
+    // A smaller sum means other lobes.
     if (!(reflected->density + refracted->density > 1.0 - 0x1p-40)) return std::nullopt;
     std::array<Scattered, 2> ways{*reflected, *refracted};
     for (Scattered& way : ways) way.weight = way.density * way.weight;
@@ -214,7 +214,7 @@ void ScatterPoint::cross(MediumStack& media) const {
         media = {};
         if (behind_inside_) media.enter(inside_);
     } else {
-        // What is left first: what is entered is inside of all that stays.
+        // Volumes are left before others are entered: new ones are innermost.
         if (!entering_) media.leave(inside_);
         for (const OtherFace& other : others_) {
             if (!other.entering) media.leave(other.inside);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which media of a scene scatter light, and what a medium takes from a ray.
+/// The scattering media of a scene, and the extinction of a medium.
 
 #include <algorithm>
 
@@ -9,8 +9,8 @@
 
 namespace alhazen {
 
-/// What a medium takes from light that goes straight on. The parts become wavelengths apart, as
-/// those of paths do.
+/// The extinction of a medium, per unit length. Its parts are converted to wavelengths separately,
+/// as in paths.
 struct Extinction {
     Rgb absorbed, scattered;
 
@@ -27,7 +27,7 @@ struct Extinction {
     }
 };
 
-/// Whether the surface may bound a volume: false of opaque ones and thin sheets.
+/// True if a surface of the material may bound a volume; false for opaque ones and thin sheets.
 [[nodiscard]] inline bool may_bound_volume(const Material& m) {
     if (m.conductor || m.dielectric) return m.dielectric.has_value();
     if (const auto& p = m.metallic_roughness) {
@@ -44,19 +44,19 @@ class ScatteringMedia {
               return m.alpha_mode != AlphaMode::Opaque && may_bound_volume(m);
           })) {}
 
-    /// Whether some medium does.
+    /// True if some medium scatters.
     [[nodiscard]] bool any() const { return scene_.has_scattering; }
-    /// Whether some boundary of a volume may cover in part, and be open for the rest.
+    /// True if some boundary of a volume may have a coverage below 1.
     [[nodiscard]] bool has_open_boundaries() const { return open_; }
-    /// Whether a straight ray may go through more than one volume.
+    /// True if a straight ray may pass through more than one volume.
     [[nodiscard]] bool are_followed() const { return any() || open_; }
-    /// Of a medium; null: it does not.
+    /// The scattering of a medium; null: none.
     [[nodiscard]] const VolumeScattering* in(const Medium& medium) const {
         if (!any()) return nullptr;
         const VolumeScattering& scattering = scene_.materials[medium.material].scattering;
         return scattering.coefficient.is_black() ? nullptr : &scattering;
     }
-    /// Of a shadow ray. Null: outside all.
+    /// The extinction of a medium for a shadow ray. Null: outside all volumes.
     [[nodiscard]] Extinction extinction(const Medium* medium) const {
         if (medium == nullptr) return {};
         const VolumeScattering* const scattering = in(*medium);

@@ -10,7 +10,8 @@ namespace alhazen {
 struct ShadingFrame {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< orthonormal, right-handed
 
-    /// `normal` unit; `tangent` of any length, any direction where it is along the normal.
+    /// `normal` must be unit; `tangent` may have any length. If it is along the normal, x is
+    /// arbitrary.
     [[nodiscard]] static ShadingFrame of(const Vec3& normal, const Vec3& tangent) {
         const Vec3 across = tangent - dot(tangent, normal) * normal;
         const double squared = length_squared(across);

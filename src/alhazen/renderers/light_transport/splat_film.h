@@ -1,6 +1,6 @@
 #pragma once
-/// Light that reaches the lens wherever it does: contributions to a film in any order, from any
-/// thread, with the same bits.
+/// Contributions to arbitrary points of a film, in any order and from any thread; sums are
+/// bit-identical.
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@ class SplatFilm {
   public:
     SplatFilm(const Film& film, const SamplingPlan& plan);
 
-    /// `place`: film coordinates in [0, 1], y up. False where the light is not finite.
+    /// Adds `light` at film coordinates `place` in [0, 1], y up. False if it is not finite.
     bool add(const Vec2& place, const Rgb& light);
 
     /// Adds the mean over `paths` paths to the pixels of `film`.

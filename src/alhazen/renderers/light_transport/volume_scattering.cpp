@@ -16,7 +16,7 @@ double henyey_greenstein(double cosine, double anisotropy) {
 }
 
 Vec3 sample_henyey_greenstein(const Vec3& direction, double anisotropy, const Vec2& u) {
-    constexpr double kIsotropic = 1e-6;  // below it the formula cancels
+    constexpr double kIsotropic = 1e-6;  // below this the formula loses digits
     const double g = anisotropy;
     double cosine = 2.0 * u.x - 1.0;
     if (std::abs(g) > kIsotropic) {
@@ -39,7 +39,7 @@ VolumeStep step_in_volume(const Spectrum& absorption, const Spectrum& scattering
     int chosen = 0;
     double above = chances[0];
     while (chosen + 1 < Spectrum::kCount && !(u.x < above)) above += chances[++chosen];
-    // Rounding may end on a channel without a chance.
+    // Rounding may select a channel of probability 0.
     while (chosen > 0 && chances[chosen] == 0.0) --chosen;
     const double distance = extinction[chosen] > 0.0 ? -std::log1p(-u.y) / extinction[chosen]
                                                      : std::numeric_limits<double>::infinity();

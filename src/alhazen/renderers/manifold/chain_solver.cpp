@@ -11,12 +11,12 @@ constexpr int kMostSteps = 16;
 constexpr int kMostHalvings = 4;
 constexpr int kFreeSteps = 6;
 constexpr double kFreeRise = 2.0;
-/// Radians between the last direction and that to the light.
+/// Largest angle between the last direction and that to the light, in radians.
 constexpr double kConverged = 1e-10;
-/// Where no step makes it smaller, rounding has the last word: enough for an estimate.
+/// Largest angle accepted when rounding prevents smaller ones.
 constexpr double kGoodEnough = 1e-7;
 
-/// The way from the last vertex to the end.
+/// The direction from the last vertex to the end.
 struct Aim {
     Vec3 direction;
     double inverse_distance = 0;  ///< 0: infinitely far
@@ -29,7 +29,7 @@ Aim aim_from(const Chain& chain, const ChainEnd& end) {
     return {way / distance, 1.0 / distance};
 }
 
-/// By how much a chain misses: the angle, along two vectors perpendicular to the aim.
+/// The error of a chain: the angle, along two vectors perpendicular to the aim.
 struct Miss {
     Aim aim;
     Vec3 a, b;
@@ -46,14 +46,14 @@ struct Miss {
         angle = scale * sine;
     }
     [[nodiscard]] double size() const { return std::hypot(angle.x, angle.y); }
-    /// Its change by the first direction.
+    /// Derivative of the error by the first direction.
     [[nodiscard]] Vec2 change(const ChainSlope& slope, std::size_t k) const {
         const Vec3 turned = slope.direction[k] + aim.inverse_distance * slope.end[k];
         return {dot(turned, a), dot(turned, b)};
     }
 };
 
-/// The first direction that a step towards `miss` = 0 asks for, as a step of the first vertex.
+/// The Newton step of the first direction towards error 0, as a step of the first vertex.
 std::optional<Vec3> newton_step(const Miss& miss, const ChainSlope& slope) {
     const Vec2 c0 = miss.change(slope, 0), c1 = miss.change(slope, 1);
     const double determinant = c0.x * c1.y - c1.x * c0.y;
@@ -76,7 +76,7 @@ bool walk_to(const ChainTracer& tracer, const ShapeSurface& from, std::uint64_t 
         if (!slope) return false;
         const std::optional<Vec3> step = newton_step(Miss(chain, end), *slope);
         if (!step) return false;
-        // The first steps may lead over a fold, behind which the chain is.
+        // The first steps may increase the error, to cross a fold in front of the solution.
         const double bound = i < kFreeSteps ? kFreeRise * now : now;
         const double reach = length(chain.at[0].surface.point - from.point);
         double share = std::min(1.0, reach / length(*step)), least = 0.0;
@@ -89,7 +89,7 @@ bool walk_to(const ChainTracer& tracer, const ShapeSurface& from, std::uint64_t 
             least = Miss(tried, end).size();
             better = least < bound;
         }
-        // A walk that crawls gets nowhere in time.
+        // Gives up when the error decreases too slowly.
         if (!better || (least > 0.999 * now && i >= kFreeSteps)) return now < kGoodEnough;
         chain = tried;
         now = least;

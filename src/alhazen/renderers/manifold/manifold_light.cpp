@@ -11,19 +11,20 @@ namespace alhazen {
 
 namespace {
 
-/// Parts whose chains are known, asked at every point: one is cheap.
+/// Largest number of parts with known chains that are searched at every point; such a search is
+/// cheap.
 constexpr std::size_t kMostAlways = 4;
-/// Parts that are weighed one by one; of more one is chosen evenly.
+/// Largest number of parts chosen by weight; of more one is chosen uniformly.
 constexpr std::size_t kMostWeighed = 64;
-/// Share of random seeds, of refractions, that lie around the straight way, and 1 less the cosine
-/// of their largest angle to it.
+/// For refractions: share of random seeds that lie around the straight direction, and 1 minus the
+/// cosine of their largest angle to it.
 constexpr double kNearStraight = 0.75, kStraightVersine = 0.06;
-/// Steps from the index 1 to that of a part, where the straight way is totally reflected.
+/// Number of steps from index 1 to that of a part, if the straight direction is totally reflected.
 constexpr int kIndexSteps = 4;
-/// Chains whose first directions differ by less are one.
+/// Chains whose first directions differ by less are equal.
 constexpr double kSameDirection = 1e-5;
 
-/// Share of all directions in which a part may be met.
+/// Share of all directions covered by the part's bounding sphere, at most 1/2.
 double share_of_directions(const SpecularPart& part, const Vec3& from) {
     if (!part.bounded) return 0.5;
     const double squared = length_squared(part.around.center - from);
@@ -89,7 +90,7 @@ ManifoldLight::Choice ManifoldLight::choose_part(double choice) const {
     }
     double weights[kMostWeighed] = {}, sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        // Never 0: what is small may send much.
+        // Above 0, because a part of small solid angle may contribute much light.
         weights[i] = share_of_directions(manifold_.parts[some[i]], at_->surface.point) + 1e-3;
         sum += weights[i];
     }
@@ -112,7 +113,7 @@ bool ManifoldLight::may_be(ChainKind kind) const {
     if (length_of(kind) > at_->most_bends) return false;
     if (!(refracts(kind) ? part.refracts : part.reflects)) return false;
     if (kind != ChainKind::Refraction || !part.closed) return true;
-    // From outside to outside it is crossed twice.
+    // Between two outside points the part is crossed twice.
     return part.box.contains(at_->surface.point) || (!end_.infinite && part.box.contains(end_.at));
 }
 
@@ -200,7 +201,7 @@ std::optional<ChainSeeds> ManifoldLight::all_seeds(ChainKind kind) {
 std::optional<Vec3> ManifoldLight::likely_seed(ChainKind kind) const {
     const SpecularPart& part = *part_.part;
     const Vec3& from = at_->surface.point;
-    // What is bent little goes nearly straight.
+    // Weak refraction changes the direction little.
     if (refracts(kind)) return straight();
     if (!part.bounded) return std::nullopt;
     const ChainSeeds seeds = reflections_by_sphere(part.around, from, end_);
@@ -294,7 +295,8 @@ Spectrum ManifoldLight::through_vertices(MediumStack& media) {
 }
 
 Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& last) {
-    // Between the vertices a refracted chain is in a medium of its own; a reflected one has one.
+    // A refracted chain has a medium of its own between the vertices; a reflected one has one
+    // vertex.
     MediumStack media = first;
     Spectrum share = Spectrum::all(1.0);
     const ShapeSurface* from = &at_->surface;

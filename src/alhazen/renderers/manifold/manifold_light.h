@@ -1,20 +1,20 @@
 #pragma once
-/// Light that reaches a point from a lamp by way of a mirror or of glass, found by walks on the
-/// manifold of specular chains: what shadow rays are for light that comes straight.
+/// Light that reaches a point from a light by way of a mirror or of glass, found by manifold walks
+/// of specular chains: the counterpart of shadow rays for specular paths.
 ///
 /// Source: Hanika, Droske and Fascione, "Manifold Next Event Estimation", EGSR 2015; Zeltner,
 /// Georgiev and Jakob, "Specular Manifold Sampling for Rendering High-Frequency Caustics and
-/// Glints", SIGGRAPH 2020, section 4.2 (the unbiased estimate: a chain counts as often as the walk
-/// has to be repeated until it finds the chain again); Booth, "Unbiased Monte Carlo Estimation of
-/// the Reciprocal of an Integral", 2007.
-/// Differs: at spheres and in planes all chains are known in closed form, and none is left to
-/// chance. Elsewhere the chain that a likely seed leads to counts once, as in the first source, and
-/// random seeds are for the others. Lights are picked by power and points of them by area. There is
-/// no weight shared with paths: a chain towards a light that can be hit counts here where the
-/// surface at its beginning spreads light as widely as kMostDensity, and else by paths alone.
+/// Glints", SIGGRAPH 2020, section 4.2 (the unbiased estimate: a chain is weighted by the number of
+/// trials until the walk finds it again); Booth, "Unbiased Monte Carlo Estimation of the Reciprocal
+/// of an Integral", 2007.
+/// Differs: at spheres and in planes all chains are known in closed form and summed. Elsewhere the
+/// chain found from a likely seed counts once, as in the first source, and random seeds find the
+/// others. Lights are sampled by power and their points by area. No multiple importance sampling
+/// with paths: a chain towards a light that rays can hit is counted here if the density at the
+/// surface where it begins is at most kMostDensity, and otherwise by paths only.
 /// Conventions: chains of one reflection, one refraction or two refractions, at one part
 /// (specular_parts.h).
-/// Threads: a ManifoldScene is shared; each thread has a ManifoldLight of its own.
+/// Threads: a ManifoldScene is shared; each thread has its own ManifoldLight.
 
 #include <atomic>
 #include <optional>
@@ -28,17 +28,16 @@
 
 namespace alhazen {
 
-/// The chain of single directions at the end of an eye path, since it last met a surface that
-/// spreads light.
+/// The specular chain at the end of an eye path, since its last non-specular scattering.
 struct ChainTrail {
     static constexpr std::uint8_t kNone = 255;
-    std::uint8_t length = kNone;  ///< kNone: it is not of the kinds that are sought
-    bool refracted = false;       ///< all of it; else all reflected
+    std::uint8_t length = kNone;  ///< kNone: not of the kinds found here
+    bool refracted = false;       ///< true: all refractions; else all reflections
     std::uint64_t part = 0;
 
-    /// The path was spread, with that density of its direction.
+    /// Starts after a scattering with that density of its direction.
     void begin(double density);
-    /// It went on in a single direction.
+    /// Continues by a reflection or refraction.
     void go_on(const Surface& surface, bool transmitted);
 };
 
@@ -46,19 +45,20 @@ struct ManifoldScene {
     ManifoldScene(const Scene& scene, const Illumination& lights);
 
     [[nodiscard]] bool finds_any() const { return !parts.empty() && lights.picks_any(); }
-    /// Whether ManifoldLight finds the light that the path of the trail hit, or may.
+    /// True if ManifoldLight finds, or may find, the light that the path of the trail hit.
     [[nodiscard]] bool finds(const ChainTrail& trail, const Hit& hit, const Surface& surface,
                              const Vec3& direction) const;
 
     SpecularParts parts;
-    /// Numbers of parts: those that are asked at every point, and those of which one is.
+    /// Indices of parts: searched at every point, and chosen at random.
     std::vector<std::size_t> always, by_chance;
     const Illumination& lights;
-    /// Estimates that ended after kMostTrials: their light is too dark.
+    /// Number of estimates truncated after kMostTrials, which are too dark.
     mutable std::atomic<std::uint64_t> cut{0};
 };
 
-/// By solid angle, of directions in which a surface counts as spreading: a matt one has 1 / pi.
+/// Largest density, by solid angle, of a direction of a surface that counts as diffuse; that of a
+/// matt surface is at most 1 / pi.
 inline constexpr double kMostDensity = 1.0;
 inline constexpr std::uint32_t kMostTrials = 4096;
 
@@ -75,18 +75,18 @@ class ManifoldLight {
         const MediumStack& media;  ///< in front of it
         float time;
         const Wavelengths& waves;
-        int most_bends;  ///< longest chain that is wanted
+        int most_bends;  ///< longest chain to be found
         const PathChance& chance;
         const SampleId& id;
-        std::uint32_t place;  ///< of its random numbers
+        std::uint32_t place;  ///< dimension of its random numbers
     };
-    /// Light that arrives along `direction` after `bends`, times what the point does with it.
+    /// Light that arrives along `direction` after `bends`, times the BSDF at the point.
     struct Arrived {
         Vec3 direction;
         int bends = 0;
         Spectrum light;
     };
-    /// Calls `tell(const Arrived&)` for each chain that is found.
+    /// Calls `tell(const Arrived&)` for each chain found.
     template <class Tell>
     void find(const Receiver& at, Tell&& tell) {
         found_.clear();
@@ -102,30 +102,30 @@ class ManifoldLight {
         const SpecularPart* part = nullptr;
         double probability = 0;
     };
-    /// Picks a light; false: there is none.
+    /// Samples a light; false if there is none.
     [[nodiscard]] bool begin(const Receiver& at);
     [[nodiscard]] double next_number() { return at_->chance.extra(at_->id, at_->place, number_++); }
     void find_by(const Choice& part);
     [[nodiscard]] Choice choose_part(double choice) const;
     [[nodiscard]] bool may_be(ChainKind kind) const;
     void find_kind(ChainKind kind);
-    /// Directions of all chains of the part; empty: they are not known.
+    /// Directions of all chains of the part; empty if they are unknown.
     [[nodiscard]] std::optional<ChainSeeds> all_seeds(ChainKind kind);
-    /// Where the chain often is.
+    /// A direction in which the chain is likely.
     [[nodiscard]] std::optional<Vec3> likely_seed(ChainKind kind) const;
     [[nodiscard]] Vec3 random_seed(ChainKind kind);
     [[nodiscard]] Vec3 straight() const {
         return normalize(end_.infinite ? end_.at : end_.at - at_->surface.point);
     }
     void find_by_trials(ChainKind kind);
-    /// The chain along a direction, its indices found.
+    /// Sets the chain along a direction, with its indices.
     [[nodiscard]] bool set_out(ChainKind kind, const Vec3& direction);
-    /// A chain to the light from that direction on.
+    /// Walks to a chain to the light, from that direction.
     [[nodiscard]] bool reach(ChainKind kind, const Vec3& seed);
-    /// The same where the bend at the seed is beyond the critical angle, after `set_out` failed
-    /// there: the indices rise from 1 on, the chain follows.
+    /// The same after `set_out` failed because of total reflection at the seed: the indices are
+    /// raised from 1 in steps, and the chain is followed.
     [[nodiscard]] bool reach_by_indices(ChainKind kind, const Vec3& seed);
-    /// What comes along chain_.
+    /// The contribution along chain_.
     [[nodiscard]] Spectrum light_along();
     [[nodiscard]] Spectrum through_vertices(MediumStack& media);
     [[nodiscard]] Spectrum unhindered(const MediumStack& first, const MediumStack& last);

@@ -9,12 +9,12 @@ namespace alhazen {
 
 namespace {
 
-/// (v - (v n) n) / length: the derivative of a unit vector whose numerator changes by v.
+/// (v - (v n) n) / length: the derivative of a unit vector whose unnormalised derivative is v.
 Vec3 across(const Vec3& v, const Vec3& n, double length) {
     return (v - dot(v, n) * n) / length;
 }
 
-/// A normal and its derivative; no formula: empty.
+/// A normal and its derivative; empty without a formula.
 struct NormalAndChange {
     Vec3 normal;
     Mat3 change;
@@ -34,7 +34,8 @@ inline constexpr bool is_quadric_v =
     std::is_same_v<S, Hyperboloid> || std::is_same_v<S, TwoSheetHyperboloid> ||
     std::is_same_v<S, EllipticCylinder> || std::is_same_v<S, EllipticCone>;
 
-/// The gradient of f changes by its second derivatives, between frames by the transposed matrix.
+/// The gradient's derivative is the matrix of second derivatives; frames are changed by the
+/// transposed matrix.
 MaybeChange change_on_quadric(const ClippedQuadric& solid, const Vec3& point) {
     const Mat3& local = solid.frame.local_from_object;
     const QuadricForm& form = solid.quadric.form();
@@ -51,7 +52,7 @@ MaybeChange change_on_quadric(const ClippedQuadric& solid, const Vec3& point) {
     return NormalAndChange{out, {of({1, 0, 0}), of({0, 1, 0}), of({0, 0, 1})}};
 }
 
-/// `point` and the unit `normal` (of either sign) in the frame of the shape.
+/// `point` and the unit `normal` (of either sign) are in the frame of the shape.
 template <class S>
 MaybeChange change_on(const S& shape, const ShapeHit& hit, const Vec3& point, const Vec3& normal) {
     if constexpr (is_flat_v<S>) {
@@ -78,7 +79,7 @@ MaybeChange change_on(const S& shape, const ShapeHit& hit, const Vec3& point, co
     }
 }
 
-/// Of the normal that is interpolated over a triangle, in the frame of the mesh.
+/// For the normal interpolated over a triangle, in the frame of the mesh.
 MaybeChange change_on_triangle(const TriangleMesh& mesh, std::uint32_t triangle, const Hit& hit,
                                const Vec3& flat) {
     if (mesh.normals.empty()) return NormalAndChange{flat, kNoChange};
@@ -88,7 +89,7 @@ MaybeChange change_on_triangle(const TriangleMesh& mesh, std::uint32_t triangle,
     const Vec3 normal = cross(a, b);
     const double squared = length_squared(normal);
     if (!(squared > 0.0)) return std::nullopt;
-    // The weights change by dot(dp, ga), dot(dp, gb).
+    // The weights' derivatives are dot(dp, ga), dot(dp, gb).
     const Vec3 ga = cross(b, normal) / squared, gb = cross(normal, a) / squared;
     const Vec3 na = mesh.normals[c[1]] - mesh.normals[c[0]];
     const Vec3 nb = mesh.normals[c[2]] - mesh.normals[c[0]];
@@ -102,7 +103,7 @@ MaybeChange change_on_triangle(const TriangleMesh& mesh, std::uint32_t triangle,
     return NormalAndChange{n, {of(ga.x, gb.x), of(ga.y, gb.y), of(ga.z, gb.z)}};
 }
 
-/// Carries it out of a placed frame: n ~ transpose(inner) own, dp_own = inner dp.
+/// Transforms it out of a placed frame: n ~ transpose(inner) own, dp_own = inner dp.
 MaybeChange carried_outward(const Placement& placement, const MaybeChange& own) {
     if (!own) return own;
     const Mat3& inner = placement.inner_from_outer.linear;
@@ -144,13 +145,13 @@ MaybeChange change_inside(const Aggregate& aggregate, const Hit& hit, std::size_
     });
 }
 
-/// How point and normal of a surface differ between two neighbours of a hit.
+/// Differences of point and normal between two neighbours of a hit.
 struct Difference {
     Vec3 point, normal;
 };
 
-/// Neighbours of a hit: by its parameters, which patches and swept shapes are evaluated at, or by
-/// the place that it has on its ray, which others project onto their surface.
+/// Neighbours of a hit: by its parameters, for patches and swept shapes, which are evaluated there,
+/// or by its position on its ray, for other shapes, which project it onto their surface.
 class Neighbours {
   public:
     Neighbours(const Aggregate& aggregate, const Ray& ray, const Hit& hit, const Surface& surface,
@@ -183,7 +184,7 @@ class Neighbours {
         const bool turned = dot(neighbour_.shading_normal, surface_.shading_normal) < 0.0;
         return {neighbour_.point, turned ? -neighbour_.shading_normal : neighbour_.shading_normal};
     }
-    /// Parts of the change along the normal are rounding.
+    /// Components along the normal are mere rounding and are removed.
     [[nodiscard]] Difference between(const Difference& a, const Difference& b) const {
         const Vec3 moved = a.point - b.point;
         return {moved - dot(moved, surface_.normal) * surface_.normal, a.normal - b.normal};
@@ -207,7 +208,7 @@ std::optional<Mat3> normal_change_by_differences(const Aggregate& aggregate, con
     Neighbours near(aggregate, ray, hit, surface, time);
     Difference found[2];
     int count = 0;
-    // Two that move the point in different directions are enough.
+    // Two neighbours that move the point in different directions are sufficient.
     const auto add = [&](const Difference& d) {
         constexpr double kMoves = 1e-9, kSlant = 0.05;
         if (!(length(d.point) > kMoves * max_component(abs(surface.point))) || count == 2) return;
@@ -223,7 +224,7 @@ std::optional<Mat3> normal_change_by_differences(const Aggregate& aggregate, con
     if (count < 2) add(near.by_place(t));
     if (count < 2) add(near.by_place(b));
     if (count < 2) return std::nullopt;
-    // K with K points[i] = normals[i], in the coordinates along t and b.
+    // Solves K points[i] = normals[i], in the coordinates along t and b.
     const double tt = dot(found[0].point, t), tb = dot(found[0].point, b);
     const double bt = dot(found[1].point, t), bb = dot(found[1].point, b);
     const double determinant = tt * bb - tb * bt;

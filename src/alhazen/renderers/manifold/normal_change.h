@@ -1,13 +1,13 @@
 #pragma once
-/// How the shading normal changes along a surface: its derivative by the point.
+/// The derivative of the shading normal by the surface point.
 ///
 /// Source: do Carmo, "Differential Geometry of Curves and Surfaces", 1976, section 3.2 (the
 /// differential of the Gauss map). Transforms: Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
-/// Differs: exact for spheres, what is flat, round cylinders, quadrics, and triangles with and
-/// without normals at their vertices, under any affine placement; of all other shapes by central
-/// differences of the exact normals of neighbouring points.
-/// Conventions: a matrix K with dn = K dp for steps dp in the tangent plane, n = the
-/// `shading_normal` of the surface as it is given. At edges it is that of one of the sides.
+/// Differs: exact for spheres, flat shapes, circular cylinders, quadrics, and triangles with and
+/// without vertex normals, under any affine placement; for other shapes by central differences of
+/// the exact normals of neighbouring points.
+/// Conventions: a matrix K with dn = K dp for steps dp in the tangent plane, where n is the
+/// surface's `shading_normal`. At edges it is that of one of the sides.
 /// Threads: free functions.
 
 #include <optional>
@@ -17,11 +17,12 @@
 
 namespace alhazen {
 
-/// `ray` found `hit` in `aggregate`, and `surface` is there.
+/// `ray` found `hit` in `aggregate`, where the surface is `surface`. Empty if there is no
+/// derivative.
 [[nodiscard]] std::optional<Mat3> normal_change(const Aggregate& aggregate, const Ray& ray,
                                                 const Hit& hit, const Surface& surface, float time);
 
-/// The same by differences alone.
+/// The same by differences only.
 [[nodiscard]] std::optional<Mat3> normal_change_by_differences(const Aggregate& aggregate,
                                                                const Ray& ray, const Hit& hit,
                                                                const Surface& surface, float time);

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Surfaces of other parts on the way to the next one of the part.
+/// Largest number of surfaces of other parts that a ray passes before the part.
 constexpr int kMostPassed = 64;
 
 }  // namespace

@@ -1,12 +1,13 @@
 #pragma once
-/// Chains of one or two mirror reflections and refractions at one part of a scene, followed from a
-/// point, with the derivatives of where they lead.
+/// Chains of one or two mirror reflections or refractions at one part of a scene, traced from a
+/// point, with the derivatives of their end.
 ///
 /// Source: Igehy, "Tracing Ray Differentials", SIGGRAPH 1999; Born and Wolf, "Principles of
 /// Optics", 7th edition, 1999, section 1.5 (the laws of reflection and refraction).
-/// Differs: derivatives by the direction of the first ray, in two vectors perpendicular to it.
-/// Conventions: only the part counts: rays pass all else, which is left to the tests of visibility.
-/// Directions are unit. Bends are those of the shading normal, as paths are.
+/// Differs: derivatives are by the direction of the first ray, along two vectors perpendicular to
+/// it.
+/// Conventions: rays intersect only the part; occlusion by other parts is tested elsewhere.
+/// Directions are unit. Reflection and refraction use the shading normal, as paths do.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +28,7 @@ inline constexpr int kChainKinds = 3;
     return kind != ChainKind::Reflection;
 }
 
-/// The surfaces of one material in what a part of the scene placed: a shape, a mesh, a solid.
+/// Key of a part: the surfaces of one material in an outermost instance, shape, mesh or solid.
 [[nodiscard]] inline std::uint64_t part_key(std::uint32_t instance, MaterialId material) {
     return std::uint64_t{instance} << 32 | static_cast<std::uint32_t>(material);
 }
@@ -38,20 +39,20 @@ inline constexpr int kChainKinds = 3;
 inline constexpr int kMostBends = 2;
 
 struct ChainVertex {
-    Ray ray;  ///< that found `hit`
+    Ray ray;  ///< the ray of `hit`
     Hit hit;
     Surface surface;
     Vec3 arriving;     ///< direction of the light path, from the eye's side
-    Vec3 normal;       ///< unit, shading, against `arriving`
-    Vec3 leaving;      ///< direction behind it
-    double travelled;  ///< since the vertex before
-    double eta = 1;    ///< index before it over that behind; of refractions
+    Vec3 normal;       ///< unit shading normal, against `arriving`
+    Vec3 leaving;      ///< direction after reflection or refraction
+    double travelled;  ///< distance from the previous vertex
+    double eta = 1;    ///< refractions: index in front over behind
     bool entering = true;
 };
 
 struct Chain {
     ChainKind kind = ChainKind::Reflection;
-    Vec3 direction;  ///< with which it sets out
+    Vec3 direction;  ///< the first direction
     std::array<ChainVertex, kMostBends> at;
 
     [[nodiscard]] int length() const { return length_of(kind); }
@@ -60,36 +61,36 @@ struct Chain {
     }
 };
 
-/// Indices of a chain, before over behind, with the sides they hold for.
+/// Indices of a chain, in front over behind, with the sides for which they are valid.
 struct ChainIndices {
     std::array<double, kMostBends> eta{1, 1};
     std::array<bool, kMostBends> entering{true, true};
 };
 
-/// How the end of a chain changes with its first direction.
+/// Derivatives of the end of a chain by its first direction.
 struct ChainSlope {
     std::array<Vec3, 2> first;      ///< perpendicular to the first direction
-    std::array<Vec3, 2> point;      ///< change of the first vertex by these
-    std::array<Vec3, 2> end;        ///< of the last vertex
-    std::array<Vec3, 2> direction;  ///< of the direction behind it
+    std::array<Vec3, 2> point;      ///< derivatives of the first vertex by these
+    std::array<Vec3, 2> end;        ///< derivatives of the last vertex
+    std::array<Vec3, 2> direction;  ///< derivatives of the last direction
 };
 
 class ChainTracer {
   public:
     ChainTracer(const Scene& scene, RayCounters& counters) : scene_(scene), counters_(counters) {}
 
-    /// The next surface of the part along a ray; false: it does not meet it.
+    /// The next surface of the part along a ray; false if there is none.
     [[nodiscard]] bool find(Ray ray, std::uint64_t part, RayKind kind, float time,
                             ChainVertex& vertex) const;
-    /// Turns the vertex' direction. False beyond the critical angle, and where the geometric normal
-    /// disagrees.
+    /// Reflects or refracts at a vertex. False beyond the critical angle, or if the geometric
+    /// normal disagrees.
     [[nodiscard]] static bool bend(bool refracted, ChainVertex& vertex);
-    /// The chain that leaves `from` along `direction`; false where there is none, or not of those
-    /// indices.
+    /// Traces the chain that leaves `from` along `direction`; false if there is none, or not with
+    /// those indices.
     [[nodiscard]] bool follow(const ShapeSurface& from, const Vec3& direction, ChainKind kind,
                               std::uint64_t part, const ChainIndices& indices, float time,
                               Chain& chain) const;
-    /// None where a normal has no derivative.
+    /// Empty if a normal has no derivative.
     [[nodiscard]] std::optional<ChainSlope> slope(const Chain& chain, float time) const;
 
   private:

@@ -12,7 +12,8 @@ namespace alhazen {
 
 namespace {
 
-/// Whether what bends light may differ from point to point in more than its weight.
+/// True if the directions of reflection or refraction, and not only their weight, may vary over the
+/// surface.
 bool varies_in_form(const Material& m) {
     const auto textured = [](const auto& input) { return input.texture != kNoTexture; };
     if (m.alpha_mode != AlphaMode::Opaque || textured(m.normal_map) || textured(m.roughness) ||
@@ -25,7 +26,7 @@ bool varies_in_form(const Material& m) {
            textured(p.coat.normal_map) || textured(p.coat.roughness) || textured(p.anisotropy);
 }
 
-/// The radius that a sphere has behind a transform that keeps angles; else none.
+/// The radius of a sphere under a similarity transform; empty for other transforms.
 std::optional<double> radius_behind(const Mat3& linear, double radius) {
     const double x = length(linear.x_axis), y = length(linear.y_axis), z = length(linear.z_axis);
     constexpr double kSame = 1e-12;

@@ -1,12 +1,11 @@
 #pragma once
-/// The parts of a scene whose surfaces are mirrors or clear glass everywhere: those at which
+/// The parts of a scene whose surfaces are mirrors or clear glass everywhere, at which specular
 /// chains are sought.
 ///
-/// Conventions: a part is what has one part_key: the surfaces of one material in a shape, a mesh, a
-/// solid or an outermost instance. Left out, so that their chains are
-/// left to paths: materials that vary over the surface in their normals, roughness or coverage,
-/// meshes whose vertices have materials, parts that reflected rays do not see, and all beyond
-/// kMostParts.
+/// Conventions: a part has one part_key: the surfaces of one material in a shape, a mesh, a solid
+/// or an outermost instance. Excluded, and left to paths, are materials that vary over the surface
+/// in normals, roughness or coverage, meshes with vertex materials, parts invisible to reflected
+/// rays, and all parts beyond kMostParts.
 /// Complexity: O(primitives of the objects that have such parts, instances expanded).
 
 #include <map>
@@ -32,8 +31,8 @@ struct SpecularPart {
     Box3 box;  ///< in world space; may be unbounded
     BoundingSphere around;
     bool bounded = true;
-    bool closed = true;  ///< what is outside of its box is outside of it
-    /// It is one sphere, or lies in one plane, and rests: its chains are known.
+    bool closed = true;  ///< points outside its box are outside the part
+    /// If it is one sphere, or lies in one plane, and does not move: its chains are known.
     std::optional<BoundingSphere> sphere;
     std::optional<FlatPlace> flat;
 };
@@ -45,12 +44,12 @@ class SpecularParts {
     [[nodiscard]] bool empty() const { return parts_.empty(); }
     [[nodiscard]] std::size_t size() const { return parts_.size(); }
     [[nodiscard]] const SpecularPart& operator[](std::size_t i) const { return parts_[i]; }
-    /// Null: it is none.
+    /// Null if there is none.
     [[nodiscard]] const SpecularPart* find(std::uint64_t key) const {
         const auto known = by_key_.find(key);
         return known == by_key_.end() ? nullptr : &parts_[known->second];
     }
-    /// Some are left out, for there are too many.
+    /// True if parts beyond kMostParts were excluded.
     [[nodiscard]] bool leaves_some_out() const { return leaves_some_out_; }
 
   private:
@@ -58,21 +57,21 @@ class SpecularParts {
         bool reflects = false, refracts = false;
         [[nodiscard]] bool any() const { return reflects || refracts; }
     };
-    /// What is around a primitive.
+    /// The enclosing objects of a primitive.
     struct Owner {
         Affine world;
-        std::optional<std::uint32_t> instance;  ///< number of the outermost
+        std::optional<std::uint32_t> instance;  ///< index of the outermost
         bool moves = false;
-        std::optional<Box3> solid;  ///< its box in world space, inside of a solid
+        std::optional<Box3> solid;  ///< its box in world space, for primitives of a solid
     };
     [[nodiscard]] Bends bends_of(const Material& material) const;
-    /// The material of a primitive, where it bends light and reflected rays see it.
+    /// The material of a primitive, if it reflects or refracts and is visible to reflected rays.
     [[nodiscard]] std::optional<MaterialId> bending(const PrimitiveTable& table,
                                                     PrimitiveId id) const;
     [[nodiscard]] bool has_some(const Aggregate& aggregate);
     void expand(const Aggregate& aggregate, const Owner& owner);
     void add(const PrimitiveTable& table, PrimitiveId id, const Owner& owner);
-    /// Sets what is known of a part of one primitive.
+    /// Sets the known shape of a part of one primitive.
     void set_form(const PrimitiveTable& table, PrimitiveId id, const Owner& owner,
                   SpecularPart& part) const;
 

@@ -10,11 +10,11 @@ namespace alhazen {
 
 namespace {
 
-/// The angle at the centre between the point and the light, over a chain whose rays pass the centre
-/// at the distance b = sin(incidence); radii 1.
+/// The angle at the centre between the point and the light, along a chain whose rays pass the
+/// centre at distance b = sin(incidence); for radius 1.
 struct BallAngle {
     double index;     ///< at least 1
-    double from, to;  ///< distances of both ends from the centre; infinite: 0 stands for 1 / d
+    double from, to;  ///< distances of the ends from the centre; infinite: 0 stands for 1 / d
     bool infinite = false;
 
     [[nodiscard]] double operator()(double b) const {
@@ -22,13 +22,13 @@ struct BallAngle {
         const double behind = infinite ? 0.0 : std::asin(b / to);
         return kPi + 2.0 * (std::asin(b) - entered) - std::asin(b / from) - behind;
     }
-    /// Its slope times sqrt(1 - b^2): it has the sign of the slope, and is finite.
+    /// Its derivative times sqrt(1 - b^2), which is finite and has the same sign.
     [[nodiscard]] double slope(double b) const {
         const double rest = 1.0 - b * b;
         const auto share = [&](double c) { return std::sqrt(rest / (c * c - b * b)); };
         return 2.0 - 2.0 * share(index) - share(from) - (infinite ? 0.0 : share(to));
     }
-    /// The same of its second derivative over b; rises with b.
+    /// Its second derivative over b, scaled likewise; increasing in b.
     [[nodiscard]] double curvature(double b) const {
         const double rest = 1.0 - b * b;
         const auto share = [&](double c) { return std::pow(rest / (c * c - b * b), 1.5); };
@@ -36,7 +36,7 @@ struct BallAngle {
     }
 };
 
-/// The zero of a function with other signs at both ends.
+/// The zero of a function with different signs at both ends.
 template <class F>
 double bisected(F&& f, double lo, double hi) {
     const bool rises = f(lo) < 0.0;
@@ -72,7 +72,7 @@ ChainSeeds refractions_by_ball(const BoundingSphere& sphere, double index, const
     if (!(angle.from > 1.0) || !(end.infinite || angle.to > 1.0) || !(index >= 1.0)) return seeds;
     const Vec3 to_point = f / angle.from, to_light = t / length(t);
     const double between = std::atan2(length(cross(to_point, to_light)), dot(to_point, to_light));
-    // Towards the light in the plane of both, across the way to the centre.
+    // Towards the light, in the plane of both, perpendicular to the direction of the centre.
     const Vec3 side = to_light - dot(to_light, to_point) * to_point;
     const double size = length(side);
     const Vec3 across = size > 1e-12 ? side / size : perpendicular(to_point);
@@ -94,7 +94,7 @@ ChainSeeds refractions_by_ball(const BoundingSphere& sphere, double index, const
     ends.push_back(kEdge);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const double lo = ends[i], hi = ends[i + 1];
-        // By either side of the ball.
+        // Chains on either side of the ball.
         for (const double wanted : {between, 2.0 * kPi - between}) {
             const auto miss = [&](double b) { return angle(b) - wanted; };
             if (!(miss(lo) * miss(hi) < 0.0) || seeds.full()) continue;
@@ -121,7 +121,7 @@ ChainSeeds refractions_by_plane(const Vec3& point, const Vec3& normal, double et
                                 const ChainEnd& end) {
     ChainSeeds seeds;
     const double signed_height = dot(from - point, normal);
-    // Turned so that the light is below.
+    // Oriented so that the light is below.
     const Vec3 up = signed_height > 0.0 ? normal : -normal;
     const double height = std::abs(signed_height);
     const Vec3 way = end.infinite ? end.at : end.at - from;
@@ -130,7 +130,7 @@ ChainSeeds refractions_by_plane(const Vec3& point, const Vec3& normal, double et
     const double across = length(side);
     const Vec3 along = across > 0.0 ? side / across : perpendicular(up);
     if (end.infinite) {
-        // n1 sin 1 = n2 sin 2.
+        // Snell's law: n1 sin 1 = n2 sin 2.
         const double sine = across / length(way) / eta;
         if (!(drop > 0.0) || !(sine < 1.0) || !(height > 0.0)) return seeds;
         seeds.push_back(sine * along - std::sqrt(1.0 - sine * sine) * up);
@@ -138,7 +138,8 @@ ChainSeeds refractions_by_plane(const Vec3& point, const Vec3& normal, double et
     }
     const double depth = drop - height;
     if (!(height > 0.0) || !(depth > 0.0)) return seeds;
-    // How far from the foot of the normal the plane is crossed: eta sin 1 - sin 2 rises with it.
+    // Distance of the crossing of the plane from the foot of the normal: eta sin 1 - sin 2
+    // increases with it.
     const auto miss = [&](double x) {
         return eta * x / std::hypot(x, height) - (across - x) / std::hypot(across - x, depth);
     };

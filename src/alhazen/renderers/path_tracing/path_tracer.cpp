@@ -26,7 +26,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       bsdfs_(scene_, true),
-      // What is recorded, layers and chains are of one vertex at a time.
+      // Records, layers, polarisation and manifold search handle one vertex at a time.
       most_waiting_(job.path != nullptr || layers != nullptr || settings.polarization ||
                             manifold != nullptr
                         ? 1
@@ -71,7 +71,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         bounce(first);
     }
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        // Where no light was found its wavelengths do not matter.
+        // Black light needs no wavelengths.
         const Wavelengths& waves = light_[i].is_black() ? kColorChannels : waves_of(i);
         radiance[i] = waves.color(light_[i]);
         if (i == recorded_) job_.path->radiance = radiance[i];
@@ -81,7 +81,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
 
 void PathTracer::begin_record() {
     recorded_ = kNoSample;
-    // Chains of mirrors and the polarised light of a path are not told.
+    // Paths with layers, polarisation or manifold search are not recorded.
     if (job_.path == nullptr || joins_apart() || manifold_ != nullptr) return;
     for (std::uint32_t i = 0; i < ids_.size(); ++i) {
         if (ids_[i].number == job_.path->sample) recorded_ = i;
@@ -282,7 +282,7 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
                       Spectrum& sum) {
     add_emission(path, ray, hit, point, sum);
     const bool deepest = path.scatterings >= settings_.depth;
-    // What scatters in volumes has boundaries that are no scatterings.
+    // With scattering volumes, a null boundary is passed without a scattering.
     if (point.material->unlit || (deepest && !media_.any())) {
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
@@ -360,7 +360,7 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
     }
     Spectrum light = path.throughput * emission_of(scene_, point, waves(path));
     if (!path.singular) {
-        // What shows its colour whatever the light is no lamp.
+        // Unlit surfaces show their colour and emit no light.
         if (point.material->unlit) return;
         const double other = lights_.density(path.from, ray, hit, point.surface, path.travelled);
         light = power_heuristic(path.density, other) * light;
@@ -419,7 +419,7 @@ bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ra
     return true;
 }
 
-/// `ray`: from where the path is scattered, straight on.
+/// `ray`: from the point of scattering, straight on.
 void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray,
                                    Spectrum& sum) {
     const double g = media_.in(medium)->anisotropy;
@@ -491,7 +491,7 @@ void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& d
                       : drawn->singular ? PathStep::Mirrored
                                         : PathStep::Scattered);
     if (drawn->straight) {
-        // Shadow rays pass thin sheets, too: the densities remain those of the last scattering.
+        // Shadow rays pass thin sheets, too: density and point of the last scattering are kept.
         if (++path.met > kMaxPassedSurfaces) {
             record_step(path, PathStep::PassedMost);
             return;

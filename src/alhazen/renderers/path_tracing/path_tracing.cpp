@@ -12,8 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Enough that the batch stays worth its casts while paths end; few enough for its paths to stay in
-/// the cache.
+/// Paths per batch: enough for efficient casts while paths end, and few enough for the cache.
 constexpr std::size_t kPathsAtOnce = 256;
 
 class PathTiles final : public TiledRenderer {
@@ -34,7 +33,7 @@ class PathTiles final : public TiledRenderer {
     const ManifoldScene* manifold_;
 };
 
-/// What is left out or too dark.
+/// Adds warnings about light that is left out or too dark.
 void add_notes(const ManifoldScene& manifold, std::vector<std::string>& notes) {
     if (const std::uint64_t cut = manifold.cut) {
         notes.push_back(std::to_string(cut) +
@@ -61,7 +60,7 @@ RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
     if (job.aovs != nullptr && LightLayers::has_any(job.aovs->wanted())) {
         const SamplingPlan& plan = *planned.sampling;
         layers.emplace(film.crop(), job.aovs->wanted(),
-                       // Shared samples lie evenly in their pixels.
+                       // Shared samples are uniform in their pixels.
                        plan.shared ? 1.0 : FilterKernel(*plan.filter, plan.radius).mean_sign());
     }
     std::optional<ManifoldScene> manifold;

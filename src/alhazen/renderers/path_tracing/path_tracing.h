@@ -1,14 +1,13 @@
 #pragma once
-/// Path tracing: the rendering equation by random paths from the eye, lights sampled at each
-/// surface and hit by chance, both weighed by their densities.
+/// Path tracing: random paths from the eye, with lights sampled at each surface and hit by
+/// scattered rays, both weighted by their densities.
 ///
 /// Source: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach and Guibas, "Optimally Combining
 /// Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995 (multiple importance sampling, the
 /// power heuristic); Arvo and Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990
 /// (Russian roulette); Laine, Karras and Aila, "Megakernels Considered Harmful", HPG 2013
 /// (wavefronts).
-/// Differs: the terms of Whitted's equation that stand for light from everywhere (ambient lights)
-/// are not used; that light is found.
+/// Differs: ambient lights of Whitted's equation are not used, since indirect light is computed.
 /// Conventions: pairs of dimensions as in light_transport/path_chance.h. Pixels depend neither on
 /// the threads nor on tiles.
 
@@ -25,7 +24,7 @@ class PathTracing final : public LightTransportRenderer {
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool takes_wavelengths() const override {
-        return !settings_.manifold;  // chains know one index
+        return !settings_.manifold;  // chains have one refractive index
     }
 
     [[nodiscard]] bool scatters_in_volumes() const override { return !settings_.manifold; }
@@ -34,7 +33,7 @@ class PathTracing final : public LightTransportRenderer {
     PathSettings settings_;
 };
 
-/// The same for lights that are ready.
+/// Renders by path tracing with given `lights`.
 [[nodiscard]] RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
                                        const PathSettings& settings, Film& film);
 

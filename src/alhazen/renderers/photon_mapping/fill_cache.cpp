@@ -13,10 +13,10 @@ namespace alhazen {
 
 namespace {
 
-/// Pixels that one thread takes at a time.
+/// Number of pixels of a task.
 constexpr std::size_t kPixelsAtOnce = 64;
 
-/// Pixels of multiples of `step` that are none of twice the step.
+/// Pixels at multiples of `step` that are not multiples of twice the step.
 std::vector<SamplePixel> pixels_of_step(const Film& film, int step, bool first) {
     std::vector<SamplePixel> pixels;
     for (int y = 0; y < film.frame_height(); y += step) {
@@ -44,7 +44,7 @@ IrradianceCache filled_cache(const RenderJob& job, const Film& film, const Illum
     const FilterKernel filter(*plan.filter, plan.radius);
     const SampleRound round{*sampler, filter, 0, 1, {}, {}, job.seed};
     PhotonMappingSettings looking = settings;
-    looking.paths.every = 1;  // a record is made where the one sample looks
+    looking.paths.every = 1;  // a record is made at the hit of the only sample
     RenderJob part = job;
     part.round = &round;
     ThreadLimit threads(job.control.threads);

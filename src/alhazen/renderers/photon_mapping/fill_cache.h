@@ -1,17 +1,17 @@
 #pragma once
-/// The irradiance cache of a picture, filled before it is rendered.
+/// Fills the irradiance cache of a picture before rendering.
 ///
 /// Conventions: eye paths through the middle of pixels, first of every 16th, then of every 8th and
-/// so on. Where the records of the rounds before do not serve, a new one is made; those of a round
+/// so on. A new record is made where the records of earlier rounds do not suffice; those of a round
 /// are added in the order of the pixels: the same cache for any number of threads. The whole frame
-/// is seen, whatever the crop.
+/// is covered, regardless of the crop.
 
 #include "alhazen/renderers/photon_mapping/irradiance_cache.h"
 #include "alhazen/renderers/photon_mapping/photon_maps.h"
 
 namespace alhazen {
 
-/// `counters` is added to. Incomplete after a stop.
+/// Adds to `counters`. Incomplete after a stop.
 [[nodiscard]] IrradianceCache filled_cache(const RenderJob& job, const Film& film,
                                            const Illumination& lights, const PhotonMaps& maps,
                                            const PhotonMappingSettings& settings,

@@ -68,7 +68,7 @@ IrradianceRecord GatheringEye::record_at(const SeenPoint& at) {
         record.irradiance += (kPi / gather_) * arriving(path, at, numbers, distance);
         inverse += 1.0 / (gather_ * distance);
     }
-    // Not closer together than pixels, not farther apart than 64 of them.
+    // Least and largest reach of a record, in pixels.
     constexpr double kLeastPixels = 2.0, kMostPixels = 64.0;
     const double pixel = at.path.cone.width / cache_->error();
     record.distance = 1.0 / inverse;

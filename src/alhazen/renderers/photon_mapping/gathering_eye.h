@@ -1,11 +1,11 @@
 #pragma once
-/// The eye of photon mapping: caustics from their map, other indirect light by final gathering or
-/// from the global map.
+/// The eye pass of photon mapping: caustics from their map, other indirect light by final gathering
+/// or from the global map.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 5.
-/// Differs: gathering rays are drawn from the whole BSDF, at points of a shifted Hammersley set.
-/// Those that meet mirrors or glass go on behind them; lights that they meet are direct light or a
-/// caustic, which are found elsewhere. Of matt surfaces the cache tells the light where it can.
+/// Differs: gathering rays are sampled from the whole BSDF, by a shifted Hammersley set. Rays that
+/// hit mirrors or glass continue; emission that they hit is ignored, as it is direct light or a
+/// caustic. Matt surfaces use the irradiance cache where possible.
 
 #include "alhazen/renderers/photon_mapping/irradiance_cache.h"
 #include "alhazen/renderers/photon_mapping/photon_maps.h"
@@ -24,19 +24,19 @@ class GatheringEye final : public PhotonEye {
           gather_(settings.gather),
           next_(job.scene, counters, job.count_tests ? &counters.tests : nullptr) {}
 
-    /// What the cache does not know is appended there from now on.
+    /// Sets the list to which records missing in the cache are appended.
     void keep_records(std::vector<IrradianceRecord>* records) { records_ = records; }
 
   private:
     [[nodiscard]] Spectrum photon_light(const SeenPoint& at) override;
     [[nodiscard]] Spectrum photon_light(const SeenVolume& at) override;
-    /// Light that has been scattered before, or came by way of mirrors and glass.
+    /// Light scattered before, or by way of mirrors and glass.
     [[nodiscard]] Spectrum volume_light(const VolumePoint& at, std::size_t waves, bool hero_only);
     [[nodiscard]] Spectrum gathered(const SeenPoint& at);
-    /// The same for a matt surface, by way of the cache.
+    /// Indirect light of a matt surface, by the cache.
     [[nodiscard]] Spectrum matt_light(const SeenPoint& at, const Spectrum& reflectance);
     [[nodiscard]] IrradianceRecord record_at(const SeenPoint& at);
-    /// The light that a gathering ray from `at` brings. Sets the distance to what it meets first.
+    /// Radiance along a gathering ray from `at`. Sets the distance to its first hit.
     [[nodiscard]] Spectrum arriving(PathEnd& path, const SeenPoint& at, const PathNumbers& numbers,
                                     double& distance);
 
@@ -46,7 +46,7 @@ class GatheringEye final : public PhotonEye {
     int gather_;
     NextSurface next_;
     ScatterPoint met_;
-    Wavelengths along_;  ///< of the gathering ray
+    Wavelengths along_;  ///< wavelengths of the gathering ray
     PhotonDensity density_;
 };
 

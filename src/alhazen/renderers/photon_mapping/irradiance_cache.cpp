@@ -23,7 +23,7 @@ std::array<std::int64_t, 3> cache_cell(const Vec3& point, int level) {
 double IrradianceCache::error_at(const IrradianceRecord& record, const Vec3& point,
                                  const Vec3& normal) {
     const Vec3 apart = point - record.point;
-    // Behind the record there may be what it does not see.
+    // A record behind the point may not see what the point sees.
     if (dot(apart, record.normal + normal) < -0.1 * record.distance) return kInfinity;
     const double turned = 1.0 - dot(normal, record.normal);
     return length(apart) / record.distance + std::sqrt(std::max(0.0, turned));
@@ -34,7 +34,7 @@ void IrradianceCache::add(const IrradianceRecord& record) {
     if (!(reach > 1e-150 && reach < 1e150)) return;
     const auto number = static_cast<std::uint32_t>(records_.size());
     records_.push_back(record);
-    // Cells are at least as wide as the reach on both sides.
+    // Cells are at least twice as wide as the reach.
     const int level = std::ilogb(2.0 * reach) + 1;
     Level& cells = levels_[level];
     const Vec3 far{reach, reach, reach};
@@ -58,7 +58,7 @@ std::optional<Spectrum> IrradianceCache::irradiance(const Vec3& point, const Vec
         for (const std::uint32_t number : cell->second) {
             const double error = error_at(records_[number], point, normal);
             if (!(error < error_)) continue;
-            // Ward's weight 1 / error, less what it is at the end of the reach: no edges.
+            // Ward's weight 1 / error, minus its value at the end of the reach, for continuity.
             const double weight = 1.0 / std::max(error, 1e-6) - 1.0 / error_;
             sum += weight * records_[number].irradiance;
             weights += weight;

@@ -34,24 +34,23 @@ class PhotonTiles final : public TiledRenderer {
     const IrradianceCache* cache_;
 };
 
-/// Throws where a setting would do nothing with wavelengths.
+/// Throws for settings without effect in spectral rendering.
 void refuse_wavelengths(const PhotonMappingSettings& settings) {
     const auto refuse = [](const char* why) {
         throw Error(ErrorKind::Usage, std::string("photon_mapping: ") + why);
     };
     if (settings.cache > 0.0) {
-        refuse(
-            "the irradiance cache keeps colours, not wavelengths: --spectral takes cache=0 alone");
+        refuse("the irradiance cache keeps colours, not wavelengths: --spectral requires cache=0");
     }
     if (settings.irradiance) {
         refuse(
-            "irradiance at photons is of colours, not of wavelengths: --spectral takes "
-            "irradiance=off alone");
+            "irradiance at photons is of colours, not of wavelengths: --spectral requires "
+            "irradiance=off");
     }
     if (settings.paths.every > 1) {
         refuse(
-            "each sample has to look at the photons of its own wavelengths: --spectral takes "
-            "every=1 alone");
+            "each sample must use the photons of its own wavelengths: --spectral requires "
+            "every=1");
     }
 }
 

@@ -1,17 +1,16 @@
 #pragma once
-/// Photon mapping: photons are shot from the lights and kept, then looked at from the eye.
+/// Photon mapping: photons are shot from the lights, stored, and gathered from the eye.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996; Jensen, "Realistic Image
 /// Synthesis Using Photon Mapping", 2001.
 /// Differs: photons/photon_walk.h, photons/photon_density.h, photons/photon_eye.h. With `gather` 0
-/// the light that the global map shows is only what neither shadow rays nor the caustic map find.
-/// Light by wavelengths: kWaveSets pairs of maps, each for four wavelengths, share the photons, and
-/// the samples of a pixel look at them in turn, for that share of `nearest` photons.
-/// Conventions: maps depend on the scene and the seed alone, pixels on those and their own
+/// the global map holds only light that neither shadow rays nor the caustic map find. Spectral:
+/// kWaveSets pairs of maps, each for four wavelengths, share the photons; the samples of a pixel
+/// use them in turn, with that share of `nearest` photons.
+/// Conventions: maps depend only on the scene and the seed, pixels on these and their own
 /// coordinates.
-/// Errors: an irradiance cache, irradiance at photons or looks in turn with wavelengths (Usage),
-/// photons that do not fit into the memory,
-/// lights that send none (photon_shooting.h).
+/// Errors: with wavelengths, an irradiance cache, irradiance at photons or lookups in turn (Usage);
+/// photons that do not fit into the memory; lights that emit none (photon_shooting.h).
 
 #include <cstdint>
 
@@ -22,16 +21,16 @@
 namespace alhazen {
 
 struct PhotonMappingSettings {
-    std::uint64_t photons = 100000;   ///< of the global map that leave the lights
-    std::uint64_t caustics = 100000;  ///< the same of the caustic map; 0: none
-    int nearest = 80;                 ///< photons of an estimate
-    double radius = 0;                ///< largest of an estimate; 0: by the map
+    std::uint64_t photons = 100000;   ///< photons emitted for the global map
+    std::uint64_t caustics = 100000;  ///< photons emitted for the caustic map; 0: none
+    int nearest = 80;                 ///< number of photons of an estimate
+    double radius = 0;                ///< largest radius of an estimate; 0: determined from the map
     DensityFilter filter = DensityFilter::Cone;
-    int gather = 0;       ///< rays of the final gathering; 0: the global map is looked at directly
-    double cache = 0;     ///< error of the irradiance cache of the final gathering; 0: none
-    double memory = 512;  ///< of the maps, in megabytes
-    bool irradiance = false;  ///< of the global map is computed at its photons, before the picture
-    bool projection = true;   ///< caustic photons are sent towards mirrors and glass
+    int gather = 0;           ///< rays of the final gathering; 0: direct lookup in the global map
+    double cache = 0;         ///< error of the irradiance cache of the final gathering; 0: none
+    double memory = 512;      ///< limit for the maps, in megabytes
+    bool irradiance = false;  ///< precompute the irradiance of the global map at its photons
+    bool projection = true;   ///< aim caustic photons at mirrors and glass
     PathSettings paths;
 };
 

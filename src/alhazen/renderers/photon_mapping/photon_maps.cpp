@@ -14,12 +14,12 @@ namespace alhazen {
 
 namespace {
 
-/// Bytes of a photon while its map is built: itself, its place and its number.
+/// Bytes per photon while its map is built: the photon, its place and its index.
 constexpr double kBytesOfPhoton = sizeof(Photon) + 9;
-/// Each of four wavelengths.
+/// Number of sets of four wavelengths.
 constexpr std::uint32_t kWaveSets = 16;
 
-/// The share of one of the sets, rounded up.
+/// The share of one set, rounded up.
 std::uint64_t share_of(std::uint64_t photons, const PhotonMaps& maps) {
     return (photons + maps.pairs.size() - 1) / maps.pairs.size();
 }
@@ -54,8 +54,8 @@ bool fill(const RenderJob& job, const Illumination& lights, const PhotonShot& sh
     return true;
 }
 
-/// Both maps of a set. `seed`: of the photons before, and then of these; `projection`: made by the
-/// first. False after a stop.
+/// Fills both maps of a set. `seed`: of the previous photons, then of these; `projection`: made by
+/// the first set. False after a stop.
 bool fill_pair(const RenderJob& job, const Illumination& lights,
                const PhotonMappingSettings& settings, std::size_t set, std::uint64_t& seed,
                std::optional<ProjectionMap>& projection, PhotonMaps& maps) {

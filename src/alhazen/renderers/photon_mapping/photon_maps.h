@@ -9,17 +9,17 @@
 
 namespace alhazen {
 
-/// The maps for some wavelengths, or for the channels of colours.
+/// The maps for a set of wavelengths, or for RGB channels.
 struct PhotonMapPair {
-    PhotonMap caustic;  ///< of light by way of mirrors and smooth glass alone
-    PhotonMap global;   ///< with final gathering all light, else what is in no other part
-    /// The same in volumes; neither has direct light.
+    PhotonMap caustic;  ///< light by way of mirrors and smooth glass only
+    PhotonMap global;   ///< all light with final gathering, else light missing in all other parts
+    /// Maps of the light in volumes, without direct light.
     PhotonMap caustic_in_volumes, global_in_volumes;
 };
 
 struct PhotonMaps {
     std::vector<Wavelengths> waves;
-    std::vector<PhotonMapPair> pairs;  ///< [as `waves`]
+    std::vector<PhotonMapPair> pairs;  ///< one for each of `waves`
     RayCounters counters;
     bool complete = true;  ///< false after a stop
 };

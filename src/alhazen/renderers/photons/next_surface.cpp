@@ -9,9 +9,9 @@ namespace alhazen {
 
 namespace {
 
-/// Dimensions from here on decide about coverage.
+/// First dimension for decisions about coverage.
 constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
-/// Those from here on about ways through volumes.
+/// First dimension for distances in volumes.
 constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
 
 }  // namespace

@@ -1,9 +1,9 @@
 #pragma once
-/// What numbered paths leave behind, by all threads.
+/// Collects records of numbered paths, in parallel.
 ///
-/// Conventions: records are in the order of the numbers, and for one number in that in which they
-/// were left: the same for any number of threads. Memory: at most `most` records and what a group
-/// of numbers adds to them.
+/// Conventions: records are sorted by the number of their path, and for one number by the order of
+/// storage: the same for any number of threads. Memory: at most `most` records plus those of a
+/// group of numbers.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// The error for records that do not fit: `shot` of `count` paths left more than `most`.
+/// Throws the error for records that do not fit: `shot` of `count` paths left more than `most`.
 [[noreturn]] void refuse_photons(const char* renderer, std::uint64_t shot, std::uint64_t count,
                                  std::size_t most);
 
@@ -24,17 +24,17 @@ struct NumberedRecords {
     std::vector<Record> records;
     RayCounters counters;
     std::uint64_t powerful = 0;  ///< paths whose light gave them power
-    bool complete = true;        ///< false after a stop, or where the first paths had no power
+    bool complete = true;        ///< false after a stop, or if the first paths had no power
 };
 
-/// `walk_with(counters, stats)` makes an object whose `shoot(number, records)` appends what path
-/// `number` leaves and says whether it had power. `renderer`: its name, for messages. Throws Error
-/// (Resource) where more than `most` records would be stored.
+/// `walk_with(counters, stats)` makes an object whose `shoot(number, records)` appends the records
+/// of path `number` and returns whether it had power. `renderer`: name for messages. Throws Error
+/// (Resource) if more than `most` records would be stored.
 template <class Record, class WalkWith>
 [[nodiscard]] NumberedRecords<Record> shoot_numbers(const RenderJob& job, std::uint64_t count,
                                                     std::size_t most, const char* renderer,
                                                     const WalkWith& walk_with) {
-    // Numbers that one thread takes at a time, and takes of them between two looks at the store.
+    // Numbers of a task, and number of tasks between two appends to the store.
     constexpr std::uint64_t kTogether = 4096, kTakes = 64;
     NumberedRecords<Record> all;
     std::vector<NumberedRecords<Record>> takes(kTakes);

@@ -4,11 +4,11 @@ namespace alhazen {
 
 namespace {
 
-// In 96 bits: the mark, whether it is the hero's alone, the first wavelength and 7 bits of the last
-// one; the second and 9 bits; the third and 7 bits.
+// Layout of the 96 bits: the mark, the flag of the hero, the first wavelength and 7 bits of the
+// last one; the second and 9 bits; the third and 7 bits.
 constexpr std::uint32_t kMark = 1u << 31, kHero = 1u << 30;
 
-/// Exponent and 15 bits behind the point of a float that is not below 0.
+/// Exponent and 15 fraction bits of a non-negative float.
 std::uint32_t rounded_float(double value) {
     const float f = static_cast<float>(std::max(0.0, value));
     return std::min((std::bit_cast<std::uint32_t>(f) + 0x80u) >> 8, 0x7f7fffu);

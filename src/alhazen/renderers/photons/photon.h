@@ -1,13 +1,12 @@
 #pragma once
-/// Light that has arrived at a surface, or where a volume scatters it, in 32 bytes.
+/// Light that has arrived at a surface, or at a scattering event in a volume, in 32 bytes.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 4 (a compact
 /// photon); Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 /// JCGT 3(2), 2014 (octahedral vectors).
-/// Differs: three floats of power instead of a shared exponent; the normal of the surface, so that
-/// light of a wall is not taken for light of the wall behind it.
-/// Conventions: world space; directions within 10^-4 rad of what was stored, positions rounded to
-/// floats.
+/// Differs: three floats of power instead of a shared exponent; stores the normal of the surface,
+/// to exclude light of the other side of a wall.
+/// Conventions: world space; directions are accurate to 10^-4 rad, positions rounded to floats.
 
 #include <algorithm>
 #include <array>
@@ -36,7 +35,7 @@ class OctahedralVector {
         y_ = rounded(y);
     }
     [[nodiscard]] Vec3 vector() const { return normalize(along()); }
-    /// In its direction, not of unit length.
+    /// The direction, not of unit length.
     [[nodiscard]] Vec3 along() const {
         double x = x_ / kScale, y = y_ / kScale;
         const double z = 1.0 - std::abs(x) - std::abs(y);
@@ -47,7 +46,7 @@ class OctahedralVector {
         }
         return {x, y, z};
     }
-    /// What is no direction: its `vector` means nothing.
+    /// A special value without a direction: `vector` is undefined.
     [[nodiscard]] static OctahedralVector none() {
         OctahedralVector v;
         v.x_ = kNone;
@@ -66,17 +65,17 @@ class OctahedralVector {
     std::int16_t x_ = 0, y_ = 0;
 };
 
-/// Light in 96 bits: the channels of a colour, or of four wavelengths.
+/// Encodes light in 96 bits: RGB channels, or four wavelengths with their radiance.
 ///
-/// Conventions: not below 0. Wavelengths have 23 bits each, rounded (within 2^-16), and are marked
-/// by the sign of the first float.
+/// Conventions: not negative. Wavelengths have 23 bits each, rounded (within 2^-16); the sign of
+/// the first float marks them.
 [[nodiscard]] std::array<float, 3> stored_light(const Spectrum& light, const Wavelengths& waves);
 
 struct Photon {
     std::array<float, 3> position{};
-    std::array<float, 3> power{};  ///< that arrives, as `stored_light`
-    OctahedralVector from;         ///< towards where it came from
-    OctahedralVector normal;       ///< geometric, on that side; none: in a volume
+    std::array<float, 3> power{};  ///< arriving power, as `stored_light`
+    OctahedralVector from;         ///< direction towards its origin
+    OctahedralVector normal;       ///< geometric, on that side; none in a volume
 
     [[nodiscard]] Vec3 point() const { return {position[0], position[1], position[2]}; }
     [[nodiscard]] Spectrum light() const {
@@ -84,7 +83,7 @@ struct Photon {
                                       : Spectrum{power[0], power[1], power[2], power[2]};
     }
     [[nodiscard]] bool in_volume() const { return normal.is_none(); }
-    /// Whether it carries the light of all wavelengths at that of the hero.
+    /// True if the hero carries the light of all wavelengths.
     [[nodiscard]] bool hero_only() const {
         return (std::bit_cast<std::uint32_t>(power[0]) >> 30) == 3;
     }
@@ -94,11 +93,11 @@ struct Photon {
 };
 static_assert(sizeof(Photon) == 32);
 
-/// What a photon met between its light and the surface.
+/// The scattering of a photon between its light and the surface.
 enum class PhotonKind : std::uint8_t {
-    Direct,    ///< nothing
-    Caustic,   ///< mirrors and smooth glass only
-    Indirect,  ///< something that scatters with a density
+    Direct,    ///< none
+    Caustic,   ///< only mirrors and smooth glass
+    Indirect,  ///< some scattering with a density
 };
 
 /// A set of kinds.

@@ -11,21 +11,21 @@ namespace alhazen {
 
 namespace {
 
-/// Photons that count for an estimate.
+/// The photons of an estimate.
 struct CountedPhotons {
     std::span<const PhotonTree::Near> photons;
-    double squared = 0;  ///< radius of the estimate; 0: there are none
+    double squared = 0;  ///< radius of the estimate; 0: no photons
 };
 
-/// Of the nearest the farthest is the border, and does not count. `found` holds them. `guess`: of
-/// the squared radius, and then for a point near by; 0: none.
+/// The farthest of the nearest photons determines the radius and is not counted. `found` holds
+/// them. `guess`: of the squared radius, updated for a nearby point; 0: none.
 template <class Accept>
 CountedPhotons counted_photons(const PhotonMap& map, const Vec3& point, const Accept& accept,
                                double& guess, std::vector<PhotonTree::Near>& found) {
     const double most = map.radius * map.radius;
     map.tree.nearest(point, map.nearest, most, guess, accept, found);
     const bool all = found.size() < map.nearest || map.nearest == 1;
-    constexpr double kMore = 1.25;  // by which the next radius may be larger
+    constexpr double kMore = 1.25;  // largest growth of the radius to the next estimate
     guess = all ? most : kMore * found.front().squared;
     if (found.empty()) return {};
     if (all) return {found, most};
@@ -35,7 +35,7 @@ CountedPhotons counted_photons(const PhotonMap& map, const Vec3& point, const Ac
 }  // namespace
 
 double filter_weight(DensityFilter filter, double share) {
-    constexpr double kCone = 1.1;     // Jensen's k: at the border 1 - 1 / k is left
+    constexpr double kCone = 1.1;     // Jensen's k: the weight at the border is 1 - 1 / k
     constexpr double kGauss = 1.953;  // Jensen's beta
     switch (filter) {
         case DensityFilter::Cone:
@@ -57,7 +57,7 @@ Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart
     const Spectrum value = at.value(from, Transport::Radiance);
     if (value.is_black()) return {};
     if (part == LightPart::NotGlossy && at.density(from) > kGlossyDensity) return {};
-    // Flux by area counts the geometric cosine, the value that of the shading normal.
+    // Flux per area uses the geometric cosine, the BSDF value that of the shading normal.
     const double cosine = std::abs(dot(from, at.geometric()));
     if (!(cosine > 0.0)) return {};
     const Spectrum light = (1.0 / cosine) * (value * photon.light());
@@ -66,7 +66,7 @@ Spectrum scattered_light(const ScatterPoint& at, const Photon& photon, LightPart
 
 PhotonScattering::PhotonScattering(const ScatterPoint& at, LightPart part, bool hero_only)
     : at_(at), part_(part), hero_only_(hero_only) {
-    // Its density is at most 1 / pi: no direction of it is glossy.
+    // The density is at most 1 / pi: no direction is glossy.
     static_assert(kGlossyDensity > 1.0 / kPi);
     if (const auto reflectance = at.lambert()) matt_ = (1.0 / kPi) * *reflectance;
 }
@@ -156,7 +156,7 @@ std::optional<Spectrum> PhotonDensity::known_irradiance(const PhotonMap& map,
 
 Spectrum PhotonDensity::radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
                                  LightPart part, bool hero_only) {
-    // Irradiance counts the geometric cosine of each photon, not that of another normal.
+    // Irradiance uses the geometric cosine of each photon, not that of another normal.
     constexpr double kSameNormal = 0.999;  // within 2.6 degrees
     if (!map.irradiance.empty() && dot(at.normal(), at.geometric()) > kSameNormal) {
         if (const auto matt = at.lambert()) {

@@ -13,27 +13,27 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kMostSplits = 1000;  ///< of a sample
+constexpr int kMostSplits = 1000;  ///< limit per sample
 
-/// Of hashes, each for one purpose.
+/// Keys of hashes.
 constexpr std::uint64_t kLooks = 0x6c6f6f6b, kWays = 0x77617973, kTurn = 0x7475726e,
                         kShift = 0x73686966;
-/// Those of the ways on from smooth glass.
+/// Keys of the branches at smooth glass.
 constexpr std::uint64_t kDimWay = 1, kBrightWay = 2;
 
-/// Of a choice among singular directions.
+/// True if a choice among singular directions is certain.
 bool is_certain(double probability) {
     return probability > 1.0 - 0x1p-40;
 }
 
-/// Whether it is the turn of a sample: one of each `samples` successive ones, drawn by `key` for
-/// each run of them. Every `samples`-th one would lie in the same part of the pixel, and of the
-/// shutter, for ever: samplers go through both in the order of the numbers' bits.
+/// True for one of each `samples` successive samples, chosen at random by `key` within each run. A
+/// fixed stride would always select the same part of the pixel and of the shutter, since samplers
+/// traverse both in the order of the bits of the index.
 bool is_turn(std::uint64_t key, std::uint64_t number, std::uint64_t samples) {
     return number % samples == mix64(key ^ mix64(number / samples)) % samples;
 }
 
-/// Of a sum of two numbers below 1.
+/// Sum of two numbers below 1, modulo 1.
 double shifted(double sum) {
     return sum < 1.0 ? sum : sum - 1.0;
 }
@@ -55,7 +55,8 @@ PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumina
 
 void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                               std::span<Rgb> radiance) {
-    // Shadow rays are cast together, and their light is added last, whatever the batch.
+    // Shadow rays are traced in batches; their light is added last, for sums independent of the
+    // batch.
     light_.assign(rays.size(), {});
     direct_.assign(rays.size(), {});
     waves_.clear();
@@ -85,7 +86,7 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, const Wavelengths& wav
     for (int event = 0; !waiting_.empty();) {
         Branch at = waiting_.back();
         waiting_.pop_back();
-        // Numbers of the sampler are even over successive samples alone.
+        // Stratified numbers are uniform over successive samples only.
         if (at.stride > 1) event = std::max(event, PathChance::kStratified);
         follow(id, at, event, waves, sum, direct);
     }
@@ -138,7 +139,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
                             chance_.draw(id, here, PathChance::kDirection), Transport::Radiance);
         if (!drawn || drawn->weight.is_black()) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
-        // The numbers of mirrors and of total reflection are not used.
+        // Mirrors and total reflection use no random numbers.
         const bool chosen = !(drawn->singular && is_certain(drawn->density));
         if (event == here && chosen) ++event;
         at.unlikely = at.unlikely || !(drawn->singular && drawn->density >= 0.5);
@@ -173,7 +174,7 @@ bool PhotonEye::follow_both(const SampleId& id, int& event, Branch& at, bool& go
 
 std::uint32_t PhotonEye::turns(const Branch& at, double share) const {
     if (share > settings_.split) return 1;
-    // Samples have wavelengths in turn, too.
+    // The wavelengths of samples also alternate.
     if (at.waves.is_spectral() || !(share > 0.0)) return 0;
     std::uint32_t samples = 2;
     while (at.stride * samples <= settings_.turns) {
@@ -221,13 +222,13 @@ Spectrum PhotonEye::emitted(const Branch& at) const {
     const Spectrum light = path.throughput * emission_of(scene_, point, *path.waves);
     if (light.is_black()) return light;
     if (last.singular) {
-        // Of one of `stride` samples, for all. An unlikely way for all of them would be a white
-        // dot.
+        // One of `stride` samples carries the light of all. An unlikely branch with the light of
+        // all would give bright outliers.
         const double times = at.unlikely ? 1.0 : at.stride;
         const double most = last.scatterings > 0 ? times * settings_.clamp : 0.0;
         return most > 0.0 && light.max() > most ? (most / light.max()) * light : light;
     }
-    // What shows its colour whatever the light is no lamp.
+    // Unlit surfaces show their colour and emit no light.
     if (point.material->unlit) return {};
     const double other =
         lights_.density(last.from, path.ray, next_.hit(), point.surface, path.travelled);
@@ -237,7 +238,7 @@ Spectrum PhotonEye::emitted(const Branch& at) const {
 Vec2 PhotonEye::draw_for_light(const SampleId& id, int event, const Branch& at,
                                PathChance::BouncePair pair) const {
     if (at.stride == 1) return chance_.draw(id, event, pair);
-    // Ways of a pixel have the same points, shifted.
+    // The branches of a pixel use the same points, randomly shifted.
     const Vec2 u = chance_.draw({id.pixel, id.number / at.stride}, 0, pair);
     const std::uint64_t key =
         mix64(at.way ^ mix64(kShift + pair) ^ static_cast<std::uint64_t>(at.last.scatterings));
@@ -249,7 +250,7 @@ void PhotonEye::add_direct_light(const SampleId& id, int event, const Branch& br
     const double choice = draw_for_light(id, event, branch, PathChance::kChoices).y;
     const Vec2 place = draw_for_light(id, event, branch, PathChance::kLight);
     constexpr double kGolden = 0.6180339887498949;
-    // Even over the choice, and over the places of each light that is chosen.
+    // Stratified over the choice of the light, and over the points of each chosen light.
     const double share = 1.0 / settings_.shadows;
     for (std::uint32_t k = 0; k < settings_.shadows; ++k) {
         const Vec2 shift{mirrored_bits(k), fraction(k * kGolden)};
@@ -301,8 +302,8 @@ void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& p
 bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int& event) const {
     if (!path.throughput.is_finite()) return false;
     if (last.scatterings <= settings_.roulette) return true;
-    // Ways that are followed for certain are dim already. What is bright goes on: few of many
-    // reflections in glass that survived a chance at each would be white dots.
+    // Branches that are followed with certainty are already dim. Bright paths continue: russian
+    // roulette at each of many reflections inside glass would give bright outliers.
     const double light = last.eta_scale * path.throughput.max();
     if (!(light < settings_.split)) return true;
     const double share = light / settings_.split;

@@ -1,13 +1,13 @@
 #pragma once
-/// Photons in cells of a hashed grid, which finds all within one radius.
+/// Photons in cells of a hashed grid, for range searches of one radius.
 ///
 /// Source: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009
 /// (hashed cells); Teschner et al., "Optimized Spatial Hashing for Collision Detection of
 /// Deformable Objects", VMV 2003.
-/// Conventions: cells are two radii wide, so that a search looks into eight. Photons are told in
-/// the order of the cells, and in a cell in that of the list.
-/// Complexity: build O(n), kBytesOfPhoton for each. Threads: const functions may be called from
-/// many.
+/// Conventions: cells are two radii wide, so that a search visits eight. Photons are visited in the
+/// order of the cells, and within a cell in that of the list.
+/// Complexity: build O(n), kBytesOfPhoton for each. Threads: const functions may be called
+/// concurrently.
 
 #include <algorithm>
 #include <array>
@@ -22,14 +22,14 @@
 
 namespace alhazen {
 
-/// `Record`: with `point()`, of finite coordinates.
+/// `Record`: has `point()` with finite coordinates.
 template <class Record>
 class PointGrid {
   public:
-    /// While it is built.
+    /// Memory during construction.
     static constexpr std::size_t kBytesOfPhoton = 2 * sizeof(Record) + 3 * sizeof(std::uint32_t);
 
-    /// `radius` above 0; at most 2^31 records.
+    /// `radius` must be positive; at most 2^31 records.
     PointGrid(std::vector<Record> records, double radius) : radius_(radius) {
         const std::size_t buckets = std::bit_ceil(std::max<std::size_t>(1, records.size()));
         mask_ = buckets - 1;
@@ -44,18 +44,18 @@ class PointGrid {
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     [[nodiscard]] double radius() const { return radius_; }
 
-    /// Calls `use(record)` for each within the radius of the point.
+    /// Calls `use(record)` for each record within the radius of the point.
     template <class Use>
     void for_near(const Vec3& point, Use&& use) const {
         if (records_.empty()) return;
-        // The cell of the lowest corner of the ball, and those beside it.
+        // The cell of the lowest corner of the ball, and its neighbours.
         const Cell low = cell_of(point - Vec3{radius_, radius_, radius_});
         for (int k = 0; k < 8; ++k) {
             const Cell cell{low[0] + (k & 1), low[1] + (k >> 1 & 1), low[2] + (k >> 2)};
             for (const Record& record : bucket(cell)) {
                 const Vec3 at = record.point();
                 if (!(length_squared(at - point) <= radius_ * radius_)) continue;
-                // Other cells may share the bucket.
+                // Skips records of other cells in the same bucket.
                 if (cell_of(at) == cell) use(record);
             }
         }
@@ -85,7 +85,7 @@ class PointGrid {
     double radius_;
     std::size_t mask_ = 0;  ///< buckets - 1
     std::vector<Record> records_;
-    std::vector<std::uint32_t> first_;  ///< [bucket] of records_; and all
+    std::vector<std::uint32_t> first_;  ///< [bucket] first in records_; and one more
 };
 
 using PhotonGrid = PointGrid<Photon>;

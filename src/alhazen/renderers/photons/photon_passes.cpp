@@ -38,14 +38,14 @@ double radius_of_pixels(const RenderJob& job, const Film& film) {
 Wavelengths waves_of_pass(const RenderJob& job, std::uint32_t number) {
     if (!job.spectral) return {};
     constexpr double kGolden = 0.6180339887498949;
-    constexpr std::uint64_t kWaves = 0x57617665;  // of nothing else that is drawn
+    constexpr std::uint64_t kWaves = 0x57617665;  // key, unique to this draw
     const double u = random_at(mix64(job.seed), kWaves, 0, 0) + kGolden * number;
     return Wavelengths::drawn(std::min(u - std::floor(u), 0x1.fffffffffffffp-1));
 }
 
 ShutterPart shutter_of_pass(const RenderJob& job, std::uint32_t number) {
     if (!job.scene.has_motion || number < 2) return {};
-    constexpr std::uint64_t kShutter = 0x53687574;  // of nothing else that is drawn
+    constexpr std::uint64_t kShutter = 0x53687574;  // key, unique to this draw
     const int bits = std::bit_width(number) - 1;
     std::uint64_t part = mix64(mix64(job.seed) ^ kShutter) >> (64 - bits);
     for (int k = 0; k < bits; ++k) {
@@ -65,7 +65,7 @@ void refuse_stop_rules(const RenderJob& job, const char* renderer) {
                             renderer));
 }
 
-/// Reports the tiles of all passes as one work.
+/// Reports the tiles of all passes as one task.
 class PhotonPasses::Progress final : public ProgressSink {
   public:
     Progress(ProgressSink* sink, std::uint32_t passes) : sink_(sink), passes_(passes) {}

@@ -1,6 +1,6 @@
 #pragma once
-/// What renderers with photons tell besides the picture: the photons themselves, and their density
-/// at what each pixel sees.
+/// Outputs of renderers with photons in addition to the picture: the photons, and their density at
+/// the visible surfaces.
 
 #include <functional>
 #include <span>
@@ -11,16 +11,16 @@
 
 namespace alhazen {
 
-/// Appends photons; nothing where `cloud` is null.
+/// Appends photons; does nothing if `cloud` is null.
 void add_to_cloud(std::span<const Photon> photons, bool caustic, PhotonCloud* cloud,
                   const Wavelengths& waves = kColorChannels);
 
-/// Photons by area at a point with this unit geometric normal, towards the eye. Called from many
-/// threads.
+/// Photons per area at a point with this unit geometric normal, towards the eye. Must be
+/// thread-safe.
 using PhotonCount = std::function<double(const Vec3& point, const Vec3& normal)>;
 
-/// Sets the layer of photons: at the surface in the middle of each pixel. Nothing where the job
-/// does not ask for it.
+/// Sets the layer of photons, for the surface in the middle of each pixel. Does nothing if the job
+/// does not request it.
 void record_photon_layer(const RenderJob& job, const Film& film, const PhotonCount& count);
 
 }  // namespace alhazen

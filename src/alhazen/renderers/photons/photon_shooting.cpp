@@ -13,15 +13,15 @@ namespace alhazen {
 void refuse_photons(const char* renderer, std::uint64_t shot, std::uint64_t count,
                     std::size_t most) {
     throw Error(ErrorKind::Resource,
-                fmt::format("{}: {} of {} photons fill the memory, which has place for {}; give it "
-                            "more (memory=MB), or shoot fewer",
+                fmt::format("{}: {} of {} photons exceed the memory limit of {}; raise it "
+                            "(memory=MB), or shoot fewer",
                             renderer, shot, count, most));
 }
 
 void note_silent_lights(const Illumination& lights, const char* renderer, RenderReport& report) {
     if (!lights.leaves_some_to_chance()) return;
     report.notes.push_back(
-        fmt::format("{}: some emitting surfaces light nothing, for they cannot be sampled; "
+        fmt::format("{}: some emitting surfaces emit no photons because they cannot be sampled; "
                     "path_tracing finds their light",
                     renderer));
 }
@@ -34,7 +34,7 @@ ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights, cons
         });
     if (shot.count > 0 && shot_photons.powerful == 0 && !job.stop_requested()) {
         throw Error(ErrorKind::Usage,
-                    fmt::format("{}: no light of the scene sends photons: its emitting "
+                    fmt::format("{}: no light of the scene emits photons: its emitting "
                                 "surfaces cannot be sampled; path_tracing finds their light",
                                 renderer));
     }

@@ -1,9 +1,8 @@
 #pragma once
-/// All photons of a shot, by all threads.
+/// Shoots all photons of a shot, in parallel.
 ///
-/// Conventions: photons are in the order of their numbers, and for one number in that of the
-/// surfaces: the same for any number of threads. Memory: at most `most` photons and what a group of
-/// numbers adds to them.
+/// Conventions: photons are sorted by number, and for one number by the order of the surfaces: the
+/// same for any number of threads. Memory: at most `most` photons plus those of a group of numbers.
 
 #include <cstddef>
 #include <vector>
@@ -20,11 +19,11 @@ struct ShotPhotons {
     bool complete = true;  ///< false after a stop
 };
 
-/// A sentence for RenderReport::notes where some lights send no photons, though others do.
+/// Adds a sentence to RenderReport::notes if some lights, but not all, emit no photons.
 void note_silent_lights(const Illumination& lights, const char* renderer, RenderReport& report);
 
-/// `renderer`: its name, for messages. Throws Error: Resource where more than `most` would be
-/// stored, Usage where no light gives any photon power.
+/// `renderer`: name for messages. Throws Error: Resource if more than `most` would be stored, Usage
+/// if no light gives any photon power.
 [[nodiscard]] ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights,
                                         const PhotonShot& shot, std::size_t most,
                                         const char* renderer);

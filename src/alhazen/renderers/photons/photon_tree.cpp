@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Subtrees from this size on are built at the same time.
+/// Subtrees of at least this size are built in parallel.
 constexpr std::size_t kLargeSubtree = 1u << 14;
 
 int longest_axis(std::span<const std::uint32_t> order, std::span<const Photon> photons) {
@@ -32,7 +32,8 @@ int longest_axis(std::span<const std::uint32_t> order, std::span<const Photon> p
     return longest;
 }
 
-/// photons[i] = what photons[from[i]] was; `from` is a permutation, and is the identity after.
+/// Sets photons[i] to the old photons[from[i]]; `from` is a permutation, and the identity
+/// afterwards.
 void permute(std::vector<Photon>& photons, std::vector<std::uint32_t>& from) {
     for (std::uint32_t start = 0; start < from.size(); ++start) {
         const Photon first = photons[start];
@@ -52,7 +53,7 @@ void permute(std::vector<Photon>& photons, std::vector<std::uint32_t>& from) {
 
 std::size_t left_subtree_size(std::size_t count) {
     if (count <= 1) return 0;
-    const std::size_t half = std::bit_floor(count) / 2;  // places of the last level, on the left
+    const std::size_t half = std::bit_floor(count) / 2;  // size of the last level, on the left
     const std::size_t last = count - (std::bit_floor(count) - 1);
     return half - 1 + std::min(last, half);
 }

@@ -1,14 +1,14 @@
 #pragma once
-/// Photons in a left-balanced k-d tree, which finds those nearest to a point.
+/// Photons in a left-balanced k-d tree, for nearest-neighbour searches.
 ///
 /// Source: Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", CACM
 /// 18(9), 1975; Jensen, "Realistic Image Synthesis Using Photon Mapping", 2001, section 6 (left
 /// balanced, in the order of a heap, split across the longest side).
-/// Conventions: node i has the children 2 i + 1 and 2 i + 2; nothing points to anything. Of equal
-/// coordinates that of the earlier photon counts as smaller, of equal distances that of the lower
-/// node: the tree and its answers depend on the list of photons alone.
-/// Complexity: build O(n log n), 5 bytes a photon besides the photons; a search O(k + log n) in
-/// the usual case. Threads: const functions may be called from many.
+/// Conventions: node i has the children 2 i + 1 and 2 i + 2; no pointers. Ties of coordinates are
+/// broken by the earlier photon, ties of distances by the lower node: the tree and its results
+/// depend only on the list of photons.
+/// Complexity: build O(n log n), 5 bytes per photon in addition to the photons; a search O(k + log
+/// n) in the usual case. Threads: const functions may be called concurrently.
 
 #include <algorithm>
 #include <compare>
@@ -28,16 +28,16 @@ class PhotonTree {
     explicit PhotonTree(std::vector<Photon> photons);
 
     [[nodiscard]] std::span<const Photon> photons() const { return photons_; }  ///< [node]
-    /// Across which the node divides its subtrees: 0, 1 or 2.
+    /// Axis of the node's splitting plane: 0, 1 or 2.
     [[nodiscard]] int axis(std::size_t node) const { return axes_[node]; }
 
     struct Near {
-        double squared = 0;  ///< distance
+        double squared = 0;  ///< squared distance
         std::uint32_t node = 0;
         friend auto operator<=>(const Near&, const Near&) = default;
     };
-    /// Sets `found` to the `count` nearest photons within the root of `squared` that `accept`
-    /// takes: a heap, farthest first. `count` above 0.
+    /// Sets `found` to the `count` nearest photons within the square root of `squared` that
+    /// `accept` selects: a heap, farthest first. `count` must be positive.
     template <class Accept>
     void nearest(const Vec3& point, std::size_t count, double squared, const Accept& accept,
                  std::vector<Near>& found) const {
@@ -45,9 +45,9 @@ class PhotonTree {
         search(0, point, count, squared, accept, found);
     }
 
-    /// The same photons as `nearest` in the order of a walk that depends on the point alone, but
-    /// that the first is the farthest where there are `count`. Fast where `guess` is near to the
-    /// squared distance of the farthest, and for large counts; the answer does not depend on it.
+    /// The same photons as `nearest`, in traversal order, which depends only on the point; the
+    /// first is the farthest if there are `count`. Fast if `guess` is near the squared distance of
+    /// the farthest, and for large counts; the result is independent of it.
     template <class Accept>
     void nearest(const Vec3& point, std::size_t count, double squared, double guess,
                  const Accept& accept, std::vector<Near>& found) const {
@@ -65,10 +65,10 @@ class PhotonTree {
     }
 
   private:
-    /// Keeps the `count` nearest of more, in their order.
+    /// Keeps the `count` nearest, in their order.
     static void keep_nearest(std::size_t count, std::vector<Near>& found);
 
-    /// Appends photons within the root of `squared`, among them the `count` nearest.
+    /// Appends photons within the square root of `squared`, among them the `count` nearest.
     template <class Accept>
     void walk(const Vec3& point, std::size_t count, double squared, const Accept& accept,
               std::vector<Near>& found) const {
@@ -136,7 +136,7 @@ class PhotonTree {
     std::vector<std::uint8_t> axes_;  ///< [node]
 };
 
-/// Nodes of the left subtree of a left-balanced tree of `count` nodes.
+/// Number of nodes of the left subtree of a left-balanced tree of `count` nodes.
 [[nodiscard]] std::size_t left_subtree_size(std::size_t count);
 
 }  // namespace alhazen

@@ -9,9 +9,9 @@ namespace alhazen {
 
 namespace {
 
-/// Random numbers of each surface: lobe, direction, roulette.
+/// Number of random numbers per surface: lobe, direction, roulette.
 constexpr std::uint64_t kAtEach = 4;
-/// The moment of a photon.
+/// Dimension of the time of a photon.
 constexpr std::uint64_t kTimeOfPhoton = std::uint64_t{1} << 31;
 
 std::array<float, 3> floats(double x, double y, double z) {
@@ -56,7 +56,7 @@ void PhotonWalk::store(PhotonKind kind, const Spectrum& power, const Wavelengths
                        std::vector<Photon>& stored) const {
     if (!shot_.kinds.has(kind) || power.is_black() || !power.is_finite()) return;
     const Vec3& p = next_.point().surface.point;
-    // Where the surface is there in part the eye's path stops by the same chance as the photon.
+    // At a partly covering surface eye paths stop with the same probability as the photon.
     const double coverage = next_.point().material->coverage;
     const double share = 1.0 / (coverage * static_cast<double>(shot_.count));
     stored.push_back({floats(p.x, p.y, p.z), stored_light(share * power, waves),
@@ -122,7 +122,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
         scatter_.set(scene_, point, path.media, waves, false, nullptr, &next_.others());
         if (scatter_.is_null_boundary()) {
-            // No event: its way goes on straight.
+            // Passing straight through is no event.
             if (path.met > kMaxPassedSurfaces) return true;
             NextSurface::go_on(path, point.surface, scatter_,
                                *scatter_.sample(0.0, {}, Transport::Importance));

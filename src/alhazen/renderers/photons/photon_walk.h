@@ -1,17 +1,17 @@
 #pragma once
-/// One photon after the other: from a light through the scene, stored at each surface that scatters
-/// with a density, and wherever a volume scatters it.
+/// Traces single photons from a light through the scene; stored at each surface that scatters with
+/// a density, and at each scattering event in a volume.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 3; Arvo and Kirk,
 /// "Particle Transport and Image Synthesis", SIGGRAPH 1990 (Russian roulette); Jensen and
 /// Christensen, "Efficient Simulation of Light Transport in Scenes with Participating Media using
 /// Photon Maps", SIGGRAPH 1998 (photons in volumes).
-/// Differs: directions are drawn from the whole BSDF; the roulette keeps the largest channel of a
-/// photon at what its light gave it, and its colour changes. Shading normals: Veach's factor.
-/// Conventions: photons are numbered. What a photon does depends on the scene, the seed and its
-/// number alone. A photon in a volume stands for fluence: power times the way that it goes there.
-/// Surfaces that are passed straight (thin sheets) receive light and are no events; null boundaries
-/// receive none.
+/// Differs: directions are sampled from the whole BSDF; the roulette keeps the largest channel of a
+/// photon at its initial value, while its colour changes. Shading normals: Veach's factor.
+/// Conventions: photons are numbered. The path of a photon depends only on the scene, the seed and
+/// its number. A photon in a volume stands for fluence: power times the length of its path there.
+/// Surfaces passed straight (thin sheets) receive light and are no events; null boundaries receive
+/// none.
 
 #include <cstdint>
 #include <memory>
@@ -27,16 +27,16 @@
 
 namespace alhazen {
 
-/// What is shot.
+/// The parameters of a shot.
 struct PhotonShot {
-    std::uint64_t count = 0;  ///< photons that leave the lights
-    PhotonKinds kinds;        ///< to be stored
+    std::uint64_t count = 0;  ///< number of emitted photons
+    PhotonKinds kinds;        ///< kinds to be stored
     int depth = 64;           ///< largest number of surfaces
     std::uint64_t seed = 0;
-    const Wavelengths* waves = &kColorChannels;  ///< of all photons, as they leave their lights
-    const ProjectionMap* projection = nullptr;   ///< where lights send them; null: everywhere
-    PhotonKinds in_volumes;                      ///< to be stored there
-    ShutterPart shutter{};                       ///< in which they fly
+    const Wavelengths* waves = &kColorChannels;  ///< wavelengths of all photons at emission
+    const ProjectionMap* projection = nullptr;   ///< directions of emission; null: unrestricted
+    PhotonKinds in_volumes;                      ///< kinds to be stored in volumes
+    ShutterPart shutter{};                       ///< interval of their times
 };
 
 class PhotonWalk {
@@ -44,12 +44,13 @@ class PhotonWalk {
     PhotonWalk(const Scene& scene, const Illumination& lights, const PhotonShot& shot,
                RayCounters& counters, TraversalStats* stats);
 
-    /// Appends what photon `number` of 0 .. count - 1 leaves. False: its light gave it no power.
+    /// Traces photon `number` of 0 .. count - 1 and appends its records. False if its light gave it
+    /// no power.
     bool shoot(std::uint64_t number, std::vector<Photon>& stored);
 
   private:
     [[nodiscard]] LightRay leave_light(std::uint64_t number) const;
-    /// Of a light with a place: its own falloff over that of its rays.
+    /// For lights at a place: ratio of the light's falloff to that of its rays.
     [[nodiscard]] Spectrum falloff(const LightRay& light, const Vec3& point, double distance) const;
     void store(PhotonKind kind, const Spectrum& power, const Wavelengths& waves,
                std::vector<Photon>& stored) const;
@@ -62,7 +63,7 @@ class PhotonWalk {
     const Illumination& lights_;
     PhotonShot shot_;
     bool caustics_only_;
-    std::unique_ptr<Sampler> sampler_;  ///< of the rays that leave lights
+    std::unique_ptr<Sampler> sampler_;  ///< for the rays that leave lights
     LightStarts starts_;
     NextSurface next_;
     ScatterPoint scatter_;

@@ -18,26 +18,26 @@ namespace alhazen {
 namespace {
 
 constexpr double kBelowOne = 0x1.fffffffffffffp-1;
-/// Share of the photons that go anywhere.
+/// Share of the photons emitted without restriction.
 constexpr double kAnywhere = 0.2;
-/// Parts of the choice among few lights, and among many.
+/// Numbers of strata of the choice of a light, for few lights and for many.
 constexpr std::size_t kFewLights = 4, kFewStrata = 16, kMostStrata = 64;
-/// A number for all trials of a cell, of none of them.
+/// A trial number that stands for all trials of a cell and is not used by any.
 constexpr std::uint64_t kAllTrials = std::uint64_t{1} << 32;
 
-/// Density of a cell by the share of its photons that hit: what leaves least variance for the time
-/// where one that misses costs a twentieth of one that hits.
+/// Density of a cell by the share of its photons that hit: minimises variance times cost, if a miss
+/// costs a twentieth of a hit.
 float weight_of(double share) {
     constexpr double kMissing = 0.05;
     return static_cast<float>(std::sqrt(share / (share + kMissing)));
 }
 
-/// When the trial of that number is: as even over the shutter as few trials can be.
+/// Time of a trial, stratified over the shutter for few trials.
 float moment_of(const PathNumbers& numbers, std::uint32_t trial) {
     return ShutterPart{}.at(fraction(numbers.at(0) + mirrored_bits(trial)));
 }
 
-/// One trial: whether a ray of light meets what reflects or refracts in single directions.
+/// A trial: true if a ray of light meets a surface with a singular lobe.
 bool meets_mirror(const Scene& scene, const LightRay& light, float time, const LightStarts& starts,
                   const PathNumbers& numbers, NextSurface& next, ScatterPoint& scatter) {
     const WalkStart start = starts.of(light, time, kColorChannels);
@@ -46,7 +46,7 @@ bool meets_mirror(const Scene& scene, const LightRay& light, float time, const L
     path.ray = start.ray;
     path.time = time;
     path.kind = RayKind::Reflection;
-    // Without media: one that scatters would hide what lies beyond.
+    // Ignores media, in which scattering would hide surfaces.
     if (next.find(path, numbers) != PathMeets::Surface || next.point().material->unlit) {
         return false;
     }
@@ -104,7 +104,7 @@ void ProjectionMap::for_neighbors(std::size_t cell, const Visit& visit) const {
 }
 
 std::vector<std::size_t> ProjectionMap::leaders() const {
-    std::map<std::size_t, std::size_t> first;  // stratum of a light alone
+    std::map<std::size_t, std::size_t> first;  // first stratum of a light that fills strata alone
     std::vector<std::size_t> leader(strata_);
     for (std::size_t i = 0; i < strata_; ++i) {
         const auto source = [&](double share) {
@@ -139,7 +139,7 @@ void ProjectionMap::try_cells(const RenderJob& job, const std::vector<std::size_
                     const PathNumbers n{seed, asked[i], tally.trials++};
                     const LightRay light = emit_in(asked[i], 1.0, n.at(0), {n.at(1), n.at(2)},
                                                    {n.at(3), n.at(4)}, kColorChannels);
-                    // Light without a place is sent everywhere.
+                    // Infinitely distant lights are not restricted.
                     const bool hits = light.infinite || meets_mirror(job.scene, light, time, starts,
                                                                      n, next, scatter);
                     tally.hits += hits ? 1 : 0;
@@ -173,7 +173,7 @@ std::vector<float> ProjectionMap::tried(const RenderJob& job, const std::vector<
     }
     try_cells(job, asked, strata_ > 1 ? 4 : 16, seed, own, counters);
     std::vector<Tally> tallies = shared(own, leader);
-    // More where something was hit and beside it, until the border is known.
+    // More trials at hits and their neighbours, until the border is known.
     constexpr std::uint32_t kEnough = 64;
     while (true) {
         asked.clear();
@@ -197,7 +197,7 @@ std::vector<float> ProjectionMap::tried(const RenderJob& job, const std::vector<
 }
 
 std::vector<float> ProjectionMap::widened(const std::vector<float>& weights) const {
-    constexpr double kLeastShare = 0.01;  // below what the trials tell
+    constexpr double kLeastShare = 0.01;  // below the resolution of the trials
     const float least = weight_of(kLeastShare);
     std::vector<float> wide = weights;
     for (std::size_t cell = 0; cell < weights.size(); ++cell) {
@@ -218,7 +218,7 @@ LightRay ProjectionMap::emit_in(std::size_t cell, double share, double choice, c
         light.place_density *= share;
         return light;
     }
-    // The side of a lamp with two was chosen by the halves of direction.x.
+    // The halves of direction.x have selected the side of a two-sided light.
     const double doubled = 2.0 * direction.x;
     const double side = static_cast<double>(side_);
     const double angle =
@@ -249,7 +249,7 @@ LightRay ProjectionMap::emit(double choice, const Vec2& place, const Vec2& direc
     const auto cell = static_cast<std::size_t>(found - sums_.begin());
     const double before = cell > 0 ? sums_[cell - 1] : 0.0;
     const double own = *found - before;
-    // What the choice of the cell leaves of the number chooses the light.
+    // The remainder of the number after the choice of the cell selects the light.
     const double rest = std::clamp((sought - before) / own, 0.0, kBelowOne);
     const double share = own / sums_.back() * static_cast<double>(cells());
     return emit_in(cell, share, rest, place, direction, waves);

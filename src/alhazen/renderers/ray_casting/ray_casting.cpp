@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kRaysAtOnce = 256;
 
-/// Casts eye rays.
+/// The estimator of ray casting.
 class Caster {
   public:
     Caster(const RenderJob& job, std::size_t /*rays_at_once*/, RayCounters& counters)
@@ -55,27 +55,27 @@ class Caster {
         for (const OnWay& o : behind_) end(o.sample, o.left, radiance);
     }
 
-    /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
+    /// Sets where `trace` stores the first hit of each eye ray; empty: nowhere.
     void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
-    /// From now on these are the first hits of the eye rays; they are found where empty.
+    /// Sets the known first hits of the eye rays; empty: they are found.
     void start_from(std::span<const Hit> hits) { known_hits_ = hits; }
 
   private:
-    /// The rest of a ray behind partly covering surfaces.
+    /// The remainder of a ray behind partly covering surfaces.
     struct OnWay {
         std::size_t sample;
         double left;
         RayCone cone;
         bool inside = false;
         RayKind kind = RayKind::Eye;
-        float time = 0;  ///< as the shutter opens
+        float time = 0;  ///< 0: shutter open
     };
 
     void end(std::size_t sample, double left, std::span<Rgb> radiance) const {
         radiance[sample] = radiance[sample] + left * job_.scene.background;
     }
 
-    /// Shades the surface and queues the rest of the ray behind it.
+    /// Shades the surface and queues the remainder of the ray.
     void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
               std::span<Rgb> radiance) {
         const double coverage = point.material->coverage;

@@ -1,5 +1,5 @@
 #pragma once
-/// Visible surfaces only: eye rays, shaded by the lights without shadows.
+/// Ray casting: eye rays only; visible surfaces are shaded without shadows.
 ///
 /// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Goldstein
 /// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kEyePathsAtOnce = 256;
 
-/// The eye of one pass.
+/// The eye part of one pass.
 class PassEye final : public PhotonEye {
   public:
     PassEye(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
@@ -102,7 +102,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         });
         if (!complete) break;
         shot.seed = mix64(shot.seed);
-        // By area, and by volume.
+        // Radii on surfaces shrink by area, in volumes by volume.
         const double step = squared_radius_step(settings_.alpha, static_cast<int>(pass) + 1);
         radius *= std::sqrt(step);
         in_volumes_radius *= std::cbrt(step);

@@ -1,17 +1,16 @@
 #pragma once
-/// Stochastic progressive photon mapping: passes of photons and eye rays, around which the radius
-/// of the estimate shrinks, so that the mean over the passes becomes right.
+/// Stochastic progressive photon mapping: passes of photons and eye rays with a shrinking radius of
+/// the estimate, so that the mean over the passes converges.
 ///
-/// Source: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009;
-/// Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), 2011
-/// (radii of the passes without statistics of the pixels).
-/// Differs: the photons of a pass are kept in the grid, not the visible points: the same sum for
-/// each pixel, without writes to shared places. Direct light by shadow rays
-/// (photons/photon_eye.h). In volumes balls shrink as discs do on surfaces, by their content.
-/// Conventions: a pass for each sample of a pixel, with wavelengths of its own (waves_of_pass).
-/// Pixels depend neither on the threads nor on
-/// tiles nor on the crop. Memory: the photons of one pass.
-/// Errors: photons that do not fit into the memory, lights that send none (photon_shooting.h).
+/// Source: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009; Knaus
+/// and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), 2011 (radii
+/// of the passes without statistics of the pixels).
+/// Differs: the grid stores the photons of a pass instead of the visible points: the same sum for
+/// each pixel, without concurrent writes. Direct light by shadow rays (photons/photon_eye.h). In
+/// volumes the volume of the ball shrinks as the area of the disc on surfaces.
+/// Conventions: one pass per sample of a pixel, with its own wavelengths (waves_of_pass). Pixels
+/// are independent of the threads, the tiles and the crop. Memory: the photons of one pass.
+/// Errors: photons that do not fit into the memory, lights that emit none (photon_shooting.h).
 
 #include <cstdint>
 
@@ -21,10 +20,10 @@
 namespace alhazen {
 
 struct SppmSettings {
-    std::uint64_t photons = 100000;  ///< of a pass that leave the lights
-    double radius = 0;               ///< of the first pass; 0: of three pixels
-    double alpha = 2.0 / 3.0;        ///< share of the photons of further passes that is kept
-    double memory = 512;             ///< of a pass, in megabytes
+    std::uint64_t photons = 100000;  ///< photons emitted per pass
+    double radius = 0;               ///< radius of the first pass; 0: three pixels
+    double alpha = 2.0 / 3.0;        ///< share of the photons of each further pass that is kept
+    double memory = 512;             ///< limit for a pass, in megabytes
     PathSettings paths;
 };
 

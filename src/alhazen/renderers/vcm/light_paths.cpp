@@ -9,14 +9,14 @@ namespace alhazen {
 
 namespace {
 
-/// Pairs of dimensions of the beginning of a light path: place, direction; time and choice.
+/// Pairs of dimensions of the start of a light path: place, direction; time and choice.
 enum StartPair : std::uint32_t { kPlace = 0, kAlong = 1, kChoice = PathChance::kTime };
 
 std::array<float, 3> as_floats(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-/// Makes a density by solid angle from `v` one by area at the vertex before.
+/// Factor from a density by solid angle at `v` to one by area at the vertex before.
 double facing_from(const PathVertex& v, const PathVertex& before) {
     return before.facing(v.view()) / (v.distance * v.distance) * v.backward;
 }

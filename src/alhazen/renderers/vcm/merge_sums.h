@@ -1,38 +1,38 @@
 #pragma once
-/// The weight of a merged path in constant time: sums over the strategies of either side, kept from
-/// vertex to vertex.
+/// The weight of a merged path in constant time, by sums over the strategies of either side that
+/// are updated from vertex to vertex.
 ///
 /// Source: Georgiev, "Implementing Vertex Connection and Merging", technical report, Saarland
 /// University, 2012 (weights by recurrences along both subpaths).
-/// Differs: sums of squares, for the power heuristic, over the squared density up to the vertex; a
-/// light that is joined has a density of its own; light straight from a lamp is not merged.
+/// Differs: sums of squares, for the power heuristic, relative to the squared density up to the
+/// vertex; a light sampled for a vertex has its own density; direct light is not merged.
 /// Conventions: the weight is that of `merged_path_weight` (bidirectional/path_weight.h), which
-/// knows the whole path. Densities by area, above 0; 0 counts as 1.
+/// requires the whole path. Densities are by area, above 0; 0 counts as 1.
 
 namespace alhazen {
 
-/// The strategies that need fewer vertices of a side than there are up to a vertex of it.
+/// The strategies with fewer vertices on a side than there are up to a given vertex of it.
 struct SideSums {
     double own = 1;     ///< density of the vertex, from its side
-    double fixed = 0;   ///< of the strategy that joins the vertex with the one before
-    double factor = 0;  ///< of all others, over the squared density of the vertex before as the
+    double fixed = 0;   ///< sum for the strategy that connects the vertex to the previous one
+    double factor = 0;  ///< for all others, over the squared density of the vertex before as the
                         ///< other side finds it
 
-    /// The first surface of a light path: the densities of the light itself. `joined`: where it is
-    /// chosen for the surface; 0: never. `hit`: rays can hit it.
+    /// For the first surface of a light path, from the densities of the light. `joined`: density of
+    /// the light if sampled for the surface; 0: never. `hit`: rays can hit it.
     [[nodiscard]] static SideSums at_light(double light, double joined, bool hit, double own) {
         const double over = 1.0 / known(light);
         return {known(own), joined * over * (joined * over), hit ? over * over : 0.0};
     }
-    /// The first surface of an eye path: the lens is joined to it, and no ray hits the lens.
+    /// For the first surface of an eye path: the lens is connected to it, and no ray hits the lens.
     [[nodiscard]] static SideSums at_lens(double own) { return {known(own), 1.0, 0.0}; }
 
-    /// All of them. `before`: density of the vertex before as the other side finds it. `singular`:
-    /// the path goes on by a singular lobe, and nothing is joined.
+    /// Sum of all strategies. `before`: density of the previous vertex from the other side.
+    /// `singular`: the path continues by a singular lobe, and nothing is connected.
     [[nodiscard]] double total(double before, bool singular) const {
         return (singular ? 0.0 : fixed) + factor * known(before) * known(before);
     }
-    /// Of the vertex after this one, of density `next`. `merges`: vertices are merged here.
+    /// For the next vertex, of density `next`. `merges`: vertices are merged here.
     [[nodiscard]] SideSums after(double before, bool singular, bool merges, double merging,
                                  double next) const {
         const double merged = merges && !singular ? merging * merging : 0.0;
@@ -42,8 +42,8 @@ struct SideSums {
     [[nodiscard]] static double known(double density) { return density > 0.0 ? density : 1.0; }
 };
 
-/// The weight of a path merged where both sides have a vertex. `light_before`: density of the
-/// light's vertex before, as the eye's path would go on to it; `eye_before`: the reverse.
+/// The weight of a path merged at a vertex of both sides. `light_before`: density of the light
+/// path's previous vertex if the eye path continued to it; `eye_before`: the reverse.
 [[nodiscard]] inline double weight_of_merged(const SideSums& light, double light_before,
                                              const SideSums& eye, double eye_before,
                                              double merging) {

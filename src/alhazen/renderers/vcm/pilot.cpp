@@ -17,17 +17,17 @@ namespace {
 
 constexpr int kPilotPasses = 4;
 constexpr double kPilotPixels = 3072;
-/// The cost of a pair of vertices that are merged, in rays.
+/// The cost of a merged pair of vertices, in rays.
 constexpr double kRaysOfMerge = 0.1;
 
 double mean_of_channels(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
 }
 
-/// What the passes of one method show.
+/// Statistics of the passes of one method.
 struct PilotPictures {
     std::vector<double> mean, variance;  ///< [pixel] of one pass
-    double cost = 0;                     ///< rays of a pixel in a pass
+    double cost = 0;                     ///< rays per pixel of a pass
     bool complete = true;
 };
 
@@ -63,7 +63,7 @@ PilotPictures pilot_pictures(const RenderJob& job, int width, int height,
     return pictures;
 }
 
-/// Relative squares: each pixel counts by its brightness.
+/// Relative squared errors, by the brightness of each pixel.
 class RelativeNoise {
   public:
     explicit RelativeNoise(const PilotPictures& reference) : reference_(reference) {
@@ -75,7 +75,7 @@ class RelativeNoise {
             over_.push_back(scale > 0.0 ? 1.0 / (scale * double(reference.mean.size())) : 0.0);
         }
     }
-    /// Of one pass.
+    /// Variance of one pass.
     [[nodiscard]] double variance(const PilotPictures& pictures) const {
         double own = 0.0, off = 0.0, of_reference = 0.0;
         for (std::size_t i = 0; i < over_.size(); ++i) {
@@ -92,7 +92,7 @@ class RelativeNoise {
     std::vector<double> over_;  ///< [pixel]
 };
 
-/// `of` over `other`, in words.
+/// The ratio `of` / `other` in words.
 std::string beside(double of, double other) {
     if (!(other > 0.0)) return "more than that";
     const double ratio = of / other;
@@ -135,7 +135,7 @@ PilotFinding make_pilot_run(const RenderJob& job, const Film& film, const VcmSet
     const double merged = work(merging), joined = work(joining), by_eye = work(eye);
     finding.pays = merged < joined;
     finding.sentence = fmt::format(
-        "vcm: a pilot run of {} passes at {} x {} pixels says that merging {}: its variance times "
+        "vcm: a pilot run of {} passes at {} x {} pixels shows that merging {}: its variance times "
         "cost is {} of bidirectional, and {} of path_tracing",
         kPilotPasses, width, height, finding.pays ? "pays" : "does not pay", beside(merged, joined),
         beside(merged, by_eye));

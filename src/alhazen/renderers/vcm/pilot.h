@@ -1,13 +1,13 @@
 #pragma once
-/// A pilot run before a picture: whether merging vertices pays.
+/// A pilot run before a picture, which determines whether merging vertices pays.
 ///
 /// Source: Grittmann, Yazici, Georgiev and Slusallek, "Efficiency-Aware Multiple Importance
-/// Sampling for Bidirectional Rendering Algorithms", SIGGRAPH 2022 (variance times cost decides,
-/// measured beforehand at low resolution). Differs: one decision for a picture, between whole
-/// methods, each run by itself. Noise that a method hides, because few samples all miss what is
-/// rare, shows by the distance of its mean from that with merging. Conventions: costs are counted,
-/// not timed: the decision is the same on every machine, for any threads and tiles. The whole frame
-/// is looked at, whatever the crop.
+/// Sampling for Bidirectional Rendering Algorithms", SIGGRAPH 2022 (decision by variance times
+/// cost, measured beforehand at low resolution). Differs: one decision per picture, between whole
+/// methods that are run separately. Noise hidden because few samples all miss rare contributions is
+/// detected by the difference of the method's mean from that with merging. Conventions: costs are
+/// counted, not timed: the decision is the same on every machine, for any threads and tiles. The
+/// whole frame is covered, regardless of the crop.
 
 #include <string>
 
@@ -16,9 +16,9 @@
 namespace alhazen {
 
 struct PilotFinding {
-    bool pays = true;      ///< merging
+    bool pays = true;      ///< merging pays
     bool complete = true;  ///< false after a stop
-    std::string sentence;  ///< that says so
+    std::string sentence;  ///< states the result
 };
 
 /// `settings`: resolved for the frame of `film`.

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Passes from which on a pilot run takes at most an eighth of the light paths of the picture.
+/// Number of passes from which a pilot run takes at most an eighth of the picture's light paths.
 constexpr int kPassesForPilot = 32;
 
 }  // namespace

@@ -1,16 +1,17 @@
 #pragma once
 /// Vertex connection and merging: the paths of `bidirectional`, and those whose eye vertex lies
-/// near one of a light path, all weighed together. It finds caustics in mirrors, as photons do.
+/// near a vertex of a light path, with common weights. Like photon mapping it finds mirrored
+/// caustics.
 ///
 /// Source: Georgiev, Krivanek, Davidovic and Slusallek, "Light Transport Simulation with Vertex
 /// Connection and Merging", SIGGRAPH Asia 2012; Hachisuka, Pantaleoni and Jensen, "A Path Space
 /// Extension for Robust Light Transport Simulation", SIGGRAPH Asia 2012; Knaus and Zwicker,
 /// "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), 2011 (radii).
-/// Differs: the light paths that are merged with are not those that are joined (light_paths.h), so
-/// that their number is free; light straight from lamps is never merged; a pilot run says whether
-/// merging pays (pilot.h).
-/// Conventions: a pass for each sample of a pixel. Same bits for any threads and tiles. A crop has
-/// fewer light paths to the lens, as in `bidirectional`. Memory: the vertices of one pass.
+/// Differs: merging and connection use separate light paths (light_paths.h), so that the number of
+/// the former is free; direct light is never merged; a pilot run determines whether merging pays
+/// (pilot.h).
+/// Conventions: one pass per sample of a pixel. Same bits for any threads and tiles. For a crop
+/// fewer light paths reach the lens, as in `bidirectional`. Memory: the vertices of one pass.
 /// Errors: vertices that do not fit into the memory.
 
 #include "alhazen/renderers/light_transport/light_transport_renderer.h"

@@ -84,8 +84,8 @@ RenderReport render_merging(const RenderJob& job, Film& film, const VcmSettings&
             }
             if (!merges) {
                 passes.report().notes.emplace_back(
-                    "vcm: no light of the scene sends light paths, for none can be sampled: "
-                    "nothing is merged, and chance alone finds their light");
+                    "vcm: no light of the scene emits light paths because none can be sampled: "
+                    "no vertices are merged; light is found by paths from the eye only");
             }
         }
         if (pass == 0) record_vertices(kept.records, job, waves);

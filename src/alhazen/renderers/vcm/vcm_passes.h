@@ -1,5 +1,5 @@
 #pragma once
-/// The passes of `vcm`: light paths whose vertices are kept, and pairs of subpaths for the picture.
+/// The passes of `vcm`: stored light paths, and pairs of subpaths for the picture.
 
 #include <cstdint>
 
@@ -8,11 +8,11 @@
 
 namespace alhazen {
 
-/// What a pilot run is for.
+/// Use of a pilot run.
 enum class Pilot : std::uint8_t {
     Off,
-    Say,     ///< whether merging pays
-    Choose,  ///< the same, and heeded
+    Say,     ///< report whether merging pays
+    Choose,  ///< report it, and merge accordingly
 };
 inline constexpr const char* kPilotNames[] = {"off", "say", "choose"};
 
@@ -21,25 +21,25 @@ struct VcmSettings {
     Pilot pilot = Pilot::Say;
     std::uint64_t photons = 0;  ///< light paths of a pass to merge with; 0: one for each pixel of
                                 ///< the frame, kUsualMost at most
-    double radius = 0;          ///< of the first pass; 0: of three pixels
-    double alpha = 0.75;        ///< share of the photons of further passes that is kept
-    double memory = 512;        ///< of a pass, in megabytes
+    double radius = 0;          ///< radius of the first pass; 0: three pixels
+    double alpha = 0.75;        ///< share of the photons of each further pass that is kept
+    double memory = 512;        ///< limit for a pass, in megabytes
     PathSettings paths;
 
     static constexpr std::uint64_t kUsualMost = 200000;
 };
 
-/// With the usual photons and radius where 0 stands.
+/// Replaces zero photons and radius by their defaults.
 [[nodiscard]] VcmSettings resolved(const VcmSettings& settings, const RenderJob& job,
                                    const Film& film);
 
-/// What a render did.
+/// Counts of a render.
 struct MergeWork {
-    std::uint64_t light_rays = 0;  ///< of the light paths that are merged with
-    std::uint64_t merged = 0;      ///< pairs of vertices
+    std::uint64_t light_rays = 0;  ///< rays of the light paths for merging
+    std::uint64_t merged = 0;      ///< merged pairs of vertices
 };
 
-/// With `resolved` settings; a pilot is none of its business.
+/// `settings` must be resolved; runs no pilot.
 [[nodiscard]] RenderReport render_merging(const RenderJob& job, Film& film,
                                           const VcmSettings& settings, MergeWork& work);
 

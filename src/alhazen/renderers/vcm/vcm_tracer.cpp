@@ -20,14 +20,14 @@ void VcmTracer::merge(Spectrum& sum) {
     if (!(pass_.merging > 0.0)) return;
     SideSums sums;
     std::uint64_t merged = 0;
-    // What is merged has two surfaces on the light's side, the merged one among them.
+    // Merged paths have two surfaces on the light's side, including the merged one.
     for (std::size_t b = 1; b <= path.size() && static_cast<int>(b) < settings().depth; ++b) {
         const PathVertex& z = path[b - 1];
         if (b == 1) {
             sums = SideSums::at_lens(z.density);
         } else {
             const PathVertex& last = path[b - 2];
-            // What the vertex before it is found with by a path that comes from here.
+            // Density of the previous vertex on a path that comes from here.
             const double before = b >= 3 ? path[b - 3].reverse : 0.0;
             sums = sums.after(before, last.singular, !last.in_volume, pass_.merging, z.density);
         }

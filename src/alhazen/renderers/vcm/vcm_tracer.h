@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of subpaths whose eye vertices are merged with vertices of further light paths, too.
+/// Pairs of subpaths whose eye vertices are also merged with vertices of further light paths.
 
 #include <atomic>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace alhazen {
 struct MergePass {
     const LightVertexGrid& grid;
     double merging;                        ///< WholePath::merging
-    const Wavelengths* waves;              ///< of all paths; null: each has its own
-    std::atomic<std::uint64_t> merged{0};  ///< pairs of vertices, counted
+    const Wavelengths* waves;              ///< common to all paths; null: each path has its own
+    std::atomic<std::uint64_t> merged{0};  ///< merged pairs of vertices
 };
 
 class VcmTracer final : public BidirectionalTracer {
@@ -25,7 +25,7 @@ class VcmTracer final : public BidirectionalTracer {
 
   private:
     void merge(Spectrum& sum) override;
-    /// Radiance that eye vertex b - 1 scatters by what is merged with it.
+    /// Radiance scattered at eye vertex b - 1 by merging.
     [[nodiscard]] Spectrum merged_at(std::size_t b, const SideSums& eye,
                                      std::uint64_t& merged) const;
 

@@ -1,9 +1,9 @@
 #pragma once
-/// The estimator of recursive ray tracing, a generation at a time; `Chance` says what is drawn at
-/// random.
+/// The estimator of recursive ray tracing, a generation at a time; `Chance` provides what is drawn
+/// at random.
 ///
 /// Source: Whitted 1980 (whitted.h); Cook, Porter and Carpenter 1984 (distributed.h).
-/// Conventions: those of RadianceEstimator. With NoChance nothing is drawn: the picture of Whitted.
+/// Conventions: those of RadianceEstimator. NoChance draws nothing: Whitted's picture.
 
 #include <algorithm>
 #include <deque>
@@ -22,7 +22,7 @@
 
 namespace alhazen {
 
-/// Lights are what `sample` says, mirrors and lenses are exact.
+/// Nothing is random: lights by `sample`, exact mirrored and refracted directions, time 0.
 struct NoChance {
     explicit NoChance(const RenderJob&) {}
     [[nodiscard]] LightSample light_from(const Light& light, std::size_t /*number*/,
@@ -31,15 +31,15 @@ struct NoChance {
         return sample(light, point, clamp);
     }
     void spread(RayKind, const ShadingPoint&, const Path&, int /*depth*/, Vec3&) const {}
-    /// Of an eye ray and all that follow from it.
+    /// The time of an eye ray and of all rays that follow from it.
     [[nodiscard]] static float time(std::uint32_t /*sample*/) { return 0.0f; }
 };
 
-/// A chance that watches the tree grow, at no cost for others. In the order of the calls, for some
-/// rays of a generation: `use` once, where there are exact optics; `begin_rays`; for each surface
-/// `see_light` for the lights it faces, then `meet`; `miss` for rays that meet nothing; `gather`,
-/// after the next generation, with the surfaces in the order of `meet`; `give_up` where rays have
-/// passed kMaxPassedSurfaces; `end_rays`, when the radiance is known.
+/// A chance that observes the tree of rays. `use` is called once, with exact optics only. For some
+/// rays of a generation the calls are, in order: `begin_rays`; for each surface `see_light` for the
+/// lights it faces, then `meet`; `miss` for rays that hit nothing; `gather`, after the next
+/// generation, with the surfaces in the order of `meet`; `give_up` if rays have passed
+/// kMaxPassedSurfaces; `end_rays`, when the radiance is known.
 template <class Chance>
 concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
                                const ShadingPoint& point, const Path& path, const MetSurface& met,
@@ -55,16 +55,16 @@ concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
     chance.end_rays(part, depth);
 };
 
-/// From this depth on fewer rays are traced at a time, which bounds the memory of waiting
-/// generations.
+/// Generations of at least this depth trace fewer rays at a time, which bounds the memory of
+/// waiting generations.
 inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
-/// Traces batches of eye rays; keeps all memory from batch to batch.
+/// Traces batches of eye rays; memory is reused from batch to batch.
 template <class Chance>
 class RecursiveEstimator {
   public:
-    /// `split`: where glass disperses; null: nowhere.
+    /// `split`: wavelengths of rays that dispersing surfaces refract; null: no dispersion.
     RecursiveEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters,
                        const WaveSplit* split = nullptr)
         : job_(job),
@@ -87,7 +87,7 @@ class RecursiveEstimator {
         if constexpr (TreeWatcher<Chance>) chance_.use(*optics_);
     }
 
-    /// Radiance along eye rays of unit direction.
+    /// Writes the radiance along eye rays of unit direction.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
         eye_.clear();
         for (std::uint32_t i = 0; const Ray& ray : rays) {
@@ -100,13 +100,13 @@ class RecursiveEstimator {
 
     [[nodiscard]] Chance& chance() { return chance_; }
 
-    /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
+    /// Sets where `trace` stores the first hit of each eye ray; empty: nowhere.
     void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
-    /// From now on these are the first hits of the eye rays; they are found where empty.
+    /// Sets the known first hits of the eye rays; empty: they are found.
     void start_from(std::span<const Hit> hits) { known_hits_ = hits; }
 
   private:
-    /// All rays of a generation; `depth` is 0 for eye rays.
+    /// Traces all rays of a generation; `depth` is 0 for eye rays.
     void trace_all(Generation& generation, int depth) {
         generation.make_ready();
         const std::size_t most =
@@ -124,7 +124,7 @@ class RecursiveEstimator {
         for (const Path& path : part.paths) ++counters_[path.kind].cast;
         if constexpr (TreeWatcher<Chance>) chance_.begin_rays(part, depth);
         for (int met = 0; met < kMaxPassedSurfaces && !front.active.empty(); ++met) {
-            // One eye ray can cause millions of rays; its pixel is dropped after a stop.
+            // One eye ray may cause millions of rays. Its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             const std::size_t media = optics_ ? optics_->mark() : 0;
@@ -321,7 +321,7 @@ class RecursiveEstimator {
         if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
     }
 
-    /// A ray for each wavelength.
+    /// Adds a refracted ray for each wavelength.
     void split(const Seen& seen, const LeavingRays& from, const Path& onward, MetSurface& met,
                Wavefront& front) {
         met.split = true;
@@ -333,7 +333,7 @@ class RecursiveEstimator {
         }
     }
 
-    /// Returns the number of the ray; kNotSent where all is reflected.
+    /// Adds a refracted ray and returns its number; kNotSent for total internal reflection.
     std::uint32_t send_refracted(const Seen& seen, const LeavingRays& from, const Path& onward,
                                  Generation& next) {
         const ShadingPoint& point = seen.point;
@@ -347,7 +347,8 @@ class RecursiveEstimator {
         return next.add(onward_ray(conventions_, from, direction), onward);
     }
 
-    /// Index on the side of the ray over that behind; `nm` 0: that of all wavelengths.
+    /// Refractive index on the side of the ray over that behind, at wavelength `nm`; 0: without
+    /// dispersion.
     [[nodiscard]] double eta_of(const Seen& seen, double nm) const {
         const ShadingPoint& point = seen.point;
         if (nm > 0.0) {
@@ -377,17 +378,16 @@ class RecursiveEstimator {
     RayCounters& counters_;
     std::size_t rays_at_once_;
     const std::vector<Rgb> ambient_;
-    std::vector<std::size_t> lamps_;  ///< the lights with shadow rays
-    // Of a batch that begins with its first ray.
+    std::vector<std::size_t> lamps_;   ///< numbers of the lights with shadow rays
     std::span<Hit> eye_hits_;          ///< see keep_hits
     std::span<const Hit> known_hits_;  ///< see start_from
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Chance chance_;
     const WaveSplit* split_;
-    std::optional<ExactOptics> optics_;  ///< where the scene asks for them
+    std::optional<ExactOptics> optics_;  ///< if the scene has exact optics
     Generation eye_;
-    std::deque<Wavefront> fronts_;  ///< by depth; references stay valid while it grows
+    std::deque<Wavefront> fronts_;  ///< [depth]; references stay valid while it grows
 };
 
 }  // namespace alhazen

@@ -9,7 +9,7 @@
 namespace alhazen {
 
 WaveSplit::WaveSplit(int count) : waves_(static_cast<std::size_t>(count)) {
-    constexpr int kParts = 256;  // of each share
+    constexpr int kParts = 256;  // per wavelength
     Rgb white;
     for (std::size_t k = 0; k < waves_.size(); ++k) {
         Wave& wave = waves_[k];

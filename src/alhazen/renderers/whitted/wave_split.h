@@ -1,12 +1,12 @@
 #pragma once
-/// Wavelengths that a refracted ray is split into where glass disperses, and their colours.
+/// The wavelengths into which dispersing glass splits a refracted ray, and their colours.
 ///
 /// Source: Thomas, "Dispersive Refraction in Ray Tracing", The Visual Computer 2, 1986 (a refracted
 /// ray for each of a few wavelengths); CIE 15:2004 (color_matching.h).
-/// Differs: a ray is split once, at the first surface that disperses; from there on it is of one
-/// wavelength. Each stands for a share of what is seen of white light, all shares being equal in
-/// sum over the channels. Colours beyond sRGB are clipped, and each channel scaled so that all
-/// together are white.
+/// Differs: a ray is split once, at the first dispersing surface; the rays behind it have one
+/// wavelength each. Each wavelength stands for an equal share of the visible white light (summed
+/// over the channels). Colours outside sRGB are clipped; channels are scaled so that the sum of all
+/// wavelengths is white.
 
 #include <vector>
 
@@ -26,7 +26,7 @@ class WaveSplit {
         Rgb weight;  ///< not below 0; the sum over all waves is (1, 1, 1)
     };
 
-    /// `count`: kFewest to kMost, from short to long.
+    /// `count`: kFewest to kMost. Wavelengths are ascending.
     explicit WaveSplit(int count);
 
     [[nodiscard]] const std::vector<Wave>& waves() const { return waves_; }
@@ -35,7 +35,8 @@ class WaveSplit {
     std::vector<Wave> waves_;
 };
 
-/// Index on the side of the ray over that behind, at a wavelength; of a scene without exact optics.
+/// Refractive index on the side of the ray over that behind, at wavelength `nm`, for scenes without
+/// exact optics.
 [[nodiscard]] double eta_by_wave(const Scene& scene, const ShadingPoint& point, double nm);
 
 }  // namespace alhazen

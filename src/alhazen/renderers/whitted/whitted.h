@@ -21,9 +21,9 @@ namespace alhazen {
 
 class Whitted final : public SingleRayRenderer {
   public:
-    /// `rays_at_once`: of a generation, at least 1; pixels do not depend on it.
+    /// `rays_at_once`: size of a batch, at least 1; pixels do not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
-    /// `waves`: that a refracted ray is split into where glass disperses; 0: none.
+    /// `waves`: number of wavelengths into which dispersing glass splits a ray; 0: no dispersion.
     explicit Whitted(const OpticsSettings& optics, int waves = 0) : optics_(optics) {
         if (waves > 0) split_.emplace(waves);
     }

@@ -12,9 +12,9 @@ double star_discrepancy(std::span<const Vec2> points) {
     std::vector<Vec2> by_x(points.begin(), points.end());
     std::sort(by_x.begin(), by_x.end(), [](const Vec2& a, const Vec2& b) { return a.x < b.x; });
     const auto n = static_cast<double>(by_x.size());
-    std::vector<double> ys;  // of the points so far, ascending
+    std::vector<double> ys;  // y of the points so far, ascending
     double worst = 0.0;
-    // Boxes that lack their right and upper sides hold too few points.
+    // Boxes without their right and upper sides hold the fewest points.
     const auto look_below = [&](double x) {
         for (std::size_t k = 0; k < ys.size(); ++k) {
             worst = std::max(worst, x * ys[k] - static_cast<double>(k) / n);

@@ -1,5 +1,5 @@
 #pragma once
-/// How evenly points fill the unit square.
+/// Measures of how evenly points fill the unit square.
 ///
 /// Source: Niederreiter, "Discrepancy and Convex Programming", Ann. Mat. Pura Appl. 93, 1972 (the
 /// star discrepancy is reached at boxes through the coordinates of the points).
@@ -11,8 +11,8 @@
 
 namespace alhazen {
 
-/// The largest difference, over all boxes with a corner at the origin, of the box's area and the
-/// share of points in it.
+/// The star discrepancy: the largest difference, over all boxes with a corner at the origin,
+/// between the area of the box and the fraction of points in it.
 [[nodiscard]] double star_discrepancy(std::span<const Vec2> points);
 
 /// The smallest distance of two points on the torus; 1 for fewer than two.

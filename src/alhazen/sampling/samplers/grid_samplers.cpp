@@ -11,7 +11,7 @@ EqualCells::EqualCells(std::uint32_t count)
       long_rows_(count % rows_) {}
 
 Vec2 EqualCells::at(std::uint32_t i, const Vec2& in) const {
-    // The long rows are the first ones and have one cell more.
+    // The long rows come first and have one cell more.
     const std::uint32_t in_long = long_rows_ * (short_row_ + 1);
     const bool is_long = i < in_long;
     const std::uint32_t columns = is_long ? short_row_ + 1 : short_row_;
@@ -35,7 +35,7 @@ Vec2 MultiJitteredSampler::point(std::uint64_t key, std::uint32_t i) const {
     const std::uint32_t cells = rows_ * columns_;
     const std::uint32_t cell = cells == count() ? i : permuted(i, cells, mix64(key + 1));
     const std::uint32_t column = cell % columns_, row = cell / columns_;
-    // Within a column of cells every cell has a fine column of its own; the same for rows.
+    // The cells of a column have different fine columns; the cells of a row different fine rows.
     const std::uint32_t fine_column = permuted(row, rows_, mix64(key + 2) + column);
     const std::uint32_t fine_row = permuted(column, columns_, mix64(key + 3) + row);
     const Vec2 in = uniform_pair(key, i);

@@ -1,12 +1,12 @@
 #pragma once
-/// Samples in the cells of grids.
+/// Samplers that place samples in the cells of grids.
 ///
 /// Source: Cook, "Stochastic Sampling in Computer Graphics", ACM TOG 5(1), 1986 (jittering);
 /// Shirley, "Discrepancy as a Quality Measure for Sample Distributions", Eurographics 1991
 /// (n-rooks); Chiu, Shirley and Wang, "Multi-Jittered Sampling", Graphics Gems IV, 1994.
-/// Differs: cells of `regular` and `jittered` have equal areas for every count: a row is as high as
-/// it has cells. `multi_jittered` takes as many cells as there are samples, by chance, out of the
-/// smallest grid that holds them.
+/// Differs: cells of `regular` and `jittered` have equal areas for every count: the height of a row
+/// is proportional to its number of cells. `multi_jittered` chooses as many cells as there are
+/// samples at random from the smallest grid that holds them.
 
 #include <algorithm>
 
@@ -18,14 +18,14 @@ namespace alhazen {
 class EqualCells {
   public:
     explicit EqualCells(std::uint32_t count);
-    /// The point at `in` of cell `i`, both coordinates 0 .. 1.
+    /// The point of cell `i` whose coordinates within the cell are `in`, each in [0, 1].
     [[nodiscard]] Vec2 at(std::uint32_t i, const Vec2& in) const;
 
   private:
     std::uint32_t count_, rows_, short_row_, long_rows_;
 };
 
-/// The centres of the cells.
+/// Samples at the centres of the cells.
 class RegularSampler final : public SetSampler {
   public:
     RegularSampler(std::uint64_t seed, std::uint32_t count)
@@ -38,7 +38,7 @@ class RegularSampler final : public SetSampler {
     EqualCells cells_;
 };
 
-/// A point anywhere in each cell.
+/// Samples at a random point of each cell.
 class JitteredSetSampler final : public SetSampler {
   public:
     JitteredSetSampler(std::uint64_t seed, std::uint32_t count)
@@ -51,7 +51,7 @@ class JitteredSetSampler final : public SetSampler {
     EqualCells cells_;
 };
 
-/// One point in each column and in each row of count x count cells.
+/// One sample in each column and in each row of count x count cells.
 class RooksSampler final : public SetSampler {
   public:
     using SetSampler::SetSampler;
@@ -60,7 +60,7 @@ class RooksSampler final : public SetSampler {
     [[nodiscard]] Vec2 point(std::uint64_t key, std::uint32_t i) const override;
 };
 
-/// One point in each cell, and the points also one in each fine column and row.
+/// One sample in each cell, and also one in each fine column and each fine row.
 class MultiJitteredSampler final : public SetSampler {
   public:
     MultiJitteredSampler(std::uint64_t seed, std::uint32_t count);

@@ -18,16 +18,16 @@ double radical_inverse_2(std::uint32_t i) {
     return reversed * 0x1p-32;
 }
 
-/// x + y modulo 1 for both in [0, 1).
+/// x + y modulo 1, for x and y in [0, 1).
 double shifted(double x, double y) {
     const double sum = x + y;
     return sum < 1.0 ? sum : sum - 1.0;
 }
 
-/// The radical inverse of `i` with scrambled digits; as many as `count` - 1 has.
+/// The radical inverse of `i` with scrambled digits, as many as `count` - 1 has.
 double scrambled_inverse(std::uint64_t key, std::uint32_t base, std::uint32_t i,
                          std::uint32_t count) {
-    std::uint64_t above = 1;  // the digits so far, behind a one that tells their number
+    std::uint64_t above = 1;  // the digits so far, behind a 1 that encodes their number
     double value = 0.0, place = 1.0;
     for (std::uint32_t rest = count - 1; rest > 0; rest /= base) {
         const std::uint32_t digit = i % base;

@@ -44,7 +44,7 @@ void BlueNoiseSampler::points(const SamplePixel& pixel, std::uint32_t pair, std:
         const std::uint64_t key = mix64(of_pixel ^ (std::uint64_t{turn} << 32 | pair));
         std::uint32_t i = s % size;
         if (pair >= kStoredSets) i = permuted(i, size, key);
-        // Pairs of a pixel have different sets, so that their orders are independent.
+        // The pairs of a pixel use different sets, so that their orders are independent.
         out[k] = torus_shifted(sets_[(mix64(of_pixel ^ turn) + pair) % kStoredSets][i],
                                uniform_pair(key, 0));
     }

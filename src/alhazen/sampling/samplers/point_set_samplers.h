@@ -1,9 +1,9 @@
 #pragma once
-/// Samples that keep their distance, from a few stored sets (point_sets.h). A pixel takes one,
-/// shifted on the torus.
+/// Samplers with a minimum distance between samples, from a few stored sets (point_sets.h). Each
+/// pixel uses one set, shifted on the torus.
 ///
-/// Conventions: those of Sampler. Sets have at most kMostPoints points; larger counts are made of
-/// several.
+/// Conventions: those of Sampler. Sets have at most kMostPoints points; larger counts combine
+/// several sets.
 
 #include <array>
 #include <vector>
@@ -15,7 +15,7 @@ namespace alhazen {
 inline constexpr std::uint32_t kStoredSets = 8;
 inline constexpr std::uint32_t kMostPoints = 1024;
 
-/// Poisson discs: sets of exactly the wanted size.
+/// Poisson discs, in sets of exactly the requested size.
 class PoissonDiscSampler final : public SetSampler {
   public:
     PoissonDiscSampler(std::uint64_t seed, std::uint32_t count);
@@ -25,8 +25,8 @@ class PoissonDiscSampler final : public SetSampler {
     std::array<std::vector<Vec2>, kStoredSets> sets_;
 };
 
-/// Best candidates: each beginning of a pixel's samples is blue noise. Pairs beyond the number of
-/// stored sets use them again in shuffled order.
+/// Best candidates: each prefix of a pixel's samples is blue noise. Pairs beyond the number of
+/// stored sets reuse them in shuffled order.
 class BlueNoiseSampler final : public Sampler {
   public:
     BlueNoiseSampler(std::uint64_t seed, std::uint32_t count);

@@ -64,7 +64,7 @@ double TorusPoints::nearest_in_ring(const Vec2& p, int ring, double best) const 
 
 double TorusPoints::nearest_squared(const Vec2& p, double enough) const {
     double best = 1.0;
-    // Beyond half a side the rings meet themselves.
+    // Rings beyond half a side would overlap themselves.
     const int rings = static_cast<int>(side_ / 2);
     for (int ring = 0; ring <= rings; ++ring) {
         // A ring is at least ring - 1 cells away.
@@ -76,7 +76,7 @@ double TorusPoints::nearest_squared(const Vec2& p, double enough) const {
 }
 
 DiscSet poisson_disc_set(std::uint64_t key, std::uint32_t count) {
-    // The densest packing, and how much of its radius random darts come to.
+    // The first radius, relative to that of the densest packing, and the factor that shrinks it.
     constexpr double kBegin = 0.8, kShrink = 0.98;
     constexpr int kDartsOfPoint = 16;
     DiscSet set;

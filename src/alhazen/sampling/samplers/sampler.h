@@ -1,12 +1,13 @@
 #pragma once
-/// Samplers by name: where in a pixel, on a lens, in time the samples of a picture lie.
+/// Samplers by name: the positions of samples in a pixel, on a lens, in time.
 ///
-/// A sampler gives pairs of values: pair 0 is the place in the pixel, the others are for whatever
-/// else a sample draws. docs/design/sampling.md.
-/// Conventions: values in [0, 1). A value depends on (seed, pixel, sample, dimension) and the size
-/// of a set alone, so on no thread and no order. Samples 0 .. count - 1 are the first set. Those of
-/// a progressive sampler go on: each beginning of its samples is as good a set as can be. Of the
-/// others each set of `count` samples is drawn anew. Threads: all functions may be called from
+/// A sampler gives pairs of values: pair 0 is the position in the pixel, the others are for all
+/// else that a sample draws. docs/design/sampling.md.
+/// Conventions: values lie in [0, 1). A value depends only on (seed, pixel, sample, dimension) and
+/// the size of a set, never on threads or order. Samples 0 .. count - 1 are the first set. A
+/// progressive sampler continues it: each prefix of its samples is as well distributed as possible.
+/// Other samplers draw each further set of `count` samples anew. Threads: all functions may be
+/// called from several threads.
 /// many.
 
 #include <cstddef>
@@ -22,7 +23,7 @@ namespace alhazen {
 struct SamplePixel {
     static constexpr int kMaxSide = 1 << 16;
 
-    int x = 0, y = 0;  ///< 0 .. kMaxSide - 1
+    int x = 0, y = 0;  ///< in 0 .. kMaxSide - 1
 
     [[nodiscard]] std::uint64_t id() const {
         return std::uint64_t(static_cast<std::uint32_t>(y)) << 32 | static_cast<std::uint32_t>(x);
@@ -38,13 +39,13 @@ struct SampleRun {
 class Sampler {
   public:
     virtual ~Sampler() = default;
-    /// Writes dimensions 2 pair and 2 pair + 1 of the samples from `first` on.
-    /// Precondition: first + out.size() is at most 2^20, and the count where the sampler is
-    /// progressive.
+    /// Writes dimensions 2 pair and 2 pair + 1 of samples first .. first + out.size() - 1.
+    /// Precondition: first + out.size() is at most 2^20 and, if the sampler is progressive, at most
+    /// the count.
     virtual void points(const SamplePixel& pixel, std::uint32_t pair, std::uint32_t first,
                         std::span<Vec2> out) const = 0;
-    /// The same of many pixels, one run behind the other. Fastest where successive runs are of
-    /// neighbouring pixels.
+    /// Writes the samples of several runs, one run after the other. Fastest if successive runs are
+    /// of neighbouring pixels.
     virtual void points_of(std::span<const SampleRun> runs, std::uint32_t pair,
                            std::span<Vec2> out) const {
         for (std::size_t done = 0; const SampleRun& run : runs) {
@@ -60,14 +61,15 @@ class Sampler {
     }
 };
 
-/// A sampler by name, and what it does in one line.
+/// A sampler's name, a description in one line and its properties.
 struct SamplerEntry {
     const char* name;
     const char* description;
     bool progressive;
-    /// Exponent of N with which the standard error of N samples falls at an edge, in theory.
+    /// Theoretical exponent of N in the standard error of N samples at an edge.
     double error_exponent;
-    /// `count`: samples of a set, or of a pixel at most where it is progressive; 1 .. 2^20.
+    /// `count`: the number of samples of a set or, if the sampler is progressive, the largest
+    /// number in a pixel; in 1 .. 2^20.
     std::unique_ptr<Sampler> (*make)(std::uint64_t seed, std::uint32_t count);
 };
 
@@ -75,7 +77,7 @@ inline constexpr std::uint32_t kMaxSamples = 1u << 20;
 
 /// The table of samplers. ADD A SAMPLER HERE (sampler_list.cpp: one line).
 [[nodiscard]] std::span<const SamplerEntry> samplers();
-/// Null for an unknown name.
+/// The entry of a name; null for an unknown name.
 [[nodiscard]] const SamplerEntry* find_sampler(const std::string& name);
 
 }  // namespace alhazen

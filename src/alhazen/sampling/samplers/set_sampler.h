@@ -2,14 +2,14 @@
 /// Samplers that draw sets of a fixed size.
 ///
 /// Conventions: those of Sampler. The order of a set's points is shuffled in every pair but the
-/// first, so that pairs are independent of each other.
+/// first, so that pairs are independent.
 
 #include "alhazen/sampling/permutation.h"
 #include "alhazen/sampling/samplers/sampler.h"
 
 namespace alhazen {
 
-/// Two uniform numbers for sample `i` of the set with `key`.
+/// Two uniform numbers for sample `i` of the set that `key` selects.
 [[nodiscard]] inline Vec2 uniform_pair(std::uint64_t key, std::uint32_t i) {
     const std::uint64_t h = mix64(key ^ (i + 1));
     return {unit_double(h), unit_double(mix64(h))};

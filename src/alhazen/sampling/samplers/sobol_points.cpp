@@ -4,7 +4,7 @@
 
 #include "alhazen/sampling/nested_scramble.h"
 
-// Clang refuses to pass vectors of AVX to functions that are compiled without it, inlined or not.
+// Clang refuses to pass AVX vectors to functions that are compiled without AVX, inlined or not.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define ALHAZEN_SOBOL_LANES 1
 #else
@@ -15,14 +15,14 @@ namespace alhazen {
 
 namespace {
 
-// Of one word or of lanes of words. Inlined into functions of any instruction set.
+// For one word or for lanes of words. Inlined into functions of any instruction set.
 #if ALHAZEN_SOBOL_LANES
 #define ALHAZEN_SOBOL_INLINE [[gnu::always_inline]] inline
 #else
 #define ALHAZEN_SOBOL_INLINE inline
 #endif
 
-/// The bits in reverse: the digits of the first dimension.
+/// The word with its bits in reverse order: the digits of the first dimension.
 template <class Word>
 ALHAZEN_SOBOL_INLINE Word with_reversed_bits(Word x) {
     x = (x >> 32) | (x << 32);
@@ -33,8 +33,9 @@ ALHAZEN_SOBOL_INLINE Word with_reversed_bits(Word x) {
     return ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
 }
 
-/// The digits of the second dimension in reverse. Its matrix is Pascal's triangle modulo two: digit
-/// j is the sum of the bits i of the number whose i contains all bits of j (Lucas' theorem).
+/// The digits of the second dimension in reverse order. Its matrix is Pascal's triangle modulo two:
+/// digit j is the sum of the bits i of the number for which i contains all bits of j (Lucas'
+/// theorem).
 template <class Word>
 ALHAZEN_SOBOL_INLINE Word with_sums_of_bits_above(Word x) {
     x ^= (x >> 1) & 0x5555555555555555u;
@@ -83,7 +84,7 @@ ALHAZEN_SOBOL_INLINE Words scrambled_digits(std::uint64_t tree, Words digits) {
         const Words above = done == 0 ? Words{} : digits >> (64 - done);
         const Words flips = mixed(tree ^ (above | std::uint64_t(done + 1) << 32));
         const Words six = (digits >> (64 - kLevels - done)) & 63u;
-        // The node of a level is the beginning of the digits behind a one.
+        // The node of a level is the first digits behind a 1.
         const Words way = six | 64u;
         Words flipped = six;
 #pragma GCC unroll 6
@@ -109,7 +110,7 @@ ALHAZEN_SOBOL_INLINE void scrambled_points_in_lanes(const ScrambleTrees& trees,
         const Words y =
             scrambled_digits(trees.y, with_reversed_bits(with_sums_of_bits_above(number)));
         for (std::size_t k = 0; k < count; ++k) {
-            // Below 2^53: signed integers are converted faster.
+            // Below 2^53, and signed integers are converted faster.
             out[i + k] = {static_cast<double>(static_cast<std::int64_t>(x[k])) * 0x1p-53,
                           static_cast<double>(static_cast<std::int64_t>(y[k])) * 0x1p-53};
         }
@@ -122,9 +123,9 @@ __attribute__((target("avx2"))) void scrambled_points_avx2(const ScrambleTrees& 
     scrambled_points_in_lanes<FourWords>(trees, numbers, out);
 }
 
-/// Has the products of words of 64 bits that AVX2 puts together of shorter ones. In registers of 512
-/// bits it is twice as fast as in those of 256 (6.2 and 14 ns a point on Zen 5), and a wave of paths
-/// asks for thousands of points at a time; processors whose clock falls by them were not measured.
+/// AVX-512DQ has products of 64-bit words, which AVX2 composes of shorter ones. Registers of 512
+/// bits take half the time of those of 256 (6.2 and 14 ns a point on Zen 5); processors that lower
+/// their clock for them were not measured.
 __attribute__((target("avx512f,avx512dq,prefer-vector-width=512"))) void scrambled_points_avx512(
     const ScrambleTrees& trees, std::span<const std::uint64_t> numbers, Vec2* out) {
     scrambled_points_in_lanes<EightWords>(trees, numbers, out);

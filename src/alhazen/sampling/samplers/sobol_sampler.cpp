@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// The bit of each of the four quadrants goes where the permutation says: all 24, two bits each.
+/// All 24 permutations of the four quadrants, two bits for each quadrant.
 constexpr std::array<std::uint8_t, 24> kOrders = [] {
     std::array<std::uint8_t, 24> orders{};
     std::size_t n = 0;
@@ -27,14 +27,14 @@ constexpr std::array<std::uint8_t, 24> kOrders = [] {
     return orders;
 }();
 
-/// The flip of a bit of the number of a sample, by a hash of the bits above.
+/// The flip of a bit of a sample's index, by a hash of the bits above it.
 std::uint32_t flip_of(std::uint32_t s, int bit, std::uint64_t key) {
     const std::uint64_t above = std::uint64_t{s >> bit >> 1} | std::uint64_t(bit + 1) << 32;
     return static_cast<std::uint32_t>(mix64(key ^ above) >> 63) << bit;
 }
 
-/// Numbers of samples, each bit flipped by a hash of the bits above: each first 2^k numbers stay an
-/// aligned block. Of successive numbers only flips of changed bits are hashed again.
+/// Indices of samples, each bit flipped by a hash of the bits above it: each first 2^k indices stay
+/// an aligned block. For successive indices only the flips of changed bits are hashed again.
 class ShuffledNumbers {
   public:
     ShuffledNumbers(std::uint32_t first, int bits, std::uint64_t key) : key_(key), next_(first) {
@@ -44,7 +44,7 @@ class ShuffledNumbers {
     [[nodiscard]] std::uint32_t next() {
         const std::uint32_t shuffled = next_ ^ flips_;
         ++next_;
-        // Those below the lowest bit that became one.
+        // The bits below the lowest bit that became 1.
         for (int bit = std::min(std::countr_zero(next_), bits_) - 1; bit >= 0; --bit) {
             flips_ = (flips_ & ~(1u << bit)) | flip_of(next_, bit, key_);
         }
@@ -62,8 +62,8 @@ class ShuffledNumbers {
 SobolSampler::SobolSampler(std::uint64_t seed, std::uint32_t count)
     : key_(mix64(seed)), sample_bits_(std::bit_width(count - 1)) {}
 
-/// The places of pixels on the curve: of a pixel near the last one only the digits that differ are
-/// found.
+/// Positions of pixels on the curve: for a pixel near the previous one, computes only the digits
+/// that differ.
 class SobolSampler::CurveWalk {
   public:
     explicit CurveWalk(std::uint64_t key) : key_(key) {}
@@ -91,7 +91,7 @@ class SobolSampler::CurveWalk {
 
     std::uint64_t key_;
     std::uint64_t place_ = 0;
-    /// The quadrants of the last pixel, behind a one that tells their number.
+    /// The quadrants of the previous pixel, behind a 1 that encodes their number.
     std::uint64_t above_ = std::uint64_t{1} << (2 * kBits);
     std::uint32_t x_ = 0, y_ = 0;
     bool began_ = false;
@@ -112,7 +112,7 @@ void SobolSampler::points_of(std::span<const SampleRun> runs, std::uint32_t pair
     const std::uint64_t key = mix64(key_ ^ pair);
     const ScrambleTrees trees{mix64(key + 1), mix64(key + 2)};
     CurveWalk walk(key);
-    std::array<std::uint64_t, 128> numbers;  // in the sequence
+    std::array<std::uint64_t, 128> numbers;  // indices in the sequence
     std::size_t waiting = 0;
     Vec2* next = out.data();
     const auto write = [&] {

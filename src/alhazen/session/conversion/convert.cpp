@@ -46,7 +46,8 @@ ConvertReport write_native(const SceneDescription& description, ConvertOutput& o
 
 // Mesh formats.
 
-/// `surfaces`: number of patches and surfaces that the file holds beside triangles.
+/// Throws if the counts exceed limits. `surfaces`: patches and surfaces that the file holds besides
+/// triangles.
 void check_counts(const PlacedCounts& counts, std::size_t surfaces, const fs::path& path,
                   const ConvertOptions& options) {
     const std::string shapes = shapes_in_words(counts);
@@ -149,7 +150,7 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     return output.finish(bytes_of(bytes));
 }
 
-/// Bezier patches without weights.
+/// Writes the non-rational Bezier patches.
 ConvertReport write_patches(const SceneDescription& description, const fs::path& path,
                             const ConvertOptions& options, ConvertOutput& output) {
     PlacedCounts counts = count_placed(description);

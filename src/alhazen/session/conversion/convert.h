@@ -1,15 +1,15 @@
 #pragma once
-/// Converts a loaded scene to another format: all of it as native text, its meshes as PLY, OBJ
-/// or STL, its patches as OBJ or .bpt.
+/// Converts a loaded scene to another format: the whole scene as native text, its meshes as PLY,
+/// OBJ or STL, its patches as OBJ or .bpt.
 ///
 /// Conventions: OUT.alhazen refers to its meshes (binary PLY) and pictures (PNG, EXR) in OUT_files/
-/// next to it, OUT.obj to its materials in OUT.mtl and its pictures likewise, all relative: file
-/// and folder can be moved together. The named files are written first, each atomically, OUT itself
-/// last; files of these names are replaced, others left alone. A file of OUT_files/ that another
-/// scene next to OUT names, with other bytes, is never replaced: the new file gets another name. A
-/// target that could be a file of the scene is refused, and nothing is written. A failed conversion
-/// removes the files and the folder that it created. Mesh files contain every placed mesh in the
-/// frame of the scene, in the order of the description.
+/// beside it; OUT.obj refers to its materials in OUT.mtl and its pictures in the same folder. All
+/// references are relative: file and folder can be moved together. Referenced files are written
+/// first, each atomically, and OUT last. Files of these names are replaced; other files are left
+/// alone. A file of OUT_files/ that another scene beside OUT names and whose bytes differ is never
+/// replaced: the new file gets another name. A target that could be a file of the scene is refused,
+/// and nothing is written. A failed conversion removes the files and the folder that it created.
+/// Mesh files contain every placed mesh in the frame of the scene, in the order of the description.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,28 +23,28 @@ namespace alhazen {
 struct ConvertOptions {
     /// Mesh formats: omit shapes that are not meshes instead of refusing the scene.
     bool meshes_only = false;
-    /// Whether the refusal advises --meshes-only.
+    /// True: the refusal advises --meshes-only.
     bool offers_meshes_only = true;
-    std::uint64_t max_triangles = 400'000'000;  ///< of a mesh file, instances expanded
+    std::uint64_t max_triangles = 400'000'000;  ///< limit of a mesh file, instances expanded
 };
 
 struct ConvertReport {
     std::vector<std::filesystem::path> files;  ///< in the order they were written; the last is OUT
-    std::uint64_t bytes = 0;                   ///< of all of them
-    std::uint64_t triangles = 0;               ///< written: each mesh once, or all placed meshes
+    std::uint64_t bytes = 0;                   ///< total size of the files
+    std::uint64_t triangles = 0;     ///< written: each mesh once (native), or all placed meshes
     std::uint64_t masked_parts = 0;  ///< mesh formats: parts whose visibility mask is lost
-    std::string left_out;            ///< "2 spheres, 1 plane": what meshes_only dropped
-    std::vector<std::string>
-        lost;  ///< OBJ: material properties that MTL cannot express, one line each
+    std::string left_out;            ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
+    /// OBJ: material properties that MTL cannot express, one line each.
+    std::vector<std::string> lost;
 };
 
 /// Throws Error (Usage) with the known suffixes when `path` has none of them, or when it is the
-/// file `scene` itself. Checked before loading.
+/// file `scene` itself. Call it before loading.
 void check_convert_target(const std::filesystem::path& scene, const std::filesystem::path& path);
 
 /// Writes a valid `description` in the format of the suffix of `path`. Throws Error: Usage as above
 /// and for content that the format cannot hold, Scene for an empty result, Resource beyond the
-/// limits, File.
+/// limits, File when a file cannot be written.
 ConvertReport convert(const SceneDescription& description, const std::filesystem::path& path,
                       const ConvertOptions& options = {});
 

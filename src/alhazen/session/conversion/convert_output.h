@@ -1,10 +1,10 @@
 #pragma once
-/// Output files of a conversion: OUT, and the files next to it that OUT names.
+/// Output files of a conversion: OUT, and the files beside it that OUT names.
 ///
 /// Conventions: all files are written under temporary names and moved to their places in `finish`,
-/// OUT last: a failed or stopped conversion leaves an earlier one intact. Files of another scene
-/// are not replaced: where a file of OUT_files/ has other bytes and a scene file next to OUT names
-/// it, the new file gets another name. Without `finish`, new files and folders are removed again.
+/// OUT last: a failed or stopped conversion leaves an earlier one intact. Files of other scenes are
+/// not replaced: if a scene file beside OUT names a file of OUT_files/ whose bytes differ, the new
+/// file gets another name. Without `finish`, new files and folders are removed.
 
 #include <filesystem>
 #include <optional>
@@ -19,7 +19,7 @@ namespace alhazen {
 
 class ConvertOutput {
   public:
-    /// `suffix` is that of `path` in lower case.
+    /// `suffix`: that of `path`, in lower case.
     ConvertOutput(std::filesystem::path path, std::string suffix)
         : path_(std::move(path)), suffix_(std::move(suffix)) {}
     ~ConvertOutput();
@@ -36,9 +36,9 @@ class ConvertOutput {
     /// or lies in its folder.
     void check_inputs(const std::set<std::filesystem::path>& inputs) const;
 
-    /// Writes a file to the folder. Returns its name relative to OUT: `name`, or another one.
+    /// Writes a file to the folder. Returns its name relative to OUT: `name`, or a free one.
     std::string write_beside(const std::string& name, std::span<const std::byte> bytes);
-    /// Writes a file of a fixed name next to OUT.
+    /// Writes a file of a fixed name beside OUT.
     void write_sibling(const std::filesystem::path& name, std::span<const std::byte> bytes);
     ConvertReport finish(std::span<const std::byte> bytes);
     ConvertReport& report() { return report_; }
@@ -66,7 +66,7 @@ class ConvertOutput {
     std::vector<std::filesystem::path> made_;  ///< files that did not exist before
     std::optional<std::filesystem::path> made_folder_;
     bool finished_ = false;
-    /// Files in the folders of conversions that scene files next to OUT name; searched on demand.
+    /// Files in folders of conversions that scene files beside OUT name; searched on demand.
     std::optional<std::set<std::string>> named_by_others_;
     bool may_name_anything_ = false;  ///< one of these scene files cannot be read
 };

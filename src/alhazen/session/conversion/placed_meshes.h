@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// Counts of a scene's contents, instances expanded. Sums saturate.
+/// Numbers of primitives of a scene, instances expanded. Sums saturate.
 struct PlacedCounts {
     std::uint64_t meshes = 0;  ///< with at least one triangle
     std::uint64_t triangles = 0;
@@ -22,8 +22,8 @@ struct PlacedCounts {
 /// "2 spheres, 1 plane"; empty without shapes.
 [[nodiscard]] std::string shapes_in_words(const PlacedCounts& counts);
 
-/// In the order of the parts; meshes without triangles are omitted. `material_names` [MaterialId].
-/// Precondition: the counts fit in memory.
+/// All placed meshes in the order of the parts; meshes without triangles are omitted.
+/// `material_names` [MaterialId]. Precondition: the counts fit in memory.
 [[nodiscard]] std::vector<NamedMesh> placed_meshes(const SceneDescription& description,
                                                    const std::vector<std::string>& material_names);
 

@@ -43,7 +43,7 @@ class SurfaceCollector {
         out_.push_back({part.name, &shape, placement,
                         material_names_[static_cast<std::size_t>(part.material)]});
     }
-    /// Whether an object has such a shape; the nesting of valid scenes is bounded.
+    /// True if an object has such a shape; the nesting of valid scenes is bounded.
     bool holds(std::size_t object) {
         if (!holds_[object]) {
             bool any = false;

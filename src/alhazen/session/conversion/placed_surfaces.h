@@ -9,11 +9,11 @@
 
 namespace alhazen {
 
-/// Limit of placed control points of a file.
+/// Largest number of placed control points in a file.
 inline constexpr std::uint64_t kMaxPlacedControlPoints = 400'000'000;
 
-/// The shapes that `fits`, in the order of the parts; they are removed from `counts`.
-/// `material_names` [MaterialId]. Throws Error (Resource) beyond the limit.
+/// The placed shapes for which `fits` is true, in the order of the parts; removes them from
+/// `counts`. `material_names` [MaterialId]. Throws Error (Resource) beyond the limit.
 [[nodiscard]] std::vector<NamedSurface> placed_surfaces(
     const SceneDescription& description, bool (*fits)(const AnyShape&),
     const std::vector<std::string>& material_names, PlacedCounts& counts);

@@ -43,11 +43,11 @@ double largest_stretch(const Affine& placement) {
             }
         }
     }
-    // Rounding must not make it too small.
+    // Rounding must not make the result too small.
     return std::sqrt(std::max({m[0][0], m[1][1], m[2][2]})) * (1.0 + 1e-12);
 }
 
-/// The largest stretch of all placements of each object; 0 for one that is not placed.
+/// The largest stretch of all placements of each object; 0 for objects that are not placed.
 class ObjectStretches {
   public:
     explicit ObjectStretches(const SceneDescription& scene)
@@ -71,7 +71,7 @@ class ObjectStretches {
     [[nodiscard]] double operator[](std::size_t object) const { return stretches_[object]; }
 
   private:
-    /// Number of placements of each object in those that are placed.
+    /// Counts the placements of each object in placed objects.
     void count_users(std::size_t root) {
         std::vector<std::size_t> open{root};
         std::vector<bool> seen(scene_.objects.size());
@@ -105,7 +105,7 @@ SceneDescription shape_alone(const AnyShape& shape) {
     return alone;
 }
 
-/// A scene of one object and what it is made of.
+/// A scene of one object and its contents.
 SceneDescription object_alone(const SceneDescription& scene, std::size_t index) {
     SceneDescription alone;
     alone.materials = scene.materials;
@@ -146,7 +146,7 @@ class Tessellation {
         const ObjectStretches stretches(scene_);
         std::vector<std::size_t> groups, solids;
         find_pictured(groups, solids);
-        // First: their operands are as in the file.
+        // Solids first: their operands must still be those of the file.
         for (const std::size_t k : solids) replace_solid(k, stretches[k]);
         for (const std::size_t k : groups) {
             for (Part& part : scene_.objects[k].parts) replace(part, stretches[k]);
@@ -158,7 +158,7 @@ class Tessellation {
     }
 
   private:
-    /// Groups that are placed other than as operands of solids, and the solids in them.
+    /// Finds the groups placed other than as operands of solids, and the solids in them.
     void find_pictured(std::vector<std::size_t>& groups, std::vector<std::size_t>& solids) const {
         std::vector<bool> seen(scene_.objects.size());
         std::vector<std::size_t> open{static_cast<std::size_t>(scene_.root)};
@@ -182,8 +182,8 @@ class Tessellation {
         std::sort(solids.begin(), solids.end());
     }
 
-    /// Triangles of a closed shape or a solid of the scene by its crossings with lines. Returns why
-    /// there are none.
+    /// Tessellates a closed shape or a solid by its crossings with lines. Returns why that failed;
+    /// empty on success.
     std::string append_by_lines(const SceneDescription& alone, double tolerance,
                                 TriangleMesh& mesh) const {
         const SolidList solids(compile(alone, {.own_accelerators = false}).aggregate);
@@ -212,7 +212,7 @@ class Tessellation {
         object.combine = Combine::Group;
     }
 
-    /// Whether there is a mesh; says why not.
+    /// True if there is a mesh; otherwise reports why not.
     bool accept(const std::string& failed, const FileLocation& where, const std::string& name,
                 const char* what, const TriangleMesh& mesh) {
         if (failed == kTooManyTriangles) {

@@ -1,10 +1,10 @@
 #pragma once
-/// A scene whose exact shapes are replaced by triangles.
+/// Replaces the exact shapes of a scene by triangles.
 ///
-/// Conventions: the tolerance is in the units of the scene: in an object it is divided by the
-/// largest stretch of its placements. Objects stay objects, instances stay instances; materials and
-/// names are kept. A solid made of others becomes a group of one mesh. See shape_tessellation.h and
-/// solids/solid_triangles.h for what the triangles are.
+/// Conventions: the tolerance is in the units of the scene; inside an object it is divided by the
+/// largest stretch of the object's placements. Objects stay objects, instances stay instances;
+/// materials and names are kept. A CSG solid becomes a group of one mesh. The tessellations are
+/// described in shape_tessellation.h and solids/solid_triangles.h.
 
 #include "alhazen/scene_model/scene_description.h"
 
@@ -15,9 +15,9 @@ struct TessellationReport {
     std::vector<std::string> kept;  ///< "FILE:L:C: plane: no triangles: the shape is endless"
 };
 
-/// Replaces each shape of a valid scene by a mesh within `tolerance` of it. Throws Error: Usage
-/// where the tolerance is not a positive number; Scene, with one line for each part, where a shape
-/// cannot be (it is endless, or open and no patch) and `keep_others` is false; Resource beyond
+/// Replaces each shape of a valid scene by a mesh within `tolerance` of it. Throws Error: Usage if
+/// the tolerance is not a positive number; Scene, with one line per part, if a shape has no
+/// tessellation (it is unbounded, or open and no patch) and `keep_others` is false; Resource beyond
 /// `max_triangles`.
 [[nodiscard]] TessellationReport tessellate(SceneDescription& description, double tolerance,
                                             bool keep_others = false,

@@ -24,14 +24,14 @@ constexpr double kFlat = 0.25;
 constexpr Rgb kHeadlight{0.75, 0.75, 0.75};
 constexpr Rgb kHeadlightAmbient{0.25, 0.25, 0.25};
 constexpr Rgb kHeadlightBackground{0.3, 0.3, 0.3};
-/// Of a scene with lights of its own.
+/// Ambient light of a scene with lights of its own.
 constexpr Rgb kSurroundings{0.1, 0.1, 0.1};
 
 struct Turn {
     double cosine, sine;
 };
 
-/// Exact at quarter turns, so that a view along an axis is exact.
+/// Sine and cosine, exact at quarter turns, so that a view along an axis is exact.
 Turn turn(double degrees) {
     const double quarters = degrees / 90.0;
     if (quarters == std::floor(quarters)) {
@@ -51,8 +51,8 @@ struct ViewFrame {
 ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
     const Turn a = turn(view.azimuth_deg);
     const Turn e = turn(view.elevation_deg);
-    // In (front, side, height); `up` is the derivative of `to_eye` by elevation: it has a limit at
-    // the poles.
+    // In (front, side, height). `up` is the derivative of `to_eye` by elevation, which has a limit
+    // at the poles.
     const auto place = [&](double front, double side, double height) {
         return up_axis == UpAxis::Z ? Vec3{front, side, height} : Vec3{side, height, front};
     };
@@ -60,8 +60,8 @@ ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
             place(-a.cosine * e.sine, -a.sine * e.sine, e.cosine)};
 }
 
-/// Distance of the eye at which the two sides of its pyramid, of half-width `tangent` at distance
-/// 1, hold all points (across, towards the eye).
+/// The least distance of an eye whose frustum, of half-width `tangent` at distance 1, contains all
+/// points (across, towards the eye).
 double least_distance(std::span<const Vec2> points, double tangent) {
     double right = -std::numeric_limits<double>::infinity();
     double left = right;
@@ -72,8 +72,8 @@ double least_distance(std::span<const Vec2> points, double tangent) {
     return (right + left) / (2.0 * tangent);
 }
 
-/// How far aside an eye at that distance must stand for the outermost points to appear equally far
-/// from the middle: what appears farther to the right of it falls as the eye moves right.
+/// The offset of an eye at that distance for which the outermost points appear equally far from the
+/// middle: the extent to the right of it falls as the eye moves right.
 double centred_place(std::span<const Vec2> points, double distance) {
     double lo = points[0].x, hi = lo;
     for (const Vec2& p : points) {
@@ -96,8 +96,8 @@ double largest_side(const Vec3& size) {
     return std::max({size.x, size.y, size.z});
 }
 
-/// Points of the scene, about the middle of its box and in units of its size, so that no product
-/// of lengths leaves the range of numbers.
+/// Points of the scene, relative to the middle of its box and in units of its size, so that no
+/// product of lengths overflows or underflows.
 class Cloud {
   public:
     Cloud(const Box3& box, const ViewFrame& frame) : frame_(frame), center_(box.center()) {
@@ -121,7 +121,7 @@ class Cloud {
                            across_[i].y * frame_.to_eye;
             known = std::max(known, dot(direction, p));
         }
-        // A point that is hardly farther changes nothing.
+        // Smaller steps do not change the picture.
         constexpr double kHardly = 1e-5;
         const auto point = farthest(direction, shift + unit_ * (known + kHardly));
         if (point) add(*point);
@@ -140,8 +140,7 @@ class Cloud {
     std::vector<Vec2> across_, along_;
 };
 
-/// Where the eye stands in the cloud's frame, and how far the points reach to both sides of it at
-/// distance 1.
+/// Place of the eye in the cloud's frame, and the half-extents of the points at distance 1.
 struct EyePlace {
     double back, aside, above;
     double across, along;
@@ -158,7 +157,7 @@ EyePlace place_eye(const Cloud& cloud, double aspect) {
     double nearest = -std::numeric_limits<double>::infinity();
     for (const Vec2& p : cloud.across()) nearest = std::max(nearest, p.y);
     EyePlace eye{};
-    // Points without width across the view would contain the eye.
+    // Without this bound, points of no width across the view would contain the eye.
     eye.back = std::max({least_distance(cloud.across(), tangent * aspect),
                          least_distance(cloud.along(), tangent), nearest + 1e-3});
     eye.aside = centred_place(cloud.across(), eye.back);
@@ -173,10 +172,11 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     const SeenParts seen(*scene.aggregate);
     const Box3& box = seen.box();
     if (box.empty()) {
-        throw Error(ErrorKind::Scene,
-                    scene.aggregate->box().empty()
-                        ? "the scene has nothing that could be seen, and no camera"
-                        : "the scene has no camera, and nothing of finite size that one would see");
+        throw Error(
+            ErrorKind::Scene,
+            scene.aggregate->box().empty()
+                ? "the scene has no camera and no visible geometry to frame"
+                : "the scene has no camera and no visible geometry of finite size to frame");
     }
     if (!is_finite(box.size())) {
         throw Error(ErrorKind::Scene, "the scene has no camera and is too large to be framed");
@@ -191,8 +191,8 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     return camera;
 }
 
-/// A light at the eye: visible points are never in shadow. It would be a white spot on whatever
-/// glass faces the eye.
+/// A light at the eye, so that visible points are not in shadow. Without highlights: it would be a
+/// white spot on any glass that faces the eye.
 Light headlight(const Camera& camera) {
     const auto at = [](const Vec3& eye) -> Light {
         return PointLight{
@@ -252,7 +252,7 @@ PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngl
     for (const Vec3& side : {frame.to_eye, frame.right, -frame.right, frame.up, -frame.up}) {
         (void)cloud.add_farthest(side, farthest);
     }
-    // What rays alone could find, they did not.
+    // The rays found nothing: the corners of the box replace the parts.
     if (cloud.across().empty()) {
         for (int i = 0; i < 8; ++i) cloud.add(box.corner(i));
     }

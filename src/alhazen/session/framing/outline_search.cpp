@@ -8,13 +8,13 @@ namespace alhazen {
 namespace {
 
 constexpr int kRows = 64, kColumns = 256;
-/// Of the window of a climb.
+/// The window of a climb, and limits of the number of climbs and their steps.
 constexpr int kClimbRows = 8, kClimbColumns = 48;
 constexpr int kMostClimbs = 8, kMostSteps = 60;
-/// The heights that a climb finds, relative to the box.
+/// Precision of the heights found, relative to the box.
 constexpr double kPrecision = 1e-5;
 
-/// Half of what the box spans along a unit vector.
+/// Half the extent of a box along a unit vector.
 double half_span(const Box3& box, const Vec3& along) {
     return 0.5 * dot(abs(along), box.size());
 }
@@ -76,7 +76,7 @@ OutlineSearch::Top OutlineSearch::climb(Top top, double reach, double room) cons
             reach = std::max(0.5 * reach, 2.0 * room);
             continue;
         }
-        // `k` was lowered past the row that hit.
+        // The loop decremented `k` after the row that hit.
         const std::size_t middle = row.columns.size() / 2;
         top = {row.columns[middle], top.height + room * (k + 1) / kClimbRows, row.points[middle]};
         const bool at_border = k + 1 == kClimbRows || row.columns.front() < columns[1] ||
@@ -101,7 +101,7 @@ std::optional<Vec3> OutlineSearch::farthest(double least) const {
         row = shoot_row(height, columns);
         if (row.columns.empty()) height -= step;
     }
-    // The last piece, less than a row.
+    // The last step, less than a row.
     if (row.columns.empty()) {
         height = bottom;
         row = shoot_row(height, columns);
@@ -109,7 +109,7 @@ std::optional<Vec3> OutlineSearch::farthest(double least) const {
     }
     const std::size_t hits = row.columns.size();
     Top best{row.columns[hits / 2], height, row.points[hits / 2]};
-    // The solid touches its box.
+    // The solid reaches the end of its box.
     if (height == highest) return best.point;
     int climbs = 0;
     for (std::size_t begin = 0, end; begin < hits && climbs < kMostClimbs; begin = end, ++climbs) {

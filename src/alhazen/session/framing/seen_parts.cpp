@@ -14,7 +14,7 @@ namespace alhazen {
 namespace {
 
 constexpr RayMask kEyeRays = mask_of(RayKind::Eye);
-/// Triangles under one box.
+/// Number of triangles per box.
 constexpr std::uint32_t kTrianglesOfPart = 1024;
 
 /// Shapes whose `extent` is exact up to rounding.
@@ -38,7 +38,7 @@ double reach(const Box3& box, const Vec3& direction) {
                 direction.z > 0 ? box.hi.z : box.lo.z});
 }
 
-/// The point of a convex hull where its extent is reached: the gradient of the extent.
+/// The point of a convex shape that reaches its extent: the gradient of the extent.
 Vec3 extreme_point(const PrimitiveTable& table, std::uint32_t id, const Box3& box,
                    const Vec3& direction, double height) {
     constexpr double kStep = 1e-6;

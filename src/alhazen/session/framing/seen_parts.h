@@ -1,12 +1,12 @@
 #pragma once
-/// The outermost points of what a camera can see of a scene.
+/// The outermost points of the parts that eye rays can see.
 ///
-/// Conventions: endless parts are left out, and parts, instances and triangles that eye rays do not
-/// see. Corners of triangles are exact. Shapes whose `extent` is tight are too, to about a
-/// millionth of their size. All others (solids of CSG, blobs, clipped quadrics, ...) are found by
-/// rays: what is thinner than 1/256 of the part may be missed.
-/// Complexity: a pass over all primitives when made. A query looks into the parts whose boxes reach
-/// farther than what is found already.
+/// Conventions: unbounded parts are left out, as are parts, instances and triangles that eye rays
+/// do not see. Corners of triangles are exact. Shapes whose `extent` is tight are exact to about a
+/// millionth of their size. All others (CSG solids, blobs, clipped quadrics, ...) are found by
+/// rays: features thinner than 1/256 of the part may be missed.
+/// Complexity: the constructor visits all primitives. A query visits the parts whose boxes reach
+/// beyond the best point so far.
 
 #include <cstdint>
 #include <map>
@@ -23,7 +23,7 @@ class SeenParts {
     /// `aggregate` must outlive the object.
     explicit SeenParts(const Aggregate& aggregate);
 
-    /// Holds all of them; empty where there are none.
+    /// The box of all seen parts; empty if there are none.
     [[nodiscard]] const Box3& box() const { return root_->box; }
     /// The point with the largest dot(direction, point), if that is larger than `least`.
     [[nodiscard]] std::optional<Vec3> farthest(const Vec3& direction, double least) const;
@@ -33,10 +33,10 @@ class SeenParts {
     struct Group;
     struct Part {
         Box3 box;             ///< in the frame of the group
-        std::uint32_t first;  ///< id of the primitive; of triangles and instances, their index
+        std::uint32_t first;  ///< id of the primitive; index of the first triangle or the instance
         std::uint32_t count;
         Sort sort;
-        const Group* inner;  ///< of an instance
+        const Group* inner;  ///< contents of an instance
     };
     /// The parts of an aggregate.
     struct Group {

@@ -27,7 +27,7 @@ SceneDescription city(std::uint64_t houses) {
     parts.push_back(part_of(floor, ground));
     const auto per_row = static_cast<std::uint64_t>(side);
     for (std::uint64_t n = 0; n < houses; ++n) {
-        // Numbers of their own for each house.
+        // Independent random numbers for each house.
         const auto number = [&](std::uint64_t k) {
             return static_cast<double>(mix64(mix64(n + 1) ^ k) >> 11) * 0x1p-53;
         };

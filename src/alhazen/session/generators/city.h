@@ -1,5 +1,5 @@
 #pragma once
-/// A city: boxes of any number on a square of ground, for renderers of planar facets.
+/// A city: any number of boxes on square ground, for renderers of planar facets.
 
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace alhazen {
 
-/// `houses` boxes on a square grid, of heights that fall off exponentially; every fourth reflects a
+/// `houses` boxes on a square grid with exponentially distributed heights; every fourth reflects a
 /// fifth of the light. 6 `houses` + 1 polygons, one sun.
 [[nodiscard]] SceneDescription city(std::uint64_t houses);
 

@@ -2,8 +2,8 @@
 /// Generated scenes of any size by name, for measurements and pictures: `alhazen generate`.
 ///
 /// Conventions: each generator defines the unit of its size, and whether the size is exact or a
-/// minimum. All scenes have a camera and lights. The same name and size give the same scene
-/// everywhere, up to the last bits of the sines of the C library.
+/// minimum. All scenes have a camera and lights. The same name and size give the same scene on
+/// every machine, up to the last bits of the sines of the C library.
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ namespace alhazen {
 struct GeneratorEntry {
     const char* name;
     const char* size;            ///< unit of the size, one word
-    std::uint64_t default_size;  ///< the published one for a database
+    std::uint64_t default_size;  ///< for a database the published one
     std::uint64_t max_size;
     const char* description;  ///< one line
     /// Exactly one of the two is set: a function that returns a description, or one that returns
@@ -33,8 +33,8 @@ struct GeneratorEntry {
 /// Throws Error (Usage) with the valid names for an unknown one.
 [[nodiscard]] const GeneratorEntry& find_generator(const std::string& name);
 
-/// The scene, valid; for a database the scene of its NFF file with six digits. Throws Error: Usage
-/// as above, and for a size of 0 or above the generator's largest.
+/// The generated scene, valid; for a database the scene of its NFF file with six digits. Throws
+/// Error: Usage as above, and for a size of 0 or above the generator's largest.
 [[nodiscard]] SceneDescription generate(const std::string& name,
                                         std::optional<std::uint64_t> size = {});
 

@@ -10,7 +10,7 @@ struct GeneratedView {
     double fov_deg = 40;  ///< both directions; the image is square
 };
 
-/// Scene without materials; its root is an object without parts. z is up; 512 x 512 pixels.
+/// A scene without materials whose root is an object without parts. z is up; 512 x 512 pixels.
 [[nodiscard]] SceneDescription generated_scene(const GeneratedView& view);
 
 /// Adds a diffuse material and returns its id.

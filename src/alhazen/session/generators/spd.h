@@ -2,12 +2,12 @@
 /// Standard Procedural Databases: each function writes the NFF file of a size factor.
 ///
 /// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and the
-/// files written by the original generators (version 3.14). Written anew.
+/// files written by the original generators (version 3.14). Independent implementation.
 /// Conventions: the size factor is at least 1 and at most the largest named by `generators()`; the
 /// number of primitives is stated with each function.
 /// Agreement with the published files: balls, gears, tetra and teapot reproduce them number for
-/// number; rings, sombrero and tree reproduce the known ones of small sizes. Where a published
-/// number is only rounding error (below 1e-12), so is the number here. The other databases have the
+/// number; rings, sombrero and tree reproduce the known ones of small sizes. Published numbers that
+/// are only rounding error (below 1e-12) are rounding error here too. The other databases have the
 /// published number of primitives and are otherwise reconstructions:
 /// - jacks: one jack is as published; the nesting of smaller ones is reconstructed;
 /// - mount: view, light and the glass spheres are as published; the original's random heights are

@@ -10,8 +10,8 @@
 
 namespace alhazen {
 
-/// A teapot of at least `triangles` triangles in a stadium of as many, about 500 times its size:
-/// grid cells that fit the stadium hold the whole teapot.
+/// A teapot of at least `triangles` triangles in a stadium of as many, about 500 times its size: a
+/// grid cell sized for the stadium contains the whole teapot.
 [[nodiscard]] SceneDescription stadium(std::uint64_t triangles);
 
 /// `sticks` cylinders through a cube in random directions, 500 times as long as thick: their boxes

@@ -1,10 +1,10 @@
 #pragma once
-/// Control points of Newell's teapot, as 32 bicubic Bezier patches. Stored as profiles of the
-/// surfaces of revolution, and halves of handle and spout, mirrored to the other half.
+/// Control points of Newell's teapot, as 32 bicubic Bezier patches. Stored are profiles of the
+/// surfaces of revolution and one half of handle and spout, which is mirrored.
 ///
 /// Source: Newell, "The Utilization of Procedure Models in Digital Image Synthesis", 1975; the
-/// points as printed by Crow, "The Origins of the Teapot", IEEE CG&A 7(1), 1987, with the bottom
-/// that was added later.
+/// points as printed by Crow, "The Origins of the Teapot", IEEE CG&A 7(1), 1987, with the later
+/// bottom.
 /// Conventions: z is up, the bottom lies in z = 0, the rim at 2.4, the spout towards +x. Rows of a
 /// patch of a surface of revolution go down its profile. Seen from outside, u x v points inward.
 
@@ -31,8 +31,8 @@ struct PatchGrid {
     }
 };
 
-/// Unit normals point out of the pot; up or down where the patch is degenerate (its rows converge
-/// to a point).
+/// Evaluates a patch; unit normals point out of the pot, and up or down where the patch is
+/// degenerate (its rows converge to a point).
 [[nodiscard]] PatchGrid evaluate(const TeapotPatch& patch, int cells);
 
 }  // namespace alhazen

@@ -80,7 +80,7 @@ json meshes_json(const SceneDescription& d, const std::vector<MeshFigures>& figu
     return meshes;
 }
 
-/// Null if one of them is unknown.
+/// True if all are closed; null if any is unknown.
 json all_closed(const std::vector<MeshFigures>& figures) {
     bool known = !figures.empty();
     for (const MeshFigures& f : figures) {
@@ -90,7 +90,7 @@ json all_closed(const std::vector<MeshFigures>& figures) {
     return known ? json(true) : json(nullptr);
 }
 
-/// Patches, patch meshes and bilinear patches, each in its own frame.
+/// Counts and measures of patches, patch meshes and bilinear patches, each in its own frame.
 json patches_json(const SceneDescription& d, bool all) {
     json patches = json::array();
     for (const ObjectDescription& object : d.objects) {
@@ -237,7 +237,7 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
         vertices += figures.back().vertices;
         unused += figures.back().unused_vertices;
     }
-    // The accelerator's box has margins: used only to test for bounds.
+    // The accelerator's box has margins: it only tells whether the scene is bounded.
     const Box3 box = loaded.scene.aggregate->box();
     const bool unbounded = !box.empty() && !box.bounded();
     const json bounds = box.empty() ? nullptr : box_json(exact_bounds(*loaded.scene.aggregate));

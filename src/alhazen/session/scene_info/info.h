@@ -9,8 +9,8 @@
 namespace alhazen {
 
 struct InfoOptions {
-    /// Also tests meshes of more than two million triangles for closedness, a sort of all their
-    /// edges, and measures surfaces of more than 20 000 patches.
+    /// Also tests meshes of more than two million triangles for closedness, which sorts all edges,
+    /// and measures surfaces of more than 20 000 patches.
     bool all = false;
 };
 
@@ -20,7 +20,7 @@ struct InfoOptions {
                                                 const LoadedScene& loaded,
                                                 const InfoOptions& options = {});
 
-/// The same as text. `all`: lists are not truncated.
+/// The summary as text. `all`: lists are not truncated.
 [[nodiscard]] std::string info_text(const nlohmann::ordered_json& info, bool all = false);
 
 }  // namespace alhazen

@@ -208,7 +208,7 @@ void add_memory(Report& report, const json& info) {
     if (!memory.contains("per_triangle")) return;
     const json& each = memory["per_triangle"];
     std::string peaks;
-    // The memory of the process itself would exceed that of a small mesh.
+    // For small meshes the memory of the process itself would dominate.
     if (info["triangles"].get<std::uint64_t>() >= kManyTriangles) {
         peaks = fmt::format(", peak {:.0f} after reading, {:.0f} after building",
                             each["peak_after_load"].get<double>(),

@@ -1,9 +1,9 @@
 #pragma once
 /// Counts, area and volume of a mesh, and of all meshes as placed in a scene.
 ///
-/// Conventions: volumes are signed, positive where the surface is wound outward; the sign is kept
-/// under a mirroring placement, because the outside stays outside. The volume of an open mesh is
-/// not meaningful.
+/// Conventions: volumes are signed, positive where the surface is wound outward; a mirroring
+/// placement keeps the sign, because the outside stays outside. The volume of an open mesh is not
+/// meaningful.
 
 #include <cstdint>
 #include <optional>
@@ -29,7 +29,7 @@ struct PlacedFigures {
 };
 
 /// Sums over all meshes as placed, instances expanded. `meshes` [MeshIndex] are their own figures.
-/// None beyond the limit of steps: many nested non-uniform scalings.
+/// None beyond the limit of steps (many nested non-uniform scalings).
 [[nodiscard]] std::optional<PlacedFigures> placed_figures(const SceneDescription& description,
                                                           const std::vector<MeshFigures>& meshes);
 

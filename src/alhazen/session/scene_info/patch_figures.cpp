@@ -35,7 +35,7 @@ Vec3 end_of_key(const std::vector<double>& key, bool last) {
     return projected({key[at], key[at + 1], key[at + 2], key[at + 3]});
 }
 
-/// Number of patches and each as a net.
+/// The number of patches of a shape.
 std::size_t net_count(const AnyShape& shape) {
     if (const auto* mesh = std::get_if<PatchMesh>(&shape)) return mesh->patch_count();
     return std::holds_alternative<BezierPatch>(shape) ||

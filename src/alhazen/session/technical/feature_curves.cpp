@@ -15,14 +15,14 @@ namespace alhazen {
 
 namespace {
 
-/// Adds curves of the space of a shape.
+/// Adds curves given in the space of a shape.
 class CurvePlacer {
   public:
     CurvePlacer(const Affine& world, const BeamApex& eye, std::vector<FeatureCurve>& curves)
         : world_(world), inverse_(inverse(world)), curves_(curves) {
         eye_ = {inverse_.linear * eye.at + eye.weight * inverse_.translation, eye.weight};
     }
-    /// Of the space of the shape.
+    /// The eye in the space of the shape.
     [[nodiscard]] const BeamApex& eye() const { return eye_; }
     [[nodiscard]] bool faces(const Vec3& normal, const Vec3& point) const {
         return dot(normal, eye_.at - eye_.weight * point) > 0.0;
@@ -47,12 +47,12 @@ class CurvePlacer {
         curve.off = off;
         add(curve);
     }
-    /// Where two faces meet.
+    /// Adds an edge where two faces meet.
     void add_edge(const Vec3& a, const Vec3& b, const Vec3& n, const Vec3& m, double off = 0) {
         const bool ends = faces(n, a) != faces(m, a);
         add_line(ends ? LineStyle::Silhouette : LineStyle::Crease, a, b, n, m, off);
     }
-    /// Where a face that is seen from both sides ends.
+    /// Adds the border of a two-sided face.
     void add_border(const Vec3& a, const Vec3& b, const Vec3& n, double off = 0) {
         const Vec3 out = faces(n, a) ? n : -n;
         add_line(LineStyle::Silhouette, a, b, out, out, off);
@@ -82,7 +82,7 @@ void add_curves(const Sphere& s, CurvePlacer& placer) {
     placer.add(curve);
 }
 
-/// The rims and the two lines of the side of a frustum.
+/// Adds the rims and the two outline lines of a frustum.
 void add_frustum(const Vec3& base, const Vec3& top, double base_radius, double top_radius,
                  CurvePlacer& placer) {
     const double height = length(top - base), fall = base_radius - top_radius;
@@ -150,7 +150,7 @@ void add_loop(std::span<const Vec3> loop, const Vec3& normal, CurvePlacer& place
     }
 }
 
-/// False where the shape has no curves in closed form.
+/// Adds the curves of a shape in closed form; false if it has none.
 bool add_exact(const AnyShape& shape, CurvePlacer& placer) {
     if (const auto* s = std::get_if<Sphere>(&shape)) {
         add_curves(*s, placer);
@@ -179,7 +179,7 @@ bool add_exact(const AnyShape& shape, CurvePlacer& placer) {
     return true;
 }
 
-/// Walks the objects of a description; `triangles` is the same with meshes in place of shapes.
+/// Walks the objects of a description; `triangles` is its tessellation.
 class CurveGatherer {
   public:
     CurveGatherer(const SceneDescription& d, const SceneDescription& triangles, const BeamApex& eye,
@@ -248,7 +248,7 @@ std::vector<FeatureCurve> feature_curves(const SceneDescription& description, co
     for (ObjectDescription& object : triangles.objects) {
         if (object.combine != Combine::Group) continue;
         for (Part& part : object.parts) {
-            // No need for triangles of shapes with exact curves.
+            // Shapes with exact curves need no triangles.
             const auto* s = std::get_if<AnyShape>(&part.what);
             if (s != nullptr &&
                 (std::holds_alternative<Sphere>(*s) || std::holds_alternative<Cylinder>(*s) ||

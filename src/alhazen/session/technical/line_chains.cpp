@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// A style and a place of the picture.
+/// A style and a position in the picture.
 using End = std::tuple<LineStyle, std::int64_t, std::int64_t>;
 End end_of(const DrawingLine& line, bool last) {
     const Vec2& p = last ? line.points.back() : line.points.front();

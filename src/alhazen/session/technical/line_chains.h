@@ -1,8 +1,8 @@
 #pragma once
-/// Joins straight lines that share an end into longer ones, so that dashes run through.
+/// Joins straight lines that share an end into longer ones, so that dashes continue across ends.
 ///
-/// Conventions: lines of one style whose ends are within a hundredth of a pixel are joined; what is
-/// shorter than two pixels then is left out. Arcs stay as they are.
+/// Conventions: lines of one style whose ends are within a hundredth of a pixel are joined; chains
+/// shorter than two pixels are then omitted. Arcs are unchanged.
 
 #include <vector>
 

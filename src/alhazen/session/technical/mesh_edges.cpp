@@ -16,27 +16,28 @@ namespace alhazen {
 namespace {
 
 constexpr double kCrease = 0.906;       ///< cosine of 25 degrees
-constexpr double kSolidCrease = 0.819;  ///< of 35 degrees
+constexpr double kSolidCrease = 0.819;  ///< cosine of 35 degrees
 
-/// A side of a triangle, its ends by position.
+/// A side of a triangle; its ends are numbers of positions.
 struct Side {
     std::uint32_t lo, hi;
     std::uint32_t triangle;
-    std::uint32_t at_lo, at_hi;  ///< vertices
+    std::uint32_t at_lo, at_hi;  ///< vertex indices of the ends
 
     bool operator<(const Side& o) const {
         return std::tie(lo, hi, triangle) < std::tie(o.lo, o.hi, o.triangle);
     }
 };
 
-/// Numbers of places. Corners that were computed or written twice differ by rounding: nearer than
-/// `same` they are one.
+/// Numbers positions. Positions of corners that differ by rounding (less than `same`) get one
+/// number.
 class PlaceNumbers {
   public:
     explicit PlaceNumbers(double same) : same_(same) {}
 
     std::uint32_t number_of(const Vec3& p) {
-        // A cell has the side 4 same: what is near lies in the cells of the corners around.
+        // A cell has the side 4 `same`: neighbours lie in the cells of the eight corners around
+        // `p`.
         for (int k = 0; k < 8; ++k) {
             const Vec3 corner{p.x + ((k & 1) != 0 ? same_ : -same_),
                               p.y + ((k & 2) != 0 ? same_ : -same_),

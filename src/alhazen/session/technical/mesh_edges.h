@@ -1,11 +1,12 @@
 #pragma once
-/// Edges and contours of a triangle mesh as an eye sees them.
+/// Edges and contours of a triangle mesh as seen from an eye.
 ///
-/// Source and conventions: feature_curves.h. An edge is where the normals of two triangles differ
-/// by more than 25 degrees (those of the corners, where the mesh has any) or where more than two
-/// meet. Of a solid, whose triangles have one normal in cells with blunt edges, also where the
-/// planes of triangles differ by more than 35 degrees. A mesh that stands for itself ends where a
-/// triangle that faces the eye meets one that does not: rays see its planes, not its normals.
+/// Source and conventions: feature_curves.h. A side of triangles is an edge if the normals of its
+/// two triangles (those of the corners, if the mesh has any) differ by more than 25 degrees, or if
+/// more than two triangles meet. For a solid, whose triangles have one normal in cells with blunt
+/// edges, also if the planes of the triangles differ by more than 35 degrees. The contour of a mesh
+/// that is itself the surface is where a triangle that faces the eye meets one that does not: rays
+/// see its planes, not its normals.
 
 #include <vector>
 
@@ -23,11 +24,11 @@ struct MeshEdge {
 
 enum class MeshSource {
     Itself,  ///< the mesh is the surface
-    Shape,   ///< triangles within a tolerance of an exact shape
-    Solid,   ///< the same of a solid
+    Shape,   ///< a tessellation of an exact shape
+    Solid,   ///< a tessellation of a solid
 };
 
-/// `eye`: in the space of the mesh.
+/// The edges that `eye`, in the space of the mesh, sees.
 [[nodiscard]] std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh, const BeamApex& eye,
                                                MeshSource source);
 

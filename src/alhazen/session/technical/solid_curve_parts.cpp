@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Of the size of the leaf: chords of curves are this near to them.
+/// Largest distance of chords from their curves, relative to the size of the leaf.
 constexpr double kChord = 1e-4;
 
 }  // namespace
@@ -59,7 +59,7 @@ void SolidCurveParts::add(const SolidCurve& given) {
         }
         return lo;
     };
-    // Of what is closed the first part begins where something changes.
+    // Parts of a closed curve begin at a change.
     int first = 0;
     double begin = curve.from;
     const bool closed = curve.to - curve.from > 6.0 && (curve.round || !curve.has_form);
@@ -88,7 +88,7 @@ void SolidCurveParts::add(const SolidCurve& given) {
     }
     double end = curve.to;
     if (closed && begin > curve.from) {
-        // Back where the first began.
+        // The last part ends where the first begins.
         const double lo = curve.from + (first + kSamples - 0.5) * step;
         end = border(lo - step, lo + step, state);
     }
@@ -130,7 +130,7 @@ void SolidCurveParts::divide(const SolidCurve& curve, FeatureCurve& result, cons
         divide(curve, result, {t, *m}, b, depth - 1);
         return;
     }
-    if (off > 0.05 * size) return;  // a leap
+    if (off > 0.05 * size) return;  // a jump between branches
     const Here at = here(curve, t);
     if (at.state == 0) return;
     result.points = {a.p, b.p - a.p, {}};
@@ -150,7 +150,7 @@ void SolidCurveParts::set_normals(const SolidCurve& curve, FeatureCurve& result)
     if (a.state == 0 || b.state == 0) return;
     const double c = std::cos(step), s = std::sin(step);
     const auto fit = [&](const Vec3& before, const Vec3& at, const Vec3& after) {
-        // In the angle from the middle: at = o + u, before and after = o + c u -+ s v.
+        // With the angle from the middle: at = o + u, before and after = o + c u -+ s v.
         const Vec3 u = (at - 0.5 * (before + after)) / (1.0 - c), o = at - u;
         const Vec3 v = 0.5 * (after - before) / s;
         return CurveForm{o, std::cos(middle) * u - std::sin(middle) * v,

@@ -1,9 +1,9 @@
 #pragma once
 /// The parts of a curve of a solid that are edges or outlines.
 ///
-/// Source: solid_faces.h (the wheel of solid around a point). Conventions: at 256 points of a curve
-/// it is told what is there; between two that differ the place is found by halving. What is closed
-/// begins where something changes. The same part of a curve is kept once.
+/// Source: solid_faces.h (neighbourhoods of points). Conventions: the neighbourhoods of 256 points
+/// of a curve are classified; between two that differ, bisection finds the change. Closed curves
+/// begin at a change. Equal parts of several curves are kept once.
 
 #include <array>
 #include <functional>
@@ -15,11 +15,11 @@
 
 namespace alhazen {
 
-/// A curve in which two faces may meet, or a face may turn away.
+/// A curve in which two faces may meet, or which may be the outline of a face.
 struct SolidCurve {
-    const SolidFace* face = nullptr;  ///< one of those that it lies in
+    const SolidFace* face = nullptr;  ///< one of the faces that contain it
     bool outline = false;
-    bool has_form = false;  ///< else `at` alone
+    bool has_form = false;  ///< true: `form` gives the points; false: `traced`
     bool round = false;
     CurveForm form;
     std::function<std::optional<Vec3>(double)> traced;
@@ -38,9 +38,9 @@ class SolidCurveParts {
 
     SolidCurveParts(const FacedSolid& solid, const BeamApex& eye) : solid_(solid), eye_(eye) {}
 
-    /// Finds the parts of a curve.
+    /// Adds the parts of a curve.
     void add(const SolidCurve& given);
-    /// The same for a line within a box, a little larger.
+    /// Adds the parts of a line inside a slightly enlarged box.
     void add_within(SolidCurve line, const Box3& box);
     [[nodiscard]] std::vector<FeatureCurve> take() { return std::move(curves_); }
 
@@ -55,18 +55,18 @@ class SolidCurveParts {
     };
     [[nodiscard]] Here here(const SolidCurve& curve, double t) const;
     void emit(const SolidCurve& curve, int state, double from, double to);
-    /// Lines between points of a curve.
+    /// Approximates a stretch of a curve by lines between its points.
     void divide(const SolidCurve& curve, FeatureCurve& result, const Point& a, const Point& b,
                 int depth);
-    /// Directions that change as a + cos(t) b + sin(t) c, from three points.
+    /// Fits normals of the form a + cos(t) b + sin(t) c to three points of a curve.
     void set_normals(const SolidCurve& curve, FeatureCurve& result) const;
-    /// Whether the same part of a curve was found before, as one of other faces.
+    /// True if the same part was found before as a curve of other faces.
     bool is_known(const SolidCurve& curve, double from, double middle, double to);
 
     const FacedSolid& solid_;
     BeamApex eye_;
     std::vector<FeatureCurve> curves_;
-    std::vector<std::array<Vec3, 3>> known_;  ///< ends and middles
+    std::vector<std::array<Vec3, 3>> known_;  ///< ends and middles of the parts found
 };
 
 }  // namespace alhazen

@@ -37,7 +37,7 @@ CurveForm mapped(const Affine& world, const CurveForm& form) {
     return {world.point(form.origin), world.vector(form.u), world.vector(form.v)};
 }
 
-/// The frame of a side: its lines are at(angle) + t along(angle), t from 0 to 1.
+/// The frame of a side; `line(angle)` is its generating line, with t in [0, 1].
 struct SideFrame {
     explicit SideFrame(const SolidFace& f)
         : face(f), x(normalize(perpendicular(f.axis))), y(cross(f.axis, x)) {}
@@ -50,8 +50,8 @@ struct SideFrame {
     Vec3 x, y;
 };
 
-/// Where a line meets the surface of a face, in its space: up to two, in an order that stays along
-/// neighbouring lines.
+/// The parameters at which a line meets the surface of a face, in leaf space: at most two, in an
+/// order that is consistent along neighbouring lines.
 std::array<std::optional<double>, 2> roots_of(const SolidFace& f, const Line& line) {
     const Vec3 w = line[0] - f.at, &d = line[1];
     if (f.kind == Kind::Plane) {
@@ -79,7 +79,7 @@ std::array<std::optional<double>, 2> roots_of(const SolidFace& f, const Line& li
     return {(-b - root) / a, (-b + root) / a};
 }
 
-/// Finds the curves and their parts that are edges or outlines.
+/// Finds the curves, and their parts that are edges or outlines.
 class SolidCurveFinder {
   public:
     SolidCurveFinder(const FacedSolid& solid, const BeamApex& eye)
@@ -101,7 +101,7 @@ class SolidCurveFinder {
     [[nodiscard]] std::vector<FeatureCurve> take() { return parts_.take(); }
 
   private:
-    // ---- curves of two faces
+    // ---- Curves of two faces.
 
     bool meet(const SolidFace& a, const SolidFace& b) {
         if (a.kind > b.kind) return meet(b, a);
@@ -125,7 +125,7 @@ class SolidCurveFinder {
                    : 0.0;
     }
 
-    /// A plane in the space of another leaf.
+    /// A plane transformed to the space of another leaf.
     [[nodiscard]] SolidFace moved(const SolidFace& plane, const SolidLeaf& to) const {
         const SolidLeaf& own = solid_.leaf(plane);
         SolidFace result = plane;
@@ -188,7 +188,7 @@ class SolidCurveFinder {
         }
     }
 
-    /// False where they are ellipsoids of their own to each other.
+    /// Adds the circle of two spheres. False if they are not spheres in one common space.
     bool spheres(const SolidFace& a, const SolidFace& b) {
         const SolidLeaf &leaf = solid_.leaf(a), &other = solid_.leaf(b);
         if (&leaf == &other) return true;
@@ -216,8 +216,8 @@ class SolidCurveFinder {
     bool meet_sides(const SolidFace& side, const SolidFace& other) {
         const SolidLeaf &leaf = solid_.leaf(side), &to = solid_.leaf(other);
         if (&leaf == &to) return true;
-        // Lines of a cylinder along the axis of another lie in it or do not meet it: where the
-        // value of the other changes its sign from line to line.
+        // Lines of a cylinder parallel to the axis of another lie in it or do not meet it. They lie
+        // in it where the value of the other face changes its sign from line to line.
         const Affine between = to.inverse * leaf.world;
         const SideFrame frame(side);
         const bool parallel = side.widening == 0.0 && other.widening == 0.0 &&
@@ -242,7 +242,7 @@ class SolidCurveFinder {
         return true;
     }
 
-    /// The lines of a side cut by another face.
+    /// Adds the curve in which the lines of a side cut another face.
     void trace(const SolidFace& side, const SolidFace& other) {
         const SolidLeaf& leaf = solid_.leaf(side);
         const Affine between = solid_.leaf(other).inverse * leaf.world;
@@ -269,7 +269,7 @@ class SolidCurveFinder {
             curve.to = 2 * kPi;
             curve.traced = [=, &leaf](double angle) -> std::optional<Vec3> {
                 const std::optional<double> t = along(angle);
-                // A little beyond the ends: rims are there.
+                // Slightly beyond the ends, to include the rims.
                 if (!t || *t < -1e-6 || *t > 1.0 + 1e-6) return std::nullopt;
                 const Line line = frame.line(angle);
                 return leaf.world.point(line[0] + *t * line[1]);
@@ -278,7 +278,7 @@ class SolidCurveFinder {
         }
     }
 
-    // ---- outlines
+    // ---- Outlines.
 
     void outline(const SolidFace& face) {
         if (face.kind == Kind::Plane) return;

@@ -1,13 +1,13 @@
 #pragma once
-/// The curves of a solid of planes, spheres, cylinders and cones: where its faces meet, and its
-/// outlines. No triangles.
+/// The curves of a solid of planes, spheres, cylinders and cones without tessellation: where its
+/// faces meet, and its outlines.
 ///
 /// Source: Levin, "A Parametric Algorithm for Drawing Pictures of Solid Objects Composed of Quadric
 /// Surfaces", Communications of the ACM 19, 1976 (the curve of two quadrics by the lines of a ruled
 /// one).
-/// Differs: lines, circles and ellipses are found as such; other curves become lines between points
-/// that lie on both faces to rounding. Which parts of a curve are edges follows from the wheel of
-/// solid around its points (solid_faces.h), at 256 of them and by halving between.
+/// Differs: lines, circles and ellipses are found in closed form; other curves become lines between
+/// points that lie on both faces up to rounding. Which parts of a curve are edges follows from the
+/// neighbourhoods of 256 of its points (solid_faces.h) and bisection between them.
 /// Complexity: pairs of faces of leaves whose boxes meet.
 
 #include <vector>
@@ -17,8 +17,8 @@
 
 namespace alhazen {
 
-/// Adds the curves; false, and none added, where two spheres of different placements meet in a
-/// curve that has no such form.
+/// Adds the curves. Returns false, and adds none, if two spheres of different placements meet in a
+/// curve without closed form.
 [[nodiscard]] bool add_solid_curves(const FacedSolid& solid, const BeamApex& eye,
                                     std::vector<FeatureCurve>& curves);
 

@@ -13,9 +13,9 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kMostLeaves = 400;
-/// Of the size of a leaf: a point this near to a face lies in it.
+/// A point nearer to a face than this, relative to the size of the leaf, lies on it.
 constexpr double kOnFace = 1e-7;
-/// Cosine of the angle below which faces meet smoothly.
+/// Cosine of the angle between normals below which faces meet smoothly.
 constexpr double kSmooth = 0.9998;
 
 SolidFace plane_face(const Vec3& at, const Vec3& normal) {
@@ -39,7 +39,7 @@ void add_frustum(const Vec3& base, const Vec3& top, double base_radius, double t
     faces.push_back(plane_face(top, side.axis));
 }
 
-/// Around both rims.
+/// The box of both rims.
 Box3 frustum_box(const Vec3& base, const Vec3& top, double base_radius, double top_radius) {
     const Vec3 axis = normalize(top - base);
     Box3 box;
@@ -54,7 +54,7 @@ Box3 frustum_box(const Vec3& base, const Vec3& top, double base_radius, double t
     return box;
 }
 
-/// The faces of a shape, and its box in its own space; false for other shapes.
+/// Adds the faces of a shape and sets its box in leaf space; false for unsupported shapes.
 bool add_faces(const AnyShape& shape, std::vector<SolidFace>& faces, Box3& box) {
     if (const auto* s = std::get_if<Sphere>(&shape)) {
         SolidFace face;
@@ -82,12 +82,6 @@ bool add_faces(const AnyShape& shape, std::vector<SolidFace>& faces, Box3& box) 
     }
     return true;
 }
-
-/// A boundary between two sectors of a wheel.
-struct Spoke {
-    double angle = 0;
-    Vec3 along;
-};
 
 }  // namespace
 
@@ -211,7 +205,7 @@ SolidWheel FacedSolid::wheel(const Vec3& p, const Vec3& tangent, const SolidFace
     if (angles.size() > 1 && angles.front() + 2 * kPi - angles.back() < kSame) angles.pop_back();
     SolidWheel wheel;
     if (angles.size() < 2) return wheel;
-    // Whether the sector after each boundary is solid.
+    // True for each boundary whose following sector is solid.
     std::vector<bool> solid;
     for (std::size_t k = 0; k < angles.size(); ++k) {
         const double next = k + 1 < angles.size() ? angles[k + 1] : angles[0] + 2 * kPi;

@@ -1,13 +1,15 @@
 #pragma once
-/// Exact solids as faces: planes, spheres, sides of cylinders and cones, and how they combine.
+/// Exact solids as faces (planes, spheres, sides of cylinders and cones) and a CSG tree.
 ///
 /// Source: Requicha and Voelcker, "Boolean Operations in Solid Modeling: Boundary Evaluation and
 /// Merging Algorithms", Proceedings of the IEEE 73, 1985 (neighbourhoods of points on faces decide
 /// what is boundary).
-/// Differs: around a curve the neighbourhood is a wheel of sectors between the planes that touch
-/// the faces through it, so that faces on each other and more than two faces in a curve need no
-/// cases. Conventions: world space; a leaf is a convex shape, the common part of the insides of its
-/// faces. Complexity: O(faces) for a point.
+/// Differs: the neighbourhood of a point of a curve is a set of sectors around the curve, bounded
+/// by the tangent planes of the faces through the point. Coincident faces and curves of more than
+/// two faces need no special cases.
+/// Conventions: world space; a leaf is a convex shape, the intersection of the insides of its
+/// faces.
+/// Complexity: O(faces) per point.
 
 #include <cstdint>
 #include <optional>
@@ -22,44 +24,44 @@ struct SolidFace {
     enum class Kind : std::uint8_t { Plane, Sphere, Side };
     Kind kind = Kind::Plane;
     std::uint32_t leaf = 0;
-    /// In the space of the leaf: a point of the plane; the centre; the middle of the base.
+    /// In leaf space: a point of the plane; the centre; the middle of the base.
     Vec3 at;
     Vec3 axis;            ///< unit: the normal of a plane, the axis of a side
-    double radius = 0;    ///< of a sphere; of the side at `at`
-    double widening = 0;  ///< of the side, for each unit along the axis
-    double height = 0;    ///< of the side
+    double radius = 0;    ///< of a sphere; of a side at `at`
+    double widening = 0;  ///< of a side: increase of the radius per unit of axis
+    double height = 0;    ///< of a side
 
-    /// Negative inside; a distance near the face.
+    /// Negative inside; near the face, the distance to it.
     [[nodiscard]] double value(const Vec3& p) const;
-    /// Outwards.
+    /// The outward gradient of `value`.
     [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 };
 
 struct SolidLeaf {
     Affine world, inverse;
     Box3 box;
-    double size = 0;                   ///< in its own space
-    std::uint32_t first = 0, end = 0;  ///< faces
+    double size = 0;                   ///< of its box in leaf space
+    std::uint32_t first = 0, end = 0;  ///< range of its faces
 };
 
-/// What is around a point of a curve.
+/// The neighbourhood of a point of a curve.
 struct SolidWheel {
-    bool surface = false;  ///< the solid ends here
-    bool edge = false;     ///< and not smoothly
-    Vec3 out, other_out;   ///< unit, out of the faces that meet; of a smooth one both are equal
+    bool surface = false;  ///< the point is on the boundary of the solid
+    bool edge = false;     ///< the boundary has an edge at the point
+    Vec3 out, other_out;   ///< unit outward normals of the faces that meet; equal if smooth
 };
 
 class FacedSolid {
   public:
-    /// Nothing where a part has no such faces, or there are more than 400 parts.
+    /// None if a part has no such faces, or if there are more than 400 parts.
     [[nodiscard]] static std::optional<FacedSolid> of(const SceneDescription& description,
                                                       std::size_t object, const Affine& world);
 
     [[nodiscard]] const std::vector<SolidFace>& faces() const { return faces_; }
     [[nodiscard]] const SolidLeaf& leaf(const SolidFace& face) const { return leaves_[face.leaf]; }
-    /// Around the point `p` of a curve along `tangent` that lies in `face`.
+    /// The neighbourhood of `p` on a curve along `tangent` in `face`.
     [[nodiscard]] SolidWheel wheel(const Vec3& p, const Vec3& tangent, const SolidFace& face) const;
-    /// Outwards, in world space, unit.
+    /// The unit outward normal in world space.
     [[nodiscard]] Vec3 normal(const SolidFace& face, const Vec3& p) const;
 
   private:

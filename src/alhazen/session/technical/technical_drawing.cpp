@@ -15,17 +15,18 @@ namespace alhazen {
 
 namespace {
 
-/// Pixels between points of a curve that are tested, and how near its ends of sight are found.
+/// Distance of tested points of a curve, and precision of its visible ends; pixels.
 constexpr double kStep = 1.5, kNear = 0.02;
 
-/// From space to the picture.
+/// The mapping from space to the picture.
 class CurveView {
   public:
     CurveView(const Camera& camera, int width, int height)
         : view_(eye_view(camera)), x_(0.5 * width), y_(0.5 * height) {}
 
     [[nodiscard]] const BeamApex& eye() const { return view_.apex; }
-    /// Homogeneous coordinates of the picture: the pixel is (x / z, y / z), z > 0 before the eye.
+    /// Homogeneous coordinates of the picture: the pixel is (x / z, y / z), z > 0 in front of the
+    /// eye.
     [[nodiscard]] Vec3 point(const Vec3& p) const { return to_picture(view_.projection(p)); }
     [[nodiscard]] Vec3 vector(const Vec3& v) const {
         return to_picture(view_.projection(v) - view_.projection({0, 0, 0}));
@@ -34,7 +35,7 @@ class CurveView {
         const Vec3 h = point(p);
         return {h.x / h.z, h.y / h.z};
     }
-    /// The ray that sees a point, which is at t = 1.
+    /// The ray that sees a point; the point is at t = 1.
     [[nodiscard]] Ray ray_to(const Vec3& p) const {
         if (view_.apex.weight != 0.0) return {view_.apex.at, p - view_.apex.at};
         // Parallel rays start in the plane of the camera.
@@ -71,7 +72,7 @@ class CurveDrawer {
         const double pixels = length_of(curve);
         const int steps = std::clamp(static_cast<int>(std::ceil(pixels / kStep)), 1, 4000);
         const double step = (curve.to - curve.from) / steps;
-        // In the middles of steps.
+        // Visibility is tested in the middles of steps.
         double begin = curve.from;
         int state = state_of(curve, curve.from + 0.5 * step);
         for (int k = 1; k < steps; ++k) {
@@ -94,7 +95,8 @@ class CurveDrawer {
   private:
     enum State { kBehind, kHidden, kSeen };
 
-    /// In the picture, at most: steps do not grow with what lies outside of it.
+    /// Length in pixels. Each of the parts is limited, so that the number of steps does not grow
+    /// with what lies outside the picture.
     [[nodiscard]] double length_of(const FeatureCurve& curve) const {
         const int parts = curve.round ? 64 : 8;
         double sum = 0.0;
@@ -128,7 +130,7 @@ class CurveDrawer {
         const double distance = length(ray.direction);
         ray.direction = ray.direction / distance;
         ray.t_min = 0.0;
-        // What the curve touches does not hide it.
+        // Surfaces that touch the curve do not hide it.
         ray.t_max = distance - slack;
         if (!(ray.t_max > 0.0)) return true;
         return !scene_.aggregate->occluded(ray, {nullptr, mask_of(RayKind::Eye)});
@@ -151,8 +153,8 @@ class CurveDrawer {
         lines_.push_back(std::move(line));
     }
 
-    /// The image of a circle under a projection: the middle is the image of the pole of what
-    /// becomes infinite, and two chords through the pole, one of them through the middle of the
+    /// The image of a circle under a projection: its middle is the image of the pole of the line
+    /// that becomes infinite; two chords through the pole, one of them through the middle of the
     /// circle, become conjugate diameters.
     bool add_arc(const FeatureCurve& curve, double from, double to, DrawingLine& line) const {
         const Vec3 o = view_.point(curve.points.origin), u = view_.vector(curve.points.u),

@@ -1,12 +1,12 @@
 #pragma once
-/// A technical drawing of any scene: lines on white, hidden ones dashed or left out.
+/// A technical drawing of any scene: lines on white, hidden lines dashed or omitted.
 ///
 /// Source: Appel, "The Notion of Quantitative Invisibility and the Machine Rendering of Solids",
 /// ACM National Conference 1967.
-/// Differs: what hides a point of a curve is found by a ray to the exact scene, not by counting
-/// edges that cross the curve in the picture: solids of constructive geometry hide as they are.
-/// Where a curve goes out of sight is found by halving.
-/// Conventions: circles and ellipses stay ellipses where all of them lies before the eye. All
+/// Differs: rays to the exact scene find which points of a curve are hidden, not a count of edges
+/// that cross the curve in the picture: CSG solids occlude exactly. Bisection finds where a curve
+/// becomes hidden.
+/// Conventions: circles and ellipses stay ellipses if they lie entirely in front of the eye. All
 /// surfaces are opaque; mirrors show nothing.
 
 #include "alhazen/imaging/drawing/drawing.h"
@@ -16,12 +16,12 @@
 namespace alhazen {
 
 struct TechnicalOptions {
-    double tolerance = 0;  ///< of triangles in place of shapes without exact outlines, scene units
-    bool hidden = false;   ///< hidden lines are dashed; else left out
+    double tolerance = 0;  ///< of the tessellation of shapes without exact outlines, scene units
+    bool hidden = false;   ///< true: hidden lines are dashed; false: omitted
 };
 
-/// The scene needs its aggregate. `options`: sizes and camera are heeded. Throws Error (Usage)
-/// without an aggregate or a positive tolerance.
+/// Draws a scene that has its aggregate. Of `options`, sizes and camera are used. Throws Error
+/// (Usage) without an aggregate or a positive tolerance.
 [[nodiscard]] Drawing technical_drawing(const LoadedScene& loaded, const RenderOptions& options,
                                         const TechnicalOptions& technical);
 

@@ -47,7 +47,7 @@ bool is_matt(const Lobe& lobe) {
            std::holds_alternative<CoveredMatt>(lobe) ||
            std::holds_alternative<LambertTransmission>(lobe);
 }
-/// NaN and infinities count as nothing.
+/// False for NaN and infinities.
 bool is_usable(const Spectrum& weight) {
     return weight.is_finite() && weight.max() > 0.0;
 }
@@ -106,7 +106,7 @@ bool Bsdf::is_chosen_alone() const {
         sane = sane && f0[i] >= 0.0 && f90[i] >= 0.0;
         some = some || (f0[i] > 0.0 && f90[i] > 0.0);
     }
-    // Then the albedo is above 0 and finite for every view.
+    // The albedo is above 0 and finite for every view.
     return some && sane;
 }
 
@@ -150,7 +150,8 @@ Bsdf::Choice Bsdf::choose(const Vec3& view) const {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
         double share = (part.weight * albedo_of(part.lobe, view)).max();
-        // Never 0 below a cover: for importance it is the other direction that counts.
+        // Above 0 even below a cover that is opaque to the view: for importance the other direction
+        // counts.
         if (part.covers != 0) share *= std::max(0.02, through(part.covers, view.z));
         choice.share[i] = share > 0.0 ? share : 0.0;
         sum += choice.share[i];
@@ -214,7 +215,7 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     if (!shares.any) return std::nullopt;
     std::size_t i = 0;
     double below = 0;
-    // The last part that can be chosen takes what rounding leaves.
+    // Rounding may leave `choice` above the sum: the last part with a share is the default.
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         if (!(shares.share[k] > 0.0)) continue;
         if (i != k && choice < below) break;
@@ -225,7 +226,7 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     const double rest = std::clamp((choice - (below - share)) / share, 0.0, 0x1.fffffffffffffp-1);
 
     const Part& part = parts_[i];
-    // Of a lobe that is not singular the direction is all that is used.
+    // Only the direction of a sample that is not singular is used.
     auto sample = std::visit(
         [&]<class L>(const L& l) -> std::optional<BsdfSample> {
             if constexpr (requires { l.direction(view, rest, u); }) {

@@ -5,13 +5,13 @@
 /// Source: Nicodemus et al., "Geometrical Considerations and Nomenclature for Reflectance", NBS
 /// 1977; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapters 3 and 5
 /// (BSDFs, and their adjoints where light is refracted).
-/// Differs: what lies below a cover loses, of the light to the eye, the share that the cover
-/// reflects at the angle of the eye. That keeps energy exactly; it makes the two directions
-/// unequal, and importance the adjoint: value(v, l, Radiance) = value(l, v, Importance) for every
-/// material. Conventions: directions are unit, away from the surface, in the local frame of the
+/// Differs: light that leaves through a cover is scaled by the cover's transmittance at the angle
+/// of the eye. Energy is conserved exactly, but `value` is not symmetric; importance is the
+/// adjoint: value(v, l, Radiance) = value(l, v, Importance) for every material.
+/// Conventions: directions are unit and point away from the surface, in the local frame of the
 /// point: z is the shading normal on the side of the view (the z of a view is > 0), x the tangent.
-/// `value` has no cosine. Singular lobes (mirrors, smooth glass) are known to `sample` alone.
-/// Threads: const functions may be called from many.
+/// `value` excludes the cosine. Singular lobes (mirrors, smooth glass) contribute to `sample` only.
+/// Threads: const functions may be called concurrently.
 
 #include <array>
 #include <cstdint>
@@ -31,71 +31,75 @@
 
 namespace alhazen {
 
-/// Lobes of a Bsdf: three materials of a glTF surface, blended, have no more.
+/// Capacity in lobes; three blended glTF materials have no more.
 inline constexpr std::size_t kMaxLobes = 18;
 /// A set of covers (bits by their index in the Bsdf).
 using CoverSet = std::uint32_t;
 
-/// Light that comes from single directions, as the weights of samples without a choice.
+/// Light from the mirror and the refracted direction, as the weights of samples without a choice of
+/// lobe.
 struct SingularLight {
     Spectrum reflected;    ///< share of the light from the mirror direction
-    Spectrum transmitted;  ///< of that from the refracted direction; 0 beyond the critical angle
-    double eta = 0;        ///< index on the side of the view over that behind; 0: nothing refracts
+    Spectrum transmitted;  ///< share from the refracted direction; 0 beyond the critical angle
+    double eta = 0;        ///< index on the side of the view over that behind; 0: no lobe refracts
 };
 
 class Bsdf {
   public:
-    /// Adds a lobe `weight` times, below `covers`. More than kMaxLobes: the one that matters least
-    /// is left out.
+    /// Adds a lobe with `weight`, below `covers`. If there are kMaxLobes already, the lobe of least
+    /// importance (weight times albedo at normal incidence) is dropped.
     void add(const Spectrum& weight, const Lobe& lobe, CoverSet covers = 0);
-    /// A layer over lobes to be added; null set where there is no place for more.
+    /// Adds a layer and returns its set, to be passed to `add`; the empty set if its share is 0 or
+    /// no capacity is left.
     CoverSet add_cover(const Cover& cover);
-    /// All lobes of another, each `weight` times: materials that are blended.
+    /// Adds all lobes and covers of another BSDF, scaled by `weight`: blended materials.
     void add(const Bsdf& other, double weight);
 
-    /// Per steradian, without singular lobes.
+    /// The BSDF value in 1/steradian, without singular lobes.
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
                                  Transport transport) const;
-    /// Share of matt lobes in `value`; 0 where that is black.
+    /// Share of matt lobes in `value`, by channel; 0 where `value` is 0.
     [[nodiscard]] Spectrum diffuse_share(const Vec3& view, const Vec3& direction) const;
-    /// With which `sample(view)` gives `direction`, by solid angle, without singular lobes. (A
-    /// sample's own density is this.)
+    /// Density by solid angle with which `sample(view)` returns `direction`, without singular
+    /// lobes; equal to the `density` of the sample.
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
-    /// `choice` and `u` in [0, 1). Empty where the light is absorbed.
+    /// Samples a direction; `choice` and `u` in [0, 1). Empty if the light is absorbed.
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    /// Whether `sample` uses `choice`.
+    /// True if `sample` uses `choice`.
     [[nodiscard]] bool chooses() const { return !matt_.is; }
-    /// Whether it is a single matt reflection, whose directions are those of `cosine_direction`.
+    /// True if the BSDF is a single diffuse reflection, sampled by `cosine_direction`.
     [[nodiscard]] bool is_only_matt() const { return matt_.is; }
-    /// `sample` where it is, for a direction that is drawn.
+    /// `sample` for a direction of `cosine_direction`; valid if `is_only_matt`.
     [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec3& view,
                                                         const Vec3& direction) const;
-    /// Share of the light from all directions that goes to `view`, or a close approximation.
+    /// Share of the light from all directions that is scattered to `view`, or a close
+    /// approximation.
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
-    /// False: only singular lobes, or none: lights need not be sampled.
+    /// False if all lobes are singular or there are none: light sampling is useless.
     [[nodiscard]] bool has_density() const { return traits_.has_density; }
-    /// The reflectance where all that is not singular is one matt reflection; else none.
+    /// The reflectance if all lobes that are not singular are uncovered Lambert reflections; else
+    /// empty.
     [[nodiscard]] std::optional<Spectrum> lambert() const;
-    /// Whether light comes back or goes on in single directions.
+    /// True if some lobe is singular.
     [[nodiscard]] bool has_singular() const { return traits_.has_singular; }
-    /// What mirrors and smooth glass do with light that goes to `view`, all such lobes together.
+    /// Sum of the mirrors and smooth boundaries for light to `view`.
     [[nodiscard]] SingularLight singular(const Vec3& view, Transport transport) const;
-    /// Whether `value` may be above 0 below the surface.
+    /// True if `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const { return traits_.transmits; }
-    /// Whether some lobe is a rough boundary between clear media.
+    /// True if some lobe is a rough boundary between clear media.
     [[nodiscard]] bool has_rough_boundary() const;
-    /// Whether all lobes are smooth boundaries between clear media, and there is one.
+    /// True if there are lobes and all are smooth boundaries between clear media.
     [[nodiscard]] bool refracts_alone() const;
-    /// Whether some lobe transmits, singular ones too.
+    /// True if some lobe, singular or not, transmits.
     [[nodiscard]] bool lets_through() const { return traits_.lets_through; }
-    /// What it does to polarised light from `direction`: by all singular lobes or by all others, as
-    /// `value` weighs them for radiance, over the unpolarised light that they give.
+    /// Effect on polarised light from `direction`: the sum of all singular lobes or of all others,
+    /// weighted as in `value` for radiance, relative to the unpolarised light.
     [[nodiscard]] PlaneMueller polarization(const Vec3& view, const Vec3& direction,
                                             bool singular) const;
-    /// Share that thin sheets let go straight on: what a shadow ray keeps.
+    /// Share transmitted straight on by thin sheets: the transmittance for shadow rays.
     [[nodiscard]] Spectrum straight(const Vec3& view) const;
-    /// With which `sample` goes straight on through a thin sheet.
+    /// Probability with which `sample` goes straight on through a thin sheet.
     [[nodiscard]] double straight_probability(const Vec3& view) const;
     [[nodiscard]] std::size_t lobe_count() const { return parts_.size(); }
 
@@ -105,30 +109,30 @@ class Bsdf {
         CoverSet covers = 0;
         Lobe lobe;
     };
-    /// What some lobe is.
+    /// The kinds of lobes present.
     struct Traits {
         bool has_density = false, has_singular = false, transmits = false, lets_through = false;
     };
     void set_traits();
-    /// Whether the only lobe is sure to be chosen for all views.
+    /// True if there is one lobe and it is chosen with probability 1 for every view.
     [[nodiscard]] bool is_chosen_alone() const;
-    /// Of a single matt reflection below no cover, for which nothing is asked of its lobe.
+    /// A BSDF of one uncovered Lambert reflection, handled without a visit of its lobe.
     struct Matt {
         bool is = false;
-        bool is_chosen = false;  ///< else all is absorbed
-        Spectrum value;  ///< into all directions above the surface; 0 where it is not usable
+        bool is_chosen = false;  ///< false: all light is absorbed
+        Spectrum value;          ///< constant above the surface; 0 where the product is not usable
     };
 
-    /// `value` of the lobes that are matt, or of all.
+    /// `value` of all lobes, or of the matt ones only.
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction, Transport transport,
                                  bool only_matt) const;
-    /// Probabilities of the parts, for a view.
+    /// Probabilities of the lobes for a view.
     struct Choice {
         std::array<double, kMaxLobes> share;
         bool any = false;
     };
     [[nodiscard]] Choice choose(const Vec3& view) const;
-    /// What the covers let through to a part.
+    /// Product of the transmittances of `covers` at this cosine.
     [[nodiscard]] double through(CoverSet covers, double cosine) const;
     [[nodiscard]] double density(const Choice& choice, const Vec3& view,
                                  const Vec3& direction) const;
@@ -140,15 +144,15 @@ class Bsdf {
     InlineVector<Unmade<Cover>, 9> covers_;
 };
 
-/// Where a BSDF is asked for.
+/// The side of the surface and the wavelengths for which a BSDF is made.
 struct BsdfPlace {
-    /// Index of the medium on the side of the view over that behind, for what has no index of its
-    /// own two sides (CSG walls); else 0: by the material's index and `from_inside`.
+    /// Index of the medium on the side of the view over that behind, for surfaces between two media
+    /// (CSG walls); else 0: given by the material's index and `from_inside`.
     double eta = 0;
     bool from_inside = false;  ///< the view is inside the volume that the surface bounds
-    /// `eta` of each of four wavelengths, the first of which is that above, where they differ.
+    /// `eta` of each of four wavelengths, the first of which equals `eta`; null if all are equal.
     const Spectrum* etas = nullptr;
-    /// Of the path.
+    /// The wavelengths of the path.
     const Wavelengths& waves = kColorChannels;
 };
 

@@ -51,8 +51,7 @@ double roughness_of(const Material& m, std::span<const Texture> textures,
     return roughness > 0.0 ? std::min(roughness, 1.0) : 0.0;
 }
 
-/// Whitted's coefficients. What they give out together beyond the light that comes in is scaled
-/// down, by one factor for all.
+/// Lobes of Whitted's coefficients, scaled by one common factor if their sum exceeds 1.
 Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
                           const SurfaceLookup& lookup, const BsdfPlace& place) {
     const auto color = [&](const ColorInput& input) {
@@ -62,7 +61,7 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
     const Rgb mirror = color(m.reflective);
     const Rgb refracted = color(m.transmissive);
     const double exponent = value_at(m.shininess, textures, lookup);
-    // So that the middle of the highlight of a point light is as bright as Whitted's.
+    // Makes the peak of a point light's highlight as bright as in Whitted's equation.
     const double wide = 8.0 / ((exponent > 0.0 ? exponent : 0.0) + 2.0);
     Rgb highlight = wide * color(m.specular);
     for (int i = 0; i < 3; ++i) highlight[i] = std::min(highlight[i], 1.0);

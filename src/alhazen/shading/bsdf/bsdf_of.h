@@ -1,18 +1,18 @@
 #pragma once
-/// Parts of `bsdf_of` (bsdf.h): materials as lobes. docs/reference/materials.md states what becomes
-/// of what.
+/// Parts of `bsdf_of` (bsdf.h): conversion of materials to lobes, as described in
+/// docs/reference/materials.md.
 
 #include "alhazen/shading/bsdf/bsdf.h"
 
 namespace alhazen {
 
-/// Index on the side of the view over that behind, of a material with this index.
+/// Index on the side of the view over that behind, for a material of this index.
 [[nodiscard]] double eta_at(const BsdfPlace& place, double index);
 
-/// A mirror, or its rough form; the roughness, 0..1, is the root of the alpha of Ggx.
+/// A mirror, or a rough reflection; `roughness`, 0..1, is the square root of Ggx alpha.
 [[nodiscard]] Lobe reflection_lobe(double roughness, const FresnelTerm& fresnel);
 
-/// The boundary of a clear body, smooth or rough.
+/// The smooth or rough boundary of a clear body.
 [[nodiscard]] Lobe boundary_lobe(double roughness, const BsdfPlace& place, double index,
                                  const Spectrum& reflection, const Spectrum& transmission);
 

@@ -14,7 +14,7 @@ namespace alhazen {
 
 namespace {
 
-/// NaN counts as 0.
+/// NaN gives 0.
 double clipped(double x) {
     return x > 0.0 ? std::min(x, 1.0) : 0.0;
 }
@@ -22,7 +22,7 @@ Rgb clipped(const Rgb& c) {
     return {clipped(c.r), clipped(c.g), clipped(c.b)};
 }
 
-/// Lobes of one surface, made from the lowest to the highest layer; added under what covers them.
+/// Builds the lobes of one surface from its layers, from the top layer to the bottom.
 class LayerMaker {
   public:
     LayerMaker(const Material& m, const MetallicRoughness& p, std::span<const Texture> textures,
@@ -101,8 +101,8 @@ class LayerMaker {
         if (ggx_.x < kSmoothAlpha) return Mirror{term(base)};
         return RoughReflection(ggx_, term(base), axis_);
     }
-    /// What the face leaves to the body, the same at all wavelengths. A film's colours change with
-    /// the angle: the brightest counts, so that energy is lost rather than made.
+    /// Attenuation by the face, the same at all wavelengths. A film's colours depend on the angle:
+    /// the largest channel is used, so that energy is lost rather than gained.
     [[nodiscard]] Cover face_cover(const Rgb& f0, double f90) const {
         double most = f0.max();
         if (film_share_ > 0.0) {
@@ -119,7 +119,7 @@ class LayerMaker {
     void add_dielectric() {
         const double strength = scalar(p_.specular);
         const Rgb tint = not_negative_color(p_.specular_color);
-        // KHR_materials_ior: 0 stands for an index so high that all light is reflected.
+        // KHR_materials_ior: index 0 stands for infinity: all light is reflected.
         const double index = m_.index.value;
         const bool reflects_all = index == 0.0;
         const double at_normal = reflects_all ? 1.0 : normal_reflectance_of(index);
@@ -129,16 +129,16 @@ class LayerMaker {
         const bool thin = !(p_.thickness.value > 0.0) || reflects_all;
         const double matt = share * (1.0 - transmission_), clear = share * transmission_;
 
-        // From inside a film is left out: light beyond the critical angle must come back.
+        // The film is omitted from inside: light beyond the critical angle must be reflected.
         const bool filmed = film_share_ > 0.0 && !place_.from_inside;
         const double faces = thin || filmed ? share : matt;
         if (faces > 0.0) bsdf_.add(grey(faces), face_lobe(fresnel), covers_);
-        if (f0.max() >= 1.0) return;  // nothing gets past the face
+        if (f0.max() >= 1.0) return;  // no light passes the face
         const Cover cover = face_cover(f0, strength);
         add_body(matt, cover);
         if (!(clear > 0.0)) return;
         if (thin || filmed) {
-            // What goes through is covered by the face, as the matt body is.
+            // The face covers the transmission as it does the matt body.
             const CoverSet below = covers_ | bsdf_.add_cover(cover);
             if (!thin) {
                 bsdf_.add(grey(clear), boundary_lobe(roughness_, place_, index, {}, base_), below);
@@ -155,8 +155,7 @@ class LayerMaker {
                   covers_);
     }
 
-    /// The matt body below a face: what it scatters back, and what it lets through to the other
-    /// side.
+    /// The matt body below a face: diffuse reflection and diffuse transmission.
     void add_body(double share, const Cover& cover) {
         const double through = scalar(p_.diffuse_transmission.share);
         bsdf_.add(grey(share * (1.0 - through)), CoveredMatt(base_, cover), covers_);
@@ -177,7 +176,7 @@ class LayerMaker {
     const SurfaceLookup& lookup_;
     const BsdfPlace& place_;
     Bsdf bsdf_;
-    CoverSet covers_ = 0;  ///< of the layers above
+    CoverSet covers_ = 0;  ///< covers of the layers above
     double metallic_ = 0, transmission_ = 0, roughness_ = 1;
     Spectrum base_;
     Ggx ggx_;

@@ -1,11 +1,11 @@
 #pragma once
-/// A matt body below a reflecting face: what the face reflects it does not get, and the face takes
-/// its part again on the way out.
+/// A matt body below a reflecting face: the light that the face reflects is lost to the body on the
+/// way in and again on the way out.
 ///
 /// Source: Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
 /// Importance Sampling", Eurographics 2001.
-/// Differs: light that the face sends back down is taken as lost by the same factors: the body's
-/// colour does not grow deeper.
+/// Differs: light that the face reflects back down is accounted for by the same factors;
+/// interreflection does not saturate the body's colour.
 /// Conventions: with a white body, body and face together reflect all light.
 
 #include <optional>

@@ -6,8 +6,8 @@
 
 namespace alhazen {
 
-/// By the material's own law, or by the Abbe number of KHR_materials_dispersion; none: the index is
-/// the same at all wavelengths.
+/// The material's own dispersion, or that of its Abbe number (KHR_materials_dispersion); empty if
+/// its index is the same at all wavelengths.
 [[nodiscard]] inline std::optional<Dispersion> dispersion_of(const Material& material) {
     if (material.dispersion) return material.dispersion;
     if (material.metallic_roughness && material.metallic_roughness->dispersion > 0.0) {
@@ -16,13 +16,13 @@ namespace alhazen {
     return std::nullopt;
 }
 
-/// At one wavelength, of a material whose index at line d is `index_d`.
+/// Index at the wavelength `nm` of a material whose index at line d is `index_d`.
 [[nodiscard]] inline double index_at(const Material& material, double index_d, double nm) {
     const std::optional<Dispersion> dispersion = dispersion_of(material);
     return dispersion ? dispersion->index(index_d, nm) : index_d;
 }
 
-/// Of a material whose index at line d is `index_d`.
+/// Indices at the four wavelengths of a material whose index at line d is `index_d`.
 [[nodiscard]] inline Spectrum index_of(const Material& material, double index_d,
                                        const Wavelengths& waves) {
     if (!waves.is_spectral()) return Spectrum::all(index_d);

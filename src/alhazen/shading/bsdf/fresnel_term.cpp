@@ -44,8 +44,8 @@ Spectrum at(const FilmTerm& t, double cosine) {
     return (1.0 - t.share) * at(t.base, cosine) + t.share * film;
 }
 
-/// f90 of Schlick's formula through `value` at this cosine; where the formula hardly depends on it,
-/// the usual 1 by and by.
+/// f90 with which Schlick's formula equals `value` at this cosine; blends to the usual 1 where the
+/// formula hardly depends on it.
 Spectrum f90_through(const Spectrum& f0, const Spectrum& value, double cosine) {
     const double w = schlick_weight(cosine);
     Spectrum result;
@@ -67,8 +67,8 @@ SchlickTerm schlick_fit(const FresnelTerm& term, double cosine) {
     return std::visit(Overloaded{[](const SchlickTerm& t) { return t; },
                                  [](const ConstantTerm&) { return SchlickTerm{}; },
                                  [&](const FilmTerm& t) {
-                                     // A film's colour at the view says more than that at normal
-                                     // incidence: it changes with the angle.
+                                     // A film's colour depends on the angle: fitted at the view,
+                                     // not at normal incidence.
                                      const Spectrum now = at(t, cosine);
                                      const double w = std::min(schlick_weight(cosine), 0.5);
                                      SchlickTerm fit{{}, {1, 1, 1, 1}};
@@ -88,7 +88,7 @@ Spectrum mean_reflectance(const FresnelTerm& term) {
     const auto of_schlick = [](const SchlickTerm& t) {
         return t.f0 + (1.0 / 21.0) * (t.f90 - t.f0);
     };
-    // Three points of Gauss and Legendre of the integral of 2 R(c) c.
+    // Three-point Gauss-Legendre quadrature of the integral of 2 R(c) c.
     const auto by_quadrature = [](const auto& t) {
         constexpr double kPoints[] = {0.11270166537925831, 0.5, 0.88729833462074169};
         constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};

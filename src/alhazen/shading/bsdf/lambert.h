@@ -1,6 +1,6 @@
 #pragma once
-/// Perfectly matt surfaces: the same radiance into all directions, on the side of the light
-/// (reflection) or on the other (transmission, as through paper).
+/// Lambertian surfaces: constant radiance in all directions, on the side of the light (reflection)
+/// or on the other (transmission, as through paper).
 ///
 /// Source: Lambert, "Photometria", 1760.
 

@@ -1,11 +1,11 @@
 #pragma once
-/// The ways in which surfaces scatter light: a closed variant of plain structs.
+/// The scattering lobes of surfaces: a closed variant of plain structs.
 ///
 /// ADD A LOBE HERE: a file pair with the struct, and an entry in `Lobe`. Each has
-///   - kSingular: light comes back in single directions, which have no density; kTransmits: it may
-///     come from below;
-///   - sample(view, choice, u, transport) and albedo(view), as class Bsdf has them;
-///   - where that is cheaper, direction(view, choice, u): that of `sample`, unless singular;
+///   - kSingular: scatters into single directions, which have no density; kTransmits: may scatter
+///     below the surface;
+///   - sample(view, choice, u, transport) and albedo(view), as in class Bsdf;
+///   - optionally, unless singular, direction(view, choice, u): the direction of `sample`, cheaper;
 ///   - unless singular, value(view, direction, transport) and density(view, direction).
 /// Conventions: those of bsdf.h; a view has z > 0, a direction z != 0. The density integrates to 1,
 /// or to the share of samples that are not absorbed, and is above 0 where the value is.

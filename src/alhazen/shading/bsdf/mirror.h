@@ -1,9 +1,9 @@
 #pragma once
 /// A smooth surface that reflects into one direction: an ideal mirror, a smooth metal, the smooth
-/// face of a body that lets nothing through.
+/// face of an opaque body.
 ///
-/// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, section 1.5 (optics/fresnel.h
-/// of the exact terms).
+/// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, section 1.5 (for the exact
+/// terms of optics/fresnel.h).
 
 #include <optional>
 

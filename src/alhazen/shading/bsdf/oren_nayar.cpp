@@ -11,10 +11,10 @@ namespace {
 double flatness(double roughness) {
     return 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * kPi)) * roughness);
 }
-/// Albedo of the single-bounce lobe of colour 1.
+/// Albedo of the single-scattering lobe of colour 1.
 double single_bounce(double mu, double roughness) {
     const double c = std::clamp(mu, 0.0, 1.0), s = std::sqrt(1.0 - c * c);
-    // (s / c) (1 - s^3) without its 0 / 0.
+    // (s / c) (1 - s^3), rearranged to avoid 0 / 0.
     const double tangent = s * c * (1.0 + s + s * s) / (1.0 + s);
     const double g = s * (std::acos(c) - s * c) + (2.0 / 3.0) * (tangent - s);
     return flatness(roughness) * (1.0 + roughness / kPi * g);
@@ -22,7 +22,7 @@ double single_bounce(double mu, double roughness) {
 double mean_single_bounce(double roughness) {
     return flatness(roughness) * (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * kPi)) * roughness);
 }
-/// Colour of the light that bounces more than once.
+/// Colour of the multiple scattering.
 Spectrum several_bounces(const Spectrum& color, double mean) {
     Spectrum result;
     for (int i = 0; i < Spectrum::kCount; ++i) {

@@ -1,10 +1,10 @@
 #pragma once
-/// Rough matt surfaces: flatter than Lambert's, as the full moon is.
+/// Rough matt surfaces, of flatter shading than Lambert's (like the full moon).
 ///
 /// Source: Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994; in the
 /// form of Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT
-/// 14(1), 2025, equations 8 to 21 (Fujii's form, and the light that meets several facets).
-/// Differs: directions are sampled by the cosine.
+/// 14(1), 2025, equations 8 to 21 (Fujii's form, with multiple scattering).
+/// Differs: directions are sampled with density cosine / pi.
 
 #include <optional>
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLargestExponent = 1e6;
 
-/// With density (power + 1) cosine^power / 2 pi around z.
+/// Samples the density (power + 1) cosine^power / 2 pi around z.
 Vec3 power_direction(const Vec2& u, double power) {
     const double z = std::pow(1.0 - u.x, 1.0 / (power + 1.0));
     const double s = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;

@@ -1,12 +1,12 @@
 #pragma once
-/// Phong's and Blinn's highlights as lobes that keep energy and are reciprocal: of colour 1 they
+/// Phong's and Blinn's highlights as reciprocal, energy-conserving lobes: with colour 1 they
 /// reflect all light.
 ///
 /// Source: Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975; Blinn, "Models
 /// of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977 (with the V-shaped
 /// cavities of Torrance and Sparrow); Neumann, Neumann and Szirmay-Kalos, "Compact Metallic
-/// Reflectance Models", Eurographics 1999 (division by the larger cosine). Differs: what a lobe
-/// loses below the horizon and in cavities is given back by a matt one (albedo_table.h).
+/// Reflectance Models", Eurographics 1999 (division by the larger cosine). Differs: the energy that
+/// a lobe loses below the horizon and in cavities is restored by a matt lobe (albedo_table.h).
 
 #include <optional>
 
@@ -19,7 +19,7 @@ class Phong {
     static constexpr bool kSingular = false, kTransmits = false;
 
     Phong() : Phong(20) {}
-    /// `exponent`: at least 0; at most 10^6.
+    /// `exponent`: 0 to 10^6.
     explicit Phong(double exponent);
 
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr BoundaryMueller kUnchanged{0.0, 1.0, 1.0, 0.0};
 
-/// Of a clear body that reflects this much at normal incidence; of an ideal mirror where it is all.
+/// Matrix of a clear body of this reflectance at normal incidence; of an ideal mirror if it is 1.
 BoundaryMueller mueller_by_normal_reflectance(double reflectance, double cosine) {
     const double root = std::sqrt(std::clamp(reflectance, 0.0, 1.0));
     if (root > 0.999999) return {0.0, 1.0, -1.0, 0.0};
@@ -58,7 +58,7 @@ PolarizedValue boundary_value(const SmoothDielectric& d, const Vec3& view, bool 
         if (up) {
             result.matrix.set(i, mueller_of(dielectric_reflection(view.z, eta)));
         } else {
-            // Whitted's refraction takes both planes alike.
+            // Whitted's refraction treats both polarisations alike.
             result.matrix.set(
                 i, d.fresnel ? mueller_of(dielectric_refraction(view.z, eta)) : kUnchanged);
         }

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// The microfacet that refracts `view` to `direction` below; no value where none does.
+/// The microfacet that refracts `view` to `direction` below; empty if there is none.
 struct RefractingFacet {
     Vec3 normal;
     double view_cosine = 0, cosine = 0;  ///< cosine: of the direction, below 0
@@ -39,7 +39,7 @@ RoughDielectric::RoughDielectric(double alpha, double eta, const Spectrum& refle
       mean_missing_(1.0 - mean_dielectric_albedo(ggx_.x, eta)),
       mean_missing_behind_(1.0 - mean_dielectric_albedo(ggx_.x, 1.0 / eta)) {
     if (!(mean_missing_ > 0.0) || !(mean_missing_behind_ > 0.0)) return;
-    // through_ here and there differ by this ratio, as f / index^2 is the same both ways.
+    // Ratio of through_ on the two sides, as f / index^2 is symmetric.
     const double ratio = eta * eta * mean_missing_ / mean_missing_behind_;
     const double clear = 1.0 - normal_reflectance_of(eta);
     through_ = clear * std::min(1.0, 1.0 / ratio);
@@ -67,7 +67,7 @@ RoughDielectric::Facet RoughDielectric::facet_value(const Vec3& view, const Vec3
     }
     const auto facet = refracting_facet(view, direction, eta_);
     if (!facet) return {};
-    // D G (1 - F) (v.h) |l.h| / (v.z |l.z| (...)^2), the masking's cosines cancelled.
+    // D G (1 - F) (v.h) |l.h| / (v.z |l.z| (...)^2), with the cosines of the masking cancelled.
     const double masking = 2.0 / (-direction.z + ggx_.stretched_length(direction));
     return {(1.0 - dielectric_reflectance(facet->view_cosine, eta_)) * facet->stretch * masking *
                 ggx_.visible_normals(view, facet->normal, facet->view_cosine),

@@ -1,12 +1,12 @@
 #pragma once
-/// A rough boundary between two clear media: microfacets that reflect and refract, and a matt part
-/// each way for the light that meets several of them.
+/// A rough boundary between two clear media: microfacets that reflect and refract, and a matt lobe
+/// on each side for multiple scattering.
 ///
 /// Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007,
 /// equations 20 and 21; Kulla and Conty, "Revisiting Physically Based Shading at Imageworks",
 /// SIGGRAPH 2017 course (the matt parts).
-/// Differs: the shares of the matt parts follow from reciprocity, radiance over the square of the
-/// index being what is equal both ways.
+/// Differs: the reflected and transmitted shares of the matt lobes follow from reciprocity of
+/// radiance over the squared index.
 
 #include <optional>
 
@@ -20,8 +20,8 @@ class RoughDielectric {
     static constexpr bool kSingular = false, kTransmits = true;
 
     RoughDielectric() : RoughDielectric(0.1, 1.0 / 1.5, {1, 1, 1, 1}, {1, 1, 1, 1}) {}
-    /// `eta`: index on the side of the view over that behind; not nearer to 1 than 1e-3 (there is
-    /// no boundary to speak of). Tints: of what is reflected, of what is transmitted.
+    /// `eta`: index on the side of the view over that behind, at least 1e-3 away from 1 (nearer to
+    /// 1 the boundary vanishes). Tints: of the reflected and of the transmitted light.
     RoughDielectric(double alpha, double eta, const Spectrum& reflection,
                     const Spectrum& transmission);
 
@@ -32,7 +32,7 @@ class RoughDielectric {
                                                    Transport transport) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
-    /// The part of `value` that met one facet, and the cosine of the view to that facet's normal.
+    /// The single-scattering part of `value`, and the cosine of the view to the facet's normal.
     struct OneFacet {
         Spectrum value;
         double cosine = 0;
@@ -45,9 +45,9 @@ class RoughDielectric {
     struct Facet {
         double value = 0, cosine = 0;
     };
-    /// Without tint and without the change of radiance.
+    /// Without tint and without the change of radiance by eta^2.
     [[nodiscard]] Facet facet_value(const Vec3& view, const Vec3& direction) const;
-    /// Probability of reflection, of two ways with these shares.
+    /// Probability of reflection, given the two shares.
     [[nodiscard]] double reflection_choice(double reflected, double transmitted) const;
     [[nodiscard]] double missing(double mu) const;
     [[nodiscard]] double missing_behind(double mu) const;
@@ -56,7 +56,7 @@ class RoughDielectric {
     double eta_ = 1;
     Spectrum reflection_, transmission_;
     double mean_missing_ = 0, mean_missing_behind_ = 0;
-    double through_ = 0;  ///< share of the matt parts that is transmitted
+    double through_ = 0;  ///< transmitted share of the matt lobes
 };
 
 }  // namespace alhazen

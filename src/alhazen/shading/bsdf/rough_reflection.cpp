@@ -27,7 +27,7 @@ RoughReflection::OneFacet RoughReflection::one_facet(const Vec3& view,
     if (!(direction.z > 0.0)) return {};
     const Vec3 v = turned(view), l = turned(direction);
     const Vec3 m = normalize(v + l);
-    // D G / (4 cos cos), with the cosines of G taken out of the fraction.
+    // D G / (4 cos cos), with the cosines of G cancelled.
     const double one =
         0.5 * ggx_.normals(m) / (v.z * ggx_.stretched_length(l) + l.z * ggx_.stretched_length(v));
     const double cosine = dot(v, m);

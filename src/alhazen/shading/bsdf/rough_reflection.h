@@ -1,12 +1,12 @@
 #pragma once
-/// Reflection of a rough metal, or of the rough face of any body: microfacets that are mirrors
-/// themselves, and a matt part for the light that meets several of them.
+/// Reflection by a rough metal, or by the rough face of any body: mirror-like microfacets, and a
+/// matt lobe for multiple scattering.
 ///
 /// Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007,
 /// equation 20; Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
-/// course (the matt part; its colour as of Turquin, "Practical Multiple Scattering Compensation for
-/// Microfacet Models", 2019).
-/// Differs: of grooves (unequal alphas) the matt part is that of their geometric mean.
+/// course (the matt lobe); Turquin, "Practical Multiple Scattering Compensation for Microfacet
+/// Models", 2019 (its colour).
+/// Differs: for unequal alphas the matt lobe is that of their geometric mean.
 
 #include <optional>
 
@@ -21,7 +21,7 @@ class RoughReflection {
     static constexpr bool kSingular = false, kTransmits = false;
 
     RoughReflection() : RoughReflection({0.1, 0.1}, SchlickTerm{}) {}
-    /// `axis`: the tangent along which the roughness is ggx.x, as a unit vector in the surface.
+    /// `axis`: unit tangent along which the roughness is ggx.x.
     RoughReflection(const Ggx& ggx, const FresnelTerm& fresnel, const Vec2& axis = {1, 0});
 
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
@@ -29,12 +29,12 @@ class RoughReflection {
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
-    /// Of `sample`; none where the light is absorbed.
+    /// The direction of `sample`; empty if the light is absorbed.
     [[nodiscard]] std::optional<Vec3> direction(const Vec3& view, double choice,
                                                 const Vec2& u) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
 
-    /// The part of `value` that met one facet, and the cosine to that facet's normal.
+    /// The single-scattering part of `value`, and the cosine to the facet's normal.
     struct OneFacet {
         Spectrum value;
         double cosine = 0;
@@ -49,19 +49,19 @@ class RoughReflection {
     [[nodiscard]] Vec3 turned_back(const Vec3& v) const {
         return {axis_.x * v.x - axis_.y * v.y, axis_.x * v.y + axis_.y * v.x, v.z};
     }
-    /// Share of the light that leaves after one facet, of a view at this cosine.
+    /// Single-scattering albedo for a view at this cosine.
     [[nodiscard]] double single(double mu) const;
 
     Ggx ggx_;
     FresnelTerm fresnel_;
     Vec2 axis_{1, 0};
     double mean_alpha_ = 0;
-    double mean_single_ = 1;  ///< mean of `single` over the hemisphere
-    Spectrum several_;        ///< colour of light that met several facets
+    double mean_single_ = 1;  ///< cosine-weighted mean of `single` over the hemisphere
+    Spectrum several_;        ///< colour of the multiple scattering
 };
 
-/// The same where the light goes on through a sheet of rough faces, in the mirror image of the
-/// direction. Nothing is bent.
+/// Transmission through a sheet with rough faces: the lobe of RoughReflection mirrored to the other
+/// side. Light is not bent.
 class RoughSheet {
   public:
     static constexpr bool kSingular = false, kTransmits = true;

@@ -5,8 +5,8 @@
 
 namespace alhazen {
 
-// Directions are chosen evenly over the hemisphere: the lobe is wide, and the cosine of its albedo
-// would leave out the grazing ones, where it is brightest.
+// Directions are sampled uniformly over the hemisphere: the lobe is wide, and a cosine density
+// would undersample grazing directions, where it is brightest.
 
 Spectrum Sheen::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};

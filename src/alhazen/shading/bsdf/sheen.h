@@ -1,10 +1,9 @@
 #pragma once
-/// Sheen: light that fibres standing off a surface scatter, most where it is seen at a grazing
-/// angle.
+/// Sheen: scattering by fibres that stand off a surface, strongest at grazing angles.
 ///
 /// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", Imageworks 2017 (the
-/// distribution and the fit of its shadows), as KHR_materials_sheen takes it: alpha is the
-/// roughness squared, without the softened terminator.
+/// distribution and the fit of its shadowing), as in KHR_materials_sheen: alpha is the squared
+/// roughness; the terminator is not softened.
 
 #include <optional>
 

@@ -15,8 +15,8 @@ double reflected_share(const SmoothDielectric& d, const Vec3& view, double eta,
     return d.fresnel || r == 1.0 ? r : 0.0;
 }
 
-/// Probability of reflection, chosen by what each way gives: no ray is spent on a side whose tint
-/// is black. Below 0: both are.
+/// Probability of reflection, in proportion to the two contributions: no ray is traced to a side
+/// whose tint is black. Below 0: both tints are black.
 double reflection_choice(const SmoothDielectric& d, double r) {
     const double reflected = r * d.reflection_tint.max();
     const double transmitted = (1.0 - r) * d.transmission_tint.max();
@@ -24,8 +24,8 @@ double reflection_choice(const SmoothDielectric& d, double r) {
     return sum > 0.0 ? reflected / sum : -1.0;
 }
 
-/// What reflection gives at each wavelength, over the mean of its probability for all of them: any
-/// may have been the first.
+/// Contribution of reflection at each wavelength over the mean of its probabilities (the balance
+/// heuristic): any of them may be the hero.
 Spectrum reflection_of_all(const SmoothDielectric& d, const Vec3& view) {
     Spectrum reflected;
     double mean = 0.0;

@@ -1,11 +1,11 @@
 #pragma once
-/// A smooth boundary between two clear media: reflects by Fresnel's equations and refracts the
-/// rest; all is reflected beyond the critical angle.
+/// A smooth boundary between two clear media: Fresnel reflection and refraction, with total
+/// reflection beyond the critical angle.
 ///
 /// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, section 1.5; Veach 1997,
-/// section 5.2 (radiance changes by eta^2 where it is refracted, importance does not); Wilkie et
-/// al., "Hero Wavelength Spectral Sampling", EGSR 2014 (the weights of reflection where the index
-/// depends on the wavelength: the balance heuristic over the four that may be the first).
+/// section 5.2 (refraction scales radiance by eta^2, importance not); Wilkie et al., "Hero
+/// Wavelength Spectral Sampling", EGSR 2014 (the weights of reflection for a dispersive index: the
+/// balance heuristic over the four choices of hero).
 
 #include <optional>
 
@@ -17,15 +17,15 @@ struct SmoothDielectric {
     static constexpr bool kSingular = true, kTransmits = true;
     double eta = 1;  ///< index on the side of the view over that behind
     Spectrum reflection_tint{1, 1, 1, 1}, transmission_tint{1, 1, 1, 1};
-    /// False: Whitted's refraction, of which nothing is reflected but beyond the critical angle.
+    /// False: Whitted's refraction, without reflection except beyond the critical angle.
     bool fresnel = true;
-    /// Given: `eta` of each wavelength, the first of which is that above.
+    /// `eta` of each wavelength, the first of which equals `eta`; empty if not dispersive.
     std::optional<Spectrum> etas;
 
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
-    /// What `sample` gives for either side, times its probability.
+    /// Weights of reflection and transmission: those of `sample` times its probabilities.
     struct Shares {
         Spectrum reflected, transmitted;
         double cosine_behind = 0;
@@ -33,7 +33,7 @@ struct SmoothDielectric {
     [[nodiscard]] Shares shares(const Vec3& view, Transport transport) const;
 };
 
-/// A sheet so thin that light leaves it in the direction in which it came.
+/// A thin sheet: transmitted light keeps its direction.
 struct ThinSheet {
     static constexpr bool kSingular = true, kTransmits = true;
     Spectrum tint{1, 1, 1, 1};

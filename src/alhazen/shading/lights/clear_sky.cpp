@@ -24,8 +24,8 @@ Rgb quotient(const Rgb& a, const Rgb& b) {
     return {a.r / b.r, a.g / b.g, a.b / b.b};
 }
 
-/// Distance along a ray from radius r with cosine mu to the zenith to a sphere from inside, or to
-/// the ground; the flag says that it is the ground.
+/// Distance along a ray from radius r, with cosine mu to the zenith, to the ground or else to the
+/// enclosing sphere; the flag is true for the ground.
 struct Way {
     double length;
     bool to_ground;
@@ -41,7 +41,7 @@ Way way_of(double r, double mu) {
 double rayleigh_phase(double cosine) {
     return 3.0 / (16.0 * kPi) * (1.0 + cosine * cosine);
 }
-/// Cornette and Shanks.
+/// Cornette-Shanks phase function.
 double mie_phase(double cosine) {
     constexpr double g = kMieForward;
     const double k = 3.0 / (8.0 * kPi) * (1.0 - g * g) / (2.0 + g * g);
@@ -51,19 +51,19 @@ double mie_phase(double cosine) {
 class Atmosphere {
   public:
     Atmosphere(double turbidity, const Rgb& ground) : ground_(ground) {
-        // Of the vertical optical depth of the molecules in green.
+        // Relative to the vertical optical depth of the molecules in green.
         mie_ = (turbidity - 1.0) * kRayleigh.g * kRayleighHeight / kMieHeight;
         make_transmittance();
         make_multiple();
     }
 
-    /// To the top of the air; none through the ground.
+    /// Transmittance to the top of the atmosphere; 0 if the ray meets the ground.
     [[nodiscard]] Rgb transmittance(double r, double mu) const {
         if (way_of(r, mu).to_ground) return {};
         return lookup(transmittance_, kHeights, kCosines, height_share(r), 0.5 * mu + 0.5);
     }
 
-    /// Light from `view` (zenith at z) at a radius, for a sun of irradiance 1.
+    /// Radiance along `view` (zenith at z) at a radius, for a sun of irradiance 1.
     [[nodiscard]] Rgb radiance(const Vec3& view, const Vec3& to_sun) const {
         constexpr int kSteps = 32;
         const double r = kGround + kEye, mu = view.z;
@@ -73,7 +73,7 @@ class Atmosphere {
         Rgb through{1, 1, 1}, sum;
         double before = 0.0;
         for (int i = 0; i < kSteps; ++i) {
-            // Steps grow with the distance.
+            // Step sizes increase with the distance.
             const double share = (i + 1.0) / kSteps, end = way.length * share * share;
             const double t = 0.5 * (before + end), step = end - before;
             before = end;
@@ -94,8 +94,8 @@ class Atmosphere {
     static constexpr int kHeights = 48, kCosines = 384, kFewHeights = 16, kFewCosines = 32;
 
     struct Medium {
-        Rgb rayleigh;  ///< scattering
-        double mie;    ///< scattering
+        Rgb rayleigh;  ///< scattering coefficient
+        double mie;    ///< scattering coefficient
         Rgb extinction;
     };
     [[nodiscard]] Medium medium(double r) const {
@@ -109,7 +109,7 @@ class Atmosphere {
         return m;
     }
 
-    /// Finer near the ground.
+    /// Denser near the ground.
     static double height_share(double r) {
         return std::sqrt(std::clamp((r - kGround) / (kTop - kGround), 0.0, 1.0));
     }
@@ -133,7 +133,7 @@ class Atmosphere {
             const double r = radius_of(double(j) / (kHeights - 1));
             for (int i = 0; i < kCosines; ++i) {
                 const double mu = 2.0 * i / (kCosines - 1) - 1.0;
-                // Through the ground as well, so that the table is smooth at the horizon.
+                // Continues through the ground, so that the table is smooth at the horizon.
                 const double step =
                     (-r * mu + std::sqrt(r * r * (mu * mu - 1.0) + kTop * kTop)) / kSteps;
                 Rgb depth;
@@ -150,7 +150,7 @@ class Atmosphere {
         return lookup(multiple_, kFewHeights, kFewCosines, height_share(r), 0.5 * sun + 0.5);
     }
 
-    /// Light scattered twice and more, of a sun of irradiance 1, per scattering coefficient.
+    /// Light scattered twice or more, for a sun of irradiance 1, per scattering coefficient.
     void make_multiple() {
         for (int j = 0; j < kFewHeights; ++j) {
             const double r = std::max(kGround + 1e-3, radius_of(double(j) / (kFewHeights - 1)));
@@ -164,7 +164,7 @@ class Atmosphere {
     [[nodiscard]] Rgb multiple_at(double r, double sun) const {
         constexpr int kGrid = 8, kSteps = 16;
         const Vec3 to_sun{std::sqrt(std::max(0.0, 1.0 - sun * sun)), 0, sun};
-        Rgb second, share;  // scattered twice; what scatters once more of one
+        Rgb second, share;  // scattered twice; rescattered share of a unit of light
         for (int n = 0; n < kGrid * kGrid; ++n) {
             const double z = 1.0 - 2.0 * (n / kGrid + 0.5) / kGrid;
             const double angle = 2.0 * kPi * (n % kGrid + 0.5) / kGrid;
@@ -194,7 +194,7 @@ class Atmosphere {
             }
         }
         const double mean = 1.0 / (kGrid * kGrid);
-        // Isotropic, so of a radiance L from all around 1/(4 pi) * 4 pi L scatters on.
+        // Isotropic: of a radiance L from all directions, 1/(4 pi) * 4 pi L = L is scattered on.
         return quotient(mean * second, Rgb{1, 1, 1} - mean * share);
     }
 
@@ -215,7 +215,7 @@ void set_texel(Image& image, int x, int y, const Rgb& c) {
 }  // namespace
 
 ClearSky clear_sky(const Vec3& to_sun, double turbidity, const Rgb& ground) {
-    constexpr int kWidth = 256, kHeight = 256;  // the horizon needs rows
+    constexpr int kWidth = 256, kHeight = 256;  // many rows, to resolve the horizon
     const Atmosphere air(turbidity, ground);
     ClearSky sky{Image(kWidth, kHeight, 3), {}};
     const double r = kGround + kEye;

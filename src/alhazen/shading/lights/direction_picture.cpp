@@ -17,7 +17,7 @@ double mean_of(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
 }
 
-/// The longitude as a share of the picture's width.
+/// Longitude as a fraction of the picture's width.
 double column_of(const Vec3& direction) {
     return 0.5 + std::atan2(direction.x, direction.y) / (2.0 * kPi);
 }
@@ -26,8 +26,8 @@ double row_of(const Vec3& direction) {
     return std::atan2(std::hypot(direction.x, direction.y), direction.z) / kPi;
 }
 
-/// The number of the last entry at or before `wanted` that has a share itself, in a list that
-/// ascends. The first above `wanted` is between `least` and `most`.
+/// Index of the last entry at or below `wanted` whose own share is not 0, in an ascending list. The
+/// first entry above `wanted` lies between `least` and `most`.
 template <class Entries, class Value>
 std::size_t pick(const Entries& entries, std::size_t least, std::size_t most, Value wanted) {
     const auto begin = entries.begin(), end = entries.end();
@@ -37,13 +37,13 @@ std::size_t pick(const Entries& entries, std::size_t least, std::size_t most, Va
     return std::size_t(std::max(after - begin - 1, std::ptrdiff_t{0}));
 }
 
-/// The part of 1 that holds a share.
+/// Index of the part of [0, 1) that contains `share`.
 std::size_t part_of(double share, std::size_t parts) {
     return std::min(static_cast<std::size_t>(share * static_cast<double>(parts)), parts - 1);
 }
 
-/// For the beginning of each part of 1, times `scale`, how many entries are not above it; then how
-/// many there are.
+/// Appends for the start of each part of [0, 1), times `scale`, the number of entries not above it;
+/// then the number of entries.
 template <class Entries>
 void append_guide(const Entries& entries, std::size_t parts, double scale,
                   std::vector<std::uint32_t>& guide) {
@@ -90,7 +90,7 @@ void DirectionPicture::blacken_bad_texels() {
 Rgb DirectionPicture::texel(int x, int y) const {
     const int w = picture_.width;
     const int around = x < 0 ? x + w : x < w ? x : x - w;
-    // A direction that is no number asks anywhere.
+    // The clamp covers NaN directions.
     return picture_.rgb(std::clamp(around, 0, w - 1), std::clamp(y, 0, picture_.height - 1));
 }
 
@@ -104,7 +104,8 @@ void DirectionPicture::make_distribution() {
     std::vector<Rgb> row(std::size_t(w) + 2);
     std::vector<double> sums(std::size_t(w) + 1, 0.0);
     for (int y = 0; y < h; ++y) {
-        // Means of the interpolated picture over texels: 1/8, 3/4, 1/8 of the three nearest.
+        // Means over texels of the interpolated picture: weights 1/8, 3/4, 1/8 of the three
+        // nearest.
         for (int x = -1; x <= w; ++x) {
             row[std::size_t(x + 1)] =
                 0.125 * texel(x, y - 1) + 0.75 * texel(x, y) + 0.125 * texel(x, y + 1);
@@ -124,7 +125,7 @@ void DirectionPicture::make_distribution() {
 }
 
 void DirectionPicture::make_guides() {
-    // Powers of two: the beginnings of parts are exact.
+    // Powers of two make the starts of parts exact.
     row_parts_ = std::bit_floor(std::max(rows_.size() / 4, std::size_t{1}));
     append_guide(rows_, row_parts_, rows_.back(), row_guide_);
     const std::size_t w = std::size_t(picture_.width), h = std::size_t(picture_.height);

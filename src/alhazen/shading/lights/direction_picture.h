@@ -1,19 +1,19 @@
 #pragma once
-/// A picture of all directions, latitude by longitude, and directions chosen in proportion to its
-/// brightness.
+/// A latitude-longitude picture of all directions, sampled in proportion to its brightness.
 ///
 /// Source: Blinn and Newell, "Texture and Reflection in Computer Generated Images", CACM 19(10),
 /// 1976; Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 12.5.
-/// Differs: within a texel directions are uniform by solid angle, so that the density has no
-/// singular poles; the weight of a texel is the mean of the interpolated picture over it, so that
-/// what is not black has a density. Searches begin at guides (Chen and Asau, "On Generating Random
-/// Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974) and halve what is left.
+/// Differs: within a texel directions are uniform by solid angle, so that the density is finite at
+/// the poles; the weight of a texel is the mean of the interpolated picture over it, so that the
+/// density is above 0 wherever the picture is not black. Searches begin at guides (Chen and Asau,
+/// "On Generating Random Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974)
+/// and continue by bisection.
 /// Conventions: in the frame of the picture x points to its right, y to its front, which is the
 /// centre of the picture, z up. The top row is at the zenith. Texels are interpolated in both
-/// directions, around the picture and not over its poles. Texels that are negative, infinite, no
-/// number or above kLargestRadiance are black, and counted.
-/// Complexity: O(texels) to make, O(log texels) for a direction. Threads: const functions may be
-/// called from many.
+/// directions, around the picture but not across its poles. Texels that are negative, infinite, NaN
+/// or above kLargestRadiance are black, and counted.
+/// Complexity: construction O(texels), sampling O(log texels). Threads: const functions may be
+/// called concurrently.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,37 +28,37 @@ inline constexpr double kLargestRadiance = 1e15;
 
 class DirectionPicture {
   public:
-    /// Has a texel. Not linear: decoded from sRGB.
+    /// The picture must have a texel. If it is not linear, it is decoded from sRGB.
     explicit DirectionPicture(Image picture);
 
     [[nodiscard]] Rgb radiance(const Vec3& direction) const;
-    /// Unit; `u` in [0, 1)^2. Precondition: not black.
+    /// Samples a unit direction; `u` in [0, 1)^2. Precondition: the picture is not black.
     [[nodiscard]] Vec3 sample(const Vec2& u) const;
-    /// Fetches into the cache where `sample` will begin its search; some time later, what that
-    /// search and the radiance there will read.
+    /// Prefetches the beginning of the search of `sample(u)`; `fetch_texels`, called some time
+    /// later, prefetches the data that the search and the radiance lookup read.
     void fetch_guide(const Vec2& u) const;
     void fetch_texels(const Vec2& u) const;
-    /// By solid angle.
+    /// Density of `sample` by solid angle.
     [[nodiscard]] double density(const Vec3& direction) const;
-    /// Both.
+    /// Radiance and density of a direction.
     struct Sight {
         Rgb radiance;
         double density = 0;
     };
     [[nodiscard]] Sight sight(const Vec3& direction) const;
 
-    /// Over all directions.
+    /// Mean radiance over all directions.
     [[nodiscard]] const Rgb& mean() const { return mean_; }
     [[nodiscard]] bool is_black() const { return !(rows_.back() > 0.0); }
     [[nodiscard]] std::size_t bad_texels() const { return bad_texels_; }
 
   private:
-    /// A direction as shares of the picture's width and height.
+    /// A direction in fractions of the picture's width and height.
     struct Place {
         double column, row;
     };
     [[nodiscard]] static Place place_of(const Vec3& direction);
-    /// The row and the beginning of the search in it.
+    /// The row of `share`, and the beginning of the search in that row.
     [[nodiscard]] std::size_t row_for(double share) const;
     [[nodiscard]] const std::uint32_t* guide_for(std::size_t row, double share) const;
     [[nodiscard]] Rgb radiance_at(const Place& place) const;
@@ -66,16 +66,16 @@ class DirectionPicture {
     void blacken_bad_texels();
     void make_distribution();
     void make_guides();
-    /// `x`: at most a picture's width beside it.
+    /// `x` may lie up to a picture's width outside.
     [[nodiscard]] Rgb texel(int x, int y) const;
-    /// Between the heights (cosines to the zenith) of its borders.
+    /// Cosine to the zenith of a row border.
     [[nodiscard]] double height(int border) const { return heights_[std::size_t(border)]; }
 
     Image picture_;
     std::vector<double> heights_;  ///< [row + 1] of its upper border
     std::vector<double> rows_;     ///< [row + 1] weight of all rows above
-    std::vector<float> columns_;   ///< [row][column + 1] share of the row's texels up to it
-    // Where the search for a share ends at the least: [part of 1].
+    std::vector<float> columns_;   ///< [row][column + 1] cumulative share within the row
+    // Lower bounds of the search for a share: [part of 1].
     std::vector<std::uint32_t> row_guide_;
     std::vector<std::uint32_t> column_guides_;  ///< [row][part of 1]
     std::size_t row_parts_ = 1, column_parts_ = 1;

@@ -18,13 +18,13 @@ Vec3 up_of(const EnvironmentSettings& settings, const Vec3& scene_up) {
     return unit_or(settings.up.value_or(scene_up), {0, 1, 0});
 }
 
-/// Before the rotation.
+/// The frame before the rotation.
 Mat3 picture_frame(const Vec3& up) {
     const Vec3 right = unit_or(Vec3{1, 0, 0} - up.x * up, perpendicular(up));
     return {right, cross(up, right), up};
 }
 
-/// Over the right shoulder of who looks to the front.
+/// Default direction of the sun: over the right shoulder of a viewer who faces the front.
 Vec3 usual_sun(const Mat3& frame) {
     const double high = 40 * kRadiansPerDegree, aside = 40 * kRadiansPerDegree;
     return frame * Vec3{std::cos(high) * std::sin(aside), -std::cos(high) * std::cos(aside),
@@ -113,7 +113,7 @@ Rgb Environment::mean() const {
 
 Vec3 Environment::sample(const Vec3& normal, bool both_sides, const Vec2& u) const {
     if (picture_) return sample(u);
-    // By the cosine to the normal: its own mirror image is the same from behind.
+    // Cosine-weighted; for two sides the hemisphere is mirrored with probability 1/2.
     const bool behind = both_sides && u.x < 0.5;
     const double x = both_sides ? (behind ? 2.0 * u.x : 2.0 * u.x - 1.0) : u.x;
     const Vec2 p = on_unit_disc({x, u.y});

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// The least rotation that takes `from` to `to`, of any length but 0.
+/// The least rotation that takes the direction of `from` to that of `to`; neither may be 0.
 Mat3 least_rotation(const Vec3& from, const Vec3& to) {
     const Vec3 a = normalize(from), b = normalize(to);
     const Vec3 axis = cross(a, b);
@@ -21,7 +21,7 @@ Mat3 least_rotation(const Vec3& from, const Vec3& to) {
     return Affine::rotate(axis, std::atan2(length(axis), dot(a, b))).linear;
 }
 
-/// How points of a surface without further fields move.
+/// Motion of the points of a surface: turned and scaled about its centre, and moved.
 class Motion {
   public:
     Motion(const ExtentHandles& from, const ExtentChange& change) : from_(from), change_(change) {
@@ -33,7 +33,7 @@ class Motion {
         }
     }
 
-    /// Times its size.
+    /// The edge, multiplied by its size.
     [[nodiscard]] Vec3 edge(const Vec3& e, std::size_t size) const {
         const Vec3 turned = turn_ ? *turn_ * e : e;
         return change_.sizes.empty() ? turned
@@ -80,7 +80,7 @@ ExtentHandles handles_of(const LightExtent& extent) {
                        handles.sizes = {{"length", length(t.top - t.base)}, {"radius", t.radius}};
                    },
                    [&](const PolygonExtent& p) {
-                       // Newell's normal, of any outline.
+                       // Newell's normal, valid for any outline.
                        Vec3 normal;
                        for (std::size_t i = 0; i < p.vertices.size(); ++i) {
                            const Vec3& next = p.vertices[(i + 1) % p.vertices.size()];

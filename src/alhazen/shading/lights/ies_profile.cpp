@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// Lines, then numbers, which may stand in lines of any length.
+/// Reads lines, then numbers, which may be spread over lines of any length.
 class IesReader {
   public:
     IesReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
@@ -72,7 +72,7 @@ class IesReader {
     int line_ = 0;
 };
 
-/// Where an angle lies among others: the one below, and the share of the way to the next.
+/// Position of an angle in a list: the index below, and the fraction of the interval to the next.
 struct BetweenAngles {
     std::size_t below, above;
     double share;
@@ -87,7 +87,7 @@ BetweenAngles between_angles(const std::vector<double>& angles, double angle) {
 
 constexpr double kSlack = 1e-9;  // radians
 
-/// The angle among the measured ones that shows the same by symmetry.
+/// The equivalent angle, by symmetry, in the measured range.
 double folded(double angle, double first, double last) {
     double a = std::fmod(angle, 2.0 * kPi);
     if (a < 0.0) a += 2.0 * kPi;
@@ -147,7 +147,7 @@ double IesProfile::candela(double vertical, double horizontal) const {
         const double last = horizontals_.back();
         const double angle = folded(horizontal, horizontals_.front(), last);
         h = between_angles(horizontals_, angle);
-        // From the last one round to the first, where no angle of 360 degrees is measured.
+        // Interpolates from the last angle round to the first if 360 degrees is not measured.
         const double gap = horizontals_.front() + 2.0 * kPi - last;
         if (angle > last && gap > kSlack) h = {h.below, 0, std::min(1.0, (angle - last) / gap)};
     }
@@ -158,7 +158,7 @@ double IesProfile::candela(double vertical, double horizontal) const {
 }
 
 double IesProfile::lumens() const {
-    // Fine beside the angles that are measured.
+    // Finer than usual spacings of the measured angles.
     constexpr int kRows = 720, kColumns = 360;
     double sum = 0.0;
     for (int i = 0; i < kRows; ++i) {

@@ -1,15 +1,15 @@
 #pragma once
-/// How much a luminaire sends in each direction, measured: an IES file.
+/// The measured angular distribution of a luminaire: an IES file.
 ///
 /// Source: Illuminating Engineering Society, "ANSI/IESNA LM-63-02: Standard File Format for the
-/// Electronic Transfer of Photometric Data", 2002; those of 1986, 1991 and 1995 differ in their
-/// first lines only.
-/// Differs: photometric type C only; a tilt is read and left out.
+/// Electronic Transfer of Photometric Data", 2002; the versions of 1986, 1991 and 1995 differ in
+/// their first lines only.
+/// Differs: photometric type C only; a tilt is read and ignored.
 /// Conventions: candela are interpolated in both angles. Horizontal angles that end at 0, 90 or 180
-/// are continued by symmetry, others are taken round. Below the first and above the last vertical
-/// angle nothing is sent. A light of color 1 that falls with the square of the distance sends
-/// candela / 683 watts per steradian.
-/// Threads: const functions may be called from many.
+/// are continued by symmetry, others periodically. Below the first and above the last vertical
+/// angle the intensity is 0. A light of color 1 with inverse-square attenuation emits candela / 683
+/// watts per steradian.
+/// Threads: const functions may be called concurrently.
 
 #include <cstddef>
 #include <string>
@@ -21,22 +21,22 @@
 
 namespace alhazen {
 
-/// Lumens of a watt of the light that the eye sees best.
+/// Luminous efficacy at the eye's peak sensitivity, lumens per watt.
 inline constexpr double kLumensPerWatt = 683.0;
 
 class IesProfile {
   public:
     static constexpr std::size_t kMostAngles = 4096, kMostBytes = std::size_t{16} << 20;
 
-    /// Throws Error (Scene) with the line that is wrong; `name` is used in messages.
+    /// Parses a file. Throws Error (Scene) with the line of the fault; `name` is used in messages.
     IesProfile(std::string_view text, const std::string& name);
 
-    /// `vertical` from straight down, `horizontal` around it; radians.
+    /// Luminous intensity; `vertical` from straight down and `horizontal` around it, in radians.
     [[nodiscard]] double candela(double vertical, double horizontal) const;
     [[nodiscard]] double largest_candela() const { return largest_; }
-    /// Over all directions.
+    /// Total luminous flux.
     [[nodiscard]] double lumens() const;
-    /// The file.
+    /// The text of the file.
     [[nodiscard]] const std::string& text() const { return text_; }
 
   private:
@@ -50,10 +50,9 @@ class IesProfile {
     double largest_ = 0;
 };
 
-/// What the profile multiplies the colour of its light by along a unit direction from the light; 1
-/// without a profile.
+/// The factor on the light's colour along a unit direction from the light; 1 without a profile.
 [[nodiscard]] double profile_factor(const LightProfile& profile, const Vec3& from_light);
-/// The largest of these, and their mean over all directions.
+/// The maximum of `profile_factor`, and its mean over all directions.
 [[nodiscard]] double largest_factor(const LightProfile& profile);
 [[nodiscard]] double mean_factor(const LightProfile& profile);
 

@@ -24,7 +24,7 @@ Approach approach(const auto& light, const Vec3& point, bool clamp) {
     const Vec3 offset = light.position - point;
     const double d = length(offset);
     double factor = 1.0 / (a.constant + a.linear * d + a.quadratic * (d * d));
-    // All three coefficients may be zero; clamping makes the quotient 1, as the course does.
+    // All three coefficients may be 0; clamping makes the quotient 1, as in the course.
     if (clamp && !(factor < 1.0)) factor = 1.0;
     if (light.range != kNoRange) {
         const double x = d / light.range;
@@ -33,7 +33,7 @@ Approach approach(const auto& light, const Vec3& point, bool clamp) {
     return {offset / d, d, factor};
 }
 
-/// The profile's factor; most lights have none.
+/// The profile's factor, without a call for the many lights that have none.
 double factor_of(const LightProfile& profile, const Vec3& from_light) {
     return profile.profile ? profile_factor(profile, from_light) : 1.0;
 }

@@ -19,7 +19,7 @@ MeshExtent triangles_of(const PolygonExtent& polygon) {
     return mesh;
 }
 
-/// A vector in a frame around `axis`, which is unit.
+/// The vector with these components in a frame around the unit `axis`.
 Vec3 around(const Vec3& axis, double along, double x, double y) {
     const Vec3 a = perpendicular(axis), b = cross(axis, a);
     return along * axis + x * a + y * b;
@@ -83,7 +83,7 @@ void LightSurface::set_triangles(const MeshExtent& mesh) {
 }
 
 double LightSurface::projected_area(const Vec3& direction) const {
-    const double mean = area_ / 4.0;  // Cauchy: of a convex body
+    const double mean = area_ / 4.0;  // Cauchy's formula for convex bodies
     if (std::holds_alternative<SphereExtent>(extent_)) return mean;
     if (std::holds_alternative<MeshExtent>(extent_)) return two_sided_ ? 2.0 * mean : mean;
     const double cosine = -dot(direction, normal_);
@@ -133,13 +133,13 @@ ExtentSample LightSurface::on_sphere(const SphereExtent& s, const Vec3& from, co
     const Vec2 p = on_unit_disc(u);
     const double share = p.x * p.x + p.y * p.y;
     if (!(d2 > r2)) {
-        // Inside: uniform by area, z = 1 - 2 share.
+        // From inside: uniform by area, z = 1 - 2 share.
         const double z = 1.0 - 2.0 * share, scale = 2.0 * std::sqrt(std::max(0.0, 1.0 - share));
         const Vec3 n{scale * p.x, scale * p.y, z};
         return seen(from, {s.center + s.radius * n, n, 1.0 / area_});
     }
     const double d = std::sqrt(d2), sine2 = r2 / d2;
-    // 1 - cosine of half the cone's angle, without cancellation.
+    // 1 - cosine of the cone's half angle, without cancellation.
     const double cap = sine2 / (1.0 + std::sqrt(1.0 - sine2));
     const double height = share * cap, cosine = 1.0 - height;
     const double across = std::sqrt(cap * (2.0 - height));
@@ -155,7 +155,7 @@ LightSurface::Place LightSurface::on_tube(const TubeExtent& t, const Vec3& from,
     const Vec3 offset = from - t.base;
     const Vec3 out = offset - dot(offset, normal_) * normal_;
     const double away = length(out);
-    double half = kPi;  // of the angle that is sampled
+    double half = kPi;  // half of the sampled angle
     if (!two_sided_ && away > t.radius) half = std::acos(t.radius / away);
     const Vec3 x = away > 0.0 ? out / away : perpendicular(normal_), y = cross(normal_, x);
     const double angle = half * (2.0 * u.x - 1.0);

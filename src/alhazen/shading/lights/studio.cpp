@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// A lamp: a rectangle across the direction to its middle.
+/// A softbox: a rectangle perpendicular to the direction to its centre.
 struct SoftBox {
     double azimuth, elevation;  ///< degrees; azimuth from the front to the right
     double width, height;       ///< degrees
@@ -20,10 +20,10 @@ struct SoftBox {
 constexpr SoftBox kSoftBoxes[] = {
     {-140, 42, 46, 46, 6.4},                        // main, over the left shoulder
     {120, 18, 30, 60, 2.3},                         // fill, to the right
-    {55, 25, 12, 70, 4.4},                          // rims, from behind what is seen
+    {55, 25, 12, 70, 4.4},                          // rims, from behind the subject
     {-50, 22, 9, 64, 3.6},   {0, 88, 52, 34, 1.5},  // above
 };
-constexpr double kSoftEdge = 0.12;  ///< of half the size
+constexpr double kSoftEdge = 0.12;  ///< fraction of half the size
 
 double smooth(double x) {
     const double t = std::clamp(x, 0.0, 1.0);
@@ -44,7 +44,7 @@ double brightness_of(const SoftBox& box, const Vec3& d) {
 }
 
 double studio_brightness(const Vec3& d) {
-    // Walls are lighter towards the horizon; the floor is darker, with a soft turn between them.
+    // Walls brighten towards the horizon; the floor is darker, with a smooth transition.
     const double wall = 0.22 + 0.22 * (1.0 - smooth(std::abs(d.z) / 0.9));
     const double floor = 0.12 + 0.17 * (1.0 - smooth(-d.z / 0.7));
     const double turn = smooth((d.z + 0.12) / 0.24);

@@ -1,10 +1,9 @@
 #pragma once
-/// A neutral studio as a picture of all directions: lamps with soft boxes before grey walls.
+/// A neutral studio as a picture of all directions: lights with soft boxes in front of grey walls.
 ///
-/// What metals and glass look like is what they mirror: large bright shapes with soft edges, a
-/// graded grey between them, and a darker floor. A white matt surface is about as bright from all
-/// sides as white paper should be.
-/// Conventions: the frame of DirectionPicture; the viewer looks to the front, and the main lamp is
+/// Metals and glass mirror large bright shapes with soft edges, a graded grey in between, and a
+/// darker floor. A white matt surface has about the brightness of white paper from all sides.
+/// Conventions: the frame of DirectionPicture; the viewer faces the front, and the main light is
 /// above the left shoulder.
 
 #include "alhazen/imaging/image/image.h"

@@ -89,11 +89,11 @@ double coverage_of(const Material& material, std::span<const Texture> textures,
 
 namespace {
 
-/// Whitted's coefficients. Written at once: setting the fields of a sample that was made before
-/// takes as long again.
+/// Whitted's coefficients. The sample is constructed in one expression, which is faster than
+/// setting the fields one by one.
 MaterialSample evaluate_whitted(const Material& m, std::span<const Texture> textures,
                                 const SurfaceLookup& lookup) {
-    // Ambient and diffuse colours are often of one texture.
+    // Ambient and diffuse colours often share a texture: its last value is reused.
     TextureId last = kNoTexture;
     Rgb texel;
     const auto color = [&](const ColorInput& input) {

@@ -1,10 +1,9 @@
 #pragma once
-/// What a point of a surface does with light, constant or read from textures: Whitted's
-/// coefficients, or the metallic-roughness parameters from which they are derived where they are
-/// used.
+/// How a point of a surface scatters light, constant or read from textures: Whitted's coefficients,
+/// the metallic-roughness parameters, or physical constants. `evaluate` derives the terms of
+/// Whitted's equation (MaterialSample) from any of them.
 ///
-/// BSDFs (evaluation, sampling, density) belong in shading/bsdf/ and are made of the same Material;
-/// MaterialSample holds the terms of Whitted's equation.
+/// BSDFs (evaluation, sampling, density) are in shading/bsdf/ and are made from the same Material.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and appendix B; the extensions
 /// KHR_materials_{anisotropy, clearcoat, dispersion, emissive_strength, ior, iridescence, sheen,
@@ -30,7 +29,7 @@ struct ColorInput {
     Rgb color;
     TextureId texture = kNoTexture;
 };
-/// Which number of a texel a scalar input reads; Mean is that of red, green and blue.
+/// The channel of a texel that a scalar input reads; Mean is the mean of red, green and blue.
 enum class Channel { Mean, Red, Green, Blue, Alpha };
 /// A number, or a channel of a texture times that number.
 struct ScalarInput {
@@ -39,17 +38,17 @@ struct ScalarInput {
     Channel channel = Channel::Mean;
 };
 
-/// What alpha means: nothing; a threshold that cuts the surface out; how much of it is there.
+/// Meaning of alpha: ignored; compared with a threshold that cuts the surface out; coverage.
 enum class AlphaMode { Opaque, Mask, Blend };
 
-/// A picture of directions in the tangent frame that bends the shading normal: x to the right (+u),
-/// y up (+v), z along the normal, each stored as (c + 1) / 2.
+/// A texture of directions in the tangent frame that perturbs the shading normal: x to the right
+/// (+u), y up (+v), z along the normal, each stored as (c + 1) / 2.
 struct NormalMap {
     TextureId texture = kNoTexture;
-    double scale = 1;  ///< of x and y
+    double scale = 1;  ///< factor on x and y
 };
 
-/// A clear layer of index 1.5 over all else.
+/// A clear layer of index 1.5 on top.
 struct ClearCoat {
     ScalarInput strength{0, kNoTexture, Channel::Red};
     ScalarInput roughness{0, kNoTexture, Channel::Green};
@@ -60,73 +59,74 @@ struct SheenLayer {
     ColorInput color{{0, 0, 0}, kNoTexture};
     ScalarInput roughness{0, kNoTexture, Channel::Alpha};
 };
-/// A film whose two sides interfere. A texture of the thickness blends from `thinnest` to
-/// `thickest`; without one it is `thickest`.
+/// A thin film with interference. A texture of the thickness blends from `thinnest` to `thickest`;
+/// without one the thickness is `thickest`.
 struct IridescentFilm {
     ScalarInput strength{0, kNoTexture, Channel::Red};
     double index = 1.3;
     double thinnest_nm = 100, thickest_nm = 400;
-    TextureId thickness_texture = kNoTexture;  ///< its green channel
+    TextureId thickness_texture = kNoTexture;  ///< texture of the thickness, its green channel
 };
-/// Grooves along a direction in the surface: `rotation` (radians) from the tangent to the
-/// bitangent. Red and green of the texture turn it further, blue times `strength`.
+/// Anisotropy: grooves along a direction in the surface, at angle `rotation` (radians) from the
+/// tangent to the bitangent. Red and green of the texture rotate it further, blue scales
+/// `strength`.
 struct Grooves {
     double strength = 0, rotation = 0;
     TextureId texture = kNoTexture;
 };
 
-/// Light that a matt body lets out on its other side: a leaf, paper, wax. `share` of what the body
-/// scatters, tinted by `color` in place of the base colour.
+/// Diffuse transmission, as of a leaf, paper, wax. `share` of the light that the body scatters
+/// leaves on the other side, tinted by `color` in place of the base colour.
 struct DiffuseTransmission {
     ScalarInput share{0, kNoTexture, Channel::Alpha};
     ColorInput color{{1, 1, 1}, kNoTexture};
 };
 
-/// The metallic-roughness parameters, kept as the file gives them. Emission and index of refraction
-/// are those of the Material.
+/// The metallic-roughness parameters as given by the file. Emission and index of refraction are
+/// those of the Material.
 struct MetallicRoughness {
     ColorInput base_color{{1, 1, 1}, kNoTexture};
     ScalarInput metallic{1, kNoTexture, Channel::Blue};
     ScalarInput roughness{1, kNoTexture, Channel::Green};
-    /// 1 where no texture; a texture is blended in by `value`: 1 + value (texel - 1).
+    /// 1 without a texture; a texel is applied as 1 + value (texel - 1).
     ScalarInput occlusion{1, kNoTexture, Channel::Red};
     ScalarInput specular{1, kNoTexture, Channel::Alpha};  ///< strength of the dielectric reflection
-    ColorInput specular_color{{1, 1, 1}, kNoTexture};     ///< of it at normal incidence
+    ColorInput specular_color{{1, 1, 1}, kNoTexture};     ///< its colour at normal incidence
     ScalarInput transmission{0, kNoTexture, Channel::Red};
     /// 0: a thin sheet that does not bend light; else the surface bounds a volume.
     ScalarInput thickness{0, kNoTexture, Channel::Green};
     double attenuation_distance = std::numeric_limits<double>::infinity();  ///< scene units
-    Rgb attenuation_color{1, 1, 1};  ///< what is left of white light after that distance
+    Rgb attenuation_color{1, 1, 1};  ///< transmittance at that distance
     ClearCoat coat;
     SheenLayer sheen;
     IridescentFilm film;
     Grooves anisotropy;
     DiffuseTransmission diffuse_transmission;
-    double dispersion = 0;  ///< 20 / Abbe number; seen by renderers of wavelengths alone
-    bool unlit = false;     ///< shows its base colour whatever the light
+    double dispersion = 0;  ///< 20 / Abbe number; used by spectral renderers only
+    bool unlit = false;     ///< shows its base colour, unaffected by light
 };
 
 /// A metal by its complex index of refraction n + i k at red, green and blue.
 struct Conductor {
     Rgb index, extinction;
-    std::string name;  ///< of a measured metal (metals.h); empty: by the numbers
+    std::string name;  ///< a measured metal (metals.h); empty: given by `index`, `extinction`
 };
-/// A clear body that reflects and refracts by Fresnel's equations. Its index is the Material's.
+/// A clear body with Fresnel reflection and refraction. Its index is that of the Material.
 struct Dielectric {
-    Rgb absorption;  ///< inside: light falls by exp(-absorption * length)
+    Rgb absorption;  ///< coefficient inside, per scene unit
 };
 
-/// What scatters light inside a volume, the same everywhere.
+/// A homogeneous scattering medium inside a volume.
 ///
 /// Source: Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93,
 /// 1941.
 struct VolumeScattering {
-    Rgb coefficient;        ///< light is scattered by this share in a unit of length; black: none
-    double anisotropy = 0;  ///< mean cosine of the angle by which it turns, in (-1, 1)
+    Rgb coefficient;        ///< scattering coefficient, per scene unit; black: none
+    double anisotropy = 0;  ///< mean cosine of the scattering angle, in (-1, 1)
 };
 
-/// Coefficients are 0..1 by custom, not by force. Importers fill in what their format leaves out
-/// (kr = ks, say) so that renderers need no rules of formats.
+/// Coefficients are 0..1 by convention; larger values are accepted. Importers fill in the defaults
+/// of their format (for example kr = ks), so that renderers are independent of formats.
 struct Material {
     std::string name;
     ColorInput emission;                   ///< ke
@@ -137,32 +137,31 @@ struct Material {
     ColorInput transmissive;               ///< kt, the refracted direction
     ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
     ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
-    /// How `index`, which is that of line d, depends on the wavelength; none: not at all.
+    /// Dispersion; `index` is then the index at line d. Empty: the same index at all wavelengths.
     std::optional<Dispersion> dispersion;
-    /// Given: the spectrum of the emission, whose colour is that of `emission`.
+    /// Spectrum of the emission, whose colour is `emission`; empty: white light of that colour.
     std::optional<Illuminant> illuminant;
-    /// 0..1: how far reflected and refracted rays spread, for renderers in which they do.
+    /// 0..1: spread of reflected and refracted rays, for renderers that support it.
     ScalarInput roughness{0, kNoTexture};
 
-    /// Mass of a unit of volume, in any unit; for measures, not for light.
+    /// Mass per unit of volume, in any unit; used for mass properties, not for shading.
     std::optional<double> density;
 
     AlphaMode alpha_mode = AlphaMode::Opaque;
     ScalarInput alpha{1, kNoTexture, Channel::Alpha};  ///< times the alpha of the vertex colour
-    double alpha_cutoff = 0.5;                         ///< Mask: below it nothing is there
-    bool double_sided = true;                          ///< else the back cannot be seen
+    double alpha_cutoff = 0.5;                         ///< Mask: below it the surface is cut out
+    bool double_sided = true;                          ///< false: the back is invisible
     NormalMap normal_map;
-    /// Given: the Whitted coefficients above (emission and index apart) are not used; `evaluate`
-    /// derives them.
+    /// If given, replaces the Whitted coefficients above except emission and index; `evaluate`
+    /// converts it.
     std::optional<MetallicRoughness> metallic_roughness;
-    /// Given: the same, of a surface by its physical constants. `roughness` is that of the
-    /// Material.
+    /// If given, likewise; physical constants of a metal. `roughness` is that of the Material.
     std::optional<Conductor> conductor;
     std::optional<Dielectric> dielectric;
-    /// Of the volume inside, where the surface bounds one. For renderers that follow light.
+    /// Medium inside, if the surface bounds a volume; for renderers that trace paths of light.
     VolumeScattering scattering;
 
-    /// True when no light passes anywhere.
+    /// True if no light passes anywhere.
     [[nodiscard]] bool is_opaque() const {
         const auto is_black = [](const ColorInput& c) {
             return c.texture == kNoTexture && c.color.is_black();
@@ -174,30 +173,30 @@ struct Material {
     }
 };
 
-/// What a material may look at where a ray meets it.
+/// Inputs of `evaluate` at a hit.
 struct SurfaceLookup {
-    std::array<Vec2, 2> uv{};  ///< both sets of texture coordinates
+    std::array<Vec2, 2> uv{};  ///< the two sets of texture coordinates
     std::array<UvFootprint, 2> footprint{};
-    Rgba color{1, 1, 1, 1};  ///< of the vertices
+    Rgba color{1, 1, 1, 1};  ///< vertex colour
     SolidAperture aperture;  ///< in world space
 };
 
-/// A material evaluated at one point, as the terms of Whitted's equation and what it leaves out.
+/// A material evaluated at one point: the terms of Whitted's equation and additional properties.
 /// Colours are those at normal incidence until `turn_to_view`.
 struct MaterialSample {
     Rgb emission, ambient, diffuse, specular, reflective, transmissive;
     double shininess = 0, index = 1;
-    double roughness = 0;  ///< of the directions of rays; 0: exact
+    double roughness = 0;  ///< spread of reflected and refracted rays; 0: none
 
-    double coverage = 1;   ///< share of the point that is there; a ray goes straight on by the rest
-    Rgb albedo;            ///< colour of the surface itself, whatever it does with it
-    Rgb absorption;        ///< inside: light falls by exp(-absorption * length)
-    double occlusion = 1;  ///< already in `ambient`
-    bool unlit = false;    ///< the colour is in `emission`; all else is black
-    bool thin = false;     ///< transmitted light goes straight on, and inside is outside
-    bool physical = false;      ///< metallic-roughness: the highlight is times N.L, Fresnel applies
-    Rgb grazing;                ///< `reflective` at grazing incidence, where physical
-    bool single_sided = false;  ///< cannot be seen from behind
+    double coverage = 1;        ///< opacity of the point; the rest of a ray goes straight on
+    Rgb albedo;                 ///< base colour of the surface, for output
+    Rgb absorption;             ///< coefficient inside, per scene unit
+    double occlusion = 1;       ///< already in `ambient`
+    bool unlit = false;         ///< the colour is in `emission`; all else is black
+    bool thin = false;          ///< transmitted light goes straight on; there is no inside
+    bool physical = false;      ///< physical model: highlight times N.L, Fresnel applies
+    Rgb grazing;                ///< `reflective` at grazing incidence, if physical
+    bool single_sided = false;  ///< invisible from behind
 };
 
 [[nodiscard]] MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
@@ -207,22 +206,23 @@ struct MaterialSample {
     return evaluate(material, textures, SurfaceLookup{{uv, uv}, {}, {1, 1, 1, 1}, {}});
 }
 
-/// A volume is seen from inside whatever its sides; a thin sheet is not.
+/// True if a hit from behind is ignored. The back of a volume is always visible, that of a thin
+/// sheet is not.
 [[nodiscard]] inline bool is_unseen_from_behind(const MaterialSample& sample) {
     return sample.single_sided && (sample.thin || sample.transmissive.is_black());
 }
 
-/// What part of the point is there, without the rest of the material.
+/// The coverage (see MaterialSample), without the other terms.
 [[nodiscard]] double coverage_of(const Material& material, std::span<const Texture> textures,
                                  const SurfaceLookup& lookup);
 
-/// Makes a physical sample that of a ray that meets the surface with `cosine` to its normal (0..1),
-/// from inside the volume or not: Schlick's Fresnel term, total reflection included, shared out
-/// between reflection and the rest. Does nothing to others.
+/// Applies Schlick's Fresnel term, including total reflection, to a physical sample for a ray with
+/// `cosine` (0..1) to the normal, outside or inside the volume; the light that is not reflected is
+/// left to the other terms. Other samples are unchanged.
 void turn_to_view(MaterialSample& sample, double cosine, bool from_inside);
 
-/// Weighted sum of two samples: vertex materials are interpolated field by field, what is only true
-/// or false is the first one's.
+/// Weighted sum of two samples, for vertex materials: numbers are interpolated, boolean fields are
+/// those of the first.
 [[nodiscard]] MaterialSample weighted_sum(double wa, const MaterialSample& a, double wb,
                                           const MaterialSample& b, double wc,
                                           const MaterialSample& c);

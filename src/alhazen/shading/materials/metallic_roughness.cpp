@@ -16,7 +16,7 @@ namespace alhazen {
 
 namespace {
 
-/// A highlight narrower than that of this roughness would fall between the pixels.
+/// Least roughness of a highlight: a narrower one would fall between the pixels.
 constexpr double kLeastRoughness = 0.2;
 
 double clamped(double x) {
@@ -35,25 +35,25 @@ Rgb min_of_one(const Rgb& c) {
     return {clamped(c.r), clamped(c.g), clamped(c.b)};
 }
 
-/// Light left after `distance` is `color`: the sigma of exp(-sigma length).
+/// Absorption coefficient sigma of exp(-sigma length) with transmittance `color` at `distance`.
 Rgb absorption_of(const Rgb& color, double distance) {
     if (!(distance > 0.0) || !std::isfinite(distance)) return {};
     const auto sigma = [&](double c) {
-        // A black channel would absorb infinitely; this leaves nothing visible of it.
+        // Channels are at least 1e-12: 0 would give infinite absorption.
         return -std::log(std::clamp(c, 1e-12, 1.0)) / distance;
     };
     return {sigma(color.r), sigma(color.g), sigma(color.b)};
 }
 
-/// Reflection of a boundary at normal incidence.
+/// Reflectance of a boundary at normal incidence.
 double normal_reflectance(double index) {
-    // KHR_materials_ior: 0 stands for an index so high that all light is reflected.
+    // KHR_materials_ior: index 0 stands for infinity: all light is reflected.
     if (index == 0.0) return 1.0;
     const double r = (index - 1.0) / (index + 1.0);
     return r * r;
 }
 
-/// What the surface does not reflect is shared by what lies below it.
+/// Scales the terms below the reflection by the share that is not reflected.
 void keep_below(MaterialSample& sample, double share) {
     sample.diffuse = share * sample.diffuse;
     sample.transmissive = share * sample.transmissive;
@@ -65,7 +65,7 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
                                            std::span<const Texture> textures,
                                            const SurfaceLookup& lookup) {
     MaterialSample s;
-    // Most inputs have no texture: tested here, as larger units are inlined less.
+    // Tests for a texture inline, since most inputs have none.
     const auto color = [&](const ColorInput& input) {
         return input.texture == kNoTexture ? input.color : color_at(input, textures, lookup);
     };
@@ -102,21 +102,20 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     s.shininess = 2.0 / (alpha * alpha) - 2.0;
     s.specular = (s.shininess + 2.0) / 8.0 * at_normal;
 
-    // Whitted's equation has no light from behind: what the body lets through is shown on the side
-    // of the light.
+    // Whitted's equation has no light from behind: diffuse transmission is shaded as reflection.
     const double through = clamped(value_at(p.diffuse_transmission.share, textures, lookup));
     Rgb matt = base;
     if (through > 0.0) {
         matt = (1.0 - through) * base + through * color(p.diffuse_transmission.color);
     }
     const Rgb body = (1.0 - metallic) * (1.0 - transmission) * matt;
-    // Whitted's equation has no blurred reflection: what the mirror part leaves of a metal's is
-    // taken from all around (ambient) and half of it, as the highlight has its share, from lights.
+    // Whitted's equation has no blurred reflection: the share of a metal's reflection that is not
+    // mirrored becomes ambient, and half of it diffuse (the highlight has the other half).
     const Rgb rough_metal = metallic * (1.0 - mirror) * base;
     s.diffuse = body + 0.5 * rough_metal;
     s.ambient = s.occlusion * (body + rough_metal);
     s.transmissive = (1.0 - metallic) * transmission * base;
-    // The texture of the thickness is for renderers that cannot see how thick the volume is.
+    // The texture of the thickness is ignored: rays find the real thickness of the volume.
     s.thin = !(p.thickness.value > 0.0) || s.index == 0.0;
     if (!s.thin) s.absorption = absorption_of(p.attenuation_color, p.attenuation_distance);
     return s;
@@ -160,8 +159,8 @@ void turn_to_view_between(MaterialSample& sample, double cosine, double eta, boo
     }
     double c = clamped(cosine);
     if (eta > 1.0 && !sample.thin) {
-        // Schlick's formula wants the angle on the thin side; there is none beyond the critical
-        // angle.
+        // Schlick's formula takes the angle on the side of the lower index; beyond the critical
+        // angle there is none.
         const double squared = 1.0 - eta * eta * (1.0 - c * c);
         if (!(squared > 0.0)) {
             if (!sample.transmissive.is_black()) sample.reflective = {1, 1, 1};

@@ -1,5 +1,5 @@
 #pragma once
-/// The values that a material's inputs have at a point.
+/// Values of a material's inputs at a point.
 
 #include "alhazen/shading/materials/material.h"
 
@@ -13,9 +13,9 @@ namespace alhazen {
 [[nodiscard]] double value_at(const ScalarInput& input, std::span<const Texture> textures,
                               const SurfaceLookup& lookup);
 
-/// False: the material is the same everywhere, vertex colours apart.
+/// False if the material is the same everywhere, apart from vertex colours.
 [[nodiscard]] bool reads_textures(const Material& material);
-/// Whether its look depends on texture coordinates or on their directions in the surface.
+/// True if the material depends on texture coordinates or on their directions in the surface.
 [[nodiscard]] bool reads_coordinates(const Material& material);
 
 /// The metallic-roughness parameters as terms of Whitted's equation; docs/reference/materials.md
@@ -25,8 +25,8 @@ namespace alhazen {
                                                          std::span<const Texture> textures,
                                                          const SurfaceLookup& lookup);
 
-/// A conductor or dielectric as terms of Whitted's equation: as a metal of its colour at normal
-/// incidence, or as a clear volume.
+/// A conductor or dielectric as terms of Whitted's equation: a metal of its colour at normal
+/// incidence, or a clear volume.
 [[nodiscard]] MaterialSample evaluate_physical_constants(const Material& material,
                                                          std::span<const Texture> textures,
                                                          const SurfaceLookup& lookup);

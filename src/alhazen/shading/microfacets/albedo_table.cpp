@@ -13,12 +13,12 @@ namespace {
 
 constexpr int kCosines = 44, kAlphas = 32, kMeans = 257;
 
-/// The values of a table at one alpha, once they have been asked for twice, and the last answers.
+/// A slice of a table at one alpha, made at the second request, and recent results.
 struct AlphaSlice {
     std::uint64_t table = 0;  ///< AlbedoTable::id_; 0: none
     double alpha = 0;
     bool is_made = false;
-    std::uint32_t next = 0;      ///< of the answers, to be replaced
+    std::uint32_t next = 0;      ///< the result to be replaced next
     std::array<double, 2> mu{};  ///< 0: none
     std::array<double, 2> answer{};
     std::array<double, kCosines> values{};
@@ -44,7 +44,7 @@ AlbedoTable::AlbedoTable(const Function& albedo, Axis axis) : id_(new_id()), axi
                                            : std::max(p[0] * p[0], AlbedoAxes::kLeastMu),
                       alpha);
     });
-    // Of the interpolated table, so that its errors cancel where both are used.
+    // Integrated from the interpolated table, so that its errors cancel where both are used.
     mean_ = CubicTable<1>({kMeans}, [&](const std::array<double, 1>& p) {
         const double alpha = AlbedoAxes::alpha_of(p[0]);
         return hemispherical_mean([&](double mu) { return at(mu, alpha); });

@@ -1,15 +1,15 @@
 #pragma once
-/// How much of the light a lobe gives back, by the cosine of the view and its roughness, and the
-/// means over the hemisphere: what is missing to 1 can be given back by a matt lobe.
+/// Directional albedo of a lobe by the cosine of the view and the roughness, and its mean over the
+/// hemisphere; the deficit to 1 can be restored by a matt lobe.
 ///
 /// Source: Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
 /// Importance Sampling", Eurographics 2001 (the matt lobe); Kulla and Conty, "Revisiting Physically
-/// Based Shading at Imageworks", SIGGRAPH 2017 course (tables of what is missing).
-/// Differs: an axis follows the shadow that a grazing view casts, mu / (mu + alpha), so that few
-/// values are exact.
+/// Based Shading at Imageworks", SIGGRAPH 2017 course (tables of the deficit).
+/// Differs: the axis of the view is mu / (mu + alpha), which follows the shadowing at grazing
+/// angles, so that a small table suffices.
 /// Conventions: mu is the cosine of the view, 0..1; alpha the roughness, 0..1. Both are clamped.
-/// Complexity and threads: const functions may be called from many threads. Each thread keeps the
-/// values of the alphas that it asks for again and again.
+/// Threads: const functions may be called concurrently. Each thread caches the values of the alphas
+/// that it uses repeatedly.
 
 #include <algorithm>
 #include <cmath>
@@ -40,13 +40,14 @@ class AlbedoTable {
   public:
     using Function = std::function<double(double mu, double alpha)>;
 
-    /// `Shadow`: for what is smooth in mu / (mu + alpha); `Angle`: in the root of mu.
+    /// `Shadow`: for functions smooth in mu / (mu + alpha); `Angle`: smooth in the square root of
+    /// mu.
     enum class Axis { Shadow, Angle };
 
     explicit AlbedoTable(const Function& albedo, Axis axis = Axis::Shadow);
 
     [[nodiscard]] double at(double mu, double alpha) const;
-    /// The mean of `at` over the hemisphere, weighted by mu.
+    /// Cosine-weighted mean over the hemisphere.
     [[nodiscard]] double mean(double alpha) const;
 
   private:
@@ -54,13 +55,13 @@ class AlbedoTable {
         return axis_ == Axis::Shadow ? AlbedoAxes::x_of(mu, alpha) : std::sqrt(mu);
     }
 
-    std::uint64_t id_;  ///< other tables have others
+    std::uint64_t id_;  ///< unique to the table
     Axis axis_;
     CubicTable<2> table_;
     CubicTable<1> mean_;
 };
 
-/// Mean of f(mu) over the hemisphere, weighted by mu. By the root of mu: finer where it is small.
+/// Cosine-weighted mean of f(mu) over the hemisphere, with nodes by the square root of mu.
 template <class F>
 [[nodiscard]] double hemispherical_mean(const F& f) {
     static const GaussLegendre<64> rule;
@@ -72,8 +73,8 @@ template <class F>
     return sum;
 }
 
-/// A matt lobe that gives back what is missing at both ends: reciprocal, and what it reflects of a
-/// view is `missing(mu_view)`, exactly. `mean_missing`: over the hemisphere. Without cosine.
+/// A reciprocal matt lobe that restores the deficit: its albedo for a view is exactly
+/// `missing(mu_view)`. `mean_missing`: the mean over the hemisphere. Excludes the cosine.
 [[nodiscard]] double matt_rest(double missing_at_view, double missing_at_light,
                                double mean_missing);
 

@@ -2,8 +2,9 @@
 /// A table of a smooth function of D numbers in [0, 1], at even steps, read by cubic interpolation.
 ///
 /// Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974.
-/// Differs: beyond the ends the table goes on as the parabola through its last three values.
-/// Complexity and threads: 4^D values a lookup; const functions may be called from many threads.
+/// Differs: beyond the ends the table is extrapolated by the parabola through its last three
+/// values.
+/// Complexity and threads: 4^D values per lookup; const functions may be called concurrently.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ class CubicTable {
     using Point = std::array<double, D>;
 
     CubicTable() = default;
-    /// `sizes`: number of values along each axis, at least 3. `function` of a Point.
+    /// `sizes`: number of values along each axis, at least 3. `function` takes a Point.
     template <class F>
     CubicTable(const std::array<int, D>& sizes, const F& function) : sizes_(sizes) {
         std::size_t count = 1;
@@ -38,19 +39,19 @@ class CubicTable {
     }
 
     [[nodiscard]] double at(const Point& p) const { return along<0>(p, 0); }
-    /// The values along the first of two axes where the second number is `y`: interpolated between,
-    /// they are those of the table.
+    /// Writes the values along the first of two axes at the coordinate `y` of the second;
+    /// interpolating them with `at` equals a lookup in the table.
     void get_slice(double y, std::span<double> out) const requires(D == 2) {
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = along<1>({0, y}, i);
     }
-    /// In such a slice.
+    /// Interpolates in a slice of `get_slice`.
     [[nodiscard]] static double at(std::span<const double> slice, double x) {
         return interpolated(static_cast<int>(slice.size()), x,
                             [&](int i) { return slice[static_cast<std::size_t>(i)]; });
     }
 
   private:
-    /// Value of the cubic through four neighbours, at t in [0, 1] between the middle ones.
+    /// The cubic through four neighbours at t in [0, 1] between the middle two.
     static double cubic(double a, double b, double c, double d, double t) {
         return b +
                0.5 * t *
@@ -71,7 +72,7 @@ class CubicTable {
         });
     }
 
-    /// Between `size` values, `place` of the way from the first to the last.
+    /// Interpolates `size` values at `place` in [0, 1] from the first to the last.
     template <class Value>
     [[nodiscard]] static double interpolated(int size, double place, const Value& value) {
         // NaN reads the first value.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kLargestRatio = 3.0;
 
-/// Tables of one way through: into the denser medium (eta <= 1), or out of it. The third axis is
-/// the root of log(ratio): where media differ little the loss changes fast.
+/// Tables for one direction: into the denser medium (eta <= 1), or out of it. The third axis is the
+/// square root of log(ratio): the loss changes fast for media of similar index.
 class OneWay {
   public:
     explicit OneWay(bool inward) : inward_(inward) {
@@ -47,7 +47,7 @@ class OneWay {
     }
 
   private:
-    // Outward the critical angle is where much happens: an axis of angles.
+    // Outward, the function varies most at the critical angle: an axis of angles.
     [[nodiscard]] double x_of(double mu, double alpha) const {
         return inward_ ? AlbedoAxes::x_of(mu, alpha) : std::sqrt(mu);
     }

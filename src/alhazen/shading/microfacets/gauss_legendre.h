@@ -1,5 +1,5 @@
 #pragma once
-/// Points and weights of Gauss and Legendre for integrals over [0, 1].
+/// Nodes and weights of Gauss-Legendre quadrature over [0, 1].
 ///
 /// Source: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, 25.4.29; Newton's
 /// method from 22.16.6.

@@ -1,6 +1,5 @@
 #pragma once
-/// Rough surfaces as ellipsoidal microfacets (GGX, or Trowbridge and Reitz), which may be rougher
-/// along one tangent than along the other.
+/// Microfacet distribution GGX (Trowbridge-Reitz), isotropic or anisotropic.
 ///
 /// Source: Trowbridge and Reitz, "Average Irregularity Representation of a Rough Surface for Ray
 /// Reflection", JOSA 65, 1975; Walter et al., "Microfacet Models for Refraction through Rough
@@ -17,50 +16,50 @@
 
 namespace alhazen {
 
-/// Below it a surface counts as smooth: its lobe is narrower than a pixel sees anything in.
+/// Roughness below which a surface counts as smooth: the lobe is narrower than pixels resolve.
 inline constexpr double kSmoothAlpha = 5e-4;
 
 struct Ggx {
     double x = 0.1, y = 0.1;  ///< roughness alpha along the tangents
 
-    /// Length of `v` stretched to where the surface is a hemisphere. Masking follows from it.
+    /// Length of `v` in the space where the surface is a hemisphere; used by the masking.
     [[nodiscard]] double stretched_length(const Vec3& v) const {
         return std::sqrt(x * x * v.x * v.x + y * y * v.y * v.y + v.z * v.z);
     }
 
-    /// Density of normals by solid angle and area of the surface.
+    /// Distribution of normals D(m), per solid angle and area of the surface.
     [[nodiscard]] double normals(const Vec3& m) const {
         const double a = m.x / x, b = m.y / y;
         const double s = a * a + b * b + m.z * m.z;
         return 1.0 / (kPi * x * y * s * s);
     }
 
-    /// Share of the facets that `v` faces which it sees.
+    /// Masking G1(v): share of the facets turned to `v` that are visible from it.
     [[nodiscard]] double masking(const Vec3& v) const {
         const double z = std::abs(v.z);
         return 2.0 * z / (z + stretched_length(v));
     }
-    /// Share of the facets that both see, of those that `v` sees.
+    /// Share of the facets visible from `v` that are visible from `l` too.
     [[nodiscard]] double shadowing(const Vec3& v, const Vec3& l) const {
         const double vz = std::abs(v.z), lz = std::abs(l.z);
         const double a = stretched_length(v);
         return lz * (vz + a) / (vz * stretched_length(l) + lz * a);
     }
 
-    /// Density of the visible normals over the cosine of v to them: with `cosine` = dot(v, m) > 0
-    /// it is the density of `m` by solid angle.
+    /// Density of the visible normals divided by dot(v, m): times `cosine` = dot(v, m) > 0 it is
+    /// the density of `m` by solid angle.
     [[nodiscard]] double visible_normals(const Vec3& v, const Vec3& m, double cosine) const {
         return 2.0 * cosine * normals(m) / (v.z + stretched_length(v));
     }
 
-    /// A normal that `v` sees, with density `visible_normals`.
+    /// Samples a normal visible from `v`, with the density of `visible_normals`.
     [[nodiscard]] Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
         const Vec3 s = Vec3{x * v.x, y * v.y, v.z} / stretched_length(v);
         const double angle = 2.0 * kPi * u.x;
         const double z = (1.0 - u.y) * (1.0 + s.z) - s.z;
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
         const Vec3 h = Vec3{radius * std::cos(angle), radius * std::sin(angle), z} + s;
-        // A view along the surface may see the facet that leans away from it edge-on.
+        // At grazing views the sampled facet may be edge-on and lean away: z is clamped.
         return h == Vec3{} ? Vec3{0, 0, 1} : normalize(Vec3{x * h.x, y * h.y, std::max(h.z, 0.0)});
     }
 };

@@ -15,7 +15,7 @@ namespace {
 
 struct GgxTables {
     AlbedoTable sum{[](double mu, double alpha) { return integrate_ggx_albedo(mu, alpha).sum(); }};
-    /// Of the sum, what comes with f90.
+    /// The part of the sum that is multiplied by f90.
     AlbedoTable grazing{[](double mu, double alpha) {
                             const SplitAlbedo a = integrate_ggx_albedo(mu, alpha);
                             return a.at_f90 / a.sum();

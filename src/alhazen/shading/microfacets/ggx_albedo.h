@@ -1,19 +1,18 @@
 #pragma once
-/// How much of the light rough surfaces give back after one reflection at their microfacets. What
-/// is missing to 1 met further facets.
+/// Single-scattering albedo of rough reflecting surfaces. The deficit to 1 is multiple scattering.
 ///
 /// Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
-/// course (what is missing, from a table); Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013
+/// course (the deficit from a table); Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013
 /// course (the table in two parts for Schlick's formula).
-/// Differs: tables are computed when they are first used, by quadrature, not read; error of
-/// the sum below 5e-4, of its parts below 2e-3, for alpha >= 0.0025 and mu >= 0.01
-/// (tests/unit/shading/bsdf/albedo_tables_test.cpp). Conventions: mu is the cosine of the view,
-/// 0..1; alpha the roughness of Ggx, 0..1. Complexity and threads: the first call takes some tenths
-/// of a second; any thread may make it.
+/// Differs: tables are computed by quadrature at the first use; the error of the sum is below 5e-4,
+/// of its parts below 2e-3, for alpha >= 0.0025 and mu >= 0.01
+/// (tests/unit/shading/bsdf/albedo_tables_test.cpp).
+/// Conventions: mu is the cosine of the view, 0..1; alpha the roughness of Ggx, 0..1.
+/// Complexity and threads: the first call takes some tenths of a second; any thread may make it.
 
 namespace alhazen {
 
-/// The light reflected with a Fresnel term of Schlick is f0 * at_f0 + f90 * at_f90.
+/// Albedo with Schlick's Fresnel term: f0 * at_f0 + f90 * at_f90.
 struct SplitAlbedo {
     double at_f0 = 1, at_f90 = 0;
 
@@ -21,12 +20,12 @@ struct SplitAlbedo {
 };
 
 [[nodiscard]] SplitAlbedo ggx_albedo(double mu, double alpha);
-/// Its sum: with a Fresnel term of 1.
+/// The albedo with a Fresnel term of 1.
 [[nodiscard]] double ggx_albedo_sum(double mu, double alpha);
-/// The mean over the hemisphere, weighted by mu.
+/// Cosine-weighted mean over the hemisphere.
 [[nodiscard]] SplitAlbedo ggx_mean_albedo(double alpha);
 
-/// The same integral without a table.
+/// The same integral by quadrature, without a table.
 [[nodiscard]] SplitAlbedo integrate_ggx_albedo(double mu, double alpha);
 
 }  // namespace alhazen

@@ -15,15 +15,16 @@ Vec3 view_at(double mu) {
     return {std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0, mu};
 }
 
-/// Mean of f(cosine to the pole, angle around it, their weight) where cosine^(power - 1) is the
-/// density of the cosines: by u = cosine^power, and half the turn, which is as the other.
+/// Mean of f(cosine to the pole, angle around it, their weight) where the cosines have a density in
+/// proportion to cosine^(power - 1): substitutes u = cosine^power, and covers half the turn, by
+/// symmetry.
 template <class F>
 double mean_around_pole(double power, const F& f) {
     static const GaussLegendre<48> cosines;
     static const GaussLegendre<96> turns;
     double sum = 0;
     for (std::size_t i = 0; i < cosines.points.size(); ++i) {
-        // Finer where the cosine is small: u = t^2.
+        // Denser where the cosine is small: u = t^2.
         const double t = cosines.points[i], c = std::pow(t, 2.0 / power);
         for (std::size_t j = 0; j < turns.points.size(); ++j) {
             sum += 2.0 * t * cosines.weights[i] * turns.weights[j] * f(c, kPi * turns.points[j]);
@@ -72,7 +73,7 @@ double integrate_sheen(double mu, double roughness) {
     return sum;
 }
 
-/// Shadows among the fibres, of one direction.
+/// Shadowing among the fibres, for one direction.
 double fibre_shadow(double mu, double roughness) {
     const double t = (1.0 - roughness) * (1.0 - roughness);
     const auto mix = [&](double smooth, double rough) { return rough + t * (smooth - rough); };
@@ -125,14 +126,14 @@ double phong_lobe(double mu_view, double mu_light, double between, double expone
 
 double blinn_lobe(double mu_view, double mu_light, double half, double view_half, double exponent) {
     if (!(half > 0.0 && view_half > 0.0)) return 0.0;
-    // Of D G / (4 mu mu), G / (mu mu).
+    // The factor G / (mu mu) of D G / (4 mu mu).
     const double cavities = std::min(1.0 / (mu_view * mu_light),
                                      2.0 * half / (view_half * std::max(mu_view, mu_light)));
     return (exponent + 2.0) / (8.0 * kPi) * std::pow(half, exponent) * cavities;
 }
 
 double sheen_lobe(double mu_view, double mu_light, double half, double roughness) {
-    // Below it fibres are so thin that the lobe is seen by no view.
+    // Below this roughness fibres are so thin that the lobe is invisible.
     const double r = std::clamp(roughness, 0.05, 1.0);
     const double power = 1.0 / (r * r);
     const double sine_squared = std::max(0.0, 1.0 - half * half);

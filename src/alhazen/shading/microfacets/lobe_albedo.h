@@ -1,10 +1,10 @@
 #pragma once
-/// How much of the light Phong's and Blinn's highlights and sheen give back before what is missing
-/// is made up for. Tables as ggx_albedo.h.
+/// Albedo of Phong's and Blinn's highlights and of sheen, without the matt lobe that restores the
+/// deficit. Tabulated as in ggx_albedo.h.
 
 namespace alhazen {
 
-/// The exponent of a highlight as a roughness, 0..1: sqrt(2 / (n + 2)).
+/// Roughness, 0..1, equivalent to the exponent of a highlight: sqrt(2 / (n + 2)).
 [[nodiscard]] double alpha_of_exponent(double exponent);
 
 [[nodiscard]] double phong_albedo(double mu, double alpha);
@@ -14,11 +14,11 @@ namespace alhazen {
 /// `roughness` of the sheen, 0..1.
 [[nodiscard]] double sheen_albedo(double mu, double roughness);
 
-// The lobes, of which these are the integrals: without cosine, colour 1.
+// Integrands of these albedos: the lobes of colour 1, without the cosine.
 
-/// `between`: cosine of the mirrored view and the light.
+/// `between`: cosine between the mirrored view and the light.
 [[nodiscard]] double phong_lobe(double mu_view, double mu_light, double between, double exponent);
-/// `half`: cosine of the half vector to the normal, `view_half` to the view.
+/// `half`: cosine of the half vector to the normal, `view_half`: of the view to the half vector.
 [[nodiscard]] double blinn_lobe(double mu_view, double mu_light, double half, double view_half,
                                 double exponent);
 [[nodiscard]] double sheen_lobe(double mu_view, double mu_light, double half, double roughness);

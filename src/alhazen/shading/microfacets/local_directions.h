@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// Above the surface, with density cosine / pi. u in [0, 1).
+/// Samples a direction above the surface with density cosine / pi; u in [0, 1)^2.
 [[nodiscard]] inline Vec3 cosine_direction(const Vec2& u) {
     const double radius = std::sqrt(u.x), angle = 2.0 * kPi * u.y;
     return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0 - u.x)};
@@ -18,14 +18,14 @@ namespace alhazen {
     return std::max(0.0, direction.z) / kPi;
 }
 
-/// The mirror image of `v` in a plane with unit normal `m`.
+/// Reflection of `v` about the unit normal `m`.
 [[nodiscard]] inline Vec3 mirrored(const Vec3& v, const Vec3& m) {
     return 2.0 * dot(v, m) * m - v;
 }
 [[nodiscard]] inline Vec3 mirrored(const Vec3& v) {
     return {-v.x, -v.y, v.z};
 }
-/// Through the surface.
+/// `v` mirrored in the tangent plane.
 [[nodiscard]] inline Vec3 flipped(const Vec3& v) {
     return {v.x, v.y, -v.z};
 }
@@ -33,14 +33,15 @@ namespace alhazen {
     return a.z * b.z > 0.0;
 }
 
-/// Where `v` goes on behind a plane with unit normal `m` (on the side of v), given the cosine there
-/// and the index of this side over that behind.
+/// Direction into which `v` is refracted at a plane with unit normal `m` (on the side of v), given
+/// the cosine behind it and the index on this side over that behind.
 [[nodiscard]] inline Vec3 refracted(const Vec3& v, const Vec3& m, double cosine_behind,
                                     double eta) {
     return (eta * dot(v, m) - cosine_behind) * m - eta * v;
 }
 
-/// `choice` in [0, 1) was below `share`, or not: what is left of it is again uniform in [0, 1).
+/// Rescales `choice` in [0, 1) after a comparison with `share`, so that it is uniform in [0, 1)
+/// again.
 [[nodiscard]] inline double remaining_below(double choice, double share) {
     return std::min(choice / share, 0x1.fffffffffffffp-1);
 }

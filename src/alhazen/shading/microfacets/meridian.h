@@ -1,9 +1,9 @@
 #pragma once
-/// Integrals over the normals that a view of a rough surface sees, along meridians of the cap of
-/// visible normals: piece by piece, between the places where rays change sides.
+/// Integrals over the normals visible from a view of a rough surface, along meridians of the cap of
+/// visible normals, piecewise between the places where rays change sides.
 ///
 /// Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023 (the
-/// cap); Gauss and Legendre's rule on each piece.
+/// cap); Gauss-Legendre quadrature on each piece.
 
 #include <cmath>
 
@@ -12,8 +12,8 @@
 
 namespace alhazen {
 
-/// Sum of weight * f(normal), where the weights of all visible normals are 1. `state(normal)`: a
-/// number that is constant where f is smooth. The view lies in the plane of x and z, y >= 0 stands
+/// Sum of weight * f(normal), where the weights of all visible normals sum to 1. `state(normal)`: a
+/// number that is constant where f is smooth. The view lies in the plane of x and z; y >= 0 stands
 /// for both halves.
 template <class State, class F>
 void for_visible_normals(const Ggx& ggx, const Vec3& view, const State& state, const F& f) {
@@ -21,7 +21,7 @@ void for_visible_normals(const Ggx& ggx, const Vec3& view, const State& state, c
     static const GaussLegendre<12> radii;
     constexpr int kSteps = 24, kHalvings = 16;
     for (std::size_t i = 0; i < turns.points.size(); ++i) {
-        // Finer towards the facets that lean away from the view, and (by q) that are steep.
+        // Denser towards facets that lean away from the view, and (by q) towards steep ones.
         const double t = turns.points[i], turn = 0.5 * (1.0 - t * t * t);
         const double meridian = 3.0 * t * t * turns.weights[i];
         const auto normal = [&](double q) {

@@ -1,6 +1,5 @@
 #pragma once
-/// The index of refraction by wavelength: by Sellmeier's formula, by Abbe's number, or of a
-/// material by name.
+/// Index of refraction by wavelength: Sellmeier's formula, an Abbe number, or a named material.
 ///
 /// Source: Sellmeier, "Zur Erklaerung der abnormen Farbenfolge im Spectrum einiger Substanzen",
 /// Annalen der Physik 219, 1871; Cauchy, "Memoire sur la dispersion de la lumiere", 1836; the table
@@ -28,25 +27,25 @@ struct Sellmeier {
 
 /// How the index of a material depends on the wavelength.
 struct Dispersion {
-    /// Above 0: Cauchy's n = a + b / l^2 through the index of the material at line d, with this
-    /// number of Abbe, (n_d - 1) / (n_F - n_C). 0: `sellmeier`.
+    /// Above 0: the Abbe number (n_d - 1) / (n_F - n_C) of Cauchy's n = a + b / l^2 through the
+    /// material's index at line d. 0: `sellmeier` applies.
     double abbe = 0;
     Sellmeier sellmeier;
-    std::string name;  ///< of the table of glasses; empty: by the numbers
+    std::string name;  ///< in the table of glasses; empty: given by the numbers
 
-    /// `index_d`: of the material at line d; heeded with `abbe` alone.
+    /// `index_d`: the material's index at line d; used with `abbe` only.
     [[nodiscard]] double index(double index_d, double nm) const;
     friend bool operator==(const Dispersion&, const Dispersion&) = default;
 };
 
-/// A clear material by name.
+/// A clear material with a name.
 struct NamedGlass {
     std::string_view name;
     Sellmeier sellmeier;
 };
-/// In the order of their names.
+/// Sorted by name.
 [[nodiscard]] std::span<const NamedGlass> named_glasses();
-/// Without regard to case; null: there is none of this name.
+/// Finds a glass by name, case-insensitively; null if there is none.
 [[nodiscard]] const NamedGlass* find_glass(std::string_view name);
 
 }  // namespace alhazen

@@ -13,7 +13,7 @@ double dielectric_reflectance(double cosine, double eta, double& cosine_behind) 
         return 1.0;
     }
     const double behind = cosine_behind = std::sqrt(squared);
-    // Amplitudes of light that swings in the plane of incidence, and across it.
+    // Amplitudes of light polarised in the plane of incidence, and across it.
     const double parallel = (c - eta * behind) / (c + eta * behind);
     const double across = (eta * c - behind) / (eta * c + behind);
     return 0.5 * (parallel * parallel + across * across);
@@ -32,7 +32,7 @@ double conductor_reflectance(double cosine, double n, double k) {
     const double a = std::sqrt(std::max(0.0, 0.5 * (a2b2 + difference)));
     const double across = (a2b2 + c2 - 2.0 * a * c) / (a2b2 + c2 + 2.0 * a * c);
     const double x = a2b2 * c2 + s2 * s2, y = 2.0 * a * c * s2;
-    // Both are 0 only for n = 1, k = 0 at grazing incidence, where nothing is there to reflect.
+    // Both are 0 only for n = 1, k = 0 at grazing incidence: there is no boundary.
     if (!(x + y > 0.0)) return 0.0;
     return std::clamp(0.5 * across * (1.0 + (x - y) / (x + y)), 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Light by its spectrum: of a black body, or of a standard illuminant.
+/// Light sources by spectrum: black bodies and standard illuminants.
 ///
 /// Source: Planck, "Ueber das Gesetz der Energieverteilung im Normalspectrum", Annalen der Physik
 /// 309, 1901; CIE 15:2004, "Colorimetry", tables of A and D65.
@@ -15,7 +15,7 @@ enum class IlluminantKind : std::uint8_t { BlackBody, A, D65, E };
 
 struct Illuminant {
     IlluminantKind kind = IlluminantKind::D65;
-    double kelvin = 0;  ///< of a black body
+    double kelvin = 0;  ///< temperature of a black body
     double scale = 1;   ///< luminance
 
     friend bool operator==(const Illuminant&, const Illuminant&) = default;

@@ -1,5 +1,5 @@
 #pragma once
-/// Metals by name, with their complex indices of refraction at red, green and blue.
+/// Named metals, with their complex indices of refraction at red, green and blue.
 ///
 /// Source: Johnson and Christy, "Optical Constants of the Noble Metals", Phys. Rev. B 6, 1972
 /// (copper, gold, silver) and "Optical Constants of Transition Metals", Phys. Rev. B 9, 1974
@@ -7,7 +7,7 @@
 /// Constants of Metal Films", Applied Optics 34, 1995 (aluminium); the tables of them in
 /// Polyanskiy, refractiveindex.info (public domain). Linearly interpolated at 611.4, 549.1 and
 /// 464.3 nm, the dominant wavelengths of the primaries of sRGB, and rounded to three digits.
-/// Differs: three wavelengths stand for three channels; a spectrum would be integrated.
+/// Differs: three wavelengths stand for three channels, in place of integrals of the spectrum.
 
 #include <optional>
 #include <span>
@@ -28,9 +28,9 @@ struct Metal {
         by_wave;  ///< as measured, ascending; from below 382 to above 780 nm
 };
 
-/// In the order of their names.
+/// Sorted by name.
 [[nodiscard]] std::span<const Metal> metals();
-/// Between the wavelengths of the table linear, constant beyond.
+/// Linear between the wavelengths of the table, constant beyond.
 [[nodiscard]] MetalAtWave constants_at(const Metal& metal, double nm);
 [[nodiscard]] const Metal* find_metal(std::string_view name);
 

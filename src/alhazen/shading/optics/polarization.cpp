@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// Beyond the critical angle i times a number above 0: the wave behind fades.
+/// Imaginary with a positive factor beyond the critical angle: the wave behind decays.
 std::complex<double> cosine_behind(double c, double eta) {
     const double squared = 1.0 - eta * eta * (1.0 - c * c);
     if (squared >= 0.0) return std::sqrt(squared);
@@ -20,7 +20,7 @@ FresnelAmplitudes dielectric_reflection(double cosine, double eta) {
     const double c = std::clamp(cosine, 0.0, 1.0);
     const std::complex<double> behind = cosine_behind(c, eta);
     const std::complex<double> across = eta * c + behind, along = c + eta * behind;
-    // Both are 0 at grazing incidence on the critical angle alone.
+    // Both are 0 only at grazing incidence at the critical angle.
     if (std::norm(across) == 0.0 || std::norm(along) == 0.0) return {-1.0, 1.0};
     return {(eta * c - behind) / across, (c - eta * behind) / along};
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What a boundary does to polarised light: Fresnel's amplitudes with their phases, and the matrix
-/// that they are for Stokes vectors in the frame of the plane of incidence.
+/// Polarisation by a boundary: Fresnel's complex amplitudes, and their Mueller matrix in the frame
+/// of the plane of incidence.
 ///
 /// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, sections 1.5.2 and 1.5.4
 /// (equations 20, 21, 54: amplitudes, total reflection) and 14.2 (metals); Collett, "Polarized
@@ -15,30 +15,30 @@
 
 namespace alhazen {
 
-/// Of the field that leaves over the field that comes.
+/// Amplitude ratios of the outgoing to the incoming field.
 struct FresnelAmplitudes {
-    std::complex<double> across, along;  ///< the plane of incidence
+    std::complex<double> across, along;  ///< relative to the plane of incidence
 };
 
-/// A matrix on Stokes vectors over its first element:
+/// A Mueller matrix divided by its first element:
 ///     1 q 0 0
 ///     q d 0 0
 ///     0 0 c e
 ///     0 0 -e c
-/// d = 1 where nothing is depolarised; all 0: nothing polarised is left.
+/// d = 1 if nothing is depolarised; all 0: full depolarisation.
 struct BoundaryMueller {
     double q = 0, d = 0, c = 0, e = 0;
 };
 
-/// At a cosine of 0..1 to the normal (clamped), `eta` being the index on the side of the ray over
-/// that behind.
+/// Amplitudes for a cosine of 0..1 (clamped) to the normal; `eta` is the index on the side of the
+/// ray over that behind.
 [[nodiscard]] FresnelAmplitudes dielectric_reflection(double cosine, double eta);
-/// 0 beyond the critical angle.
+/// Amplitudes of the refracted light; 0 beyond the critical angle.
 [[nodiscard]] FresnelAmplitudes dielectric_refraction(double cosine, double eta);
-/// Of a conductor with index `n + i k` relative to the medium of the ray.
+/// Amplitudes of a conductor with index `n + i k` relative to the medium of the ray.
 [[nodiscard]] FresnelAmplitudes conductor_reflection(double cosine, double n, double k);
 
-/// Where both amplitudes are 0: as if nothing were changed.
+/// The Mueller matrix; the identity if both amplitudes are 0.
 [[nodiscard]] BoundaryMueller mueller_of(const FresnelAmplitudes& amplitudes);
 
 }  // namespace alhazen

@@ -63,7 +63,7 @@ double thin_film_reflectance_at(double nm, double cosine, double film_index, dou
 
 Rgb thin_film_reflectance(double cosine, double film_index, double thickness_nm, const Rgb& base) {
     const double c = std::clamp(cosine, 0.0, 1.0);
-    // A film that vanishes takes the index of the air with it.
+    // The index tends to that of air as the thickness tends to 0.
     const double vanish = std::clamp(thickness_nm / 30.0, 0.0, 1.0);
     const double index = 1.0 + (film_index - 1.0) * vanish * vanish * (3.0 - 2.0 * vanish);
     const double squared = 1.0 - (1.0 - c * c) / (index * index);
@@ -74,7 +74,7 @@ Rgb thin_film_reflectance(double cosine, double film_index, double thickness_nm,
     const double r12 = dielectric_reflectance(c, 1.0 / index);
     const double t121 = 1.0 - r12;
     const double phase21 = index < 1.0 ? 0.0 : kPi;
-    // Lower side, by the index that the base would have as a dielectric.
+    // Lower side, with the index of a dielectric of the base's reflectance.
     Rgb r23, shift;
     for (int i = 0; i < 3; ++i) {
         const double ratio = index_of(base[i]) / index;

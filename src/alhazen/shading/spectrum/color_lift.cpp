@@ -14,11 +14,11 @@ namespace alhazen {
 
 namespace {
 
-/// Wavelengths of the sums: every 8 nm to 716, and what is seen beyond at the last.
+/// Wavelengths of the quadrature: every 8 nm to 716; the response beyond is assigned to the last.
 constexpr int kNodes = 43;
 constexpr double kNodeStep = 8.0;
 
-/// Channels are kept off 0 and 1, which no polynomial reaches.
+/// Channels are clamped away from 0 and 1, which no polynomial reaches.
 constexpr double kLeastChannel = 2e-4;
 
 struct Node {
@@ -26,8 +26,8 @@ struct Node {
     Rgb weight;
 };
 
-/// Weights with which a sum over the nodes is the integral of response times white light times a
-/// function, exact where that is a parabola in each pair of steps.
+/// Quadrature weights for the integral of response times white light times a function, exact for
+/// functions that are parabolas in each pair of steps.
 std::array<Node, kNodes> make_nodes() {
     std::array<Node, kNodes> nodes{};
     for (int i = 0; i < kNodes; ++i) {
@@ -45,7 +45,7 @@ std::array<Node, kNodes> make_nodes() {
         const double shares[3] = {0.5 * (x - 1.0) * (x - 2.0), x * (2.0 - x), 0.5 * x * (x - 1.0)};
         for (int i = 0; i < 3; ++i) nodes[std::size_t(first + i)].weight += shares[i] * seen;
     }
-    // White stays white.
+    // Scales the weights so that white stays white.
     Rgb sum;
     for (const Node& node : nodes) sum += node.weight;
     for (Node& node : nodes) {
@@ -59,7 +59,7 @@ const std::array<Node, kNodes>& nodes() {
     return all;
 }
 
-/// A colour, and how it changes with the three coefficients.
+/// A colour, and its derivatives by the three coefficients.
 struct ColorAndChange {
     Rgb color, by_a, by_b, by_c;
 };
@@ -87,7 +87,8 @@ double largest(const Rgb& c) {
     return std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)});
 }
 
-/// Newton's steps from `start`, halved where they do not help. Returns what is left of the error.
+/// Newton's method from `start`, with steps halved while they do not help. Returns the remaining
+/// error.
 double solve(const Rgb& color, SmoothReflectance& r, int steps) {
     constexpr double kEnough = 2e-5;
     ColorAndChange now = color_and_change(r);
@@ -123,7 +124,7 @@ int largest_channel(const Rgb& c) {
     return c.r >= c.g ? (c.r >= c.b ? 0 : 2) : (c.g >= c.b ? 1 : 2);
 }
 
-/// Which parts of a table are filled: each when it is asked for.
+/// Flags of the filled parts of a table; each part is filled on demand.
 template <std::size_t Count>
 class FilledParts {
   public:
@@ -141,8 +142,8 @@ class FilledParts {
     std::mutex mutex_;
 };
 
-/// Coefficients by the largest channel of a colour, which one it is, and the other two over it.
-/// Columns of one ratio are filled when they are asked for: most scenes have few colours.
+/// Coefficients by the largest channel of a colour, its index, and the other two channels over it.
+/// Columns of one ratio are filled on demand: most scenes have few colours.
 class LiftTable {
   public:
     [[nodiscard]] SmoothReflectance start(const Rgb& color) {
@@ -178,12 +179,12 @@ class LiftTable {
   private:
     static constexpr int kSide = 20;
 
-    /// Levels crowd where coefficients change most, near black and near white.
+    /// Levels are denser near black and near white, where coefficients change most.
     [[nodiscard]] static double value_of(double level) {
         const double s = level * level * (3.0 - 2.0 * level);
         return kLeastChannel + (1.0 - 2.0 * kLeastChannel) * s;
     }
-    /// Its inverse.
+    /// The inverse of `value_of`.
     [[nodiscard]] static double level_of(double value) {
         const double s =
             std::clamp((value - kLeastChannel) / (1.0 - 2.0 * kLeastChannel), 0.0, 1.0);
@@ -200,7 +201,8 @@ class LiftTable {
     [[nodiscard]] SmoothReflectance& at(int channel, int i, int j, int k) {
         return entries_[static_cast<std::size_t>(((channel * kSide + j) * kSide + i) * kSide + k)];
     }
-    /// From a middle level up and down, each from its neighbour, the middle one by way of greys.
+    /// Fills a column from a middle level up and down, each entry from its neighbour; the middle
+    /// entry is found by continuation from a grey.
     void fill_column(int channel, int i, int j) {
         constexpr int kMiddle = kSide / 2, kSteps = 40;
         const Rgb middle = color_at(channel, i, j, kMiddle);
@@ -229,13 +231,13 @@ class LiftTable {
     FilledParts<3 * kSide * kSide> columns_;
 };
 
-/// Colours whose largest channel is 1/2, by the other two; shares lie closer near 0. Rows are
-/// filled when they are asked for.
+/// Colours whose largest channel is 1/2, by the other two channels, with shares denser near 0. Rows
+/// are filled on demand.
 class HalfTable {
   public:
     HalfTable() {
         for (int channel = 0; channel < 3; ++channel) {
-            // From the grey corner on, each from its neighbour.
+            // Fills from the grey corner, each entry from its neighbour.
             SmoothReflectance r;
             for (int j = kSide - 1; j >= 0; --j) r = solved(channel, kSide - 1, j, r);
         }
@@ -276,7 +278,7 @@ class HalfTable {
     [[nodiscard]] SmoothReflectance& at(int channel, int i, int j) {
         return entries_[static_cast<std::size_t>((channel * kSide + j) * kSide + i)];
     }
-    /// Sets an entry, by Newton's method from `from`.
+    /// Computes an entry by Newton's method from `from`.
     const SmoothReflectance& solved(int channel, int i, int j, SmoothReflectance from) {
         Rgb color;
         color[channel] = 0.5;
@@ -285,7 +287,7 @@ class HalfTable {
         solve(color, from, 40);
         return at(channel, i, j) = from;
     }
-    /// From its last entry on, each from its neighbour.
+    /// Fills a row from its last entry, each from its neighbour.
     void fill_row(int row) {
         const int channel = row / kSide, j = row % kSide;
         SmoothReflectance r = at(channel, kSide - 1, j);
@@ -296,7 +298,7 @@ class HalfTable {
     FilledParts<3 * kSide> rows_;
 };
 
-/// The late answers of one thread.
+/// Recent results of one thread.
 struct LiftCache {
     static constexpr std::size_t kPlaces = 256;
     struct Entry {
@@ -305,7 +307,7 @@ struct LiftCache {
     };
     std::array<Entry, kPlaces> entries{};
 
-    /// `lift`: of a colour that is not there.
+    /// Returns the cached result, or computes it by `lift`.
     template <class Lift>
     [[nodiscard]] SmoothReflectance of(const Rgb& color, const Lift& lift) {
         Entry& entry = place_of(color);

@@ -61,14 +61,14 @@ constexpr int kCells = static_cast<int>(kLongestWave - kShortestWave);
 static_assert(std::size(kX) == std::size(kZ) && std::size(kX) == kCells / 5 + 1);
 static_assert(std::size(kY) == std::size(kX) && std::size(kD65) == kCells / 10 + 1);
 
-/// IEC 61966-2-1: linear sRGB of XYZ.
+/// Linear sRGB of XYZ by IEC 61966-2-1.
 Rgb srgb_of(double x, double y, double z) {
     return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
             -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
             0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
 }
 
-/// Place in a table of steps: the value before, and how far behind it.
+/// Position in an equidistant table: the entry before, and the fraction of the step to the next.
 struct Between {
     std::size_t before;
     double share;
@@ -80,17 +80,18 @@ Between between(double nm, double step, std::size_t size) {
     return {before, place - static_cast<double>(before)};
 }
 
-/// Channels every 5 nm, scaled so that white is 1, and the density of wavelengths by cells of 1 nm.
+/// Responses every 5 nm, scaled so that white is 1, and the density of wavelengths by cells of 1
+/// nm.
 struct Responses {
     std::array<Rgb, std::size(kX)> channels;
     std::array<double, kCells> density{};
-    std::array<double, kCells + 1> sums{};  ///< of the density: of all cells before
-    /// So many that most lie in one cell with what follows up to the next.
+    std::array<double, kCells + 1> sums{};  ///< CDF: the density of all cells before
+    /// Enough guides that few intervals between two contain a border of cells.
     static constexpr int kGuides = 4096;
-    std::array<std::uint16_t, kGuides + 1> guides{};  ///< the cell of the share k / kGuides
-    /// All that is drawn is linear within a cell.
+    std::array<std::uint16_t, kGuides + 1> guides{};  ///< the cell at k / kGuides
+    /// Coefficients of the linear functions within a cell.
     struct Cell {
-        double before, after;  ///< sums
+        double before, after;  ///< CDF at its ends
         double over_density, white, white_change;
         Rgb color, color_change;
     };
@@ -129,7 +130,7 @@ struct Responses {
                                      over * (at(to) - at(from))};
         }
     }
-    /// `u` in [0, 1): below the sum after the last cell.
+    /// `u` in [0, 1), which is below the CDF after the last cell.
     [[nodiscard]] DrawnWave drawn(double u) const {
         const Cell* cell = &cells[guides[static_cast<std::size_t>(u * kGuides)]];
         while (cell->after <= u) ++cell;

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Planck's law, relative to 560 nm.
+/// Planck's law, relative to its value at 560 nm.
 double black_body(double nm, double kelvin) {
     constexpr double kSecondConstant = 1.438776877e7;  // h c / k in nm K
     const auto radiance = [&](double l) {
@@ -17,7 +17,7 @@ double black_body(double nm, double kelvin) {
     return radiance(nm) / radiance(560.0);
 }
 
-/// CIE 15:2004, equation of illuminant A.
+/// The equation of illuminant A in CIE 15:2004.
 double illuminant_a(double nm) {
     constexpr double kConstant = 1.435e7, kKelvin = 2848.0;
     return std::pow(560.0 / nm, 5.0) * std::expm1(kConstant / (560.0 * kKelvin)) /
@@ -38,7 +38,7 @@ double relative(const Illuminant& illuminant, double nm) {
     return white_light(nm);
 }
 
-/// The integral over all that is seen.
+/// The integral over the visible range.
 template <class Value>
 Value integral(const Illuminant& illuminant, Value (*seen)(double)) {
     Value sum{};
@@ -49,7 +49,7 @@ Value integral(const Illuminant& illuminant, Value (*seen)(double)) {
 }
 
 double luminance_of(const Illuminant& illuminant) {
-    // A path asks for the same one again and again.
+    // Caches the last illuminant, which is often requested repeatedly.
     struct Late {
         IlluminantKind kind = IlluminantKind::E;
         double kelvin = -1, luminance = 1;

@@ -8,10 +8,11 @@
 
 namespace alhazen {
 
-/// In the scale of white light (color_matching.h): the luminance is Illuminant::scale.
+/// Spectral radiance relative to white light (color_matching.h); the luminance is
+/// Illuminant::scale.
 [[nodiscard]] double radiance_of(const Illuminant& illuminant, double nm);
 
-/// What is seen of it. Channels that lie below 0 (of what is redder than sRGB can say) are.
+/// Linear sRGB colour. Channels below 0 (lights outside the gamut, redder than sRGB) are kept.
 [[nodiscard]] Rgb color_of(const Illuminant& illuminant);
 
 }  // namespace alhazen

@@ -1,11 +1,11 @@
 #pragma once
-/// Light as it is transported: four numbers, the radiance at four wavelengths, or the channels of a
-/// colour (wavelengths.h says which).
+/// Transported light: four numbers, the radiance at four wavelengths, or colour channels (see
+/// wavelengths.h).
 ///
 /// Source: Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014 (four wavelengths share a
 /// path).
-/// Conventions: of colours the channels red, green, blue, and blue again, so that the largest of
-/// the four is that of the three.
+/// Conventions: colour channels are red, green, blue, and blue again, so that the maximum of the
+/// four is that of the three.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ inline Spectrum& operator+=(Spectrum& x, const Spectrum& y) {
     return x = x + y;
 }
 
-/// Beer's law: exp(-absorption * distance); 1 where nothing is absorbed, over any distance.
+/// Beer's law: exp(-absorption * distance); 1 for absorption 0 at any distance.
 [[nodiscard]] inline Spectrum transmittance(const Spectrum& absorption, double distance) {
     const auto of = [&](double x) { return x > 0.0 ? std::exp(-x * distance) : 1.0; };
     const double c = of(absorption.c);

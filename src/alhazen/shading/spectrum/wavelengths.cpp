@@ -52,7 +52,7 @@ Spectrum Wavelengths::lifted_of_any_size(const Rgb& c) const {
     if (is_grey(c)) return Spectrum::all(c.r);
     const double most = c.max();
     if (!(most > 0.0) || !c.is_finite()) return {};
-    // Half of what a reflectance may be: smoother than one that comes near to 1.
+    // Half of the range of a reflectance: spectra are smoother than near 1.
     const double scale = 2.0 * most;
     return scale * at_places(lifted_half((1.0 / scale) * c), places_);
 }
@@ -64,7 +64,7 @@ Spectrum Wavelengths::spectrum_of(const Illuminant& illuminant, const Rgb& color
 }
 
 Spectrum Wavelengths::between_channels(const Rgb& value) const {
-    // The dominant wavelengths of the primaries (metals.h).
+    // Dominant wavelengths of the primaries of sRGB (metals.h).
     constexpr double kRed = 611.4, kGreen = 549.1, kBlue = 464.3;
     return at_each(nm_, [&](double nm) {
         const bool upper = nm > kGreen;

@@ -1,15 +1,16 @@
 #pragma once
-/// What the four numbers of a Spectrum stand for along a path, and how colours become those
-/// numbers and they a colour: channels of colours, or four wavelengths.
+/// The meaning of the four components of a Spectrum (RGB channels or four wavelengths), and
+/// conversion from and to RGB.
 ///
 /// Source: Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014; Jakob and Hanika, "A
 /// Low-Dimensional Function Space for Efficient Spectral Upsampling", Eurographics 2019.
-/// Differs: the four lie a quarter apart in the distribution of what is seen of white light
-/// (color_matching.h), not in nanometres. Directions are drawn by what all four say together, so
-/// that all have the same density; where an index disperses only the hero, the first, goes on, and
-/// counts four times: the density with which another of them would have found that way is 0.
+/// Differs: the wavelengths are equidistant, one in each quarter, in the CDF of the visible
+/// spectrum of white light (color_matching.h), not in nanometres. Directions are sampled by all
+/// four together, so that all have the same density. At a dispersive interface only the hero, the
+/// first wavelength, continues, with a weight of four: the density with which another would have
+/// sampled that direction is 0.
 /// Conventions: colours are linear sRGB. Colours of surfaces are their reflectances under white
-/// light; lights are white light, filtered, or have spectra of their own (illuminant.h). A grey is
+/// light; lights are filtered white light, or have spectra of their own (illuminant.h). A grey is
 /// the same at all wavelengths.
 
 #include <array>
@@ -26,29 +27,29 @@ struct DrawnWaves;
 
 class Wavelengths {
   public:
-    /// The channels of colours.
+    /// RGB channels.
     Wavelengths() = default;
-    /// Four wavelengths; `u` in [0, 1) chooses the hero.
+    /// Four wavelengths; `u` in [0, 1) selects the hero.
     [[nodiscard]] static Wavelengths drawn(double u);
-    /// One at which all is seen, for tests.
+    /// One wavelength in all four components, for tests.
     [[nodiscard]] static Wavelengths single(double nm);
 
     [[nodiscard]] bool is_spectral() const { return spectral_; }
-    /// Of the four; only of those that are spectral.
+    /// Wavelength `i` of the four, in nanometres; spectral only.
     [[nodiscard]] double nm(int i) const { return nm_[i]; }
-    /// 0 of channels.
+    /// All four, in nanometres; 0 for RGB channels.
     [[nodiscard]] const Spectrum& all_nm() const { return nm_; }
 
-    /// Of a surface or a filter.
+    /// Reflectance or transmittance of a surface or filter of this colour.
     [[nodiscard]] Spectrum reflectance(const Rgb& color) const {
         return spectral_ ? lifted_reflectance(color) : channels(color);
     }
-    /// Of a light, whose white is that of the picture.
+    /// Emission of a light of this colour; white is D65.
     [[nodiscard]] Spectrum emission(const Rgb& color) const {
         return spectral_ ? lifted_emission(color) : channels(color);
     }
-    /// Of a light whose spectrum is known: of its colour the luminance counts then, where there are
-    /// wavelengths.
+    /// Emission of a light with a known spectrum, scaled to the luminance of `color`; without a
+    /// spectrum, or for RGB channels, that of `color`.
     [[nodiscard]] Spectrum emission(const Rgb& color,
                                     const std::optional<Illuminant>& illuminant) const {
         return spectral_ && illuminant ? spectrum_of(*illuminant, color) : emission(color);
@@ -57,20 +58,20 @@ class Wavelengths {
     [[nodiscard]] Spectrum absorption(const Rgb& color) const {
         return spectral_ ? lifted_of_any_size(color) : channels(color);
     }
-    /// Of a metal, from its values at the wavelengths that stand for the channels (metals.h):
-    /// linear between them, and constant beyond.
+    /// Optical constant of a metal, given at the wavelengths that stand for the channels
+    /// (metals.h); linear between them and constant beyond.
     [[nodiscard]] Spectrum optical_constant(const Rgb& value) const {
         return spectral_ ? between_channels(value) : channels(value);
     }
-    /// Indices of refraction; all the same without wavelengths, or where only the hero counts.
+    /// Indices of refraction; all equal for RGB channels and once only the hero continues.
     [[nodiscard]] Spectrum index(double index_d, const Dispersion& dispersion) const;
 
-    /// The colour that light adds to the picture.
+    /// Linear sRGB contribution of light to the pixel.
     [[nodiscard]] Rgb color(const Spectrum& light) const {
         return spectral_ ? seen(light) : Rgb{light.a, light.b, light.c};
     }
 
-    /// Only the hero goes on; it then carries the light of all four.
+    /// Drops all wavelengths but the hero, which then carries the light of all four.
     void keep_hero(Spectrum& throughput) {
         if (hero_only_) return;
         hero_only_ = true;
@@ -92,10 +93,10 @@ class Wavelengths {
 
     bool spectral_ = false, hero_only_ = false;
     Spectrum nm_, places_, white_;
-    std::array<Rgb, Spectrum::kCount> seen_{};  ///< colour of light 1 at each
+    std::array<Rgb, Spectrum::kCount> seen_{};  ///< colour of unit light at each
 };
 
-/// For what knows of no path.
+/// RGB channels, for code without a path.
 inline const Wavelengths kColorChannels;
 
 }  // namespace alhazen

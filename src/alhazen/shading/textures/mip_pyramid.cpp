@@ -6,8 +6,8 @@ namespace alhazen {
 
 namespace {
 
-/// The part of a row of `from` texels that one of `to` texels stands for: the first texel, and the
-/// weight of each, which sum to 1.
+/// The part of a row of `from` texels that one of `to` texels covers: the first texel, and the
+/// weight of each; the weights sum to 1.
 struct Span {
     int first = 0;
     std::vector<double> weights;
@@ -32,7 +32,7 @@ std::vector<Span> spans(int from, int to) {
 void store(double value, float& sample) {
     sample = static_cast<float>(value);
 }
-/// The nearest code, as lround has it; `value` is not negative.
+/// The nearest code, rounded as by lround; `value` is not negative.
 void store(double value, std::uint16_t& sample) {
     const double code = 65535.0 * value;
     const auto below = static_cast<std::uint32_t>(code);

@@ -1,12 +1,12 @@
 #pragma once
-/// A picture in ever smaller copies, each half as large, down to one texel.
+/// An image pyramid: copies of decreasing size, each half as large, down to one texel.
 ///
 /// Source: Williams, "Pyramidal Parametrics", SIGGRAPH 1983.
 /// Differs: sides need not be powers of two: a texel of a copy is the mean over exactly the area
-/// that it stands for, texels on the border of that area counted in part.
-/// Conventions: values are linear, averaged after the sRGB curve was undone; alpha is averaged
-/// beside them, not multiplied in. Copies of pictures stored as codes are kept as 16-bit linear
-/// codes, others as floats. Level 0 is the picture itself, which is not copied.
+/// that it covers, with fractional weights at the border.
+/// Conventions: values are linear and are averaged after sRGB decoding; alpha is averaged
+/// separately, not premultiplied. Copies of integer pictures are stored as 16-bit linear codes,
+/// others as floats. Level 0 is the picture itself, which is not copied.
 
 #include <cstdint>
 #include <memory>
@@ -17,18 +17,18 @@ namespace alhazen {
 
 class MipPyramid {
   public:
-    /// Throws std::bad_alloc only. Memory: the smaller copies hold 16-bit codes, so two
-    /// thirds of an 8-bit picture's and a third of a 16-bit one's.
+    /// Throws std::bad_alloc only. Memory: the copies, of 16-bit codes, take two thirds of the size
+    /// of an 8-bit picture, and a third of a 16-bit one.
     MipPyramid(std::shared_ptr<const StoredImage> image, bool decode_srgb);
 
     [[nodiscard]] int levels() const { return static_cast<int>(smaller_.size()) + 1; }
     [[nodiscard]] int width(int level) const { return at(level).width; }
     [[nodiscard]] int height(int level) const { return at(level).height; }
-    /// Linear. Precondition: 0 <= level < levels(), x and y inside.
+    /// Linear colour. Precondition: 0 <= level < levels(), x and y inside.
     [[nodiscard]] Rgba texel(int level, int x, int y) const;
-    /// Of the smaller copies.
+    /// Size of the copies (levels above 0).
     [[nodiscard]] std::size_t memory_bytes() const;
-    /// What they will take, before they are made.
+    /// Predicts `memory_bytes` without building.
     [[nodiscard]] static std::uint64_t memory_bytes_for(const StoredImage& image);
 
   private:

@@ -7,7 +7,7 @@
 namespace alhazen {
 
 TangentFrame frame_from_derivatives(const Vec3& n, const Vec3& dpdu, const Vec3& dpdv) {
-    // Scaled first: tangents of large or small coordinates must not over- or underflow.
+    // Normalised first, to avoid overflow and underflow with large or small coordinates.
     return frame_from_tangents(n, unit_or(dpdu, {}), unit_or(dpdv, {}));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Normals bent by a picture, and the frame in the surface that its directions refer to.
+/// Perturbation of normals by a picture, and the tangent frame of its directions.
 ///
 /// Source: Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978; Cohen, Olano and Manocha,
 /// "Appearance-Preserving Simplification", SIGGRAPH 1998 (maps in tangent space); Khronos,
@@ -11,24 +11,25 @@
 
 namespace alhazen {
 
-/// Directions along +u and +v of the map. Zero: there is no frame, normals are not bent.
+/// Unit directions along +u and +v of the map. Zero: no frame; normals are not perturbed.
 struct TangentFrame {
     Vec3 tangent, bitangent;
 };
 
-/// The frame of a surface with unit normal `n` whose point changes by `dpdu`, `dpdv` with the
-/// coordinates of the map, made orthonormal; mirrored coordinates give a left-handed one.
+/// The orthonormal frame of a surface with unit normal `n` and derivatives `dpdu`, `dpdv` of the
+/// point by the map's coordinates; left-handed for mirrored coordinates.
 [[nodiscard]] TangentFrame frame_from_derivatives(const Vec3& n, const Vec3& dpdu,
                                                   const Vec3& dpdv);
-/// From interpolated tangent vectors of a mesh: perpendicular to `n`, unit, the handedness kept.
+/// The frame from interpolated tangent vectors of a mesh: perpendicular to `n`, unit, with the same
+/// handedness.
 [[nodiscard]] TangentFrame frame_from_tangents(const Vec3& n, const Vec3& tangent,
                                                const Vec3& bitangent);
 
-/// Derivatives by transformed coordinates (u', v') from those by (u, v); zero when the transform
-/// has no inverse.
+/// Converts derivatives by (u, v) to derivatives by the transformed coordinates (u', v'); zero if
+/// the transform has no inverse.
 void apply_uv_transform(const UvTransform& transform, Vec3& dpdu, Vec3& dpdv);
 
-/// The direction that a texel of a normal map stands for; `n` when it stands for none.
+/// The direction of a texel of a normal map; `n` if it is invalid.
 [[nodiscard]] Vec3 bent_normal(const Rgb& texel, double scale, const Vec3& n,
                                const TangentFrame& frame);
 

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Coordinates beyond this carry no fraction; keeps what is no number from integers.
+/// Coordinates beyond this have no fraction; also keeps NaN and infinity from integer conversion.
 double bounded_place(double x) {
     return x > -1e9 && x < 1e9 ? x : 0.0;
 }
@@ -26,19 +26,19 @@ double square_wave(double x) {
     return std::fmod(std::floor(x), 2.0) == 0.0 ? 1.0 : -1.0;
 }
 
-/// In cells.
+/// Offset towards the cell above, in cells.
 constexpr double kAboveFaces = 1e-7;
 
-/// Waves are worth following over this many cells; beyond, they are even grey.
+/// Waves are averaged exactly over at most this many cells; beyond, the mean is grey.
 constexpr double kMostCells = 32.0;
 
-/// A coordinate over the unit disc: c + g (s, t).
+/// A coordinate as a function on the unit disc: c + g (s, t).
 struct OverDisc {
     double c;
     Vec2 g;
     [[nodiscard]] double reach() const { return std::sqrt(g.x * g.x + g.y * g.y); }
     [[nodiscard]] double first_edge() const { return std::floor(c - reach()) + 1.0; }
-    /// At most 1000, far more than are followed one by one.
+    /// Clamped to 1000, far more than are integrated individually.
     [[nodiscard]] int edges() const {
         const double last = std::ceil(c + reach()) - 1.0;
         return static_cast<int>(std::clamp(last - first_edge() + 1.0, 0.0, 1e3));
@@ -50,7 +50,7 @@ double stripes_over(const OverDisc& x) {
     const double reach = x.reach();
     if (x.edges() == 0) return square_wave(x.c);
     if (reach > kMostCells) return 0.0;
-    // From the lowest point of the disc the sign changes at each edge.
+    // The sign changes at each edge, beginning from the lowest point of the disc.
     double sign = square_wave(x.first_edge() - 0.5), sum = sign * kPi;
     for (double edge = x.first_edge(); edge < x.c + reach; edge += 1.0) {
         sum -= 2.0 * sign * segment_area(1.0, (edge - x.c) / reach);
@@ -59,7 +59,7 @@ double stripes_over(const OverDisc& x) {
     return sum / kPi;
 }
 
-/// The mean of the product of two square waves whose edges make few cells of the disc.
+/// The mean of the product of two square waves whose edges divide the disc into few cells.
 double cells_over(const OverDisc& x, const OverDisc& y, double det) {
     const auto bounds = [](const OverDisc& v, int k) {
         if (k == 0) return v.c - 1.01 * v.reach();
@@ -106,7 +106,7 @@ double waves_along(const Vec3& p, const Vec3& q) {
     }
 }
 
-/// By chords along the longer axis, at the nodes of Chebyshev's quadrature of the second kind.
+/// Integrates by chords along the longer axis, with Chebyshev's quadrature of the second kind.
 double checks_by_chords(const Vec3& center, Vec3 a, Vec3 b) {
     constexpr int kChords = 32;
     if (length_squared(b) > length_squared(a)) std::swap(a, b);
@@ -154,7 +154,8 @@ std::uint32_t mixed_bits(std::uint32_t h) {
     return h ^ (h >> 16);
 }
 
-/// The gradient of a lattice point times the offset from it: Perlin's twelve edges of a cube.
+/// Dot product of the gradient at a lattice point with the offset from it; Perlin's twelve edges of
+/// a cube are the gradients.
 double lattice_slope(std::int64_t x, std::int64_t y, std::int64_t z, const Vec3& d) {
     const auto word = [](std::int64_t v) { return static_cast<std::uint32_t>(v); };
     const std::uint32_t h =
@@ -168,7 +169,7 @@ double fade(double t) {
     return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
-/// 2 J1(x) / x: what is left of a wave of x radians over the radius of a disc.
+/// 2 J1(x) / x: attenuation of a wave averaged over a disc whose radius is x radians of it.
 double disc_transform(double x) {
     constexpr double kLargest = 12.0;
     if (!(x < kLargest)) return 0.0;
@@ -181,7 +182,7 @@ double disc_transform(double x) {
     return sum;
 }
 
-/// Octaves of noise: those that the aperture cannot resolve fade out.
+/// A sum of octaves of noise; those beyond the resolution of the aperture fade out.
 double fractal_noise(const Vec3& p, double aperture, int octaves) {
     double sum = 0.0, amplitude = 1.0, frequency = 1.0;
     for (int k = 0; k < octaves; ++k) {
@@ -189,7 +190,7 @@ double fractal_noise(const Vec3& p, double aperture, int octaves) {
         const double x = aperture * frequency / 0.61;
         if (x >= 1.0) break;
         const double left = (1.0 - x * x) * (1.0 - x * x);
-        const double shift = 17.0 * k;  // lattices of octaves do not share their zeros
+        const double shift = 17.0 * k;  // avoids common zeros of the octaves' lattices
         sum += left * amplitude * gradient_noise(frequency * p + Vec3{shift, 0.5 * shift, shift});
         amplitude *= 0.5;
         frequency *= 2.0;
@@ -197,10 +198,11 @@ double fractal_noise(const Vec3& p, double aperture, int octaves) {
     return sum;
 }
 
-/// The share of `other`.
+/// The weight of `other` in the mix.
 double share_of(const SolidTexture& t, const SolidAperture& aperture) {
     Vec3 p = (aperture.point - t.origin) / t.size;
-    // A surface in a face between cubes shows the cube above it, whatever its points round to.
+    // A surface in a face between cubes shows the cube above it, whatever the rounding of its
+    // points.
     const auto place = [](double x) { return bounded_place(x) + kAboveFaces; };
     p = {place(p.x), place(p.y), place(p.z)};
     const Vec3 a = bounded_axis(aperture.a / t.size), b = bounded_axis(aperture.b / t.size);

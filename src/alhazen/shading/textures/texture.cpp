@@ -24,7 +24,7 @@ int wrapped(long long i, int n, Wrap wrap) {
     return static_cast<int>(((i % n) + n) % n);
 }
 
-/// A texel of the picture itself, inside it.
+/// A texel of level 0; the position is inside.
 Rgba texel(const ImageTexture& texture, int x, int y) {
     const StoredImage& image = *texture.image;
     return image.pixel(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
@@ -32,8 +32,8 @@ Rgba texel(const ImageTexture& texture, int x, int y) {
                        texture.decode_srgb);
 }
 
-/// Coordinates beyond this many repeats carry no fraction worth interpolating; also keeps NaN and
-/// infinity away from the integer conversion.
+/// Clamps coordinates beyond which no fraction is left to interpolate; also keeps NaN and infinity
+/// from the integer conversion.
 double bounded(double x) {
     return x > -1e9 && x < 1e9 ? x : 0.0;
 }
@@ -58,7 +58,7 @@ Rgba bilinear(const ImageTexture& texture, double x, double y, int width, int he
     return (1 - fy) * top + fy * bottom;
 }
 
-/// At (x, y) in texels of level 0, where texel i stands at i; between the two nearest levels.
+/// Interpolates at (x, y), in texels of level 0 with texel i at i, between the two nearest levels.
 Rgba trilinear(const ImageTexture& texture, double x, double y, double level) {
     const MipPyramid& pyramid = *texture.pyramid;
     const auto at_level = [&](int l) {
@@ -85,7 +85,7 @@ struct Axes {
 
 /// The axes of the ellipse that has `a` and `b` as conjugate diameters.
 Axes axes_of(const Vec2& a, const Vec2& b) {
-    // p(s) = a cos s + b sin s is longest where its derivative is perpendicular to it.
+    // p(s) = a cos s + b sin s has its extreme length where its derivative is perpendicular to it.
     const double aa = a.x * a.x + a.y * a.y;
     const double bb = b.x * b.x + b.y * b.y;
     const double ab = a.x * b.x + a.y * b.y;

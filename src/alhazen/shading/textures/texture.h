@@ -2,7 +2,7 @@
 /// Textures: images looked up by texture coordinates, and solid textures (solid_texture.h).
 ///
 /// ADD A TEXTURE HERE: a further kind is a struct with `evaluate`, in a file pair of its own, and a
-/// member of `Texture` below. What the compiler then points at: shading/materials/material.cpp,
+/// member of `Texture` below. The compiler then reports: shading/materials/material.cpp,
 /// scene/compile_materials.cpp, scene_model/validate_materials.cpp, formats/native/write/
 /// native_write_materials.cpp, session/scene_info/info.cpp, session/conversion/convert.cpp and
 /// tests/support/same_description.h. Its block is read in formats/native/read/native_materials.cpp.
@@ -24,15 +24,14 @@ namespace alhazen {
 enum class TextureId : std::uint32_t {};
 inline constexpr TextureId kNoTexture{0xFFFFFFFFu};
 
-/// Reading of coordinates outside [0, 1].
+/// Treatment of coordinates outside [0, 1].
 enum class Wrap { Repeat, Clamp, Mirror };
 
-/// Nearest texel; interpolation of the four nearest; or smaller copies of the image, chosen by the
-/// footprint of the ray.
+/// Nearest texel; bilinear interpolation; or trilinear in an image pyramid, by the ray's footprint.
 enum class TextureFilter { Nearest, Bilinear, Mipmapped };
 
-/// Applied to texture coordinates before a lookup: (u', v') = (uu u + uv v + offset.x, vu u + vv v
-/// + offset.y).
+/// Transform of texture coordinates before a lookup: (u', v') = (uu u + uv v + offset.x, vu u + vv
+/// v + offset.y).
 struct UvTransform {
     double uu = 1, uv = 0, vu = 0, vv = 1;
     Vec2 offset{0, 0};
@@ -47,26 +46,25 @@ struct UvTransform {
     friend bool operator==(const UvTransform&, const UvTransform&) = default;
 };
 
-/// Footprint of a ray in a texture: the ellipse that its cone cuts out of the surface, as two
-/// conjugate diameters (an affine image of perpendicular ones) in texture coordinates. Both zero: a
-/// point.
+/// Footprint of a ray in a texture: the ellipse where its cone meets the surface, as two conjugate
+/// diameters in texture coordinates. Both zero: a point.
 struct UvFootprint {
     Vec2 a{0, 0}, b{0, 0};
 };
 
 /// An image looked up by texture coordinates: u from left to right, v from bottom to top.
 struct ImageTexture {
-    std::shared_ptr<const StoredImage> image;  ///< in a compiled scene not null
+    std::shared_ptr<const StoredImage> image;  ///< not null in a compiled scene
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
     TextureFilter filter = TextureFilter::Bilinear;
     /// Texel positions: false = texel centres at (i + 0.5) / width (the usual rule); true = the
-    /// course's rule, texel i at i / width, counted in rows from the top.
+    /// course's rule, texel i at i / width, with rows counted from the top.
     bool corner_texels = false;
-    bool decode_srgb = false;  ///< samples are sRGB encoded and must be made linear
-    int uv_set = 0;            ///< which texture coordinates of a mesh: 0 or 1
+    bool decode_srgb = false;  ///< samples are sRGB encoded and are decoded to linear
+    int uv_set = 0;            ///< set of texture coordinates of a mesh: 0 or 1
     UvTransform uv_transform;
-    /// Of `image`; made by `compile` for Mipmapped. Null: looked up as Bilinear.
+    /// Pyramid of `image`; built by `compile` for Mipmapped. Null: looked up as Bilinear.
     std::shared_ptr<const MipPyramid> pyramid;
 };
 

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Of at most so high a degree.
+/// A polynomial of degree at most N.
 template <int N>
 struct AlgebraicPolynomial {
     static constexpr int kDegree = N;
@@ -46,7 +46,7 @@ auto with_polynomial(const Algebraic& shape, F&& f) {
     }
 }
 
-/// Farthest coordinates of a box.
+/// Largest absolute coordinates of a box.
 Vec3 reach_of(const Box3& box) {
     Vec3 reach;
     for (int k = 0; k < 3; ++k) {
@@ -93,7 +93,8 @@ Interval Algebraic::extent(const Vec3& axis) const {
 
 namespace {
 
-// For all degrees at once: a type for each would triple the code, which is compiled twice.
+// One instance for all degrees: an instance for each would triple the code, which is compiled
+// twice.
 int all_hits_body(const Algebraic& shape, const Ray& ray, ShapeHit* hits) {
     ClipSegment s;
     const SolidFrame frame;

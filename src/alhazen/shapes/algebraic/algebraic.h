@@ -4,10 +4,11 @@
 ///
 /// Source: Hanrahan, "Ray Tracing Algebraic Surfaces", SIGGRAPH 1983; polynomial_solid.h.
 /// Differs: as in polynomial_solid.h.
-/// Conventions: part 0 the surface, 1 to 6 the faces -x +x -y +y -z +z of the box, which close the
-/// solid where f < 0. Normals point along the gradient; at a singular point (a node) they are those
-/// of a nearby point. u runs around the z axis through the centre of the box (0 to 1), v is the
-/// angle from there above the xy plane, from -z (0) to +z (1); on faces see clipped_quadric.h.
+/// Conventions: part 0 is the surface, 1 to 6 are the faces -x +x -y +y -z +z of the box, which
+/// close the solid where f < 0. Normals point along the gradient; at a singular point (a node) the
+/// normal is that of a nearby point. u runs around the z axis through the centre of the box (0 to
+/// 1), v is the angle from there above the xy plane, from -z (0) to +z (1); for faces see
+/// clipped_quadric.h.
 
 #include <cstdint>
 #include <memory>

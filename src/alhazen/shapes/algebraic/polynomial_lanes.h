@@ -33,10 +33,10 @@ struct alignas(64) PolynomialLanes {
     double b[kCoefficients][kRayLanes], error[kRayLanes];
     // ---- for the bracketed lanes
     double lo[kRayLanes], hi[kRayLanes];
-    double sign_lo[kRayLanes];          ///< of the polynomial at lo: 1 or -1
+    double sign_lo[kRayLanes];          ///< sign of the polynomial at lo: 1 or -1
     double u[kRayLanes], t[kRayLanes];  ///< the root, once refined
     int degree;
-    // ---- results for the first crossing; nothing is known of lanes in no set
+    // ---- results for the first crossing; a lane in no set is unknown
     std::uint32_t unsure;     ///< not even the segment is known
     std::uint32_t missed;     ///< there is none
     std::uint32_t at_entry;   ///< it is at the start of the segment

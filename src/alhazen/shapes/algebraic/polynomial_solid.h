@@ -2,20 +2,21 @@
 /// The kernel of the shapes f(x, y, z) < 0 with a polynomial f: torus, truncated cone, algebraic
 /// surface.
 ///
-/// Source: Hanrahan, "Ray Tracing Algebraic Surfaces", SIGGRAPH 1983 (substitute the line, isolate
-/// the real roots of what comes of it). Differs: the line is first cut to the solid's clip, and f
-/// restricted to that segment is computed in Bernstein form at once, from the coordinates of the
-/// segment's ends: products are convolutions, nothing cancels that need not. Its sign changes come
-/// from math/bernstein_roots.h, in double and, where that is not certain, again in double-double
-/// from the ray as it is given. Where f falls slowly, as near double points, roots found in double
-/// are improved by its value in double-double. Conventions: internal to this folder.
+/// Source: Hanrahan, "Ray Tracing Algebraic Surfaces", SIGGRAPH 1983 (substitutes the line and
+/// isolates the real roots of the resulting polynomial). Differs: the line is first cut to the
+/// solid's clip. The restriction of f to that segment is computed directly in Bernstein form from
+/// the coordinates of the segment's ends, as products (convolutions), which avoids cancellation.
+/// Its sign changes are found by math/bernstein_roots.h, in double and, where that is uncertain,
+/// again in double-double from the original ray. Where the slope of f is small, as near double
+/// points, roots found in double are improved with its value in double-double. Conventions:
+/// internal to this folder.
 ///
 /// A polynomial offers kDegree (a bound for its degree) and
 ///   `template <class Real> int coefficients(Point3<Real> p0, Point3<Real> p1, Real* b) const`:
 ///       the degree and the Bernstein coefficients of f((1 - u) p0 + u p1);
 ///   `template <class Real> Real value(Point3<Real> p) const`, `Vec3 gradient(Vec3 p) const`;
 ///   `double magnitude() const`: a bound of the sum of the absolute terms of f over the clip;
-///   `double roundings() const`: how many of these in a row its coefficients suffer.
+/// `double roundings() const`: number of consecutive roundings in its coefficients.
 
 #include "alhazen/math/bernstein_roots.h"
 #include "alhazen/shapes/core/solid_frame.h"
@@ -26,13 +27,13 @@ namespace alhazen {
 struct ClipSegment {
     Vec3 o, d;
     ClipRange range;
-    double shift = 0;  ///< of o along the line
+    double shift = 0;  ///< t of o on the ray
     /// Bound of the error of an end's coordinate over the size of the clip, in half ulps.
     double relative_error = 0;
 };
 
-/// Cuts the line in the frame by `cut(o, d, range)`; false when nothing is left that the ray
-/// covers. `size` is about that of what is left.
+/// Cuts the line in the frame by `cut(o, d, range)`; false if no part is left that the ray covers.
+/// `size` is approximately that of the remaining part.
 template <class Cut>
 inline bool clip_segment_by(const SolidFrame& frame, const Ray& ray, double size, Cut&& cut,
                             ClipSegment& s) {
@@ -54,7 +55,8 @@ inline bool clip_segment_by(const SolidFrame& frame, const Ray& ray, double size
     return true;
 }
 
-/// The same by a box; `size` is the smallest of the largest coordinates of the box along its axes.
+/// Cuts the line by a box; `size` is the smallest of the largest coordinates of the box along its
+/// axes.
 inline bool clip_segment(const SolidFrame& frame, const Ray& ray, const Box3& box, double size,
                          ClipSegment& s) {
     return clip_segment_by(
@@ -89,7 +91,7 @@ void restrict_to_segment(const Polynomial& f, const SolidFrame& frame, const Ray
     p.error = kUnit * f.magnitude() * (f.roundings() + 1.5 * p.degree * s.relative_error);
 }
 
-/// The sign changes that a ray covers: see AllSignChanges.
+/// Filters the sign changes that a ray covers: see AllSignChanges.
 struct CoveredSignChanges {
     const Ray& ray;
     const ClipRange& range;
@@ -104,18 +106,18 @@ struct CoveredSignChanges {
     static void begin() {}
 };
 
-/// Of these the ones up to the first that lies in the ray's range for sure, wherever in its
-/// interval it is (or behind that range, where nothing more is sought).
+/// Filters the sign changes up to the first that certainly lies in the ray's range, wherever in its
+/// interval it is, or behind that range.
 class UpToFirstCovered {
   public:
     explicit UpToFirstCovered(const CoveredSignChanges& covered) : covered_(covered) {}
 
-    /// A new search begins.
+    /// Resets the filter for a new search.
     void begin() {
         asked_ = 0;
         found_ = false;
     }
-    /// Asked of the changes in their order.
+    /// Called for the changes in ascending order.
     [[nodiscard]] bool wants(double lo, double hi) {
         if (found_) return false;
         ++asked_;
@@ -123,7 +125,7 @@ class UpToFirstCovered {
         return covered_.wants(lo, hi);
     }
     [[nodiscard]] bool found() const { return found_; }
-    /// How many changes there are up to the one that was found, itself included.
+    /// Number of changes up to and including the found one.
     [[nodiscard]] int asked() const { return asked_; }
 
   private:
@@ -132,13 +134,13 @@ class UpToFirstCovered {
     bool found_ = false;
 };
 
-/// Where the slope is at least this share of the largest coefficient, a root found in double is
-/// right to about the rounding of t.
+/// A root found in double is accurate to about the rounding of t if the slope is at least this
+/// fraction of the largest coefficient.
 inline constexpr double kSteepEnough = 1.0 / 8;
 
-/// Improves a root that was found in double: where the polynomial falls slowly between far larger
-/// coefficients (near a double point of the surface, say), their rounding moves it by more than t
-/// rounds. Newton's steps by the value of f in double-double on the exact line.
+/// Improves a root that was found in double. Where the slope is small relative to the coefficients
+/// (near a double point of the surface, for example), their rounding displaces the root by more
+/// than the rounding of t. Newton's steps use the value of f in double-double on the exact line.
 template <class Polynomial, int N>
 double improved_root(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                      const CoveredSignChanges& covered, const BernsteinPolynomial<double, N>& p,
@@ -163,7 +165,7 @@ double improved_root(const Polynomial& f, const SolidFrame& frame, const Ray& ra
             f.value(Point3<DoubleDouble>{o.x + at * d.x, o.y + at * d.y, o.z + at * d.z}).high /
             slope_t;
         const double next = best - off;
-        // The slope is that of the first guess: steps that do not shrink lead nowhere.
+        // The slope is that at the initial root: stops when the steps do not shrink.
         if (!(next >= lo && next <= hi) || !(std::abs(off) <= 0.25 * last_step)) break;
         best = next;
         last_step = std::abs(off);
@@ -182,8 +184,8 @@ template <class Polynomial, int N, class Wanted>
     find_sign_changes(precise, changes, wanted);
 }
 
-/// The sign changes on the segment, those that `wanted` asks for: found in double, true, or where
-/// that is not certain in double-double, false.
+/// Finds the sign changes on the segment that `wanted` selects. True: found in double; false: that
+/// was uncertain, and they were found in double-double.
 template <class Polynomial, int N, class Wanted>
 bool find_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                      const ClipSegment& s, const BernsteinPolynomial<double, N>& p,
@@ -203,7 +205,7 @@ double parameter_of(const Polynomial& f, const SolidFrame& frame, const Ray& ray
                    : covered.at(changes.u[k]);
 }
 
-/// Crossings of a segment whose range has been found; see report_solid for `capped`.
+/// Crossings of a segment with a known range; see report_solid for `capped`.
 template <class Polynomial>
 int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                       const ClipSegment& s, bool capped, ShapeHit* hits) {
@@ -221,7 +223,7 @@ int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& r
     return report_solid(ray, s.range, changes.negative_at_start, t, changes.count, capped, hits);
 }
 
-/// Whether the segment begins where f is negative beyond the doubt of either precision.
+/// True if f is negative at the start of the segment with certainty in double.
 template <int N>
 bool begins_negative(const BernsteinPolynomial<double, N>& p) {
     if (!(p.b[0] < -2.0 * p.error)) return false;
@@ -230,9 +232,8 @@ bool begins_negative(const BernsteinPolynomial<double, N>& p) {
     return std::isfinite(total);
 }
 
-/// The first of the crossings that `intersect_segment` writes, of the polynomial in double. Those
-/// behind it are only counted, for whether double is certain of all decides how the first is
-/// computed.
+/// The first of the crossings that `intersect_segment` writes, for the polynomial in double. Later
+/// crossings are only counted: the first is computed in double only if all are certain in double.
 template <class Polynomial, int N>
 bool first_of_polynomial(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                          const ClipSegment& s, const BernsteinPolynomial<double, N>& p, bool capped,
@@ -268,14 +269,14 @@ bool first_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& r
     return first_of_polynomial(f, frame, ray, s, p, capped, hit);
 }
 
-/// A point of the frame moved onto f = 0, and how far it may still be from there.
+/// A point of the frame moved onto f = 0, and a bound of its remaining distance.
 struct ProjectedPoint {
     Vec3 point;
     Vec3 gradient;  ///< not zero unless the surface has no normal anywhere near
     double error;
 };
 
-/// `back`: a step towards where the ray came from; at a singular point the normal is taken there.
+/// `back`: a step towards the ray's origin; at a singular point the normal is evaluated there.
 template <class Polynomial>
 ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
     Vec3 gradient = f.gradient(p);
@@ -286,9 +287,9 @@ ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
         const double squared = length_squared(gradient);
         if (!(squared > 0.0)) break;
         const Vec3 step = (value / squared) * gradient;
-        // Near a singular point Newton's step may lead anywhere: the point then stays.
+        // Near a singular point Newton's step is unreliable: the point stays.
         if (!(length(step) <= 1e-5 * size)) break;
-        // Hardly more than what the ray and the point round.
+        // Stops when the step is about the rounding of the ray and the point.
         if (length(step) <= 0x1p-51 * max_component(abs(p))) break;
         const Vec3 next = p - step;
         if (next == p) break;
@@ -299,7 +300,7 @@ ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
     double error = 0.0;
     const double steepness = length(gradient);
     if (steepness > 0.0) error = std::fmin(2.0 * std::abs(value) / steepness, 1e-5 * size);
-    // At a singular point the normal is that of the way by which the ray came, or beside it.
+    // At a singular point uses the normal a step back along the ray, or beside it.
     Vec3 step = back;
     for (int i = 0; i < 8 && !(length_squared(gradient) > 0.0); ++i) {
         gradient = f.gradient(p + step);
@@ -309,7 +310,7 @@ ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
     return {p, gradient, error};
 }
 
-/// The surface but for texture coordinates.
+/// The surface without texture coordinates.
 inline ShapeSurface surface_of(const SolidFrame& frame, const ProjectedPoint& at) {
     ShapeSurface surface;
     surface.point = frame.to_object(at.point);

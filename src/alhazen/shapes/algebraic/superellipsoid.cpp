@@ -11,14 +11,14 @@ namespace alhazen {
 
 namespace {
 
-/// Beyond this the line is certainly outside.
+/// Scale of the clip, beyond which the line is certainly outside.
 constexpr double kRoom = 1.0 + 1.0 / 64;
 /// Roundings of a sum of powers per unit of the exponents, in half ulps.
 constexpr double kRoundings = 32.0;
-/// The same in double-double, relative.
+/// The error of a sum of powers in double-double, relative.
 constexpr double kPreciseSlack = 0x1p-92;
-/// Where the slope is at least this fraction of its terms, a root found in double is accurate to
-/// about the rounding of t.
+/// A root found in double is accurate to about the rounding of t if the slope is at least this
+/// fraction of its terms.
 constexpr double kSteepEnough = 1.0 / 8;
 /// Largest number of halvings of a part of the line.
 constexpr int kMostHalvings = 48;
@@ -68,7 +68,8 @@ class CrossingSearch {
           q_(line.solid.q),
           o_(line.segment.o),
           coordinate_error_(0x1p-53 * line.segment.relative_error) {
-        // Each component to its own last digit: along a face two of them may be nearly zero.
+        // Each component is accurate to its last digit: along a face two of them may be nearly
+        // zero.
         const Point3<DoubleDouble> d =
             line.solid.frame.local_vector(to_real<DoubleDouble>(line.ray.direction));
         d_ = {d.x.high, d.y.high, d.z.high};
@@ -128,9 +129,9 @@ class CrossingSearch {
     }
 
     struct Slope {
-        Interval range{0.0, 0.0};  ///< of the derivative of the function by t, over q
+        Interval range{0.0, 0.0};  ///< range of the derivative of the function by t, over q
         double terms = 0;          ///< bound of the sum of the magnitudes of its terms
-        double noise = 0;          ///< its error bound
+        double noise = 0;          ///< error bound of the derivative
 
         [[nodiscard]] bool has_sign() const { return range.lo > noise || range.hi < -noise; }
         [[nodiscard]] double most() const {
@@ -152,7 +153,7 @@ class CrossingSearch {
             if (a.inside != b.inside) put(root(a, b, slope.is_steep()));
             return;
         }
-        // Too far from the surface to reach it and return.
+        // An end is too far from the surface for the line to reach it and return.
         const double way = q_ * slope.most() * (b.t - a.t);
         if (a.inside == b.inside && std::abs(a.value) - a.value_error > way) return;
         if (a.inside == b.inside && std::abs(b.value) - b.value_error > way) return;
@@ -191,7 +192,7 @@ class CrossingSearch {
         return slope;
     }
 
-    /// Any positive value where one end is NaN: on a plane of symmetry.
+    /// An interval from a to b; any positive value for an end that is NaN (on a plane of symmetry).
     static Interval ordered(double a, double b) {
         if (a <= b) return {a, b};
         if (b <= a) return {b, a};
@@ -246,7 +247,7 @@ void Superellipsoid::validate(const FileLocation& where, Diagnostics& diagnostic
 }
 
 Interval Superellipsoid::extent(const Vec3& axis) const {
-    // Of the parallelepiped spanned by the semi-axes.
+    // The box of the parallelepiped spanned by the semi-axes.
     const double half =
         std::abs(dot(axis, axis_a)) + std::abs(dot(axis, axis_b)) + std::abs(dot(axis, axis_c));
     const double slack = gamma_bound(4) * dot(abs(axis), abs(axis_a) + abs(axis_b) + abs(axis_c));
@@ -299,7 +300,7 @@ ShapeSurface Superellipsoid::surface(const Ray& ray, const ShapeHit& hit) const 
         return Vec3{std::pow(std::abs(v.x), p), std::pow(std::abs(v.y), p),
                     std::pow(std::abs(v.z), q)};
     };
-    // The function is homogeneous of degree q: it is known along the line to the centre.
+    // The function is homogeneous of degree q, hence known along the line to the centre.
     Vec3 w = powers(at);
     const double value = std::pow(w.x + w.y, r) + w.z;
     if (value > 0.0 && std::isfinite(value)) at = std::pow(value, -1.0 / q) * at;

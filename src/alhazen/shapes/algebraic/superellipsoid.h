@@ -25,8 +25,8 @@ struct Superellipsoid {
 
     Vec3 center{0, 0, 0};
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0}, axis_c{0, 0, 1};  ///< from the centre to the surface
-    double east = 1;      ///< e: of the equator and the cross-sections parallel to it
-    double north = 1;     ///< n: of the sections through axis_c
+    double east = 1;      ///< e: exponent of the equator and the cross-sections parallel to it
+    double north = 1;     ///< n: exponent of the sections through axis_c
     SolidFrame frame{};   ///< derived
     double p = 2, q = 2;  ///< derived: 2 / e and 2 / n
 

@@ -19,7 +19,8 @@ struct Tgc {
 
     Vec3 base{0, 0, 0}, height{0, 0, 1};    ///< centre of the base; vector to that of the top
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of the base
-    Vec3 axis_c{1, 0, 0}, axis_d{0, 1, 0};  ///< of the top; parallel to a, b; any length or zero
+    Vec3 axis_c{1, 0, 0},
+        axis_d{0, 1, 0};  ///< semi-axes of the top, parallel to a, b; any length or zero
     bool capped = true;
     ClippedQuadric solid{};                 ///< derived: frame, clip, and the quadric if it is one
     bool quartic = false;                   ///< derived

@@ -24,7 +24,7 @@ bool cut_around(const Vec3& o, const Vec3& d, double reach, double height, ClipR
         range.exit = beyond < range.exit ? beyond : range.exit;
     }
     if (!(range.entry < range.exit) || !std::isfinite(range.exit - range.entry)) return false;
-    // Whether the line is nearer to the centre than `reach`.
+    // True if the line is nearer to the centre than `reach`.
     return length_squared(cross(o, d)) <= reach * reach * length_squared(d);
 }
 
@@ -50,8 +50,8 @@ void Torus::validate(const FileLocation& where, Diagnostics& diagnostics) const 
 }
 
 Box3 Torus::box() const {
-    // As circle_half_box, without its care for a half near zero: the tube is added here. Called for
-    // every surface.
+    // As circle_half_box, less accurate for a half near zero, since the tube is added here; called
+    // for every surface.
     const Vec3& n = unit_axis;
     const double xx = n.x * n.x, yy = n.y * n.y, zz = n.z * n.z;
     const Vec3 ring{std::sqrt(yy + zz), std::sqrt(zz + xx), std::sqrt(xx + yy)};
@@ -125,8 +125,8 @@ std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays, S
 
 namespace {
 
-/// The nearest point of the tube, towards the circle. Accurate to a few roundings of the
-/// coordinates, which `Torus::surface` accounts for.
+/// The nearest point of the tube, by projection towards the circle. Accurate to a few roundings of
+/// the coordinates, which `Torus::surface` accounts for.
 ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& direction) {
     const double across = std::sqrt(p.x * p.x + p.y * p.y);
     const double out = across - 1.0;

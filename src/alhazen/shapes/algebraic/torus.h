@@ -23,8 +23,8 @@ struct Torus {
 
     Vec3 center{0, 0, 0};
     Vec3 axis{0, 0, 1};
-    double major_radius = 1;     ///< of the circle
-    double minor_radius = 0.25;  ///< of the tube; at most the major radius
+    double major_radius = 1;     ///< radius of the circle
+    double minor_radius = 0.25;  ///< radius of the tube; at most the major radius
     SolidFrame frame{};          ///< derived
     Vec3 unit_axis{0, 0, 1};     ///< derived
     double tube = 0.25;          ///< derived: minor over major radius

@@ -13,7 +13,7 @@ namespace alhazen {
 
 #include "alhazen/shapes/algebraic/torus_formula-inl.h"
 
-/// Ratio of the clip to the torus: at its ends the line is certainly outside.
+/// Ratio of the clip to the torus; the ends of the clipped line are certainly outside.
 inline constexpr double kTorusRoom = 1.0 + 1.0 / 64;
 
 /// 1 / 3.
@@ -47,7 +47,7 @@ struct TorusPolynomial {
         return a * a - Real(4.0) * across;
     }
     [[nodiscard]] Vec3 gradient(const Vec3& p) const {
-        // Gradient of the squared distance to the circle, times the factor to that of the quartic.
+        // Gradient of the squared distance to the circle, scaled to that of the quartic.
         const double across = std::hypot(p.x, p.y);
         if (!(across > 0.0)) return {0.0, 0.0, 4.0 * p.z * (p.z * p.z + k<double>())};
         const double radial = (across - 1.0) / across;

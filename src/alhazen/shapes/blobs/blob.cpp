@@ -77,7 +77,7 @@ class SpanWalk {
     }
 
   private:
-    /// Whether the sum of the components in work.active is below the threshold on all of [t0, t1].
+    /// True if the sum of the components in work.active is below the threshold on all of [t0, t1].
     [[nodiscard]] bool is_weak(double t0, double t1) const {
         double here = 0.0;
         for (const std::uint32_t i : work_.active) {
@@ -89,7 +89,7 @@ class SpanWalk {
             } else {
                 here += s;
             }
-            // In this form NaN is not skipped.
+            // Written so that NaN is not skipped.
             if (!(here < 0.999 * ray_.blob.threshold)) return false;
         }
         return true;
@@ -174,7 +174,7 @@ void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     }
 }
 
-/// Whether the sum of all pieces is below the threshold for any overlap.
+/// True if the sum of all pieces is below the threshold for any overlap.
 bool all_weak(const LocalRay& local, const std::vector<Piece>& pieces) {
     double most = 0.0;
     for (const Piece& piece : pieces) {
@@ -185,8 +185,8 @@ bool all_weak(const LocalRay& local, const std::vector<Piece>& pieces) {
     return most < 0.999 * local.blob.threshold;
 }
 
-/// Sorts the events of the pieces. Coherent rays mostly have the same order, so that the events of
-/// the previous ray need little sorting.
+/// Sorts the events of the pieces. The events of the previous ray are the initial order, which for
+/// coherent rays needs few changes.
 void order_events(const std::vector<Piece>& pieces, std::vector<Event>& events) {
     const auto is_before = [](const Event& a, const Event& b) {
         return a.t != b.t ? a.t < b.t : a.piece < b.piece;

@@ -25,7 +25,7 @@ struct FirstHitsWorkspace {
 /// The most pieces of a component: one per region.
 constexpr std::size_t kRegions = 3;
 
-/// The numbers of the components that the beam may intersect.
+/// The indices of the components that the beam may intersect.
 std::span<const std::uint32_t> near_components(const Blob& blob, const BlobKernels& kernels,
                                                const BlobRayLanes& rays, FirstHitsWorkspace& work) {
     if (blob.components.size() <= BlobTree::kFew) {
@@ -38,8 +38,8 @@ std::span<const std::uint32_t> near_components(const Blob& blob, const BlobKerne
     return work.numbers;
 }
 
-/// Whether tracing one by one is faster: many components, of which eight incoherent rays intersect
-/// many.
+/// True if tracing the rays one by one is faster: if there are many components and eight incoherent
+/// rays intersect many of them.
 bool better_alone(const Blob& blob, const BlobRayLanes& rays) {
     constexpr std::size_t kMany = 400;
     return blob.components.size() > kMany && !(rays.width <= blob.tree->mean_radius());

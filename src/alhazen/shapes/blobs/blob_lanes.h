@@ -35,7 +35,7 @@ struct alignas(64) BlobRow {
     double strength, third;  ///< the strength, and a third of it
     double weight;           ///< the strength if positive, else 0
     double inverse_radius;
-    double span;  ///< of the rod, in its middle
+    double span;  ///< rod, middle region: length of the rod; else 0
 
     void set(const BlobComponent& c, double span_of_rod) {
         strength = c.strength;

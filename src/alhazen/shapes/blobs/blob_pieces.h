@@ -23,7 +23,7 @@ inline constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDo
 
 /// The region of a component along the ray with one quadratic 1 - (distance / radius)^2.
 enum class Region : std::uint8_t { Base, Middle, Top };
-/// The range of a region, and its quadratic in double: peak - bend (t - middle)^2. Without bend the
+/// The range of a region, and its quadratic in double: peak - bend (t - middle)^2. If bend is 0 the
 /// quadratic is unknown.
 struct Bump {
     Interval t;
@@ -73,7 +73,7 @@ struct LocalRay {
     LocalRay(const Blob& b, const Ray& ray)
         : blob(b), given(ray), o(ray.origin), line(line_along(ray.direction)) {
         const Vec3 from_center = ray.origin - b.bounds.center();
-        // For a near origin the shift would only lose digits of a small t.
+        // Not shifted if the origin is near: that would only lose digits of a small t.
         if (length_squared(from_center) > 4.0 * length_squared(b.bounds.size())) {
             shift = -dot(from_center, ray.direction) / line.square;
             o = ray.origin + shift * ray.direction;
@@ -150,7 +150,7 @@ struct LocalRay {
             line.square * inverse_squared};
 }
 
-/// Whether it is a ball that the line misses.
+/// True for a ball that the line misses.
 inline bool misses_ball(const LocalRay& ray, const BlobComponent& c) {
     const Vec3 f = ray.o - c.base;
     return !c.rod && !(nearest_place(ray.line, f.x, f.y, f.z, c.radius * c.radius).room > 0.0);
@@ -166,7 +166,7 @@ inline Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
     return within(line, f, c.radius);
 }
 
-/// Intersection of two intervals.
+/// The intersection of two intervals.
 inline Interval meeting(const Interval& a, const Interval& b) {
     return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }

@@ -1,13 +1,13 @@
 #pragma once
-/// A small tree of boxes over the components of a blob: finds those that a line or a point may
-/// touch.
+/// A bounding box tree over the components of a blob; finds those that a line or a point may
+/// intersect.
 ///
 /// Source: Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996 (separating axes of a line and a
 /// box); split at the median of the longest axis.
 /// Differs: the axes are the three cross products with the line; boxes are tested with a margin for
 /// the rounding of the origin.
-/// Conventions: conservative: results may contain too many components, never too few. Threads:
-/// const functions may be called from many.
+/// Conventions: conservative: results may contain additional components, but none is missing.
+/// Threads: const functions may be called concurrently.
 
 #include <cstdint>
 #include <vector>
@@ -35,7 +35,7 @@ class BlobTree {
     void add_sphere(const Vec3& center, double radius);
     /// The spheres, in the order of addition.
     [[nodiscard]] const std::vector<BlobSpheres>& spheres() const { return spheres_; }
-    /// Mean over the boxes of half the least size.
+    /// Mean over the boxes of half the smallest side.
     [[nodiscard]] double mean_radius() const { return mean_radius_; }
 
     /// Calls f(component) for all components whose box, grown by `pad`, intersects the line o + t
@@ -54,8 +54,8 @@ class BlobTree {
     static constexpr std::uint32_t kLeafSize = 4;
     struct Node {
         Box3 box;
-        std::uint32_t first = 0, count = 0;  ///< of a leaf: its range in order_; else 0
-        std::uint32_t second_child = 0;      ///< of an inner node; the first child follows the node
+        std::uint32_t first = 0, count = 0;  ///< range of a leaf in order_; else 0
+        std::uint32_t second_child = 0;      ///< for an inner node; its first child follows it
     };
 
     void build(const std::vector<Box3>& boxes, std::uint32_t first, std::uint32_t end);

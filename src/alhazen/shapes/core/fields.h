@@ -49,7 +49,7 @@ struct Field {
     bool optional;
 };
 
-/// Whether the check tests values of type T.
+/// True if the check tests values of type T.
 template <class T>
 constexpr bool applies_to(Check check) {
     switch (check) {

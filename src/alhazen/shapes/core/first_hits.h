@@ -16,13 +16,13 @@ namespace alhazen {
 
 inline constexpr std::size_t kMaxPacketRays = kRayLanes;
 
-/// Patches gain from more rays at once, in any directions (patch_apart.h).
+/// Patches gain from larger packets, of any directions (patch_apart.h).
 inline constexpr std::size_t kMostPatchRays = 32;
 
 struct BezierPatch;
 struct PatchMesh;
 
-/// How many rays the packet test of a shape takes.
+/// Largest packet of a shape's packet test.
 template <class S>
 inline constexpr std::size_t kMostRaysAtOnce = kMaxPacketRays;
 template <>

@@ -10,7 +10,7 @@
 /// crossings alternate between entry and exit, regardless of their normals. A tangent ray has two
 /// equal crossings or none, never one. A line crosses a bounded solid an even number of times; an
 /// unbounded solid returns from `inside_at_minus_infinity` whether a line begins inside. Threads:
-/// const functions may be called from many threads.
+/// const functions may be called concurrently.
 
 #include <array>
 #include <concepts>
@@ -55,7 +55,7 @@ concept WritesManyHits = S::kMaxHits ==
 /// A solid that may be unbounded.
 template <class S>
 concept UnboundedSolid = requires(const S& shape, const Ray& ray) {
-    /// Whether the line of the ray, regardless of its limits, is inside at t = -infinity.
+    /// True if the line of the ray, regardless of its limits, is inside at t = -infinity.
     { shape.inside_at_minus_infinity(ray) } -> std::same_as<bool>;
 };
 
@@ -74,7 +74,7 @@ concept Shape = requires(S& fresh, const S& shape, const Ray& ray, const ShapeHi
     { fresh.prepare() } -> std::same_as<void>;
     /// Reports every invalid field or combination of fields (NaN, zero radius, ...).
     { shape.validate(where, diagnostics) } -> std::same_as<void>;
-    /// True when this instance bounds a volume (a cylinder without caps does not).
+    /// True if this instance bounds a volume (a cylinder without caps does not).
     { shape.closed() } -> std::same_as<bool>;
     /// Contains the shape, rounded outward; infinite along the axes where the shape is unbounded.
     { shape.box() } -> std::same_as<Box3>;
@@ -94,7 +94,7 @@ inline void append_hits(const S& shape, const Ray& ray, ShapeHits& hits) {
     }
 }
 
-/// Whether the line of a ray is inside the solid at t = -infinity.
+/// True if the line of a ray is inside the solid at t = -infinity.
 template <Shape S>
 [[nodiscard]] inline bool inside_at_minus_infinity(const S& shape, const Ray& ray) {
     if constexpr (UnboundedSolid<S>) {

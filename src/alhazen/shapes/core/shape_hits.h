@@ -37,7 +37,7 @@ class ShapeHits {
     [[nodiscard]] bool empty() const { return size_ == 0; }
     /// Largest number of crossings that the caller reads.
     [[nodiscard]] std::size_t wanted() const { return wanted_; }
-    /// True when a shape may omit further crossings behind those appended.
+    /// True if a shape may omit further crossings behind those appended.
     [[nodiscard]] bool enough() const { return size_ >= wanted_; }
 
     /// Storage of the next `n` crossings. Valid until the next call of a non-const function.

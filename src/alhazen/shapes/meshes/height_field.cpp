@@ -33,7 +33,7 @@ class HeightFieldWalk {
         within_ = slabs(field.bounds, 0.0);
     }
 
-    /// Returns false when the order of the crossings requires those of the whole line.
+    /// Returns false if the order of the crossings requires all crossings of the line.
     bool run(bool only_first) {
         only_first_ = only_first;
         visit(top_level_, 0, 0, false);
@@ -68,7 +68,7 @@ class HeightFieldWalk {
         return level == 0 ? field_.rows - 1 : field_.pyramid->levels[level - 1].rows;
     }
 
-    /// The square's box; `bottom`: the box of its bottom only.
+    /// The square's box; `bottom`: only that of its bottom.
     [[nodiscard]] Box3 box(std::uint32_t level, std::uint32_t i, std::uint32_t j,
                            bool bottom) const {
         const std::uint32_t i0 = i << level, j0 = j << level;
@@ -189,7 +189,7 @@ HeightPyramid::Level next_level(const HeightField& field, const HeightPyramid& b
     for (std::uint32_t j = 0; j < level.rows; ++j) {
         for (std::uint32_t i = 0; i < level.columns; ++i) {
             float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
-            // Counts corners for cells, squares for squares.
+            // The end in corners for cells (`first`), else in squares.
             const std::uint32_t end_i = std::min(2 * i + (first ? 3 : 2), columns + first);
             const std::uint32_t end_j = std::min(2 * j + (first ? 3 : 2), rows + first);
             for (std::uint32_t y = 2 * j; y < end_j; ++y) {
@@ -250,7 +250,7 @@ std::array<Vec3, 3> HeightField::triangle(std::uint32_t part) const {
         std::swap(i0, i1);
         std::swap(j0, j1);
     }
-    // Seen from outside: from the lower left.
+    // In the order seen from outside, beginning at the lower left.
     const Vec3 left = vertex(i0, j0, true), right_top = vertex(i1, j1);
     if (k == 0) return {left, vertex(i1, j1, true), right_top};
     return {left, right_top, vertex(i0, j0)};
@@ -282,7 +282,7 @@ void HeightField::validate(const FileLocation& where, Diagnostics& diagnostics) 
                            std::to_string(heights == nullptr ? 0 : heights->size()));
     }
     for (const float h : *heights) {
-        // Also true for NaN.
+        // The negation covers NaN.
         if (!(double{h} > base && h <= std::numeric_limits<float>::max())) {
             return checks.fail("every height must be a number above the base, which is " +
                                shortest(base) + "; found " + shortest(double{h}));
@@ -333,7 +333,7 @@ ShapeSurface HeightField::surface(const Ray&, const ShapeHit& hit) const {
     for (int k = 0; k < 3; ++k) {
         surface.point[k] = std::clamp(p[k], bounds.lo[k], bounds.hi[k]);
     }
-    // As for a triangle of a mesh.
+    // Error bound as for a triangle of a mesh.
     surface.error = gamma_bound(7) * (std::abs(w) * abs(p0) + std::abs(hit.u) * abs(p1) +
                                       std::abs(hit.v) * abs(p2)) +
                     gamma_bound(2) * std::abs(rest) * abs(p0);

@@ -2,10 +2,11 @@
 /// Vertices of a mesh that move while the shutter is open.
 ///
 /// Source: Cook, Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, section 4.5 (each
-/// ray has a time, and meets things where they are then).
-/// Conventions: time 0: the shutter opens; 1: it closes; keys may lie outside. Between two keys
-/// positions and normals change linearly; before the first and after the last nothing moves.
-/// Threads: const functions may be called from many.
+/// ray has a time, at which it intersects the scene).
+/// Conventions: the shutter opens at time 0 and closes at 1; keys may lie outside. Positions and
+/// normals are interpolated linearly between two keys and constant before the first and after the
+/// last.
+/// Threads: const functions may be called concurrently.
 
 #include <array>
 #include <cstdint>
@@ -23,28 +24,28 @@ struct MeshKey {
     std::vector<Vec3> normals;    ///< [vertex], or empty: those of the mesh
 };
 
-/// What is wrong with the keys of `mesh`; null where nothing is.
+/// Describes what is wrong with the keys of `mesh`; null if nothing is.
 [[nodiscard]] const char* fault_of(const TriangleMesh& mesh, std::span<const MeshKey> keys);
 
 class MeshMotion {
   public:
     using Corners = std::array<std::uint32_t, 3>;
 
-    /// Precondition: keys without fault, at least one.
+    /// Precondition: at least one key, without fault.
     explicit MeshMotion(std::vector<MeshKey> keys) : keys_(std::move(keys)) {}
 
     [[nodiscard]] std::array<Vec3, 3> positions_at(const Corners& corners, double time) const;
-    /// Contains the triangle at every time from 0 to 1; empty where two of its vertices are one.
+    /// Bounds the triangle at all times from 0 to 1; empty if two of its vertices coincide.
     [[nodiscard]] MovingBox box(const Corners& corners) const;
-    /// The triangle alone, with all attributes it has at that time.
+    /// The triangle as a mesh, with all its attributes at `time`.
     [[nodiscard]] TriangleMesh triangle_at(const TriangleMesh& mesh, std::size_t triangle,
                                            double time) const;
-    /// Moves all vertices to where they are then.
+    /// Moves all vertices to their positions at `time`.
     void pose(double time, TriangleMesh& mesh) const;
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
-    /// Between key `i` and the next; `share` 0 is the key itself.
+    /// Between key `i` and the next; `share` 0 is key `i`.
     struct Moment {
         std::size_t i;
         double share;

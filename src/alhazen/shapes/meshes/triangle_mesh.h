@@ -50,7 +50,7 @@ struct TriangleMesh {
     /// `coordinates`: a set of texture coordinates; empty: barycentrics.
     [[nodiscard]] UvDerivatives uv_derivatives(std::size_t triangle,
                                                const std::vector<Vec2>& coordinates) const;
-    /// True when each edge belongs to an even number of triangles, after vertices of equal position
+    /// True if each edge belongs to an even number of triangles after vertices of equal position
     /// are merged: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
 

@@ -19,7 +19,7 @@ Vec3 foot_on(const ClippedRegion::Plane& plane, const Vec3& x) {
     return once - (dot(plane.normal, once) - plane.offset) * plane.normal;
 }
 
-/// Or nearly: of a frustum, the apex may be far beyond the end.
+/// True if the apex is inside or nearly so: the apex of a frustum may be far beyond its end.
 bool holds_apex(const std::vector<ClippedRegion::Plane>& planes, const Vec3& apex) {
     for (const ClippedRegion::Plane& plane : planes) {
         if (!(dot(plane.normal, apex) <= plane.offset + std::abs(plane.offset))) return false;
@@ -37,7 +37,7 @@ ClippedRegion::ClippedRegion(const Eigensystem& own, const Vec3& b, double c,
     const double scale = size > 0.0 ? 1.0 / size : 1.0;
     form_ = {3, scale * own.values, {}, 0.0};
     if (apex && holds_apex(planes_, *apex)) {
-        // From the apex f has no other terms, and so no rounding of theirs.
+        // Relative to the apex f has no linear and constant terms, and none of their rounding.
         origin_ = *apex;
         has_apex_ = true;
         rounding_ = length(origin_);
@@ -46,7 +46,7 @@ ClippedRegion::ClippedRegion(const Eigensystem& own, const Vec3& b, double c,
     }
     form_.b = scale * transpose_times(axes_, b);
     form_.c = scale * c;
-    // Rounding of other components is no slope.
+    // Clears gradient components that are mere rounding of the others.
     for (int i = 0; i < 3; ++i) {
         if (std::abs(form_.b[i]) < 8 * kEpsilon * scale * length(b)) form_.b[i] = 0.0;
     }
@@ -65,7 +65,7 @@ double ClippedRegion::magnitude(const Vec3& x) const {
 }
 
 Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
-    // A candidate from far away is beside the plane by rounding of the way to it.
+    // The rounding of a distant candidate displaces it from the plane.
     if (plane != nullptr) x = foot_on(*plane, x);
     double off = std::abs(value(x));
     for (int i = 0; i < 6 && off > 0.0; ++i) {
@@ -82,7 +82,8 @@ Vec3 ClippedRegion::onto_surface(Vec3 x, const Plane* plane) const {
 }
 
 Eigensystem ClippedRegion::own_in(const Vec3& x, const Vec3& y) const {
-    // Two curved axes in the plane are all there is to it: mostly it is at a right angle to one.
+    // With at most two curved axes in the plane the eigensystem of rows is accurate; the plane is
+    // mostly perpendicular to one axis.
     const Vec3 along_x = transpose_times(axes_, x), along_y = transpose_times(axes_, y);
     std::array<Vec3, 3> rows;
     Vec3 signs;
@@ -104,7 +105,7 @@ Eigensystem ClippedRegion::own_in(const Vec3& x, const Vec3& y) const {
     if (count == 2) {
         if (const auto own = eigensystem_of_rows(rows, signs)) return *own;
     }
-    // The third axis stays the third: there is nothing to rotate it with.
+    // The third axis is unchanged: its row and column are zero.
     Eigensystem own =
         eigensystem({{second(x, x), second(x, y), 0.0}, {second(x, y), second(y, y), 0.0}, {}});
     for (int i = 0; i < 2; ++i) {
@@ -128,7 +129,7 @@ ClippedRegion::Conic ClippedRegion::conic_in(const Plane& plane) const {
 
 void ClippedRegion::append_conic_points(const Plane& plane, const Vec3& from,
                                         std::vector<Vec3>& points) const {
-    // What is nearest to the foot in the plane is nearest to the point itself.
+    // The point nearest to the foot in the plane is also nearest to `from`.
     const Conic conic = conic_in(plane);
     const Vec3 foot = foot_on(plane, from) - conic.origin;
     std::vector<Vec3> found;
@@ -140,7 +141,7 @@ void ClippedRegion::append_conic_points(const Plane& plane, const Vec3& from,
     }
 }
 
-/// Looks at candidates one after the other.
+/// Tests candidates and keeps the nearest.
 class ClippedRegion::Search {
   public:
     Search(const ClippedRegion& region, const Vec3& from) : region_(region), from_(from) {}
@@ -173,7 +174,7 @@ class ClippedRegion::Search {
         const double squared = length_squared(along);
         if (!(squared > 1e-24)) return;
         const Vec3 unit = along / std::sqrt(squared);
-        // The foot on the line, and once more from there.
+        // The foot on the line, computed again from the first result for accuracy.
         const auto foot_of = [&](Vec3 foot) {
             for (int turn = 0; turn < 2; ++turn) {
                 const double over_p = dot(p.normal, foot) - p.offset;
@@ -186,7 +187,7 @@ class ClippedRegion::Search {
         const Vec3 foot = foot_of(from_);
         if (region_.capped_ && is_filled(foot)) offer(foot, p.normal);
         if (!region_.has_quadric_) return;
-        // From beside the region, where roundings are small.
+        // From a point near the region, where roundings are small.
         const Vec3 start = foot_of({});
         const Vec3 half = region_.half_gradient(start);
         const QuadraticRoots roots = solve_half_b_quadratic(region_.second(unit, unit),
@@ -209,7 +210,7 @@ class ClippedRegion::Search {
     [[nodiscard]] const std::optional<PointOnSurface>& best() const { return best_; }
 
   private:
-    /// Points of edges are beyond other planes by rounding.
+    /// Rounding may place points of edges outside other planes.
     static constexpr double kSlack = 64 * kEpsilon;
 
     [[nodiscard]] bool planes_leave(const Vec3& x) const {
@@ -222,7 +223,7 @@ class ClippedRegion::Search {
     [[nodiscard]] bool is_filled(const Vec3& x) const {
         return region_.value(x) <= kSlack * region_.magnitude(x) && planes_leave(x);
     }
-    /// Points that are not: where a step towards the surface led nowhere.
+    /// False for points where the iteration towards the surface failed.
     [[nodiscard]] bool is_on_surface(const Vec3& x) const {
         return std::abs(region_.value(x)) <= kSlack * region_.magnitude(x) && planes_leave(x);
     }

@@ -50,7 +50,7 @@ PointOnSurface FlatRegion::nearest(const Vec3& from) const {
             const double squared = length_squared(b - a);
             const double s =
                 squared > 0.0 ? std::clamp(dot(from - a, b - a) / squared, 0.0, 1.0) : 0.0;
-            // From the nearer end, whose coordinates are kept.
+            // Interpolated from the nearer end, whose coordinates are thus exact.
             const Vec3 x = s <= 0.5 ? a + s * (b - a) : b + (s - 1.0) * (b - a);
             const double d = length_squared(x - from);
             if (d < best.squared) best = {x, normal_, d};

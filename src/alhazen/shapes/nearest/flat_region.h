@@ -1,8 +1,8 @@
 #pragma once
 /// The nearest point of a polygon.
 ///
-/// Source: the foot of the perpendicular where it lies inside by the odd-even rule (Foley, van Dam
-/// et al., "Computer Graphics", section 2.1.3), else the nearest point of an edge.
+/// Source: the foot of the perpendicular if it lies inside by the odd-even rule (Foley, van Dam et
+/// al., "Computer Graphics", section 2.1.3), else the nearest point of an edge.
 /// Conventions: as clipped_region.h. Complexity: O(vertices).
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace alhazen {
 
 class FlatRegion {
   public:
-    /// Loops of vertices in or near to a plane, to which they are projected; `normal` is unit.
-    /// [loop] one past its last vertex.
+    /// Loops of vertices in or near a plane, onto which they are projected; `normal` is unit.
+    /// loop_ends: [loop] one past its last vertex.
     FlatRegion(std::vector<Vec3> vertices, std::vector<std::uint32_t> loop_ends, const Vec3& point,
                const Vec3& normal);
 
@@ -30,7 +30,7 @@ class FlatRegion {
     [[nodiscard]] Vec2 flat(const Vec3& p) const;
 
     std::vector<Vec3> vertices_;
-    std::vector<Vec2> flat_;  ///< the same in the plane
+    std::vector<Vec2> flat_;  ///< the vertices in coordinates of the plane
     std::vector<std::uint32_t> loop_ends_;
     Vec3 point_, normal_, x_axis_, y_axis_;
 };

@@ -14,10 +14,10 @@ namespace alhazen {
 namespace {
 
 constexpr double kFar = 1e60;      ///< stands for an infinite multiplier
-constexpr double kBeside = 1e-60;  ///< a pole
-constexpr double kSame = 1e-13;    ///< eigenvalues that differ by less, relatively, are one
+constexpr double kBeside = 1e-60;  ///< offset from a pole
+constexpr double kSame = 1e-13;    ///< relative difference below which eigenvalues are merged
 
-/// Doubles as whole numbers in the same order.
+/// Maps doubles to integers in the same order.
 std::int64_t ordinal(double x) {
     const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
     return x < 0.0 ? -bits : bits;
@@ -25,7 +25,7 @@ std::int64_t ordinal(double x) {
 double of_ordinal(std::int64_t n) {
     return n < 0 ? -std::bit_cast<double>(-n) : std::bit_cast<double>(n);
 }
-/// As many doubles are below as above it.
+/// The median of the doubles between `lo` and `hi`.
 double middle(double lo, double hi) {
     const std::int64_t a = ordinal(lo), b = ordinal(hi);
     return of_ordinal(a / 2 + b / 2 + (a % 2 + b % 2) / 2);
@@ -64,7 +64,8 @@ class Multipliers {
   private:
     static constexpr int kNoPole = -1;
 
-    /// Counted from the pole of an axis, beside which it may be nearer than numbers are dense.
+    /// A multiplier as an offset from the pole of an axis, which may be smaller than the spacing of
+    /// doubles at the pole.
     struct Multiplier {
         int axis = kNoPole;
         double offset = 0;
@@ -79,10 +80,10 @@ class Multipliers {
         const double of_pole = q_.a[m.axis];
         return (of_pole - a) / of_pole + m.offset * a;
     }
-    /// Whether a multiplier with this divisor leads far: differences of the coordinates there and
-    /// here are rounded more than the ones there.
+    /// True if the point of a multiplier with this divisor is far from `from`: the difference of
+    /// the coordinates is then rounded more than the coordinates.
     [[nodiscard]] static bool leads_far(double d) { return std::abs(d) > 2.0; }
-    /// Of the point of the multiplier m, which has divisor d along axis i.
+    /// Coordinate i of the point of the multiplier m, which has divisor d along axis i.
     [[nodiscard]] double coordinate(double m, double d, int i) const {
         if (g_[i] == 0.0) return from_[i];
         return leads_far(d) ? (from_[i] - m * q_.b[i]) / d : from_[i] - m * (g_[i] / d);
@@ -103,7 +104,7 @@ class Multipliers {
         }
         return sum;
     }
-    /// Its derivative, times -1/2.
+    /// Derivative of `constraint`, times -1/2.
     [[nodiscard]] double slope(const Multiplier& m) const {
         double sum = 0.0;
         for (int i = 0; i < q_.dimensions; ++i) {
@@ -118,7 +119,7 @@ class Multipliers {
         for (int i = 0; i < q_.dimensions; ++i) x[i] = coordinate(value(m), divisor(m, i), i);
         if (is_finite(x)) points_.push_back(x);
     }
-    /// A zero of f between two multipliers of one axis, at which its signs differ.
+    /// A zero of f between two multipliers of one axis at which its signs differ.
     template <class F>
     [[nodiscard]] Multiplier bisect(Multiplier lo, Multiplier hi, F f) const {
         const bool rises = f(hi) > 0.0;
@@ -128,7 +129,7 @@ class Multipliers {
         }
         return std::abs(f(lo)) < std::abs(f(hi)) ? lo : hi;
     }
-    /// Where the slope changes its sign; none elsewhere.
+    /// The multiplier where the slope changes its sign; empty if it does not.
     [[nodiscard]] std::optional<Multiplier> turn(const Multiplier& lo, const Multiplier& hi) const {
         const auto f = [&](const Multiplier& m) { return slope(m); };
         if ((f(lo) > 0.0) == (f(hi) > 0.0)) return std::nullopt;
@@ -137,7 +138,7 @@ class Multipliers {
     void between(const Multiplier& lo, const Multiplier& hi) {
         const std::optional<Multiplier> top = turn(lo, hi);
         if (!top) return monotone(lo, hi);
-        add(*top);  // two roots that are one within rounding
+        add(*top);  // a double root within rounding
         monotone(lo, *top);
         monotone(*top, hi);
     }
@@ -149,7 +150,7 @@ class Multipliers {
         return std::abs(q_.a[i] - q_.a[k]) <=
                kSame * std::max(std::abs(q_.a[i]), std::abs(q_.a[k]));
     }
-    /// The hard case: no force along axis i, at its pole. Coordinate i follows from f alone.
+    /// The hard case: no force along axis i, at its pole. Coordinate i follows from f = 0.
     void free_along(int i) {
         if (q_.a[i] == 0.0) return;
         const double m = -1.0 / q_.a[i];
@@ -172,7 +173,7 @@ class Multipliers {
 
     const DiagonalQuadric& q_;
     const Vec3 from_, g_;
-    const Vec3 own_;  ///< what the axes add to f at `from`
+    const Vec3 own_;  ///< contribution of the axes to f at `from`
     std::vector<Vec3>& points_;
 };
 
@@ -249,7 +250,7 @@ std::optional<Eigensystem> eigensystem_of_rows(std::array<Vec3, 3> rows, const V
         }
     }
     if (!done) return std::nullopt;
-    // Flat directions are at right angles to the others.
+    // Flat directions are perpendicular to the others.
     Eigensystem result{};
     std::array<Vec3*, 3> axes{&result.axes.x_axis, &result.axes.y_axis, &result.axes.z_axis};
     std::array<int, 3> order{0, 1, 2};

@@ -105,8 +105,8 @@ Vec3 numerator(const HomogeneousPoint& p) {
     return {p.x, p.y, p.z};
 }
 
-/// Nodes and weights of Gauss's rule of 12 points on [0, 1] (Abramowitz and Stegun, table 25.4),
-/// one half.
+/// Nodes and weights of 12-point Gauss-Legendre quadrature on [0, 1] (Abramowitz and Stegun, table
+/// 25.4); the other half is symmetric.
 constexpr std::array<std::array<double, 2>, 6> kGauss{{
     {0.125233408511468915472441369464, 0.249147045813402785000562436043},
     {0.367831498998180193752691536644, 0.233492536538354808760849898925},
@@ -136,7 +136,7 @@ PatchMeasures gauss_measures(const BezierNet& net) {
     return sum;
 }
 
-/// `settled`: halving in the other direction changed nothing.
+/// `settled`: halving in the other direction did not change the result.
 PatchMeasures adaptive_measures(const BezierNet& net, const PatchMeasures& whole,
                                 double area_tolerance, double volume_tolerance, int depth,
                                 bool settled) {
@@ -210,7 +210,7 @@ Vec3 point_at(BezierView net, double u, double v) {
 }
 
 Vec3 patch_normal(BezierView net, double u, double v) {
-    // Towards the centre by steps that grow until the derivatives span a plane.
+    // Steps towards the centre grow until the derivatives span a plane.
     for (double step = 0.0; step < 0.6; step = step == 0.0 ? 0x1p-30 : 4.0 * step) {
         const double s = u + step * (0.5 - u) * 2.0;
         const double t = v + step * (0.5 - v) * 2.0;

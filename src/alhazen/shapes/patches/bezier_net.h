@@ -57,7 +57,7 @@ struct BezierNet {
     }
 };
 
-/// A net that lies elsewhere: what the methods that only read one take.
+/// A non-owning view of a net, for functions that only read it.
 struct BezierView {
     int degree_u, degree_v;
     const HomogeneousPoint* points;
@@ -75,12 +75,12 @@ struct BezierView {
     }
 };
 
-/// A net of points and weights, u-major; no weights: all 1.
-/// Preconditions: (degree_u + 1) * (degree_v + 1) points, as many weights or none.
+/// A net from points and weights, u-major; without weights all are 1. Preconditions: (degree_u + 1)
+/// * (degree_v + 1) points, and as many weights or none.
 [[nodiscard]] BezierNet bezier_net(int degree_u, int degree_v, std::span<const Vec3> points,
                                    std::span<const double> weights = {});
 
-/// Whether a weight differs from the first one.
+/// True if a weight differs from the first one.
 [[nodiscard]] bool is_rational(BezierView net);
 
 /// A point of the patch with its derivatives by u and v of first and second order.
@@ -92,7 +92,7 @@ struct PatchPoint {
 [[nodiscard]] Vec3 point_at(BezierView net, double u, double v);
 [[nodiscard]] PatchPoint derivatives_at(BezierView net, double u, double v);
 /// The unit normal du x dv; where that is zero (an edge that is one point, coincident control
-/// points) the limit from inside of the patch. Zero for a patch without area.
+/// points) the limit from inside the patch. Zero for a patch without area.
 [[nodiscard]] Vec3 patch_normal(BezierView net, double u, double v);
 
 /// Two halves at u = 1/2 or v = 1/2, by midpoints.

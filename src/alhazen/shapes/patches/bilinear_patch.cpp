@@ -21,8 +21,8 @@ Sheared blended(const Sheared& a, const Sheared& b, double t) {
     return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
-/// Crossings of the half-line {y = 0, x > 0}, displaced by (e, e^2), with the edge from a to b:
-/// upward 1, downward -1. That of the reversed edge is the opposite.
+/// Signed crossings of the half-line {y = 0, x > 0}, displaced by (e, e^2), with the edge from a to
+/// b: 1 upward, -1 downward. The reversed edge has the opposite sign.
 int edge_crossings(const Sheared& a, const Sheared& b) {
     const bool above = b.y > 0.0;
     if ((a.y > 0.0) == above) return 0;
@@ -31,13 +31,13 @@ int edge_crossings(const Sheared& a, const Sheared& b) {
     return side < 0 ? -1 : 0;
 }
 
-/// A place on the patch, its distance from the ray in the plane, and that of its parameters from
-/// the root's, which may lie outside.
+/// A point of the patch, its distance from the ray in the plane, and the distance of its parameters
+/// from those of the root, which may lie outside.
 struct BilinearRoot {
     double u = 0, v = 0, off = kInfinity, moved = kInfinity;
 };
 
-/// The patch as the ray sees it: the ray is the origin of the plane.
+/// The patch relative to the ray, which is the origin of the plane.
 class SeenPatch {
   public:
     SeenPatch(const BilinearPatch& patch, const Ray& ray, const RayShear& shear)
@@ -46,7 +46,7 @@ class SeenPatch {
           c_(seen(patch.p11, ray, shear)),
           d_(seen(patch.p01, ray, shear)) {}
 
-    /// No corner is on the other side of the ray along one of the axes: no crossing.
+    /// True if all corners are on one side of the ray along one of the axes: no crossing.
     [[nodiscard]] bool beside() const {
         const auto [left, right] = std::minmax({a_.x, b_.x, c_.x, d_.x});
         const auto [low, high] = std::minmax({a_.y, b_.y, c_.y, d_.y});
@@ -68,10 +68,10 @@ class SeenPatch {
     [[nodiscard]] Sheared at(double u, double v) const {
         return blended(blended(a_, b_, u), blended(d_, c_, u), v);
     }
-    /// The roots of the quadratic, on the patch or nearest to it. False where it has none; with
+    /// The roots of the quadratic, on the patch or nearest to it. False if there are none; with
     /// `forced`, a negative discriminant counts as 0.
     bool find_roots(bool forced, BilinearRoot* roots) const;
-    /// The place on the border that is nearest to the ray.
+    /// The point of the border that is nearest to the ray.
     [[nodiscard]] BilinearRoot nearest_on_border() const;
 
   private:
@@ -113,7 +113,7 @@ BilinearRoot SeenPatch::root_on_ruling(double s, double w) const {
     const double x = q.x - p.x, y = q.y - p.y;
     const double v = std::abs(x) > std::abs(y) ? -(p.x + p.y * (y / x)) / (x + y * (y / x))
                                                : -(p.y + p.x * (x / y)) / (y + x * (x / y));
-    // A ruling that is one point, or lies along the ray.
+    // The ruling is one point, or lies along the ray.
     if (!std::isfinite(v)) return clamped(u, 0.5);
     return polished(clamped(u, v), u, v);
 }
@@ -154,14 +154,13 @@ BilinearRoot SeenPatch::nearest_on_border() const {
     return nearest;
 }
 
-/// A place farther from the ray than this is no root; in parts of `reach`. Rounding leaves some
-/// 2^-50.
+/// Largest distance of a root from the ray, relative to `reach`. The rounding is about 2^-50.
 constexpr double kOnPatch = 0x1p-44;
-/// A root whose parameters are farther outside is not on the patch; near a double root they are
-/// known to 2^-26.
+/// Largest distance of a root's parameters from the unit square; near a double root they are
+/// accurate to 2^-26.
 constexpr double kOnSquare = 0x1p-20;
 
-/// How far a crossing may round out of the patch.
+/// Bound of the rounding by which a crossing may leave the patch.
 double crossing_reach(const BilinearPatch& patch) {
     double most = 0.0;
     for (const Vec3& p : {patch.p00, patch.p10, patch.p01, patch.p11}) {
@@ -220,7 +219,7 @@ int BilinearPatch::intersect(const Ray& ray, ShapeHit* hits) const {
         return ShapeHit{shear.sz * seen.at(root.u, root.v).z, root.u, root.v, 0};
     };
     if (winds) {
-        // A patch seen edge on may have no good root.
+        // A patch seen edge on may have no accurate root.
         if (!(roots[0].off <= most_off)) {
             const BilinearRoot other = seen.nearest_on_border();
             if (!(roots[0].off <= other.off)) roots[0] = other;
@@ -251,7 +250,8 @@ ShapeSurface BilinearPatch::surface(const Ray&, const ShapeHit& hit) const {
         surface.normal = patch_normal(bezier_net(1, 1, points), u, v);
     }
     surface.shading_normal = surface.normal;
-    // Each coordinate: convex combinations of two steps with three roundings each, and 1 - u.
+    // The rounding of each coordinate: convex combinations in two steps with three roundings each,
+    // and 1 - u.
     for (int k = 0; k < 3; ++k) {
         const double most = std::max(std::max(std::abs(p00[k]), std::abs(p10[k])),
                                      std::max(std::abs(p01[k]), std::abs(p11[k])));

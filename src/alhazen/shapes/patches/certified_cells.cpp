@@ -11,13 +11,13 @@ namespace {
 
 enum class Place { Inside, Outside, Unclear };
 
-/// Where a root lies to a cell: clear where its distance in the plane of the line, from each side,
-/// is beyond rounding, `scale` times `tiny`.
+/// Position of a root relative to a cell: certain if its distance in the plane of the line from
+/// each side is above the rounding, `scale` times `tiny`.
 Place place_of(PlanePoint by_u, PlanePoint by_v, double scale, double tiny, const PatchCell& cell,
                double u, double v) {
     const auto [x_u, y_u] = by_u;
     const auto [x_v, y_v] = by_v;
-    // A quarter for the change of the derivatives across the cell.
+    // The factor of a quarter allows for the change of the derivatives across the cell.
     const double area = 0.25 * std::abs(x_u * y_v - x_v * y_u);
     const double inside_u = std::min(u - cell.u0, cell.u1 - u) * area;
     const double inside_v = std::min(v - cell.v0, cell.v1 - v) * area;
@@ -39,7 +39,7 @@ bool certified_root(NewtonProof proof, RootOf what, BezierView net, const PatchL
                     const PatchCell& cell, double noise, double u, double v, PatchRoot& root) {
     const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
     const Vec3& d = line.direction;
-    // Distance of the root, if there is one, from the estimate, in widths.
+    // Bound of the distance from the estimate to the root, if there is one, in widths.
     double reach = 0.25 * kCertified + kCellMargin, last = 1.0;
     for (int step = 0; step < 40; ++step) {
         const double far_u = reach * width_u, far_v = reach * width_v;
@@ -64,8 +64,8 @@ bool certified_root(NewtonProof proof, RootOf what, BezierView net, const PatchL
         v += dv;
         reach = std::max({0.7 * reach, kCellMargin, noise});
         const double moved = std::max(std::abs(du) / width_u, std::abs(dv) / width_v);
-        // Done, unless the steps still shrink as they do before rounding stops them. Where they
-        // are not proven to, steps that do not shrink are no sign of rounding.
+        // Stops, unless the steps still shrink as they do before rounding dominates. Without a
+        // proof of convergence, steps that do not shrink are no indication of rounding.
         const bool stalled =
             proof == NewtonProof::Converges && last < 0x1p-4 && moved > 0.25 * last;
         last = moved;
@@ -78,7 +78,7 @@ bool certified_root(NewtonProof proof, RootOf what, BezierView net, const PatchL
         if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
             return false;
         }
-        // At a border the root may lie outside of the patch; the crossing is the patch's point.
+        // Near a border the root may lie outside the patch; the crossing is clamped to the patch.
         root.u = std::clamp(u, 0.0, 1.0);
         root.v = std::clamp(v, 0.0, 1.0);
         if (what == RootOf::Point && root.u == u && root.v == v) {
@@ -114,7 +114,7 @@ bool is_root(const BezierView& net, const PatchLine& line, const PatchCell& cell
     if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
         return false;
     }
-    // At a border the root may lie outside of the patch; the crossing is the patch's point.
+    // Near a border the root may lie outside the patch; the crossing is clamped to the patch.
     root.u = std::clamp(at.u, 0.0, 1.0);
     root.v = std::clamp(at.v, 0.0, 1.0);
     root.t = line.shift + at.z * line.per_length;
@@ -158,7 +158,7 @@ double size_of(const PlanePoint& a) {
     return std::abs(a.x) + std::abs(a.y);
 }
 
-/// The bounds of a cell of any degree.
+/// Bounds of a cell of any degree.
 CellBounds bounds_of(const PlaneNet& net) {
     const auto n = static_cast<std::size_t>(net.degree_u),
                m = static_cast<std::size_t>(net.degree_v);
@@ -207,7 +207,7 @@ CellBounds bounds_of(const PlaneNet& net) {
     return out;
 }
 
-/// What the control points of a cell tell.
+/// Bounds and tests of a cell from its control points.
 class CellFacts {
   public:
     CellFacts(const PlaneNet& net, double tiny)
@@ -217,8 +217,8 @@ class CellFacts {
     }
 
     enum class Hull { Beside, Thin, Around };
-    /// Beside: no root, all on one side of a line through the origin, by more than 1.5 `tiny`.
-    /// Thin: all within 2 `tiny` of a line through the origin.
+    /// Beside: no root, as all points are on one side of a line through the origin, by more than
+    /// 1.5 `tiny`. Thin: all are within 2 `tiny` of a line through the origin.
     [[nodiscard]] Hull hull(double tiny) const {
         bool thin = false;
         for (int axis = 0; axis < 3; ++axis) {
@@ -229,16 +229,16 @@ class CellFacts {
         return thin ? Hull::Thin : Hull::Around;
     }
     enum class Newton { Certified, Unique, NoRoot, Unsure };
-    /// Whether Newton's method is certified; sets the first step from the middle, in half-widths,
-    /// and about the distance of the cell's borders from its middle. No root: that step is farther
-    /// than it is from any root in the cell, by more than `tiny`.
+    /// Classifies Newton's method in the cell; sets the first step from the middle, in half-widths,
+    /// and the approximate distance of the cell's borders from its middle. NoRoot: the step leads
+    /// farther out of the cell than possible for a root in it, with a margin for `tiny`.
     Newton newton(double tiny, PlanePoint& step, double& radius) const {
         const PlanePoint &f = bounds_.f, &f_u = bounds_.f_u, &f_v = bounds_.f_v;
         const double det = cross2(f_u, f_v), size = size_of(f_u) * size_of(f_v);
         if (!(std::abs(det) > 0x1p-40 * size)) return Newton::Unsure;
         step = {-cross2(f, f_v) / det, -cross2(f_u, f) / det};
         radius = std::abs(det) / std::max(size_of(f_u), size_of(f_v));
-        // Over the cell with its margin, Bernstein coefficients bound the change with this factor.
+        // Factor by which Bernstein coefficients bound the change over the cell with its margin.
         const double growth = 0.25 * (1.0 + 2.5 * kCellMargin * (n_ + m_));
         const double uu = growth * (n_ * (n_ - 1)), uv = 2.0 * growth * (n_ * m_);
         const double vv = growth * (m_ * (m_ - 1));
@@ -253,7 +253,8 @@ class CellFacts {
                : bend < kUnique   ? Newton::Unique
                                   : Newton::Unsure;
     }
-    /// Whether to halve in u: where it bends more, else where it is longer.
+    /// True to halve in u: the direction of the larger bend or, if the mixed difference is largest,
+    /// of the larger extent.
     [[nodiscard]] bool split_u() const {
         const double bend_u = n_ * (n_ - 1) * bounds_.size_uu;
         const double bend_v = m_ * (m_ - 1) * bounds_.size_vv;
@@ -283,7 +284,7 @@ CellSearch<PlaneNet>::CellSearch(BezierView net, const PatchLine& line, const Pa
     : CellSettling(net, line) {
     size_ = 1;
     stack_[0].net = plane_net(net, line);
-    // Down to the cell; the other halves are dropped.
+    // Halves down to the cell, dropping the other halves.
     PatchCell& at = stack_[0].cell;
     at = {0, 1, 0, 1};
     const auto inside = [&] {
@@ -381,9 +382,9 @@ bool CellSearch<Net>::next(PatchRoot& root) {
     return false;
 }
 
-/// Reports one root where the winding number is odd: in the half where it is odd, and so on, then
-/// the point nearest to the line, there or beside: where a derivative is zero, the half-line that
-/// begins beside the line's image moves the root by the square root of `tiny`.
+/// Reports one root if the winding number is odd: descends into the halves where it is odd, then
+/// takes the nearest point to the line there or nearby. Where a derivative is zero, the displaced
+/// half-line moves the root by the square root of `tiny`.
 bool CellSettling::settle(PatchCell cell, PatchRoot& root) const {
     const PlaneNet whole = border_net(net_, line_);
     if (!passes_through(whole, cell, line_.tiny)) return false;
@@ -400,8 +401,8 @@ bool CellSettling::settle(PatchCell cell, PatchRoot& root) const {
 }
 
 /// Source: Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares",
-/// Quarterly of Applied Mathematics 2(2), 1944. Without damping it is Newton's method; where the
-/// derivatives are parallel, or one is zero, the other direction still converges.
+/// Quarterly of Applied Mathematics 2(2), 1944. Without damping it is Newton's method; if the
+/// derivatives are parallel, or one is zero, it still converges in the other direction.
 PatchRoot CellSettling::nearest_point(const PatchCell& cell) const {
     constexpr double kLeastDamping = 0x1p-40;
     PatchRoot root{.u = 0.5 * (cell.u0 + cell.u1), .v = 0.5 * (cell.v0 + cell.v1)};

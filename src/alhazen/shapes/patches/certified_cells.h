@@ -15,63 +15,63 @@
 
 namespace alhazen {
 
-/// A bicubic patch from a line: the control points times their weights from its origin, along the
-/// axes of its plane and along the line.
+/// A bicubic patch relative to a line: the weighted control points minus the line's origin, along
+/// the axes of the line's plane (x, y) and along the line (z).
 struct alignas(64) CubicLine {
     double x[16], y[16], z[16];
 };
-/// A cell of it, without the distance. Rows are read up to two numbers beyond the last, times zero:
-/// of x the first of y, of y those of `rest`.
+/// A cell of a CubicLine, without z. Lanes may read up to two numbers past the end of a row, with
+/// factor zero: past x is y, past y is `rest`.
 struct alignas(64) CubicCell {
     double x[16], y[16];
     double rest[4];  ///< zero
 };
 
-/// A crossing, in the parameters of the patch.
+/// A crossing, with the parameters of the patch.
 struct PatchRoot {
     double t = 0, u = 0, v = 0;
 };
 
-/// In a cell's own parameters from -1 to 1, with the line's two equations solved for them at its
-/// middle: the cell is certified where the second derivatives' sum |F_aa| + 2 |F_ab| + |F_bb| is at
-/// most this, for each of the two, over the cell with its margin. Then there is at most one root;
-/// it is within half of this of the first step of Newton's method from the middle, which converges.
+/// Largest |F_aa| + 2 |F_ab| + |F_bb| of a certified cell, for each of the line's two equations F,
+/// in the cell's own parameters from -1 to 1, with the equations solved for these at the middle,
+/// over the cell with its margin. A certified cell has at most one root; it is within half of this
+/// bound from the first step of Newton's method from the middle, and the method converges to it.
 inline constexpr double kCertified = 0.5;
-/// Up to this there is at most one root, but Newton's method may not find it.
+/// Bound up to which there is at most one root; Newton's method may not find it.
 inline constexpr double kUnique = 0.95;
-/// Part of a cell's width that is added on each side.
+/// Fraction of a cell's width that is added on each side.
 inline constexpr double kCellMargin = 0x1p-10;
 
-/// What is certified: the point, or the point times its weight, from the line's origin. The same
-/// for patches without weights.
+/// The certified function: the point, or the point times its weight, relative to the line's origin.
+/// Equal for patches without weights.
 enum class RootOf { Point, WeightedPoint };
 
-/// What is known of Newton's method in a cell: that it converges, or that what it converges to is
-/// the only root.
+/// What is proven of Newton's method in a cell: it converges, or the root to which it converges is
+/// the only one.
 enum class NewtonProof { Converges, Unique };
 
 /// Finds the root in a cell from (u, v), the first step of Newton's method from its middle. `noise`
-/// is the rounding error of a step in widths of the cell, where above kCellMargin. With
-/// NewtonProof::Unique false says nothing of the cell.
+/// is the rounding error of a step in widths of the cell, if above kCellMargin. With
+/// NewtonProof::Unique the result false is inconclusive.
 [[nodiscard]] bool certified_root(NewtonProof proof, RootOf what, BezierView net,
                                   const PatchLine& line, const PatchCell& cell, double noise,
                                   double u, double v, PatchRoot& root);
 
-/// Part of a line that roots may be left out beyond, by distance from its origin, in a cell whose
+/// The part of a line in which roots are required, by distance from its origin, for a cell whose
 /// second derivatives |S_aa| + 2 |S_ab| + |S_bb|, in half-widths, are at most `bend`.
 struct LineRange {
     double least, most, bend;
 };
 
-/// The same for a bicubic patch, of the point times its weight. A root out of `range` may be left
-/// out: then false, where the root is that of a certified cell.
+/// The same for a bicubic patch, with RootOf::WeightedPoint. A root outside of `range` may be
+/// omitted: then false, if the root is that of a certified cell.
 [[nodiscard]] bool certified_root(NewtonProof proof, BezierView net, const CubicLine& seen,
                                   const PatchLine& line, const PatchCell& cell, double noise,
                                   double u, double v, const LineRange* range, PatchRoot& root);
 
-struct CubicRoot;  // what Newton's method converges to: patch_lanes.h
+struct CubicRoot;  // the result of Newton's method: patch_lanes.h
 
-/// Whether what Newton's method converges to is in its cell, of a bicubic patch.
+/// True if the result of Newton's method for a bicubic patch lies in its cell.
 [[nodiscard]] bool is_root(const BezierView& net, const PatchLine& line, const PatchCell& cell,
                            const CubicRoot& at, PatchRoot& root);
 
@@ -82,34 +82,34 @@ class CellSettling {
 
   protected:
     [[nodiscard]] bool settle(PatchCell cell, PatchRoot& root) const;
-    /// Without its t.
+    /// The `t` of the result is not set.
     [[nodiscard]] PatchRoot nearest_point(const PatchCell& cell) const;
 
     BezierView net_;
     const PatchLine& line_;
 };
 
-/// The other facts of a search; bicubic patches have some.
+/// Additional state of a search, for bicubic patches.
 template <class Net>
 struct CellSearchFacts {};
 template <>
 struct CellSearchFacts<CubicCell> {
     const CubicLine* seen = nullptr;
     const LineRange* range = nullptr;
-    PatchCell whole{};  ///< what `range` is of
+    PatchCell whole{};  ///< the cell to which `range` applies
 };
 
-/// Calls for each root in a cell: halves it until its parts are certified or tiny. `Net` is what
-/// the line sees of a cell: a CubicCell of bicubic patches, a PlaneNet of others.
+/// Iterates over the roots in a cell, halving it until its parts are certified or tiny. `Net` is
+/// the cell relative to the line: a CubicCell for bicubic patches, a PlaneNet for others.
 template <class Net>
 class CellSearch : private CellSettling, private CellSearchFacts<Net> {
   public:
     CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell);
-    /// Of a bicubic patch. With a range roots beyond it may be left out.
+    /// For a bicubic patch. Roots outside of the range, if given, may be omitted.
     CellSearch(BezierView net, const PatchLine& line, const PatchCell& cell, const CubicLine& seen,
                const LineRange* range);
 
-    /// Finds the next root; false where there are no more.
+    /// Finds the next root; false if there are no more.
     bool next(PatchRoot& root);
 
   private:
@@ -119,7 +119,7 @@ class CellSearch : private CellSettling, private CellSearchFacts<Net> {
     };
     // Each halving leaves one entry.
     static constexpr int kMostEntries = 2 * kMaxCellLevel + 3;
-    // Only patches that are mere curves need more.
+    // Exceeded only by patches that degenerate to curves.
     static constexpr int kMostCells = 4000;
 
     void push_halves(bool along_u);

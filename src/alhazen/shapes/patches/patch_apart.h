@@ -1,11 +1,11 @@
 #pragma once
-/// Lines apart: many lines on their way through the boxes at once, each by itself, whose leaves are
-/// tested, and roots found, four at a time in lanes.
+/// Incoherent traversal: many lines traverse the boxes independently, while leaf tests and root
+/// searches are batched into lanes, four at a time.
 ///
 /// Source: Gribble and Ramani, "Coherent Ray Tracing via Stream Filtering", IEEE Symposium on
 /// Interactive Ray Tracing, 2008 (pairs of rays and primitives, gathered until lanes are full).
-/// Differs: each line walks by itself; only leaves are tested together.
-/// Conventions: internal to PatchTree. Each root has the bits that `PatchIndex::search` gives it.
+/// Differs: each line has its own traversal; only leaves are tested together.
+/// Conventions: internal to PatchTree. Each root has the bits of `PatchIndex::search`.
 
 #include <cstddef>
 
@@ -14,8 +14,8 @@
 
 namespace alhazen {
 
-/// A search of the lines of some rays. `found(i, piece, root)` is called for every root of line i
-/// in [rays[i]->t_min, limit of i], and perhaps for others; it returns the new limit.
+/// A search along the lines of several rays. `found(i, piece, root)` is called for every root of
+/// line i in [rays[i]->t_min, limit of i], and perhaps for others; it returns the new limit.
 template <class F>
 class PatchLinesApart {
   public:
@@ -33,12 +33,12 @@ class PatchLinesApart {
     }
 
   private:
-    /// A leaf of a line that may have a root.
+    /// A pair of a line and a leaf that may contain a root.
     struct Task {
         PatchWay* way;
         const PatchLeaf* leaf;
         LeafAnswer answer;
-        double a, b, bend;  ///< of LeafStart
+        double a, b, bend;  ///< as in LeafStart
     };
 
     void walk_on(PatchWay& way) { walking_[walking_count_++] = &way; }
@@ -76,11 +76,11 @@ class PatchLinesApart {
 
     [[nodiscard]] bool is_plain_bicubic(std::uint32_t piece) const {
         const BezierView net = pieces_.net(piece);
-        // Not by && or `is_bicubic`, for which both degrees are stored and loaded as one number.
+        // Neither && nor `is_bicubic`, so that both degrees are loaded as one number.
         return (((net.degree_u ^ 3) | (net.degree_v ^ 3)) == 0) & net.plain;
     }
 
-    /// Tests the leaves that the lines are at; those that may have a root become tasks.
+    /// Tests the current leaves of the lines; those that may contain a root become tasks.
     void test() {
         PatchWay* at[kMostPatchRays];
         std::uint32_t leaves[kMostPatchRays];
@@ -119,7 +119,7 @@ class PatchLinesApart {
         }
     }
 
-    /// By itself.
+    /// Searches one pair without lanes.
     void visit(const Task& task) {
         PatchWay& way = *task.way;
         const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
@@ -189,9 +189,9 @@ class PatchLinesApart {
     const PatchKernels& kernels_ = patch_kernels();
     std::size_t walking_count_ = 0, task_count_ = 0;
     PatchWay* walking_[kMostPatchRays];
-    std::uint32_t leaves_[kMostPatchRays];  ///< that the walks are at
+    std::uint32_t leaves_[kMostPatchRays];  ///< current leaf of each line
     Task tasks_[kMostPatchRays];
-    // Not initialised: most of it is stacks that stay empty.
+    // Uninitialised: most of it is unused stack space.
     alignas(PatchWay) std::byte room_[kMostPatchRays * sizeof(PatchWay)];
     PatchWay* const ways_ = reinterpret_cast<PatchWay*>(room_);
 };

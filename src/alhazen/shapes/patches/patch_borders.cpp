@@ -30,7 +30,7 @@ namespace {
 
 using PlaneRow = std::array<PlanePoint, kMaxPatchOrder>;
 
-/// By midpoints: the same bits from either end, and never outside of the hull of `row`.
+/// Halves by midpoints: the same bits from either end, and never outside the hull of `row`.
 void halve_plane_row(const PlaneRow& row, int degree, PlaneRow& left, PlaneRow& right) {
     PlaneRow work = row;
     for (int level = 0; level <= degree; ++level) {
@@ -69,7 +69,7 @@ PlaneRow row_at_u(const PlaneNet& net, double at) {
     }
     return result;
 }
-/// Those of the line v = `at`.
+/// The control points of the line v = `at`.
 PlaneRow row_at_v(const PlaneNet& net, double at) {
     PlaneRow result;
     const auto order_v = static_cast<std::size_t>(net.degree_v) + 1;
@@ -90,9 +90,9 @@ int segment_crossings(PlanePoint a, PlanePoint b) {
 }
 
 /// The line u = at or v = at of a patch, as the polyline through its points on the grid. Corners of
-/// cells are found by halving in u first, on either kind of line: one value, whoever asks. The
-/// points of an inner line v = at are halved in v first; a part of it has a segment more at either
-/// end, to the corner.
+/// cells are computed by halving in u first, for both kinds of line, so that a corner has one
+/// value. The points of an inner line v = at are halved in v first; a part of it has an additional
+/// segment at each end, to the corner.
 class Border {
   public:
     Border(const PlaneNet& net, bool along_v, double at, double tiny)
@@ -111,7 +111,8 @@ class Border {
         last_ = std::ldexp(1.0, -std::clamp(level, 8, kMaxBorderLevel));
     }
 
-    /// Crossings of the positive x axis upward, less those downward, in the part over [from, to].
+    /// Signed number of crossings of the positive x axis, upward positive, in the part over [from,
+    /// to].
     [[nodiscard]] int crossings(double from, double to) const {
         PlaneRow row = row_, left, right;
         double lo = 0.0, hi = 1.0;
@@ -129,7 +130,7 @@ class Border {
     }
 
   private:
-    /// Of the segment from a point of the line to the corner of cells that stands for it.
+    /// Crossings of the segment from a point of the line to the corner of cells that it represents.
     [[nodiscard]] int to_corner(PlanePoint point, double parameter) const {
         return segment_crossings(point,
                                  point_of_row(row_at_u(net_, parameter), net_.degree_v, at_));

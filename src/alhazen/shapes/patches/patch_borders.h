@@ -1,12 +1,13 @@
 #pragma once
-/// Which cell of a patch a line passes through, decided by the borders of the cells: the rule that
-/// leaves no gap between cells, and none between patches that share a boundary curve.
+/// Decides through which cell of a patch a line passes, by the borders of the cells. The rule
+/// leaves no gap between cells, nor between patches that share a boundary curve.
 ///
-/// The line is the origin of a plane onto which the control points are projected. Every border
-/// between two cells has a whole number: how often it crosses the positive x axis, counted by sign.
-/// The sum around a cell is the winding number of its border, odd where the line passes through the
-/// cell. The number of a border depends on its curve alone, and the numbers of its parts add up to
-/// that of the whole, whatever the rounding. Thus both cells of a border agree, also where one of
+/// The control points are projected onto a plane perpendicular to the line, with the line as the
+/// origin. Every border between two cells has an integer, the signed number of its crossings of the
+/// positive x axis. The sum around a cell is the winding number of its border, odd if the line
+/// passes through the cell. The number of a border depends on its curve only, and the numbers of
+/// its parts add up to that of the whole, whatever the rounding. Thus both cells at a border agree,
+/// even if one of them is divided further, and the sum over all cells of a closed mesh is even.
 /// them is divided further, and the sum over all cells of a closed mesh is even.
 ///
 /// Source: Alexander's numbering of the regions of a plane curve (1928); the control polygon's
@@ -19,10 +20,10 @@
 
 namespace alhazen {
 
-inline constexpr int kMaxCellLevel = 42;    ///< of the borders of cells
-inline constexpr int kMaxBorderLevel = 44;  ///< of the polylines that stand for borders
+inline constexpr int kMaxCellLevel = 42;    ///< largest level of the borders of cells
+inline constexpr int kMaxBorderLevel = 44;  ///< level of the polylines that approximate borders
 
-/// A point of the plane. Not initialised, since nets are made for every ray.
+/// A point of the plane. Uninitialised, since nets are created for every ray.
 struct PlanePoint {
     double x, y;
 };
@@ -44,28 +45,28 @@ struct PlaneNet {
     [[nodiscard]] int count() const { return (degree_u + 1) * (degree_v + 1); }
 };
 
-/// A line through patches, by its direction and the two axes of its plane.
+/// A line through patches: direction, and the two axes of its plane.
 struct PatchLine {
     Vec3 origin;
     Vec3 direction;  ///< unit
     Vec3 axis_x, axis_y;
     double shift = 0;       ///< t of the ray at `origin`
-    double per_length = 1;  ///< t of the ray for a unit of length
-    double tiny = 0;        ///< far above the rounding errors of a projected control point
+    double per_length = 1;  ///< change of t per unit of length
+    double tiny = 0;        ///< well above the rounding errors of a projected control point
 };
 
 [[nodiscard]] PlaneNet plane_net(BezierView net, const PatchLine& line);
-/// The same for a line that lies about `tiny` beside: what lies within rounding of the line itself
-/// (an edge that is one point, a straight edge along the line) is then clearly beside it.
+/// Projects the patch to the plane of a line displaced by about `tiny`, so that nothing lies within
+/// rounding of the line (for example an edge that is one point, or a straight edge along the line).
 [[nodiscard]] PlaneNet border_net(BezierView net, const PatchLine& line);
 
-/// A part of the unit square.
+/// A cell: a part of the unit square.
 struct PatchCell {
     double u0, u1, v0, v1;
 };
 
-/// Whether the winding number of the cell's border around the line is odd. Takes the `border_net`
-/// of the patch.
+/// True if the winding number of the cell's border around the line is odd. `whole` is the
+/// `border_net` of the patch.
 [[nodiscard]] bool passes_through(const PlaneNet& whole, const PatchCell& cell, double tiny);
 
 }  // namespace alhazen

@@ -38,7 +38,7 @@ class Builder {
     }
     [[nodiscard]] Vec3 middle(std::size_t k) const { return boxes_[order_[k]].center(); }
 
-    /// Sorts a range in two; returns the first of the second.
+    /// Partitions a range in two; returns the start of the second.
     std::size_t split(const Range& r, bool evenly) {
         constexpr int kBins = 16;
         Box3 middles;
@@ -61,7 +61,7 @@ class Builder {
         const int cut = best_cut(bins, counts);
         std::size_t first = 0;
         for (int k = 0; k < cut; ++k) first += counts[static_cast<std::size_t>(k)];
-        // By whole nodes, so that nodes of leaves are full.
+        // Split at multiples of whole nodes, so that nodes of leaves are full.
         if (r.count() > kBoxChildren) {
             const std::size_t whole = (first + kBoxChildren / 2) / kBoxChildren * kBoxChildren;
             const std::size_t most = (r.count() - 1) / kBoxChildren * kBoxChildren;
@@ -113,7 +113,7 @@ class Builder {
         const bool evenly = depth > 8;
         std::vector<Range> parts;
         if (all.count() > 0) parts.push_back(all);
-        // A range that fits into a node stays whole, so that the nodes of leaves are full.
+        // A range that fits into one node is not split, so that nodes of leaves are full.
         const auto worth = [&](const Range& r) {
             if (r.count() < 2) return -1.0;
             if (r.count() <= kBoxChildren && all.count() > kBoxChildren) return -1.0;
@@ -143,7 +143,7 @@ class Builder {
             set(nodes_[node], k, k < parts.size() ? parts[k].box : Box3{}, child);
         }
     }
-    /// The planes that a node's boxes may have; the first and last are outside of all.
+    /// Quantisation of a node's planes; the first and last planes are outside of all boxes.
     static void set_planes(PatchBoxes& node, const Box3& box) {
         for (int axis = 0; axis < 3; ++axis) {
             const double lo = box.empty() ? 0.0 : box.lo[axis],

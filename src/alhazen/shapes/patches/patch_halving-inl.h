@@ -3,9 +3,9 @@
 ///
 /// Conventions: `Point` has four lanes, doubles.
 
-/// The columns of four rows.
+/// Transposes a 4 x 4 matrix.
 HWY_INLINE void transpose_lanes(const Lanes<double, 4> (&rows)[4], Lanes<double, 4> (&columns)[4]) {
-#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has no interleaving
     if constexpr (kParts<double, 4> == 1) {
         const LaneTag<double, 4> tag;
         const auto r0 = rows[0].part[0], r1 = rows[1].part[0];
@@ -33,7 +33,7 @@ HWY_INLINE void transpose_lanes(const Lanes<double, 4> (&rows)[4], Lanes<double,
     for (std::size_t k = 0; k < 4; ++k) columns[k] = load_lanes<4>(to[k]);
 }
 
-/// Four rows of control points in lanes, and the same moved by one and two along v.
+/// Four rows of control points in lanes, and the rows shifted by one and by two along v.
 struct CubicRows {
     Point row[4], by_one[4], by_two[4];
 
@@ -54,7 +54,7 @@ HWY_INLINE Point least_of(const Point (&x)[4]) {
     return min_lanes(min_lanes(x[0], x[1]), min_lanes(x[2], x[3]));
 }
 
-/// Keeps the largest of differences, as they are and solved for u and v.
+/// Maximum of differences, as they are and solved for u and v.
 struct Largest {
     Point size, u, v;
     Point ux, uy, vx, vy, keep;
@@ -92,7 +92,7 @@ HWY_INLINE void middle_of(const CubicRows& x, const CubicRows& y, CellBounds& ou
 void cubic_bounds(const CubicCell& net, double margin, CellBounds& out) {
     const CubicRows x(net.x), y(net.y);
     HWY_ALIGN double most[4];
-    // Ends of the range of an axis in most[k] and -most[k + 1]; whether it leaves out the origin.
+    // The range of an axis is [-most[k + 1], most[k]]; true if it excludes the origin.
     const auto is_beside = [&](int axis, std::size_t k) {
         out.most[axis] = most[k];
         out.least[axis] = -most[k + 1];
@@ -159,7 +159,7 @@ void cubic_bounds(const CubicCell& net, double margin, CellBounds& out) {
     }
 }
 
-/// The halves of four curves, by their four control points in lanes.
+/// Halves four curves, given by their four control points in lanes.
 HWY_INLINE void halve_rows(const Point (&p)[4], Point (&low)[4], Point (&high)[4]) {
     const Point half(0.5);
     const Point a = half * (p[0] + p[1]), b = half * (p[1] + p[2]), c = half * (p[2] + p[3]);
@@ -203,8 +203,8 @@ void halve_cubic(const CubicCell& net, bool along_u, CubicCell& low, CubicCell& 
     store_lanes(Point(0.0), high.rest);
 }
 
-/// The control points over [from, to] as sums of those over [0, 1]: blossoms. All terms are
-/// positive and their sum is 1.
+/// The control points over [from, to] as weighted sums of those over [0, 1] (blossoms). All weights
+/// are positive and sum to 1.
 struct CubicPart {
     double weights[4][4];  ///< [of the part][of the whole]
 

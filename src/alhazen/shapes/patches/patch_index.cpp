@@ -42,7 +42,7 @@ PatchLine PatchIndex::line_of(const Ray& ray) const {
     line.origin = ray.origin;
     const Vec3 to_center = frame_.center - ray.origin;
     if (length(to_center) > far_) {
-        // From the point nearest to the middle, for its smaller rounding errors.
+        // Starts from the point nearest to the centre, for smaller rounding errors.
         const double distance = dot(to_center, line.direction);
         line.origin = ray.origin + distance * line.direction;
         line.shift = distance * line.per_length;
@@ -52,7 +52,7 @@ PatchLine PatchIndex::line_of(const Ray& ray) const {
 }
 
 bool PatchIndex::is_near(const PatchLine& line) const {
-    // A line through the box is at most a few times as far from the origin as the patches are.
+    // A line through the box has an origin at most a few times as far away as the patches.
     return line.tiny <= 0x1p-20 * reach_ && std::isfinite(line.per_length) &&
            length_squared(line.direction) > 0.5;
 }

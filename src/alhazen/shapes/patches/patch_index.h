@@ -1,5 +1,5 @@
 #pragma once
-/// The leaves of patches in a tree of boxes, and the search for the roots of a line.
+/// The leaves of patches in a tree of boxes, and the search for roots along a line.
 ///
 /// Conventions: internal to PatchTree.
 
@@ -22,10 +22,10 @@ class PatchIndex {
   public:
     PatchIndex(const PatchPieces& pieces, const Box3& box);
 
-    /// Without the axes of its plane, which most rays do not need.
+    /// Does not set the axes of the plane, which most rays do not need.
     [[nodiscard]] PatchLine line_of(const Ray& ray) const;
     static void add_axes(PatchLine& line);
-    /// False for a line that is far from all patches, and for one that has overflowed.
+    /// False for a line that is far from all patches, and after overflow.
     [[nodiscard]] bool is_near(const PatchLine& line) const;
     [[nodiscard]] std::span<const PatchLeaf> leaves() const { return leaves_; }
     [[nodiscard]] std::size_t bytes() const;
@@ -35,9 +35,9 @@ class PatchIndex {
     void search(const PatchPieces& pieces, PatchLine line, double t_min, double limit,
                 F&& found) const;
 
-    /// The same for lines side by side: calls `found(i, piece, root)` for every root of line i in
-    /// [rays[i]->t_min, limit of i] and perhaps for others; false, without a call, where the rays
-    /// are not side by side.
+    /// Searches lines of coherent rays together. Calls `found(i, piece, root)` for every root of
+    /// line i in [rays[i]->t_min, limit of i] and perhaps for others; returns false, without a
+    /// call, if the rays are not coherent.
     template <class F>
     [[nodiscard]] bool search_together(const PatchPieces& pieces, std::span<const Ray* const> rays,
                                        F&& found) const;
@@ -46,7 +46,7 @@ class PatchIndex {
     template <class F>
     friend class PatchLinesApart;
 
-    /// t in the frame of `line`, with a margin to the side.
+    /// Converts t to the frame of `line` and rounds it to float, with a margin to the given side.
     [[nodiscard]] float place(const PatchLine& line, double t, double side) const;
     [[nodiscard]] static bool side_by_side(std::span<const Ray* const> rays);
     [[nodiscard]] PatchWalk walk_of(const PatchLine& line, double t_min, double limit) const;
@@ -56,12 +56,12 @@ class PatchIndex {
     template <class F>
     void visit_leaf(const PatchPieces& pieces, PatchLine& line, const LeafLine& seen_by,
                     double least, double most, const PatchLeaf& leaf, F& found) const;
-    /// The rest, where the leaf test had another answer than None.
+    /// Continues a leaf whose test had an answer other than None.
     template <class F>
     void visit_leaf(const PatchPieces& pieces, const PatchLine& line, LeafAnswer answer,
                     const LeafStart& start, double least, double most, const PatchLeaf& leaf,
                     F& found) const;
-    /// The line for `test_leaf`.
+    /// The line as input of `test_leaf`.
     [[nodiscard]] LeafLine leaf_line(const PatchLine& line) const {
         const Vec3 o = in_frame(line.origin);
         const Vec3& d = line.direction;
@@ -96,7 +96,7 @@ void PatchIndex::visit_leaf(const PatchPieces& pieces, const PatchLine& line, Le
         answer == LeafAnswer::Certified ? NewtonProof::Converges : NewtonProof::Unique;
     const double u = cell.u0 + 0.5 * (1.0 + start.a) * (cell.u1 - cell.u0);
     const double v = cell.v0 + 0.5 * (1.0 + start.b) * (cell.v1 - cell.v0);
-    // Whether the leaf is done.
+    // Returns whether the leaf is done.
     const auto ends = [&](bool met) {
         if (met) found(leaf.piece, root);
         return met || answer == LeafAnswer::Certified;

@@ -18,19 +18,19 @@ namespace {
 
 static_assert(kBoxChildren == 2 * kLaneCount);
 
-/// Children in the order in which they are put on the stack.
+/// Children in the order in which they are pushed onto the stack.
 class SortedChildren {
   public:
     SortedChildren(const PatchBoxes& node, const float* nears) : node_(node), nears_(nears) {}
 
-    /// Two to four, by a network without branches, which would not be foreseen.
+    /// Sorts two to four by a branchless network, as branches would be mispredicted.
     HWY_INLINE void put_few(std::uint32_t met, PatchWalk::Waiting* to) const {
         std::int64_t keys[4];
         ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i, met &= met - 1) {
             const std::int64_t key = key_of(static_cast<std::uint32_t>(
                 __builtin_ctz(met | std::uint32_t{1} << (kBoxChildren - 1))));
-            // Where there is none, nearer than all.
+            // Missing children sort before all others.
             keys[i] = met != 0 ? key : std::numeric_limits<std::int64_t>::min();
         }
         order(keys[0], keys[1]);
@@ -44,7 +44,7 @@ class SortedChildren {
     HWY_INLINE PatchWalk::Waiting one(std::uint32_t k) const {
         return PatchWalk::Waiting::of(nears_[k], node_.child[k]);
     }
-    /// Any number.
+    /// Sorts any number.
     HWY_INLINE void put(std::uint32_t met, PatchWalk::Waiting* const begin) const {
         for (PatchWalk::Waiting* end = begin; met != 0; met &= met - 1) {
             const auto k = static_cast<std::uint32_t>(__builtin_ctz(met));
@@ -55,7 +55,7 @@ class SortedChildren {
     }
 
   private:
-    /// Numbers in the order of floats, bits as integers.
+    /// Maps the bits of floats to integers in the same order.
     static HWY_INLINE std::int32_t ordered(std::int32_t bits) {
         return bits ^ ((bits >> 31) & 0x7fffffff);
     }
@@ -77,21 +77,21 @@ class SortedChildren {
     const float* nears_;
 };
 
-/// Puts children on the stack, the nearest on top.
+/// Pushes children onto the stack, the nearest on top.
 HWY_INLINE void push_children(const PatchBoxes& node, const float* nears, std::uint32_t met,
                               PatchWalk& walk) {
     PatchWalk::Waiting* const top = walk.stack + walk.size;
     const SortedChildren children(node, nears);
     const int count = std::popcount(met);
     walk.size += count;
-    // Mostly none or one, which a branch would not foresee.
+    // Most often none or one, which a branch would mispredict.
     *top = children.one(met != 0 ? static_cast<std::uint32_t>(__builtin_ctz(met)) : 0);
     if (count < 2) return;
     if (count <= 4) return children.put_few(met, top);
     children.put(met, top);
 }
 
-/// Eight bytes.
+/// Converts eight bytes.
 HWY_INLINE Floats floats_of(const std::uint8_t* bytes) {
     const LaneTag<float> d;
     const hn::RebindToSigned<LaneTag<float>> di;
@@ -104,13 +104,13 @@ HWY_INLINE Floats floats_of(const std::uint8_t* bytes) {
     return r;
 }
 
-/// The children that the line meets, and where: in [child].
+/// The set of children that the line meets; writes their distances to nears[child].
 HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk, float* nears) {
     static_assert(offsetof(PatchBoxes, step) == offsetof(PatchBoxes, from) + 12 &&
                   offsetof(PatchWalk, inverse) == offsetof(PatchWalk, from) + 12 &&
                   offsetof(PatchWalk, least) == offsetof(PatchWalk, inverse) + 12);
-    // Of three axes at once; a fourth number is left out, the last of `begins`, the first of
-    // `steps`.
+    // Computes three axes at once; a fourth number is ignored, the last of `begins` and the first
+    // of `steps`.
     HWY_ALIGN float begins[4], steps[4];
     const Lanes<float, 4> inverse = load_unaligned<4>(walk.inverse);
     store_lanes((load_unaligned<4>(node.from) - load_unaligned<4>(walk.from)) * inverse, begins);
@@ -125,7 +125,7 @@ HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk
             const Floats begin(begins[axis]), step(steps[1 + axis]);
             const Floats first = floats_of(planes + walk.enters[axis] + half);
             const Floats second = floats_of(planes + walk.leaves[axis] + half);
-            // Fused or not: kBoxMargin is for either rounding.
+            // kBoxMargin allows for the rounding of fused and separate operations.
             near = max_lanes(near, mul_add(first, step, begin));
             far = min_lanes(far, mul_add(second, step, begin));
         }
@@ -135,13 +135,13 @@ HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk
     return met & node.used;
 }
 
-/// Puts the children that the line meets on the stack.
+/// Pushes the children that the line meets onto the stack.
 HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
     HWY_ALIGN float nears[kBoxChildren];
     push_children(node, nears, test_node(node, walk, nears), walk);
 }
 
-/// The same for the boxes that a line of a packet may meet.
+/// Pushes the children that a line of a packet may meet.
 HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
     PatchWalk& walk = packet.walk;
     HWY_ALIGN float nears[kBoxChildren];
@@ -197,7 +197,7 @@ bool next_leaf(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf) {
     return false;
 }
 
-/// Takes the walks a node further in turn, so that the latency of one is spent on the others.
+/// Advances the traversals by one node in turn, to hide latencies.
 void next_leaves(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t count,
                  std::uint32_t* leaves) {
     constexpr std::size_t kTogether = 16;
@@ -214,7 +214,7 @@ void next_leaves(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t cou
             PatchWalk& walk = ways[i]->walk;
             PatchWalk::Waiting next = walk.stack[--walk.size];
             while (next.near() > walk.most) next = walk.stack[--walk.size];
-            // A leaf, or the next to be opened.
+            // A leaf, or a node to open.
             leaves[i] = next.child() & ~kLeafChild;
             node[opened] = next.child();
             walking[opened] = i;
@@ -269,7 +269,7 @@ HomogeneousValue bicubic(BezierView net, double u, double v) {
     return {point(out[0]), point(out[1]), point(out[2])};
 }
 
-/// Directions of eight lines.
+/// Origins and directions of eight lines.
 struct LinePoints {
     Doubles x{0.0}, y{0.0}, z{0.0};
 
@@ -285,7 +285,7 @@ HWY_INLINE LinePoints cross(const LinePoints& a, const LinePoints& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Least and most of eight.
+/// Minimum and maximum of eight.
 HWY_INLINE void range_of(const Doubles& values, float& least, float& most) {
     HWY_ALIGN float x[kRayLanes];
     store_lanes(as_floats(values), x);
@@ -296,7 +296,7 @@ HWY_INLINE void range_of(const Doubles& values, float& least, float& most) {
     }
 }
 
-/// Places along the lines with a margin to the side, as floats can hold them.
+/// Distances along the lines with a margin to the side, limited to the range of floats.
 HWY_INLINE Doubles places(const Doubles& x, double side) {
     const Doubles wide = x + Doubles(side) * (Doubles(1e-5) + Doubles(1e-6) * abs(x));
     return min_lanes(max_lanes(wide, Doubles(-1e30)), Doubles(1e30));
@@ -338,7 +338,7 @@ bool begin_packet(const RayLanes& rays, const PatchFrame& frame, double far, Pat
     return together;
 }
 
-/// `test_leaf` with more room for rounding, as the lines were set out by themselves.
+/// `test_leaf` with a larger margin for rounding, as single lines are set up differently.
 std::uint32_t lines_near(const PatchLeaf& leaf, const PatchPacket& packet) {
     const auto all = [](const Vec3& p) {
         return LinePoints(Doubles(p.x), Doubles(p.y), Doubles(p.z));

@@ -1,10 +1,10 @@
-/// A leaf of a patch against a line; a fragment without a guard, included by patch_lanes.cpp in the
-/// namespace of each instruction set.
+/// The test of a leaf of a patch against a line; a fragment without a guard, included by
+/// patch_lanes.cpp in the namespace of each instruction set.
 ///
 /// Conventions: `Point` has four lanes, doubles. Vectors take three lanes; the fourth is any finite
 /// number, and zero in cross products.
 
-/// Reads one number beyond.
+/// Reads one number past the third.
 HWY_INLINE Point vector_of(const std::int16_t* three) {
     const LaneTag<double, 4> d;
     const hn::Rebind<std::int32_t, LaneTag<double, 4>> d32;
@@ -24,14 +24,14 @@ HWY_INLINE Point vector_of(const float* three) {
     for (std::size_t i = 0; i < kParts<double, 4>; ++i) {
         r.part[i] = hn::PromoteTo(d, hn::LoadU(df, three + i * hn::Lanes(d)));
     }
-    // The fourth may be anything.
+    // The fourth may be any value.
     return select_lanes(load_lanes<4>(kPlace) < Point(2.5), r, Point(0.0));
 }
 
-/// (y, z, x).
+/// The permutation (y, z, x).
 HWY_INLINE Point rotated(const Point& a) {
     Point r(0.0);
-#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to look up
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has no table lookup
     if constexpr (kParts<double, 4> == 1) {
         HWY_ALIGN static constexpr std::int64_t kPlace[4] = {1, 2, 0, 3};
         const LaneTag<double, 4> d;
@@ -46,7 +46,7 @@ HWY_INLINE Point rotated(const Point& a) {
     return load_lanes<4>(turned);
 }
 
-/// A vector and its components in turn, for cross products.
+/// A vector and its cyclic permutations, for cross products.
 struct Turned {
     Point a, next;
 
@@ -76,13 +76,13 @@ LeafAnswer test_leaf(const PatchLeaf& leaf, const LeafLine& line, double least, 
     const double bend_x = leaf.most_bend(0), bend_y = leaf.most_bend(1), bend_z = leaf.most_bend(2);
     const double bend_u = size * bend_x + size_of(bends[1]) * bend_z;
     const double bend_v = size * bend_y + size_of(bends[0]) * bend_z;
-    // For the rounding of cross products that cancel; all vectors are shorter than 8.
+    // For the rounding of cross products with cancellation; all vectors are shorter than 8.
     constexpr double kRounding = 1e-14;
     if (size_of(along[1]) > size + 0.5 * bend_u + kRounding ||
         size_of(along[2]) > size + 0.5 * bend_v + kRounding) {
         return LeafAnswer::None;
     }
-    // The distance of the leaf's plane times `size`, and how far the leaf is from that.
+    // The distance of the leaf's plane times `size`, and the extent of the leaf around it.
     const double plane = det < 0.0 ? along[3] : -along[3];
     const double thick = 0.5 * bend_z * bends[2] + kRounding;
     if (plane - thick > most * size || plane + thick < least * size) return LeafAnswer::None;

@@ -9,15 +9,15 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kFewestLeaves = 20;  ///< that a patch may have
-/// Of a bicubic patch with its points, leaves and boxes.
+constexpr std::size_t kFewestLeaves = 20;  ///< least limit of the leaves of a patch
+/// Memory limit of a bicubic patch with its points, leaves and boxes.
 constexpr std::size_t kMostBytes = 4096;
-constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 13;  ///< with its share of the boxes
+constexpr std::size_t kBytesOfLeaf = sizeof(PatchLeaf) + 13;  ///< includes its share of the boxes
 constexpr int kMostLeafLevel = 8;
-/// Part of a patch's area, seen from everywhere, that need not be certified.
+/// Fraction of a patch's area, averaged over directions, that may remain uncertified.
 constexpr double kUncertified = 0.05;
 
-/// A part of a patch, with what decides where to divide it.
+/// A part of a patch, with the criteria for dividing it.
 struct Part {
     BezierNet net;
     PatchLeaf leaf;
@@ -56,19 +56,19 @@ class PartBends {
     }
 
   private:
-    /// Nothing is written to those that a part has not: most patches have 16 of the 64.
+    /// Uninitialised, since most patches use 16 of the 64.
     struct Coefficient {
         double x, y, z, weight;
 
         [[nodiscard]] Vec3 point() const { return {x, y, z}; }
     };
-    /// Bernstein coefficients of a derivative of N and of the weight, but for a factor.
+    /// Bernstein coefficients of a derivative of N and of the weight, up to a factor.
     struct Coefficients {
         int order_u = 0, order_v = 0, count = 0;
         double factor = 1, largest_weight = 0;
         Coefficient at[kMaxPatchOrder * kMaxPatchOrder];
 
-        /// Those of N itself.
+        /// The coefficients of N itself.
         static Coefficients of(const BezierNet& net, const Vec3& middle) {
             Coefficients value;
             double least = kInfinity;
@@ -77,7 +77,7 @@ class PartBends {
                 least = std::min(least, p.w);
                 value.add(Vec3{p.x, p.y, p.z} - p.w * middle, p.w);
             }
-            // For the margin of the cell (kCellMargin).
+            // Allows for the margin of the cell (kCellMargin).
             const double growth = 1.0 + 2.5 * kCellMargin * (net.degree_u + net.degree_v);
             value.factor = growth / least;
             value.order_u = net.degree_u + 1;
@@ -120,7 +120,7 @@ class PartBends {
     Coefficients value_, by_u_, by_v_, by_uu_, by_uv_, by_vv_;
 };
 
-/// The part of the lines that meet a leaf for which it is not certified.
+/// The fraction of the lines meeting a leaf for which it is not certified.
 double uncertified_part(const PatchLeaf& leaf, double size_u, double size_v, double flat) {
     const double along = std::max(leaf.most_bend(0), leaf.most_bend(1));
     const double across = leaf.most_bend(2) * std::max(size_u, size_v) * flat;
@@ -162,7 +162,7 @@ void measure(Part& part, const PatchFrame& frame) {
     const double square = dot(normal, normal);
     const Vec3 axes[3] = {cross(v, normal), cross(normal, u), normal};
     const PartBends bends(part.net, middle.point);
-    // Rounding of the center and the derivatives, and of the sums made of them.
+    // Rounding of the center and the derivatives, and of sums of them.
     const double steps = std::ldexp(2.0, leaf.exponent_u) + std::ldexp(2.0, leaf.exponent_v);
     const double rounding = 0x1p-20 * (length(center) + length(u) + length(v)) + steps;
     PartBends::Bends bend[3];
@@ -176,7 +176,8 @@ void measure(Part& part, const PatchFrame& frame) {
     }
     part.area = length(u) * length(v);
     if (!has_plane) {
-        // The middle may be where the patch is folded to a line: its derivatives tell nothing.
+        // The patch may be folded to a line at the middle, where its derivatives carry no
+        // information.
         for (int k = 0; k < 3; ++k) leaf.du[k] = leaf.dv[k] = 0, leaf.bend[k] = 0;
         const double size = frame.scale * length(control_box(part.net).size());
         part.area = std::max(part.area, 0.125 * size * size);
@@ -186,7 +187,7 @@ void measure(Part& part, const PatchFrame& frame) {
         part.uncertified *= uncertified_part(leaf, length(u), length(v), std::sqrt(square));
     }
     const int level_u = leaf.level_u, level_v = leaf.level_v;
-    // A half's own parameter is measured by half of the derivative.
+    // The parameter of a half has half of the derivative.
     const double size_u = length(u), size_v = length(v);
     const double if_u = std::max(2.0 * (bend[0].halved_u() + bend[2].halved_u() * size_v),
                                  bend[1].halved_u() + bend[2].halved_u() * size_u);

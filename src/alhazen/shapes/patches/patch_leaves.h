@@ -1,12 +1,12 @@
 #pragma once
-/// The parts that patches are divided into when they are prepared: domains small enough that
-/// Newton's method converges for most lines, with the bounds that tell for which.
+/// The leaves into which patches are divided in preparation: domains small enough that Newton's
+/// method converges for most lines, with the bounds that decide for which.
 ///
 /// Source: Barth and Stuerzlinger, "Efficient Ray Tracing for Bezier and B-Spline Surfaces",
 /// Computers & Graphics 17(4), 1993 (parallelepipeds around parts of a patch, the first step of
 /// Newton's method from their axes).
 /// Conventions: leaves are in the frame of their tree: (p - center) * scale. A leaf's own
-/// parameters are from -1 to 1. One leaf for each part of the unit square, which they tile.
+/// parameters run from -1 to 1. The leaves of a patch tile the unit square.
 
 #include <bit>
 #include <cstdint>
@@ -17,10 +17,10 @@
 
 namespace alhazen {
 
-/// A part of a patch around the plane center + a du + b dv, with n = du x dv. The sum of second
+/// A part of a patch near the plane center + a du + b dv, with n = du x dv. The sum of the second
 /// derivatives |S_aa| + 2 |S_ab| + |S_bb|, written as x du + y dv + z n, has x, y and z at most
-/// `bend`; the distance from the plane's point at (a, b) has at most half of them. Without a plane,
-/// du and dv are zero: neither certified nor rejected for any line.
+/// `bend`; the displacement from the plane's point at (a, b) has at most half of them. A leaf
+/// without a plane has zero du and dv: it is neither certified nor rejected for any line.
 struct PatchLeaf {
     float center[3];
     std::int16_t du[3], dv[3];  ///< times 2^exponent_u and 2^exponent_v
@@ -43,14 +43,14 @@ struct PatchLeaf {
     [[nodiscard]] Vec3 by_v() const {
         return unit_v() * Vec3{double(dv[0]), double(dv[1]), double(dv[2])};
     }
-    /// At least the lengths of du and dv, and at most four times them.
+    /// Upper bound of the length of du (or dv), at most four times it.
     [[nodiscard]] double most_u() const { return kMostLength * unit_u(); }
     [[nodiscard]] double most_v() const { return kMostLength * unit_v(); }
     [[nodiscard]] double most_bend(int k) const {
         return std::bit_cast<float>(std::uint32_t{bend[k]} << 16);
     }
 
-    static constexpr int kMost = 1 << 14;  ///< of the numbers in du and dv
+    static constexpr int kMost = 1 << 14;  ///< largest of the numbers in du and dv
     static constexpr double kMostLength = 1.7321 * kMost;
 
   private:
@@ -60,13 +60,13 @@ struct PatchLeaf {
 };
 static_assert(sizeof(PatchLeaf) == 40);
 
-/// The frame of a tree: its box becomes about [-1, 1].
+/// The frame of a tree, in which its box is about [-1, 1].
 struct PatchFrame {
     Vec3 center;
     double scale = 1;
 };
 
-/// Divides a patch; appends its leaves, and boxes in the frame that contain them.
+/// Divides a patch; appends its leaves, and boxes in the frame that bound them.
 void append_leaves(const BezierNet& net, std::uint32_t piece, const PatchFrame& frame,
                    std::vector<PatchLeaf>& leaves, std::vector<Box3>& boxes);
 

@@ -26,10 +26,10 @@ std::strong_ordering by_coordinates(const HomogeneousPoint& a, const Homogeneous
 
 /// A boundary curve of a patch.
 struct CurveUse {
-    std::uint64_t curve;  ///< first a hash of its points, then the same number for the same points
+    std::uint64_t curve;  ///< first a hash of its points, then a number unique to these points
     std::uint32_t patch;
     std::uint8_t side;
-    bool turned;  ///< its points, in their order, go against the border, counterclockwise in (u, v)
+    bool turned;  ///< its points run against the border, which is counterclockwise in (u, v)
 };
 
 /// The control points of a boundary curve, from the end that compares less; returns their number,
@@ -39,7 +39,7 @@ int curve_points(BezierView net, int side, CurvePoints& curve, bool& turned) {
     const std::span points(curve.data(), static_cast<std::size_t>(count));
     bool is_point = true, backward = false;
     for (HomogeneousPoint& p : points) {
-        // Adding zero makes -0 and 0 one value.
+        // Adding zero turns -0 into 0.
         p = {p.x + 0.0, p.y + 0.0, p.z + 0.0, p.w};
         is_point = is_point && projected(p) == projected(points[0]);
     }
@@ -53,8 +53,7 @@ int curve_points(BezierView net, int side, CurvePoints& curve, bool& turned) {
     return is_point ? 0 : count;
 }
 
-/// The boundary curves of all patches that are more than a point; those with the same points stand
-/// together.
+/// The boundary curves of all patches that are more than a point, grouped by equal points.
 class CurveUses {
   public:
     explicit CurveUses(const PatchPieces& pieces) : pieces_(pieces) {
@@ -87,7 +86,7 @@ class CurveUses {
         }
     }
 
-    /// Whether every curve belongs to an even number of patches.
+    /// True if every curve belongs to an even number of patches.
     [[nodiscard]] bool all_even() const {
         bool even = true;
         for_each([&](std::span<const CurveUse> users) { even = even && users.size() % 2 == 0; });
@@ -113,7 +112,7 @@ class CurveUses {
         return std::lexicographical_compare_three_way(p.begin(), p.begin() + n, q.begin(),
                                                       q.begin() + m, by_coordinates);
     }
-    /// Tells curves of one hash apart.
+    /// Distinguishes curves of equal hash.
     void number_curves() {
         const auto same = [this](const CurveUse& a, const CurveUse& b) {
             return compare(a, b) == 0;
@@ -136,7 +135,7 @@ class CurveUses {
     std::vector<CurveUse> uses_;
 };
 
-/// A third of the integral of (P - center) . n over a patch, roughly.
+/// A rough value of a third of the integral of (P - center) . n over a patch.
 double rough_flux(BezierView net, const Vec3& center) {
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) {
@@ -148,8 +147,8 @@ double rough_flux(BezierView net, const Vec3& center) {
     return sum;
 }
 
-/// The patches of a closed mesh whose normal points inward: neighbours agree across the curve that
-/// they share, and all together enclose a positive volume.
+/// The patches of a closed mesh whose normals point inward: neighbours are oriented consistently
+/// across shared curves, and the whole encloses a positive volume.
 std::vector<bool> inward_patches(const PatchPieces& pieces, const CurveUses& uses,
                                  const Vec3& center) {
     constexpr std::uint32_t kNone = ~0u;

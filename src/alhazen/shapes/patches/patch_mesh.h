@@ -4,9 +4,9 @@
 /// Source: Newell, "The Utilization of Procedure Models in Digital Image Synthesis", PhD thesis,
 /// University of Utah, 1975 (the teapot); the crossings: patch_tree.h.
 /// Conventions: `patches` lists for each patch its (degree_u + 1) * (degree_v + 1) control points,
-/// u-major, as indices into `points`. Two patches share a boundary curve where its control points
-/// are equal (positions and weights, not indices). A mesh in which every boundary curve that is
-/// more than a point is shared by an even number of patches is closed: a solid, crossed an even
+/// u-major, as indices into `points`. Two patches share a boundary curve if its control points are
+/// equal (positions and weights, not indices). A mesh is closed if every boundary curve that is
+/// more than a point is shared by an even number of patches: it is then a solid, crossed an even
 /// number of times by every line, with normals outward. part = patch; u and v of a hit are those of
 /// the patch, and its texture coordinates. Complexity: O(log patches) for a ray; memory: see
 /// patch_tree.h.
@@ -43,14 +43,14 @@ struct PatchMesh {
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
-    /// Also of a mesh that is not prepared; false for one that is not valid.
+    /// Also valid for a mesh that is not prepared; false for an invalid one.
     [[nodiscard]] bool closed() const;
     [[nodiscard]] Box3 box() const { return tree->box(); }
     [[nodiscard]] Interval extent(const Vec3& axis) const { return tree->extent(axis); }
     void intersect(const Ray& ray, ShapeHits& hits) const { tree->intersect(ray, hits); }
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
 
-    /// Number of patches, and each as a net. Precondition: valid.
+    /// Number of patches, and each patch as a net. Precondition: valid.
     [[nodiscard]] std::size_t patch_count() const;
     [[nodiscard]] BezierNet net(std::size_t patch) const;
 };
@@ -63,7 +63,7 @@ struct PatchMesh {
     return shape.tree->first_hits(rays, hits);
 }
 
-/// Area, and flux volume: the volume enclosed where the mesh is closed.
+/// Area, and flux volume: the enclosed volume if the mesh is closed.
 [[nodiscard]] PatchMeasures measures_of(const PatchMesh& mesh);
 
 }  // namespace alhazen

@@ -78,7 +78,7 @@ NewtonEnd cubic_newton(const CubicLine& net, const CubicNewton& task, CubicRoot&
     const double margin_u = kCellMargin * width_u, margin_v = kCellMargin * width_v;
     const Point none(0.0);
     double u = task.u, v = task.v;
-    // Distance of the root, if there is one, from the estimate, in widths.
+    // Bound of the distance from the estimate to the root, if there is one, in widths.
     double reach = 0.25 * kCertified + kCellMargin, last = 1.0;
     bool ranged = task.has_range;
     for (int step = 0; step < 40; ++step) {
@@ -109,8 +109,8 @@ NewtonEnd cubic_newton(const CubicLine& net, const CubicNewton& task, CubicRoot&
         v += dv;
         reach = larger(larger(0.7 * reach, kCellMargin), task.noise);
         const double moved = larger(size_of(du) * per_u, size_of(dv) * per_v);
-        // Done, unless the steps still shrink as they do before rounding stops them. Where they
-        // are not proven to, steps that do not shrink are no sign of rounding.
+        // Stops, unless the steps still shrink as they do before rounding dominates. Without a
+        // proof of convergence, steps that do not shrink are no indication of rounding.
         const bool stalled = task.converges && last < 0x1p-4 && moved > 0.25 * last;
         last = moved;
         const bool done = moved <= 0x1p-23 || stalled;
@@ -128,8 +128,8 @@ NewtonEnd cubic_newton(const CubicLine& net, const CubicNewton& task, CubicRoot&
             out.y_v = y_v;
             return NewtonEnd::Root;
         }
-        // The root is at most 8/7 of this step away, and that far the surface leaves its tangent
-        // plane by less than 3 `bend` moved^2.
+        // The root is at most 8/7 of this step away; within that distance the surface deviates from
+        // its tangent plane by less than 3 `bend` moved^2.
         const double bent = 3.0 * task.bend * moved * moved *
                             (size_of(x_u) + size_of(y_u) + size_of(along[1])) *
                             (size_of(x_v) + size_of(y_v) + size_of(along[2]));

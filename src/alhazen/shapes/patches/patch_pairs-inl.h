@@ -2,10 +2,10 @@
 /// without weights; a fragment without a guard, included by patch_lanes.cpp in the namespace of
 /// each instruction set.
 ///
-/// Conventions: each pair takes the operations of `test_leaf`, `cubic_line` and `cubic_newton` in
-/// their order, and thus has their bits. `Point` has four lanes, doubles.
+/// Conventions: each pair performs the operations of `test_leaf`, `cubic_line` and `cubic_newton`
+/// in the same order, and thus has their bits. `Point` has four lanes, doubles.
 
-/// A vector of each pair.
+/// One vector for each pair.
 struct PairVectors {
     Point x{0.0}, y{0.0}, z{0.0};
 
@@ -18,7 +18,7 @@ HWY_INLINE Point dot(const PairVectors& a, const PairVectors& b) {
 HWY_INLINE PairVectors cross(const PairVectors& a, const PairVectors& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Of vectors with a fourth number, which is left out.
+/// Gathers vectors that have a fourth number, which is ignored.
 HWY_INLINE PairVectors vectors_of(const double* const (&each)[kPatchPairs]) {
     Point rows[4], columns[4];
     ALHAZEN_UNROLL
@@ -27,12 +27,12 @@ HWY_INLINE PairVectors vectors_of(const double* const (&each)[kPatchPairs]) {
     return {columns[0], columns[1], columns[2]};
 }
 
-/// What `test_leaf` reads of four leaves.
+/// The inputs of `test_leaf` from four leaves.
 struct PairLeaves {
     Point center[3], du[3], dv[3], bend[3], unit_u{0.0}, unit_v{0.0};
 
     HWY_INLINE explicit PairLeaves(const PatchLeaf* const (&leaves)[kPatchPairs]) {
-#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has no interleaving
         if constexpr (kParts<double, 4> == 1) {
             load_words(leaves);
             return;
@@ -65,7 +65,7 @@ struct PairLeaves {
 
   private:
 #if HWY_TARGET != HWY_SCALAR
-    /// By the columns of the leaves' first 32 bytes.
+    /// Transposes the leaves' first 32 bytes.
     HWY_INLINE void load_words(const PatchLeaf* const (&leaves)[kPatchPairs]) {
         static_assert(offsetof(PatchLeaf, center) == 0 && offsetof(PatchLeaf, du) == 12 &&
                       offsetof(PatchLeaf, dv) == 18 && offsetof(PatchLeaf, bend) == 24 &&
@@ -172,7 +172,7 @@ HWY_INLINE void store_unaligned(const Point& p, double* to) {
         hn::StoreU(p.part[i], d, to + i * hn::Lanes(d));
     }
 }
-/// Writes three vectors of four lines each, with a fourth number.
+/// Writes three vectors of each of four lines, with a fourth number.
 HWY_INLINE void store_vectors(const PairVectors& p, const Point& fourth, double* const* to) {
     const Point columns[4] = {p.x, p.y, p.z, fourth};
     Point rows[4];
@@ -181,7 +181,7 @@ HWY_INLINE void store_vectors(const PairVectors& p, const Point& fourth, double*
     for (std::size_t i = 0; i < 4; ++i) store_unaligned(rows[i], to[i]);
 }
 
-/// As PatchIndex::line_of, add_axes, walk_of and leaf_line.
+/// Combines PatchIndex::line_of, add_axes, walk_of and leaf_line.
 LinesSetOut set_out_lines(const Ray* const* rays, const LineFrame& in, PatchWay* ways) {
     static_assert(offsetof(Ray, direction) == 24 && offsetof(Ray, t_min) == 48);
     Point rows[4], low[4], high[4];

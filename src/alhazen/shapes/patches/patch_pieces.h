@@ -1,5 +1,5 @@
 #pragma once
-/// The rational Bezier patches of a surface: one by one, and many together in little memory.
+/// Rational Bezier patches of a surface: single pieces, and compact storage of many.
 
 #include <cstdint>
 #include <vector>
@@ -15,15 +15,15 @@ struct BezierPiece {
     Vec2 lo{0, 0}, hi{1, 1};  ///< the surface's parameters at the corners of the piece
 };
 
-/// Pieces with their control points one after the other: 48 bytes a piece and 32 a point, where a
-/// BezierPiece has room for the highest degrees.
+/// Compact storage of pieces: 48 bytes per piece and 32 per point, where a BezierPiece has a
+/// capacity for the highest degrees.
 class PatchPieces {
   public:
     PatchPieces() = default;
     explicit PatchPieces(const std::vector<BezierPiece>& pieces);
 
     void add(const BezierPiece& piece);
-    /// Gives back what `add` reserved and did not use.
+    /// Frees memory that `add` reserved but did not use.
     void shrink_to_fit();
 
     [[nodiscard]] std::size_t size() const { return heads_.size(); }
@@ -35,13 +35,13 @@ class PatchPieces {
     [[nodiscard]] std::uint32_t part(std::size_t k) const { return heads_[k].part; }
     [[nodiscard]] const Vec2& lo(std::size_t k) const { return heads_[k].lo; }
     [[nodiscard]] const Vec2& hi(std::size_t k) const { return heads_[k].hi; }
-    /// The piece of that part. Preconditions: parts ascend, and there is one.
+    /// The index of the piece with this part. Preconditions: parts ascend, and there is one.
     [[nodiscard]] std::size_t find(std::uint32_t part) const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
     struct Head {
-        std::uint64_t first;  ///< of its points
+        std::uint64_t first;  ///< index of its first point
         std::uint32_t part;
         std::uint8_t degree_u, degree_v;
         bool plain;

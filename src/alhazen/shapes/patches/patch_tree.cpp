@@ -20,8 +20,8 @@ ShapeHit hit_of(const PatchPieces& pieces, std::uint32_t piece, const PatchRoot&
 }
 
 /// Bound of the rounding errors of a point of `derivatives_at`. Each level of de Casteljau's
-/// algorithm is a convex combination with three roundings, for the numerator and the weight, and
-/// the weighted mean of the points' sizes is at most the largest.
+/// algorithm is a convex combination with three roundings, for the numerator and the weight; the
+/// weighted mean of the points' magnitudes is at most the largest one.
 Vec3 evaluation_error(BezierView net) {
     Vec3 most;
     for (int k = 0; k < net.count(); ++k) {
@@ -31,7 +31,8 @@ Vec3 evaluation_error(BezierView net) {
     return (2.0 * gamma_bound(3 * (net.degree_u + net.degree_v) + 1)) * most;
 }
 
-/// How far a crossing at a border may lie outside of its patch: see docs/design/patches.md.
+/// Bound of the distance by which a crossing at a border may lie outside its patch: see
+/// docs/design/patches.md.
 double border_reach(const PatchPieces& pieces, const Box3& box) {
     double reach = 0.0, least = kInfinity, most = 0.0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -54,11 +55,11 @@ bool is_before(const ShapeHit& a, const ShapeHit& b) {
     return a.u != b.u ? a.u < b.u : a.v < b.v;
 }
 
-/// Keeps a crossing in the ray's range if it is the first so far; false for one out of range.
+/// Keeps a crossing in the ray's range if it is the first so far; false if it is out of range.
 bool keep_first(const Ray& ray, const ShapeHit& crossing, bool found, ShapeHit& hit) {
     if (!ray.covers(crossing.t) || !std::isfinite(crossing.t)) return false;
     if (found && !is_before(crossing, hit)) return true;
-    // One by one: a crossing that was just put together would be waited for as a whole.
+    // Copied by field, to avoid a store-forwarding stall.
     hit.t = crossing.t;
     hit.u = crossing.u;
     hit.v = crossing.v;

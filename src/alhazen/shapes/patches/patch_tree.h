@@ -1,13 +1,14 @@
 #pragma once
-/// Rational Bezier patches prepared for rays: the crossings of bezier_patch, patch_mesh and
-/// nurbs_surface.
+/// An acceleration structure over rational Bezier patches: the ray intersection of bezier_patch,
+/// patch_mesh and nurbs_surface.
 ///
 /// Source: Toth, "On Ray Tracing Parametric Surfaces", SIGGRAPH 1985; Barth and Stuerzlinger,
 /// "Efficient Ray Tracing for Bezier and B-Spline Surfaces", 1993; see docs/design/patches.md.
 /// Conventions: hits are ascending in t; part = `BezierPiece::part`, unique; u and v are mapped
-/// from the unit square of the piece to [lo, hi]. Crossings closer than rounding are both reported
-/// or none. A line through a border that two pieces share crosses exactly one of them.
-/// Complexity: O(log pieces) for a ray; at most 4 kB a bicubic piece.
+/// from the unit square of the piece to [lo, hi]. Two crossings closer than rounding are both
+/// reported or both omitted. A line through a border that two pieces share crosses exactly one of
+/// them.
+/// Complexity: O(log pieces) for a ray; at most 4 kB per bicubic piece.
 
 #include <memory>
 #include <span>
@@ -31,9 +32,9 @@ class PatchTree {
     [[nodiscard]] Interval extent(const Vec3& axis) const;
     /// Appends all crossings with the ray.
     void intersect(const Ray& ray, ShapeHits& hits) const;
-    /// The first crossing, as `intersect` finds it.
+    /// The first crossing; equal to the first of `intersect`.
     [[nodiscard]] bool first_hit(const Ray& ray, ShapeHit& hit) const;
-    /// The same for one to kMostPatchRays rays: the set of those that hit.
+    /// The first crossings of one to kMostPatchRays rays; returns the set of rays that hit.
     [[nodiscard]] std::uint32_t first_hits(std::span<const Ray* const> rays, ShapeHit* hits) const;
     /// The surface at a crossing, with its parameters as texture coordinates.
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;

@@ -21,7 +21,8 @@ Real128 wide_product(const WideRow& a, const WideRow& b) {
     return sum;
 }
 
-/// Subtracts the parts along orthonormal vectors, twice against rounding; returns the length left.
+/// Makes `v` orthogonal to orthonormal vectors, twice because of rounding; returns its remaining
+/// length.
 Real128 make_orthogonal(WideRow& v, const std::vector<WideRow>& to) {
     for (int pass = 0; pass < 2; ++pass) {
         for (const WideRow& e : to) {
@@ -42,12 +43,12 @@ Real128 wide_magnitude(Real128 x) {
     return x < 0 ? -x : x;
 }
 
-/// Parts of the largest pivot: below the first it counts as 0, above the second as not. Between
-/// them the rank is in doubt.
+/// Thresholds relative to the largest pivot: below the first a pivot is 0, above the second it is
+/// not. In between the rank is uncertain.
 constexpr double kZeroPivot = 1e-13, kSurePivot = 1e-8;
 
-/// An orthonormal basis of the vectors that all rows are orthogonal to, by elimination with full
-/// pivoting. Empty if the rank is in doubt.
+/// An orthonormal basis of the kernel of the rows, by elimination with full pivoting. Empty if the
+/// rank is uncertain.
 std::vector<WideRow> kernel_of(std::vector<WideRow> a) {
     const std::size_t rows = a.size(), columns = a[0].size();
     std::vector<std::size_t> order(columns);
@@ -91,7 +92,7 @@ std::vector<WideRow> kernel_of(std::vector<WideRow> a) {
 
 // ---- homogeneous polynomials in (r, u, v)
 
-/// Coefficients of degree n: of u^i v^j r^(n - i - j) at [triangle_index(i, j)].
+/// Index of the coefficient of u^i v^j r^(n - i - j) in a polynomial of degree n.
 std::size_t triangle_index(int i, int j) {
     return static_cast<std::size_t>((i + j) * (i + j + 1) / 2 + j);
 }
@@ -113,14 +114,14 @@ WideRow wide_multiplied(const WideRow& a, int n, const WideRow& b, int m) {
     }
     return result;
 }
-/// r, u and v.
+/// The parameter r, u or v as a polynomial.
 WideRow wide_parameter(std::size_t k) {
     WideRow result(3, 0);
     result[k] = 1;
     return result;
 }
 
-/// x, y, z and w of the patch, of degree 2.
+/// The coordinates x, y, z and w of the patch as polynomials of degree 2.
 std::array<WideRow, 4> coordinates_of(const std::array<HomogeneousPoint, 6>& p) {
     const auto row = [&](auto part) {
         WideRow c(6, 0);
@@ -155,9 +156,9 @@ std::size_t pair_index(std::size_t i, std::size_t j) {
 
 // ---- polynomials along a line
 
-using AlongLine = std::array<double, 5>;  ///< by rising powers
+using AlongLine = std::array<double, 5>;  ///< coefficients of ascending powers
 
-/// A root must leave the patch this close to the ray; in its size.
+/// Largest distance of a root on the patch from the ray, relative to the patch's size.
 constexpr double kMostOff = 1e-8;
 /// Half of the interval searched: the patch lies in the cube from -1 to 1.
 constexpr double kReachAlong = 1.75;
@@ -339,8 +340,8 @@ void SteinerImplicit::polynomial(const Line& line, std::array<double, 5>& f) con
          dot(c1, square) + dot(c2, slope[2]), dot(c2, square)};
 }
 
-/// (r, u, v) spans the kernel of the matrix: the cross product of two rows, of those that differ
-/// most.
+/// The parameters (r, u, v) span the kernel of the matrix: the cross product of those two rows that
+/// differ most.
 bool SteinerImplicit::invert(const Vec3& p, double& u, double& v) const {
     Vec3 rows[3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -408,7 +409,7 @@ int SteinerImplicit::crossings(const Ray& ray, ShapeHit* hits) const {
     for (int k = 0; k < found; ++k) {
         double u, v, along = roots[k];
         if (!invert(line.origin + along * line.direction, u, v)) continue;
-        // Polishing changes the last digits alone.
+        // Refinement changes only the last digits.
         if (u < -0.01 || v < -0.01 || u + v > 1.01 || !polish(line, u, v, along)) continue;
         if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
         count +=

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSteinerPoints = 6;
 
-/// A hit of the tree in the parameters of the triangle.
+/// Converts a hit of the tree to the parameters of the triangle.
 ShapeHit on_triangle(const ShapeHit& hit) {
     return {hit.t, hit.u * (1.0 - hit.v), hit.v, 0};
 }
@@ -102,7 +102,8 @@ ShapeSurface SteinerPatch::surface(const Ray&, const ShapeHit& hit) const {
     }
     surface.shading_normal = surface.normal;
     // Two steps of three terms, for the numerator and the weight, and one division; the mean of the
-    // points' sizes is at most the largest. Another 1 - u - v is another point of the surface.
+    // points' magnitudes is at most the largest. A different 1 - u - v gives another point of the
+    // surface.
     Vec3 most;
     for (const HomogeneousPoint& p : control) {
         const Vec3 x = abs(projected(p));

@@ -4,12 +4,12 @@
 /// Source: Sederberg and Anderson, "Ray Tracing of Steiner Patches", SIGGRAPH 1984; the crossings
 /// by its implicit quartic: steiner_implicit.h.
 /// Differs: `intersect` finds the crossings of the same surface as a rational patch of degree 2 by
-/// 2 (patch_tree.h), which is certified: it misses no crossing near the patch's double lines,
-/// folds and borders, and covers planar patches and quadrics, for which there is no quartic.
+/// 2 (patch_tree.h), with certainty: no crossing is missed near the patch's double lines, folds and
+/// borders, and planar patches and quadrics, which have no quartic, are covered.
 /// Conventions: points and weights in the order 200, 110, 020, 101, 011, 002 of the exponents of
 /// (1-u-v), u, v; so that (u, v) = (0, 0) is the first, (1, 0) the third and (0, 1) the last point.
-/// part = 0; u and v of a hit are its texture coordinates. The normal is along du x dv. A line that
-/// lies in the surface crosses it four times at most.
+/// part = 0; u and v of a hit are its texture coordinates. The normal is along du x dv. A line in
+/// the surface crosses it at most four times.
 
 #include <memory>
 
@@ -35,7 +35,7 @@ struct SteinerPatch {
         field("points", &SteinerPatch::points, Unit::Compound, Check::Shape),
         optional_field("weights", &SteinerPatch::weights, Unit::Compound, Check::Shape));
 
-    /// As a square of degree 2 by 2 whose edge v = 1 is a point: (s, t) -> (s (1 - t), t).
+    /// As a patch of degree 2 by 2 whose edge v = 1 is a point: (s, t) -> (s (1 - t), t).
     [[nodiscard]] BezierNet net() const;
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

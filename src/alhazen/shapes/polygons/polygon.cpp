@@ -57,11 +57,11 @@ bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
     for (const std::size_t end : polygon.loop_ends) {
         bool before = vertex(end - 1).y > 0.0;
         for (std::size_t i = first; i < end; ++i) {
-            // Of most edges y alone is computed.
+            // Computes only y for most edges.
             const bool here = vertex(i).y > 0.0;
             if (before != here) {
                 const ShearedVertex<double> a = vertex(i > first ? i - 1 : end - 1), b = vertex(i);
-                // Whether the edge crosses the positive x axis; usually decided by the signs of x.
+                // True if the edge crosses the positive x axis; usually decided by the signs of x.
                 if (a.x > 0.0 && b.x > 0.0) {
                     inside = !inside;
                 } else if (!(a.x < 0.0 && b.x < 0.0)) {
@@ -158,8 +158,8 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
     const Vec3 to_plane = point - ray.origin;
     const double cosine = dot(normal, ray.direction);
     const double t = dot(normal, to_plane) / cosine;
-    // Bound of the error of t: by rounding, and by vertices off the plane. The sheared test below
-    // is exact; these two only cull, and never reject a hit.
+    // Bound of the error of t: by rounding, and by vertices off the plane. Both tests with it only
+    // cull, and never reject a hit; the sheared test below is exact.
     const Vec3 size = abs(to_plane) + std::abs(t) * abs(ray.direction);
     const double t_slack =
         (off_plane + gamma_bound(16) * (size.x + size.y + size.z)) / std::abs(cosine);
@@ -170,7 +170,7 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
                              gamma_bound(16) * (std::abs(ray.origin[k]) + size[k]);
         if (p + slack < bounds.lo[k] || p - slack > bounds.hi[k]) return 0;
     }
-    // Most rays that begin so near to the polygon leave it.
+    // Most rays that start this near to the polygon leave it.
     if (!ray.covers(t) && !ray.covers(clamped_to_box(t, ray, bounds))) return 0;
     if (!surrounds_ray(*this, ray)) return 0;
     return report_crossing(ray, {clamped_to_box(t, ray, bounds), 0, 0, 0}, hits);

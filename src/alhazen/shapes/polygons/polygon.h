@@ -22,7 +22,7 @@ struct Polygon {
     static constexpr int kMaxHits = 1;
     static constexpr bool kClosed = false;
 
-    std::vector<Vec3> vertices;            ///< of all loops, consecutive
+    std::vector<Vec3> vertices;            ///< vertices of all loops, consecutive
     std::vector<std::uint32_t> loop_ends;  ///< [loop] one past its last vertex; empty: one loop
     Vec3 point{};                          ///< derived: on the plane
     Vec3 normal{0, 0, 1};                  ///< derived: unit

@@ -9,10 +9,10 @@ namespace alhazen {
 
 namespace {
 
-/// Tolerance times the size: vertices farther outside of a face make the solid non-convex or the
-/// face non-planar.
+/// Flatness tolerance relative to the size: vertices farther outside of a face make the solid
+/// non-convex or the face non-planar.
 constexpr double kFlatness = 1e-3;
-/// Times the square of the size: smaller faces have no reliable normal.
+/// Least area relative to the squared size: smaller faces have no reliable normal.
 constexpr double kLeastArea = 1e-12;
 
 Vec3 mean_of(const std::vector<Vec3>& points) {

@@ -20,7 +20,7 @@ struct Polyhedron {
     static constexpr int kMaxHits = 2;
     static constexpr bool kClosed = true;
 
-    std::vector<OrientedPlane> planes;  ///< normals of any length; or empty, and:
+    std::vector<OrientedPlane> planes;  ///< normals of any length; if empty, faces are given by:
     std::vector<Vec3> vertices;
     std::vector<std::uint32_t> corners;    ///< vertex numbers of all faces, consecutive
     std::vector<std::uint32_t> face_ends;  ///< [face] one past its last corner

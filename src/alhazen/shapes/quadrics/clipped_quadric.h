@@ -1,6 +1,6 @@
 #pragma once
-/// The kernel of all quadric shapes: a quadric in a frame of its own, clipped by a box in that
-/// frame and by planes, with caps or open.
+/// The kernel of all quadric shapes: a quadric in a local frame, clipped by a box in that frame and
+/// by planes, with or without caps.
 ///
 /// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1; Roth 1982 (see
 /// solid_frame.h).
@@ -34,7 +34,7 @@ struct ClippedQuadric {
 
     int intersect(const Ray& ray, ShapeHit* hits) const;
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
-    /// Whether the line is inside at t = -infinity.
+    /// True if the line is inside at t = -infinity.
     [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-/// An elliptic cylinder, right or oblique, with flat ends or open.
+/// An elliptic cylinder, right or oblique, with or without flat ends.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < 1 between z = 0 and 1 in the frame of the two semi-axes
 /// and the vector from base to top.

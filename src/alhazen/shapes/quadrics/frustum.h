@@ -19,7 +19,7 @@ namespace alhazen {
 struct Frustum {
     Vec3 base{0, 0, 0}, top{0, 0, 1};
     double base_radius = 1, top_radius = 1;
-    Vec3 center{0, 0, 0.5};                 ///< of the axis
+    Vec3 center{0, 0, 0.5};                 ///< middle of the axis
     Vec3 axis{0, 0, 1};                     ///< unit, from base to top
     Vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0};  ///< unit, perpendicular to the axis
     double half_height = 0.5;

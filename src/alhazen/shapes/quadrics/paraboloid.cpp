@@ -11,7 +11,7 @@ void Paraboloid::prepare() {
     form.z = -0.5;
     form.c = 0.0;
     solid.quadric = QuadricLine(form, 1.5);
-    // Below the apex nothing is clipped: every line is outside there.
+    // Does not clip below the apex, where every line is outside.
     solid.clip_box.lo.z = -1.0 / 16;
     solid.clip_box.hi.z = 1.0;
     solid.capped = capped;

@@ -6,7 +6,7 @@ void Quadric::prepare() {
     QuadricForm form{squares.x,        squares.y,        squares.z,      0.5 * products.x,
                      0.5 * products.y, 0.5 * products.z, 0.5 * linear.x, 0.5 * linear.y,
                      0.5 * linear.z,   constant};
-    // Lines are shifted to near the origin: within the clip, or where f may be 0.
+    // Lines are shifted to near the origin: within the clip, or the region where f may be 0.
     double size = 0.0;
     for (int k = 0; k < 3; ++k) {
         size = std::fmax(size, std::fmax(std::abs(clip_box.lo[k]), std::abs(clip_box.hi[k])));

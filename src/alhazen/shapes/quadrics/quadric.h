@@ -1,6 +1,6 @@
 #pragma once
-/// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, clipped by a box
-/// and by planes, with caps or open; or unclipped.
+/// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, unclipped or
+/// clipped by a box and by planes, with or without caps.
 ///
 /// Source: clipped_quadric.h.
 /// Conventions: part 0 the quadric, 1 to 6 the faces -x +x -y +y -z +z of the box, 7 and above the
@@ -17,8 +17,8 @@ struct Quadric {
     static constexpr bool kClosed = true;
 
     Vec3 squares{1, 1, 1};   ///< coefficients of x^2, y^2, z^2
-    Vec3 products{0, 0, 0};  ///< of x y, y z, z x
-    Vec3 linear{0, 0, 0};    ///< of x, y, z
+    Vec3 products{0, 0, 0};  ///< coefficients of x y, y z, z x
+    Vec3 linear{0, 0, 0};    ///< coefficients of x, y, z
     double constant = -1;
     Box3 clip_box{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
     std::vector<ClipPlane> clip_planes;  ///< cut off the side that their normals point to

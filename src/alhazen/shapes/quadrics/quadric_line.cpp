@@ -16,7 +16,7 @@ DoubleDouble dot(const Point3<DoubleDouble>& a, const Point3<DoubleDouble>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Drops crossings at no finite t: both, or the one before every finite t.
+/// Removes infinite crossings: both, or the one before every finite t.
 void drop_infinite(QuadricSpans& s) {
     if (s.count == 2 && std::isfinite(s.t[0]) && std::isfinite(s.t[1])) return;
     if (s.count == 1 && std::isfinite(s.t[0])) return;

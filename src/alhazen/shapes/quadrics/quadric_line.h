@@ -1,5 +1,5 @@
 #pragma once
-/// A quadric, and where a line enters and leaves it.
+/// A quadric, and the parameters where a line enters and leaves it.
 ///
 /// Source: Kahan, "On the Cost of Floating-Point Computation Without Extra-Precise Arithmetic",
 /// 2004 (discriminant and roots); the origin is shifted along the line as by Haines, Günther and

@@ -10,10 +10,10 @@ namespace alhazen {
 
 namespace {
 
-/// Rays of smaller climb are level: near the lathe their height changes by less than a hundredth of
-/// its last digit.
+/// Climb below which rays are level: near the lathe their height changes by less than a hundredth
+/// of its last digit.
 constexpr double kLevel = 0x1p-60;
-/// Below this climb t is ill-conditioned in the parameter of the profile.
+/// Climb below which t is ill-conditioned in the parameter of the profile.
 constexpr double kNearLevel = 1e-4;
 
 struct LatheRay {
@@ -78,7 +78,7 @@ void make_polynomial(const Lathe& lathe, const LatheRay& ray, const Ray& given,
         if constexpr (std::is_same_v<Real, double>) {
             p.b[k] = sum / total;
         } else {
-            // A quotient to double-double: one correction of the rounded one.
+            // A quotient in double-double: one correction of the rounded one.
             const double q = sum.high / total;
             const Real rest = sum - Real(q) * Real(total);
             p.b[k] = Real(q) + Real(rest.high / total);

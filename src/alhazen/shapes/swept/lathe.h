@@ -10,9 +10,9 @@
 /// shapes/swept/lathe_near_level.h. A level ray crosses where the profile has its height, at two
 /// points of a circle.
 /// Conventions: the profile lies in the half plane of (radius, height), radius >= 0; the solid is
-/// the odd-even inside of its loops, where loops that begin and end on the axis are completed by
-/// it. Any other open loop makes a surface, not a solid. part = curve; u runs around the axis (0 to
-/// 1), v along all curves (0 to 1).
+/// the odd-even inside of its loops; a loop that begins and ends on the axis is completed by the
+/// axis. Any other open loop makes a surface, not a solid. part = curve; u runs around the axis (0
+/// to 1), v along all curves (0 to 1).
 /// Complexity: O(curves) per ray.
 
 #include "alhazen/shapes/core/shape.h"
@@ -30,7 +30,7 @@ struct Lathe {
     bool is_closed = false;  ///< derived: bounds a volume
     double reach = 0;        ///< derived: largest coordinate of the profile
     Vec3 center{};           ///< derived: of the axis
-    double radius = 1;       ///< derived: of a sphere about the center that contains all
+    double radius = 1;       ///< derived: of a sphere about the center that contains the lathe
 
     static constexpr auto kFields =
         std::make_tuple(field("profile", &Lathe::profile, Unit::Compound, Check::Shape));

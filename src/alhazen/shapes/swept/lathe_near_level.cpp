@@ -140,8 +140,8 @@ class NearLevelRay {
         return quotient(two_sum(height, -height_), climb_) - nearest_;
     }
 
-    /// Whether the ray passes the height of a point farther from the axis than the point; true
-    /// where uncertain.
+    /// True if the ray passes the height of a point at a greater distance from the axis than the
+    /// point, or if uncertain.
     [[nodiscard]] bool is_beyond(Vec2 p) const {
         const DoubleDouble way = way_to(p.y), r(p.x);
         if (std::abs(way.high) > reach_) return true;

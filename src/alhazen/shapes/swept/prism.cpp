@@ -19,7 +19,7 @@ double larger(double a, double b) {
 template <class Real>
 struct ProfileLine {
     Real x, y, c;
-    double error;  ///< of the sum, for every point of the profile
+    double error;  ///< error bound of the sum, for every point of the profile
 
     ProfileLine(const Prism& prism, const Ray& ray, double shift) {
         const Vec3& d = ray.direction;
@@ -49,7 +49,7 @@ struct ProfileLine {
 /// A ray near the prism, in double.
 struct PrismRay {
     double shift, ox, oy, oz, dx, dy, dz;
-    double size, size_growth;  ///< of the section: a + b t
+    double size, size_growth;  ///< size of the section: a + b t
     double far;                ///< magnitude of the numbers that the origin was computed from
 
     PrismRay(const Prism& prism, const Ray& ray) : shift(0) {
@@ -70,9 +70,9 @@ struct PrismRay {
         const double x = dx - size_growth * p.x, y = dy - size_growth * p.y;
         return ((size * p.x - ox) * x + (size * p.y - oy) * y) / (x * x + y * y);
     }
-    /// Whether this point, found where the line's value is within `error` of 0, lies on the ray up
-    /// to the last digits of the numbers involved. False where the ray nearly runs along the side
-    /// of a cone.
+    /// True if this point, found where the line's value is within `error` of 0, lies on the ray to
+    /// the last digits of the numbers involved. False if the ray nearly runs along the side of a
+    /// cone.
     [[nodiscard]] bool is_precise(Vec2 p, double error, double reach) const {
         const double x = dx - size_growth * p.x, y = dy - size_growth * p.y;
         const double size_there = size + t_at(p) * size_growth;
@@ -90,7 +90,7 @@ void for_each_sign_change(const Profile& profile, Make make, F f) {
     }
 }
 
-/// Odd-even, along the line towards +x.
+/// Odd-even rule, along the line towards +x.
 bool inside_profile(const Profile& profile, Vec2 q) {
     bool inside = false;
     for_each_sign_change(
@@ -107,9 +107,9 @@ bool inside_profile(const Profile& profile, Vec2 q) {
     return inside;
 }
 
-/// Crossings with the sides of the prism without ends, in the order of t; their number is odd where
-/// the ray comes from, or goes to, the far end of a cone inside of it. False: the whole line is in
-/// or out.
+/// Crossings with the sides of the prism without ends, in the order of t. Their number is odd if
+/// the ray comes from, or goes to, the far end of a cone inside of it. False if the whole line is
+/// inside or outside.
 bool side_crossings(const Prism& prism, const Ray& ray, const PrismRay& local, ShapeHits& found) {
     const ProfileLine<double> line(prism, ray, local.shift);
     if (line.x == 0.0 && line.y == 0.0) return false;

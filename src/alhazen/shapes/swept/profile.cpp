@@ -29,7 +29,7 @@ void for_each_loop(const Profile& profile, F f) {
 }  // namespace
 
 Vec2 ProfileCurve::point(double s) const {
-    // From the nearer end: a coordinate that both ends share stays exact.
+    // Interpolates from the nearer end: a coordinate that both ends share stays exact.
     if (line) return s < 0.5 ? p[0] + s * (p[3] - p[0]) : p[3] + (1.0 - s) * (p[0] - p[3]);
     const Vec2 a = blend(p[0], p[1], s), b = blend(p[1], p[2], s), c = blend(p[2], p[3], s);
     return blend(blend(a, b, s), blend(b, c, s), s);

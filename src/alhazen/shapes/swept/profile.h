@@ -21,9 +21,9 @@ struct ProfileCurve {
     bool line = true;
 
     [[nodiscard]] int degree() const { return line ? 1 : 3; }
-    /// The control points of its degree.
+    /// Control point i of the curve's degree.
     [[nodiscard]] const Vec2& control(int i) const { return p[line ? 3 * i : i]; }
-    /// s in [0, 1]; exact at the ends.
+    /// The point at s in [0, 1]; exact at the ends.
     [[nodiscard]] Vec2 point(double s) const;
     /// Derivative of the point by s.
     [[nodiscard]] Vec2 derivative(double s) const;
@@ -39,7 +39,7 @@ struct Profile {
     std::vector<ProfileCurve> curves;      ///< all loops, consecutive
     std::vector<std::uint32_t> loop_ends;  ///< [loop] one past its last curve
 
-    /// Whether every loop ends where it begins.
+    /// True if every loop ends where it begins.
     [[nodiscard]] bool loops_close() const;
     /// Bounds of all control points: lo and hi.
     [[nodiscard]] std::array<Vec2, 2> bounds() const;

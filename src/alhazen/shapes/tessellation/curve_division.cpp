@@ -19,8 +19,8 @@ struct CurveDivider {
     double tolerance;
     std::vector<CurveDivisionPoint>& points;
 
-    /// Whether the chord, at the same parameter, is within the tolerance of the curve: straight
-    /// curves of uneven speed are divided, too, for the triangles beside them follow the parameter.
+    /// True if the chord, at the same parameter, is within the tolerance of the curve. Straight
+    /// curves of uneven speed are divided as well, because adjacent triangles follow the parameter.
     [[nodiscard]] bool is_flat(const CurveRow& row) const {
         BezierNet ribbon;
         ribbon.degree_u = degree;
@@ -31,7 +31,7 @@ struct CurveDivider {
         return second_derivative_bounds(ribbon).uu <= 8.0 * tolerance;
     }
 
-    /// Appends the points behind the first one of the part.
+    /// Appends the points of the part after its first one.
     void divide(const CurveRow& row, double from, double to, int depth) {
         if (depth == kMaxHalvings || is_flat(row)) {
             points.push_back({to, projected(row[static_cast<std::size_t>(degree)])});
@@ -50,7 +50,7 @@ struct CurveDivider {
     }
 };
 
-/// Whether the curve compares greater read from its end.
+/// True if the curve read from its end compares greater or equal.
 bool is_canonical(std::span<const HomogeneousPoint> curve) {
     for (std::size_t k = 0; k < curve.size(); ++k) {
         const HomogeneousPoint& a = curve[k];

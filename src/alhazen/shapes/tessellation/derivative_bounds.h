@@ -4,7 +4,7 @@
 /// Source: Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", Computer
 /// Aided Geometric Design 3(4), 1986. Differs: rational patches, by the quotient rule about the
 /// middle of the control points' box.
-/// Conventions: by the parameters of the unit square; lengths of vectors.
+/// Conventions: derivatives are by the parameters of the unit square; bounds are of lengths.
 
 #include "alhazen/shapes/patches/bezier_net.h"
 

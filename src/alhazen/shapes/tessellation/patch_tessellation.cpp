@@ -12,10 +12,10 @@ namespace alhazen {
 namespace {
 
 constexpr int kMaxLineHalvings = 16;
-/// Smaller tolerances are reached by lines set closer, up to this factor.
+/// Smallest factor on the tolerance; a smaller tolerance places lines closer.
 constexpr double kTightest = 1.0 / 4096.0;
 
-/// Lines at which [0, 1] is divided so that `fits(low, high)` holds between two neighbours.
+/// Appends lines that divide [0, 1] so that `fits(low, high)` holds between neighbours.
 template <class Fits>
 void divide_range(double low, double high, int depth, const Fits& fits,
                   std::vector<double>& lines) {
@@ -54,7 +54,7 @@ class PatchMesher {
         }
     }
 
-    /// False where more than `max_triangles` would be made.
+    /// Returns false if more than `max_triangles` would be made.
     bool make(std::uint64_t max_triangles) {
         for (double share = 1.0; share >= kTightest; share *= 0.5) {
             place_lines(share);
@@ -84,8 +84,8 @@ class PatchMesher {
     }
 
   private:
-    /// Places the inner lines for a share of the tolerance, and beside each border a line so close
-    /// that triangles with a long side on the border are flat enough.
+    /// Places the inner lines for a share of the tolerance, and a line near each border, so that
+    /// triangles with a long side on the border are flat enough.
     void place_lines(double share) {
         const PatchDerivativeBounds all = second_derivative_bounds(net_);
         const double aspect =
@@ -170,7 +170,7 @@ class PatchMesher {
         const auto parameter = [&](std::uint32_t vertex) {
             return along_u ? vertices_[vertex].u : vertices_[vertex].v;
         };
-        // Sides 0 and 1 have the patch on the left of rising parameters.
+        // For sides 0 and 1 the patch is to the left of ascending parameters.
         const bool patch_left = side < 2;
         const PatchDerivativeBounds bounds = strip_bounds(side, row.front());
         if (is_point(side)) return fan(side, row, bounds);
@@ -195,8 +195,8 @@ class PatchMesher {
                            [&](const CurveDivisionPoint& p) { return p.point == border[0].point; });
     }
 
-    /// Triangles between a border that is one point and the nearest inner line. The point has any
-    /// parameter: here that of the other two corners.
+    /// Triangles between a border that is one point and the nearest inner line. The point may have
+    /// any parameter: that of the other two corners is used.
     void fan(int side, const std::vector<std::uint32_t>& row, const PatchDerivativeBounds& bounds) {
         const bool along_u = side % 2 == 0;
         const double fixed = side == 1 || side == 2 ? 1.0 : 0.0;
@@ -228,7 +228,7 @@ class PatchMesher {
             m.uv /= width;
             m.uu /= width * width;
         }
-        // Of a narrow strip the differences are mostly rounding.
+        // The differences of a narrow strip are mostly rounding.
         const PatchDerivativeBounds all = second_derivative_bounds(net_);
         return {std::min(m.uu, all.uu), std::min(m.uv, all.uv), std::min(m.vv, all.vv)};
     }
@@ -245,7 +245,8 @@ class PatchMesher {
         const double error =
             m.uu * size.x * size.x + 2.0 * m.uv * size.x * size.y + m.vv * size.y * size.y;
         if (error <= 8.0 * tolerance_) return true;
-        // The bounds of the strip hold where it bends most; those of the triangle's own rectangle:
+        // The strip's bounds hold at its point of largest curvature; those of the triangle's own
+        // rectangle may be smaller.
         const auto own = second_derivative_bounds(part_of(net_, lo.x, hi.x, lo.y, hi.y));
         return own.uu + 2.0 * own.uv + own.vv <= 8.0 * tolerance_;
     }

@@ -1,16 +1,16 @@
 #pragma once
-/// Triangles within a tolerance of rational Bezier patches.
+/// Tessellation of rational Bezier patches within a tolerance.
 ///
 /// Source: Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", Computer
 /// Aided Geometric Design 3(4), 1986 (a triangle of extents a by b in the parameter plane is within
 /// (a^2 M_uu + 2 a b M_uv + b^2 M_vv) / 8 of the patch, M bounds of the second derivatives; it
-/// holds for any triangle, for the variance of a value within a range of length a is at most a^2 /
+/// holds for any triangle, as the variance of a value within a range of length a is at most a^2 /
 /// 4).
 /// Differs: rational patches, by bounds of the quotient's derivatives from the control net; lines
-/// of u and v are placed where the bounds ask for them, not evenly.
-/// Conventions: boundary curves are divided by themselves (curve_division.h), so that patches that
-/// share one meet without gaps. Each patch has vertices of its own, with its normals. Triangles are
-/// oriented by du x dv; those without area (at an edge that is one point) are omitted.
+/// of u and v are placed adaptively by these bounds.
+/// Conventions: boundary curves are divided independently (curve_division.h), so that patches that
+/// share one meet without gaps. Each patch has its own vertices, with its normals. Triangles are
+/// oriented by du x dv; triangles without area (at an edge that is one point) are omitted.
 /// Complexity: O(area of curvature / tolerance) triangles for a patch.
 
 #include <cstdint>
@@ -23,9 +23,8 @@
 
 namespace alhazen {
 
-/// Appends the triangles of a patch: every one within `tolerance` of it, in object space. Returns
-/// false, with nothing appended, where the mesh would have more than `max_triangles`.
-/// Precondition: tolerance > 0.
+/// Appends triangles within `tolerance` of a patch, in object space. Returns false, with nothing
+/// appended, if the mesh would have more than `max_triangles`. Precondition: tolerance > 0.
 [[nodiscard]] bool append_triangles(const BezierPiece& piece, double tolerance,
                                     std::uint64_t max_triangles, TriangleMesh& mesh);
 

@@ -59,7 +59,7 @@ class TriangleTrimmer {
                                     {within(hi.x, u_), within(hi.y, v_)});
     }
 
-    /// Divides the longest edge; false where it is short.
+    /// Divides the longest edge; false if it is short.
     bool halve(const Triangle& triangle, std::vector<Triangle>& open) {
         std::size_t longest = 0;
         double most = -1.0;
@@ -98,7 +98,7 @@ class TriangleTrimmer {
         return shape_.keeps(hit);
     }
 
-    /// The corners that are kept, and points where the region ends along an edge.
+    /// Appends the kept part: the kept corners and the points where the region ends along an edge.
     void cut(const Triangle& triangle) {
         std::vector<std::uint32_t> kept;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -111,7 +111,7 @@ class TriangleTrimmer {
             mesh_.triangles.push_back({kept[0], kept[k - 1], kept[k]});
         }
     }
-    /// On the edge from a corner that is kept to one that is not.
+    /// The border point on the edge from a kept corner to one that is not kept.
     std::uint32_t border(std::uint32_t in, std::uint32_t out) {
         double lo = 0.0, hi = 1.0;
         const Vec2 from = mesh_.uvs[in], to = mesh_.uvs[out];
@@ -129,7 +129,7 @@ class TriangleTrimmer {
     Interval u_, v_;
 };
 
-/// Leaves out vertices that no triangle has.
+/// Removes vertices that no triangle uses.
 void drop_unused_vertices(TriangleMesh& mesh) {
     constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
     std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);

@@ -1,12 +1,12 @@
 #pragma once
-/// The part of a NURBS surface's triangles that its trimming loops keep.
+/// The part of a NURBS surface's triangles inside the trimming loops.
 ///
 /// Source: after Rockwood, Heaton and Davis, "Real-time rendering of trimmed surfaces", SIGGRAPH
 /// 1989 (triangles in the parameter plane, cut along the loops). Differs: loops are not divided
 /// into polygons; triangles around them are halved until an edge is at most the tolerance, then cut
 /// where the region ends along their edges.
 /// Conventions: halved triangles stay flat, thus within the tolerance of the surface; the border is
-/// within the tolerance of the loops. The mesh is closed nowhere.
+/// within the tolerance of the loops. The mesh is not closed.
 
 #include <cstdint>
 
@@ -15,8 +15,8 @@
 
 namespace alhazen {
 
-/// Replaces all triangles of `mesh`, whose uvs are parameters of the domain. Returns false beyond
-/// `max_triangles`.
+/// Removes or cuts the triangles of `mesh`, whose uvs are parameters of the domain. Returns false
+/// if there would be more than `max_triangles`.
 [[nodiscard]] bool trim_triangles(const NurbsSurface& shape, double tolerance,
                                   std::uint64_t max_triangles, TriangleMesh& mesh);
 

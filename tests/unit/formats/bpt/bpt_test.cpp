@@ -53,9 +53,9 @@ TEST(Bpt, DegreesMayDifferFromPatchToPatch) {
 TEST(Bpt, EveryFindingHasItsPlace) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"2\n" + quad(0), "a.bpt:7:1: error: the file ends after 1 of 2 patches"},
-        {"1\n1 1\n0 0 0\n0 1 0\n", "a.bpt:5:1: error: patch 1 has 2 points; its degrees ask for 4"},
+        {"1\n1 1\n0 0 0\n0 1 0\n", "a.bpt:5:1: error: patch 1 has 2 points; its degrees require 4"},
         {"2\n1 1\n0 0 0\n0 1 0\n1 0 0\n" + quad(1),
-         "a.bpt:6:1: error: patch 1 has 3 points; its degrees ask for 4"},
+         "a.bpt:6:1: error: patch 1 has 3 points; its degrees require 4"},
         {"2\n" + quad(0) + "7 7 7\n" + quad(1),
          "a.bpt:7:1: error: expected the two degrees of patch 2, found a point: the patch before"},
         {"1\n3 40\n0 0 0\n", "a.bpt:2:1: error: patch 1: degrees are from 1 to 7, not 40"},
@@ -64,7 +64,7 @@ TEST(Bpt, EveryFindingHasItsPlace) {
          "a.bpt:3:3: error: expected a number, found 'nan'"},
         {"1\n1 1\n0 1e999 0\n0 1 0\n1 0 0\n1 1 0\n", "a.bpt:3:3: error: expected a number"},
         {"1\n1 1\n0 0\n0 1 0\n1 0 0\n1 1 0\n",
-         "a.bpt:3:1: error: patch 1 has 0 points; its degrees ask for 4"},
+         "a.bpt:3:1: error: patch 1 has 0 points; its degrees require 4"},
         {"1\n1 1\n0 0.5\n0 1 0\n1 0 0\n1 1 0\n",
          "a.bpt:3:6: error: a point has three numbers, found 2"},
         {"-3\n" + quad(0), "a.bpt:1:1: error: expected the number of patches, found '-3'"},

@@ -261,7 +261,7 @@ TEST(BrlcadScene, OnePartThatCannotBeReadLeavesTheOthers) {
     EXPECT_EQ(text_of(group.found()),
               "a.asc:3:27: warning: the matrix of member 'b' of 'a' is not an affine transform; "
               "the member is left out\n");
-    // Where nothing is left all is told as errors.
+    // If nothing is left all findings are errors.
     Diagnostics found;
     (void)import(kBall + "put a comb region yes tree {l ball {1 0 0 9 0 1 0 0 0 0 1 0 1 0 0 1}}\n",
                  found);
@@ -363,8 +363,8 @@ TEST(BrlcadScene, OptionsOfAShaderThatAreNotReadAreTold) {
     };
     has("a.asc:2:1: warning: the option 'pt' of the shader 'light' is not read");
     has("a.asc:3:1: warning: the option 'sh' of the shader 'light' is not read");
-    has("the soft shadows of a light are hard");
-    has("a light without shadows casts them here");
+    has("soft shadows are not supported");
+    has("lights without shadows are not supported");
 }
 
 TEST(BrlcadScene, ShadersOfAStackAreReadInBothForms) {

@@ -178,7 +178,7 @@ TEST(GltfDocument, BuffersWithoutDataHoldZerosButNotInAGlb) {
 
 struct Refusal {
     const char* name;
-    const char* text;     ///< members beside the asset; a whole file if it begins with {
+    const char* text;     ///< members in addition to the asset; a whole file if it begins with {
     const char* finding;  ///< part of the message
 };
 

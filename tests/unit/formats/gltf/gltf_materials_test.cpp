@@ -88,7 +88,7 @@ TEST(GltfMaterial, SpecularGlossinessIsADielectricThatReflectsItsSpecularColour)
     EXPECT_EQ(plain.metallic_roughness->roughness.value, 0.25);
     EXPECT_EQ(plain.metallic_roughness->specular_color.color, (Rgb{0.5, 0.6, 0.7}));
     EXPECT_EQ(plain.alpha.value, 0.4);
-    // Straight on it reflects all, times the specular colour.
+    // At normal incidence it reflects all light, times the specular colour.
     EXPECT_EQ(plain.index.value, 0.0);
     const MetallicRoughness& of_pictures =
         *result.scene.materials.at(1).material.metallic_roughness;
@@ -116,7 +116,7 @@ TEST(GltfMaterial, AScatteringVolumeSharesItsAttenuation) {
     EXPECT_EQ(result.errors(), 0u) << result.messages();
     const Material& m = result.scene.materials.at(0).material;
     EXPECT_EQ(m.scattering.anisotropy, 0.3);
-    // What scatters and what absorbs attenuate together as the file says.
+    // Scattering and absorption together give the attenuation of the file.
     const Rgb attenuation{-std::log(0.5) / 2, -std::log(0.25) / 2, -std::log(1e-12) / 2};
     for (int i = 0; i < 3; ++i) {
         const double absorbed = -std::log(m.metallic_roughness->attenuation_color[i]) / 2;

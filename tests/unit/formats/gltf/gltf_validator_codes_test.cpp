@@ -12,7 +12,7 @@ namespace {
 
 struct Coded {
     const char* code;
-    std::string text;  ///< members beside the asset; a whole file if it begins with { or a mark
+    std::string text;  ///< members besides the asset; a whole file if it begins with { or a mark
 };
 
 const std::string kByteOrderMark = "\xEF\xBB\xBF";

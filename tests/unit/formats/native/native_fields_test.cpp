@@ -75,7 +75,7 @@ std::set<std::string> documented_keys(const DocumentedShapes& shapes, const std:
     return keys;
 }
 
-/// The keys that the reader lists when it finds an unknown one, beside all of `keys`.
+/// The keys that the reader lists for an unknown key, in addition to all of `keys`.
 std::set<std::string> read_keys(const std::string& shape, const std::set<std::string>& keys) {
     std::string text = shape + " { unheard_of = 1";
     for (const std::string& key : keys)

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of the native format share: import from text, and the parts of the result.
+/// Common parts of the tests of the native format: import from text, and access to the result.
 
 #include <filesystem>
 #include <string>

@@ -76,7 +76,7 @@ TEST(NativeImporter, ReadsRangesGreyColorsAndAnglesInRadians) {
     EXPECT_TRUE(
         import_native("spot_light { position = (0,0,0); direction = (0,0,1); inner_angle_rad = 1;"
                       " inner_angle_deg = 1 }")
-            .says("say the same"));
+            .says("exclude each other"));
 }
 
 TEST(NativeImporter, ReadsFisheyesAndPanoramas) {

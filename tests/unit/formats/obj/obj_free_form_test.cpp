@@ -150,7 +150,7 @@ TEST(ObjFreeForm, EveryFindingHasItsPlace) {
         {"cstype bezier\ndeg 40 1\nsurf 0 1 0 1 1 2 3 4\nend\n",
          "a.obj:7:1: error: degrees of surfaces are from 1 to 7, not 40"},
         {"cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3\nend\n",
-         "a.obj:7:1: error: the surface has 3 points; its degrees and parameters ask for 2 by 2"},
+         "a.obj:7:1: error: the surface has 3 points; its degrees and parameters require 2 by 2"},
         {surf + "surf 0 1 0 1 1 2 3 4\nparm u 0 0 1 1\nend\n", "too few parameters"},
         {surf + "surf 0 1 0 1 1 2 3 4\nparm u 0 1 0 1\nend\n",
          "a.obj:8:13: error: the parameter falls below"},

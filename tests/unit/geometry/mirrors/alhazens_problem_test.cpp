@@ -127,7 +127,7 @@ TEST(AlhazensProblem, AConvexMirrorShowsOnePointWhereBothSeeIt) {
         ASSERT_LE(p.count, 1);
         if (p.count == 0) continue;
         ++seen;
-        // How precisely the data themselves say where a point close to the mirror is.
+        // The precision with which the data define a point close to the mirror.
         const auto height = [&](const MirrorEnd& e) {
             return e.infinite ? 1.0 : std::min(1.0, length(e.at - p.points[0]) / radius);
         };
@@ -143,7 +143,7 @@ TEST(AlhazensProblem, AllPointsOfAConcaveMirrorAreFound) {
     Random random(1672);
     int by_count[5] = {};
     for (int i = 0; i < 100000; ++i) {
-        // Inside, and where only a part of the mirror shows, outside, too.
+        // Inside; also outside, where only a part of the mirror is visible.
         const auto end = [&] {
             const double angle = random.uniform(0.0, 2.0 * kPi);
             const double away =

@@ -25,7 +25,7 @@ Cut cut(const std::vector<Vec3>& positions,
     return result;
 }
 
-/// How many triangles have the edge, either way.
+/// The number of triangles with the edge in either direction.
 int uses(const Triangles& triangles, std::uint32_t a, std::uint32_t b) {
     int n = 0;
     for (const auto& t : triangles) {
@@ -81,7 +81,7 @@ TEST(FreeDiagonals, StayWhereTheOtherIsNoBetter) {
     Cut one = cut(dart, {{0, 1, 2, 3}, {0, 2, 4}});
     ASSERT_EQ(uses(one.triangles, 0, 2), 3);
     EXPECT_EQ(free_diagonals(dart, one.polygons, one.triangles), 0u);
-    // Nothing is in the way.
+    // No obstacle.
     Cut free = cut(kBentSquare, {{0, 1, 2, 3}});
     EXPECT_EQ(free_diagonals(kBentSquare, free.polygons, free.triangles), 0u);
 }

@@ -100,7 +100,7 @@ TEST(Partition, AHoleInAGapAndAPartThatLosesAllAreNoTrouble) {
     std::vector<PolygonSet> one{{}};
     make_partition(whole, one);
     EXPECT_EQ(one[0], whole);
-    make_partition(whole, {});  // nothing to give the whole to
+    make_partition(whole, {});  // no part to take the whole
 }
 
 }  // namespace

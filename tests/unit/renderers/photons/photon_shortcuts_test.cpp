@@ -1,4 +1,4 @@
-// What spares looks at photons: looks in turn, irradiance at photons, the irradiance cache.
+// Optimisations of photon lookups: lookups in turn, irradiance at photons, the irradiance cache.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ using testing::picture_of;
 using testing::rectangle;
 using testing::SceneMaker;
 
-/// A floor, seen from above, that a lamp lights straight and by way of a wall out of sight. The
-/// normals of its shading lean by `leaning` (radians).
+/// A floor, seen from above, lit by a light directly and by way of a wall out of sight. Its shading
+/// normals are tilted by `leaning` radians.
 Scene floor_beside_wall(double side, double leaning = 0.0) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -36,7 +36,7 @@ Scene floor_beside_wall(double side, double leaning = 0.0) {
     return maker.compile();
 }
 
-/// All samples see the same photons in the same light: pixels differ by their looks alone.
+/// All samples see the same photons in the same light: pixels differ by their lookups alone.
 TEST(PhotonLooks, OfNeighbouringPixelsAreAsMany) {
     const Scene scene = floor_beside_wall(1e-6);
     const std::string renderer = "photon_mapping:photons=4000,caustics=0,nearest=50,every=";
@@ -60,7 +60,7 @@ TEST(PhotonLooks, OfNeighbouringPixelsAreAsMany) {
                 EXPECT_LT(looks, most + 0.01) << every << ", " << samples << " samples";
                 sum += looks / (kSide * kSide);
             }
-            // Four standard errors of what is drawn for each pixel.
+            // Four standard errors of the random count of each pixel.
             const double share = double(samples) / every - fewest;
             EXPECT_NEAR(sum, double(samples) / every,
                         4.0 * std::sqrt(share * (1.0 - share)) / kSide + 0.01)
@@ -97,7 +97,7 @@ TEST(PhotonLooks, InTurnFillTheIrradianceCacheAsAll) {
     EXPECT_GT(known, 200);
 }
 
-/// A slab of glass straight on: what is behind it shines with 1, what it mirrors with 3.
+/// A slab of glass at normal incidence: the radiance behind it is 1, the reflected one 3.
 constexpr double kMirrored = 0.04;
 constexpr double kTwoSides = 2 * kMirrored / (1 + kMirrored);  ///< mirror, again and again
 constexpr double kThroughSlab = (1 - kTwoSides) + 3 * kTwoSides;
@@ -143,8 +143,8 @@ TEST(DimWaysAtGlass, InTurnAreTheSameForAllPixels) {
     }
 }
 
-/// What is mirrored ends within the pixels, or goes while the shutter is open: turns see all of
-/// the pixel and of the time.
+/// The reflected surface ends within the pixels, or moves while the shutter is open: turns cover
+/// the whole pixel and the whole time.
 TEST(DimWaysAtGlass, SeeAllOfThePixelAndOfTheTime) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -179,7 +179,7 @@ TEST(DimWaysAtGlass, CountAsOftenAsTheirShare) {
                     std::string("photon_mapping:photons=10,caustics=0,split=") + split +
                     ",turns=" + turns;
                 const PixelValues seen = pixels_of(scene, renderer, samples);
-                // Four standard errors; some pixels may all miss the rarest ways.
+                // Four standard errors; all samples of a pixel may miss the rarest branches.
                 EXPECT_NEAR(seen.mean, kThroughSlab, 4.0 * seen.deviation / 32 + 0.001)
                     << renderer << ", " << samples << " samples";
             }
@@ -187,7 +187,7 @@ TEST(DimWaysAtGlass, CountAsOftenAsTheirShare) {
     }
 }
 
-/// A lamp in glass is as bright where its way is gone in turn as where it is gone always.
+/// A light in glass is equally bright if its branch is followed in turn or always.
 TEST(DimWaysAtGlass, AreHeldByClampAsOften) {
     const Scene scene = slab_of_glass();
     const std::string renderer = "photon_mapping:photons=10,caustics=0,clamp=0.05,split=";
@@ -197,7 +197,7 @@ TEST(DimWaysAtGlass, AreHeldByClampAsOften) {
     EXPECT_LT(always, 0.2);
 }
 
-/// A ceiling that two lamps light, seen straight or in a mirror.
+/// A ceiling lit by two lights, seen directly or in a mirror.
 Scene ceiling_with_lamps(bool in_mirror) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -209,7 +209,7 @@ Scene ceiling_with_lamps(bool in_mirror) {
     const MaterialId lamp = maker.material(testing::shining({1, 1, 1}));
     maker.add(rectangle({0.2, -1, 0.3}, {1, 0, 0}, {0, 2, 0}), lamp);
     maker.add(rectangle({-1, -0.5, 0.6}, {0.5, 0, 0}, {0, 1, 0}), lamp);
-    // In the way of half of the second.
+    // Occludes half of the second light.
     maker.add(rectangle({-1, -0.5, 0.7}, {0.9, 0, 0}, {0, 0.5, 0}),
               maker.material(matt({0, 0, 0})));
     return maker.compile();
@@ -224,13 +224,13 @@ TEST(ShadowRays, AreAsManyAsAsked) {
             const PixelValues eight = pixels_of(scene, renderer + ",shadows=8", 1);
             EXPECT_GT(one.mean, 0.02) << renderer;
             EXPECT_NEAR(eight.mean, one.mean, 4.0 * one.deviation / 32) << renderer;
-            // More even than by chance.
+            // Stratified: a smaller deviation than that of independent samples.
             EXPECT_LT(eight.deviation, 0.3 * one.deviation) << renderer;
         }
     }
 }
 
-/// What is bright is not left to chance after `roulette` scatterings.
+/// Russian roulette after `roulette` scatterings does not end bright paths.
 TEST(BrightWays, DoNotEndByChance) {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -260,7 +260,7 @@ double largest_difference(const Film& a, const Film& b) {
     return most;
 }
 
-/// What is known at photons is of their geometric cosines.
+/// Irradiance at photons uses the geometric normal.
 TEST(IrradianceAtPhotons, IsNotForOtherNormalsOfShading) {
     const std::string renderer = "photon_mapping:photons=4000,caustics=0,nearest=50,irradiance=";
     const auto difference = [&](double leaning) {

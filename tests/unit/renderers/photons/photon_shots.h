@@ -12,7 +12,7 @@ inline ShotPhotons shot_of(const Scene& scene, const PhotonShot& shot, int threa
         .scene = scene, .camera = scene.cameras[0].camera, .control = {.threads = threads}};
     return shoot_photons(job, Illumination(scene), shot, std::size_t{1} << 30, "test");
 }
-/// The power of all.
+/// The total power.
 inline Rgb power_of(const std::vector<Photon>& photons) {
     Rgb sum;
     for (const Photon& p : photons) sum += kColorChannels.color(p.light());

@@ -23,8 +23,8 @@ using testing::shot_of;
 using testing::smooth_glass;
 constexpr double kPi = std::numbers::pi;
 
-/// A ball that a light sees under a small angle: what the projection map sends there is what the
-/// ball receives, and it is most of the photons.
+/// A ball within a small angle of a light receives exactly the photons that the projection map
+/// sends there, most of all photons.
 TEST(ProjectionMap, SendsThePhotonsTowardsTheGlassAndLosesNoLight) {
     constexpr double kAngle = 0.3;
     const double sphere = 4 * kPi * kPi;
@@ -61,7 +61,7 @@ TEST(ProjectionMap, SendsThePhotonsTowardsTheGlassAndLosesNoLight) {
     }
 }
 
-/// Of lamps with extent, of spots and of the sun the glass receives what it does without the map.
+/// Glass receives the same power of area lights, spot lights and the sun with and without the map.
 TEST(ProjectionMap, LosesNoLightOfAnyKindOfLamp) {
     Material glow, one_sided;
     glow.emission.color = one_sided.emission.color = {1, 1, 1};
@@ -141,7 +141,7 @@ TEST(ProjectionMap, AimsNowhereWhereNothingReflects) {
     EXPECT_EQ(aimed.direction_density, plain.direction_density);
 }
 
-/// A ball that goes past a lamp is aimed at wherever it is in the time of the shutter.
+/// Photons are aimed at a ball that moves past a light, wherever it is while the shutter is open.
 TEST(ProjectionMap, AimsAtGlassOfAnyMoment) {
     SceneMaker maker;
     maker.add(ball({3, 0, 0}, 0.6), maker.material(smooth_glass(1.5)),

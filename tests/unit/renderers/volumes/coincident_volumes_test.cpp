@@ -1,5 +1,5 @@
-// Faces of volumes that coincide, with each other or with what is opaque: one boundary, whichever
-// part is named first.
+// Faces of volumes that coincide with each other or with an opaque surface are one boundary,
+// whichever part is named first.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<std::string> renderers(int depth) {
 }
 constexpr int kFew = 6, kMany = 64;
 
-/// Looks aslant from above at what is below a lamp.
+/// A camera that looks obliquely down at the region below a light.
 SceneMaker below_a_lamp() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -33,7 +33,7 @@ SceneMaker below_a_lamp() {
     maker.add(rectangle({-1.5, -1.5, 2}, {0, 3, 0}, {3, 0, 0}), maker.material(shining({2, 2, 2})));
     return maker;
 }
-/// A lamp in the left one of two volumes that touch: light goes through the common face to points
+/// Adds a light in the left one of two volumes that touch: light passes the common face to points
 /// in the right one.
 void add_lamp_inside(SceneMaker& maker) {
     maker.add(ball({-0.3, -0.1, 0.5}, 0.25), maker.material(shining({3, 2.5, 2})));
@@ -66,7 +66,7 @@ void expect_light_of(const Blocks& truth, const Scene& scene, const std::string&
 double sum_of(const Rgb& c) {
     return c.r + c.g + c.b;
 }
-/// Of the same volumes in another order: path by path, but for rounding.
+/// Expects equal paths of the same volumes in another order, up to rounding.
 void expect_same_paths(const Scene& a, const Scene& b, const std::string& renderer,
                        const std::string& name) {
     const Film first = picture_of(a, renderer, 8, 16), second = picture_of(b, renderer, 8, 16);
@@ -146,7 +146,7 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
     }
 }
 
-/// Nested volumes with one face in common light things as those a little apart.
+/// Nested volumes with a common face transport light like volumes a small distance apart.
 TEST(CoincidentVolumes, FlushVolumesNestInAnyOrder) {
     const std::vector<Material> materials{clear(1.5, {2, 1, 2}), clear(1.33, {0.3, 2, 2}),
                                           clear(1.2, {0.2, 0.1, 0.1})};
@@ -172,7 +172,7 @@ TEST(CoincidentVolumes, FlushVolumesNestInAnyOrder) {
     }
 }
 
-/// The table is met, not passed: also where the glass is the lower primitive.
+/// The table is hit, not passed, also if the glass is the lower primitive.
 TEST(CoincidentVolumes, ABlockStandsOnItsTable) {
     for (const auto& [name, material] : std::vector<std::pair<std::string, Material>>{
              {"glass", clear(1.5, {0.2, 0.1, 0.2})}, {"fog", fog({}, {1.2, 1.6, 2}, 0.3)}}) {

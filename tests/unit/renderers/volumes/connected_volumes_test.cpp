@@ -1,4 +1,4 @@
-// What passes straight connections through volumes, and how likely walks are to.
+// Transmittance of straight connections through volumes, and the densities of walks.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ struct Passed {
     bool same = false;  ///< from the other end
 };
 
-/// Between two points, by all three ways to ask.
+/// The transmittance between two points, by all three queries.
 Passed pass(const Scene& scene, const Vec3& from, const Vec3& to) {
     RayCounters counters;
     LightBatch batch(scene, counters, nullptr);
@@ -56,7 +56,8 @@ Passed pass(const Scene& scene, const Vec3& from, const Vec3& to) {
 
 const Rgb kFog{0.1, 0.3, 0.2}, kDenser{0.5, 0.6, 0.9}, kAbsorbs{0.7, 0.1, 0.4};
 
-/// Fog from x = 0 to 10, in it what absorbs from 2 to 8, in that denser fog from 4 to 6.
+/// Fog from x = 0 to 10, inside it an absorbing volume from 2 to 8, inside that denser fog from 4
+/// to 6.
 SceneMaker nested(double index = 1.0) {
     SceneMaker maker;
     const auto layer = [&](double lo, double hi, const Material& m) {
@@ -99,12 +100,12 @@ TEST(ConnectedVolumes, WhatBendsLightBlocksConnections) {
         const Scene scene = nested(index).compile();
         EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).share.is_black()) << index;
         EXPECT_TRUE(pass(scene, {-3, 0.1, 0.2}, {1, 0.1, 0.2}).in_batch.is_black()) << index;
-        // Between volumes of the same index nothing is bent.
+        // No refraction between volumes of the same index.
         EXPECT_FALSE(pass(scene, {1, 0.1, 0.2}, {3, 0.1, 0.2}).share.is_black()) << index;
     }
 }
 
-/// Volumes of one index that touch: their faces are one, which bends nothing, in either order.
+/// The touching faces of volumes of one index are one face without refraction, in either order.
 TEST(ConnectedVolumes, FacesThatCoincideAreOne) {
     for (const double index : {1.0, 1.3}) {
         for (const bool turned : {false, true}) {
@@ -127,7 +128,7 @@ TEST(ConnectedVolumes, FacesThatCoincideAreOne) {
     }
 }
 
-/// Whatever side is the endless one, and however far away it ends.
+/// Either side may be the unbounded one, and its boundary at any distance.
 TEST(ConnectedVolumes, VolumesWithoutEndAreFoundFromBothSides) {
     for (int k = 0; k < 6; ++k) {
         Vec3 normal;
@@ -144,12 +145,12 @@ TEST(ConnectedVolumes, VolumesWithoutEndAreFoundFromBothSides) {
     }
 }
 
-/// Where they share a face that which is left last lies outside, whichever is named first.
+/// Of volumes that share a face the one left last lies outside, whichever is named first.
 TEST(ConnectedVolumes, FlushVolumesNestInAnyOrder) {
     for (const std::size_t count : {2u, 3u, 5u}) {
         std::vector<std::size_t> order(count);
         std::iota(order.begin(), order.end(), std::size_t{0});
-        // The ways to the sides of a flat inner one and through its other end.
+        // Connections to the sides of a flat inner volume and through its other end.
         for (const bool rod : {false, true}) {
             do {
                 SceneMaker maker;
@@ -177,7 +178,7 @@ TEST(ConnectedVolumes, FlushVolumesNestInAnyOrder) {
     }
 }
 
-/// A bounded volume of the same material holds the point, too: that one alone is left.
+/// A bounded volume of the same material also contains the point: leaving removes that one alone.
 TEST(ConnectedVolumes, VolumesWithoutEndLieAroundThoseOfTheirMaterial) {
     for (int k = 0; k < 6; ++k) {
         Vec3 normal;
@@ -210,7 +211,7 @@ TEST(ConnectedVolumes, ALayerBetweenTwoPlanesIsOneVolume) {
     }
 }
 
-/// What is bounded holds no point that is infinitely far away, closed or open.
+/// Bounded surfaces, closed or open, contain no point at infinity.
 TEST(ConnectedVolumes, NothingBoundedReachesToInfinity) {
     SceneMaker maker;
     TriangleMesh sheet;
@@ -229,7 +230,7 @@ TEST(ConnectedVolumes, NothingBoundedReachesToInfinity) {
     EXPECT_NE(finder.without_end_around({4, 3, -25}, 0).here(), nullptr);
 }
 
-/// Behind what is opaque nothing is crossed.
+/// No boundary behind an opaque surface is crossed.
 TEST(ConnectedVolumes, NothingIsCrossedWithAnOpaqueFace) {
     SceneMaker maker;
     maker.add(BoxShape{{-1, -1, 0}, {1, 1, 1}}, maker.material(fog({}, kFog)));

@@ -1,4 +1,4 @@
-// Scenes with volumes that scatter: the renderers of light transport agree in pairs.
+// Scenes with scattering volumes: the renderers of light transport agree in pairs.
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ struct Found {
     double bias;  ///< allowed, of the picture
 };
 
-/// All pairs, block by block. 24 cases in a scene of four renderers: a t of 22 degrees of freedom
-/// beyond 5.7 is seen in one of 4000 runs of it. Errors are at most `most` of the block, or of the
-/// picture where that is brighter: what differs by some times as much is found.
+/// Compares all pairs, block by block. 24 cases in a scene of four renderers: a t of 22 degrees of
+/// freedom beyond 5.7 occurs in one of 4000 runs of it. Errors are at most `most` of the block, or
+/// of the picture if that is brighter; differences of several times as much are detected.
 void expect_agreement(const Scene& scene, const std::string& name,
                       const std::vector<std::string>& renderers, int samples, double most) {
     constexpr double kMost = 5.7;
@@ -59,7 +59,7 @@ void expect_agreement(const Scene& scene, const std::string& name,
 
 const std::vector<std::string> kAll{"path_tracing", "light_tracing", "bidirectional",
                                     "vcm:photons=400,radius=0.03,pilot=off"};
-/// Where light tracing sees nothing.
+/// Renderers for scenes that are black to light tracing.
 const std::vector<std::string> kBehindGlass{"path_tracing", "bidirectional",
                                             "vcm:photons=400,radius=0.03,pilot=off"};
 
@@ -68,7 +68,7 @@ std::vector<std::string> spectral(std::vector<std::string> renderers) {
     return renderers;
 }
 
-/// A floor seen aslant from above.
+/// A floor seen obliquely from above.
 SceneMaker over_a_floor() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -89,8 +89,8 @@ TEST(VolumeAgreement, APointOfLightOutsideOfFog) {
     }
 }
 
-/// Photons that come through a boundary which is passed straight are direct light, as all that
-/// shadow rays find: it is not found twice. Balls of estimates reach beyond the fog, which is thin.
+/// Photons through a boundary without refraction are direct light, which shadow rays find: it is
+/// not counted twice. Balls of estimates extend beyond the thin fog.
 TEST(VolumeAgreement, PhotonsOfAPointOutsideOfFog) {
     SceneMaker maker = over_a_floor();
     maker.add(BoxShape{{-1, -1, 0.02}, {1, 1, 1.2}},
@@ -99,7 +99,7 @@ TEST(VolumeAgreement, PhotonsOfAPointOutsideOfFog) {
     const Scene scene = maker.compile();
     constexpr double kMost = 5.4;
     for (const char* depth : {"depth=1", "depth=2"}) {
-        // Light that is scattered once needs no photons.
+        // Single scattering needs no photons.
         const double bias = std::string(depth) == "depth=1" ? 0.0 : 0.04;
         const Blocks truth = blocks_of(scene, std::string("path_tracing:") + depth, 48, 8);
         double whole = 0.0;
@@ -149,7 +149,7 @@ TEST(VolumeAgreement, ALampInsideOfAVolume) {
     }
 }
 
-/// Fog around what absorbs, around denser fog: of one index, which is that of the air or not.
+/// Fog around an absorbing volume around denser fog, of one index, which is that of the air or not.
 TEST(VolumeAgreement, NestedVolumes) {
     for (const double index : {1.0, 1.3}) {
         SceneMaker maker = over_a_floor();
@@ -169,7 +169,7 @@ TEST(VolumeAgreement, NestedVolumes) {
     }
 }
 
-/// All is in the fog: the eye, the lamp, a glossy ball, half a wall.
+/// The eye, the light, a glossy ball and half a wall are in the fog.
 SceneMaker room_of_fog() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -225,8 +225,8 @@ TEST(VolumeAgreement, GlassInFog) {
     expect_agreement(maker.compile(), "glass in fog", kBehindGlass, 48, 0.05);
 }
 
-/// A boundary that covers in part is open into its volume for the rest: eye, lamps and paths agree
-/// on what lies behind. Before, paths went in without a medium, and lost it where they went out.
+/// A boundary of partial coverage is open into its volume for the rest: eye, lights and paths agree
+/// on the medium behind it.
 TEST(VolumeAgreement, BoundariesThatCoverInPart) {
     struct Case {
         std::string name;
@@ -251,7 +251,7 @@ TEST(VolumeAgreement, BoundariesThatCoverInPart) {
         maker.add(BoxShape{{-0.7, -0.6, 0.02}, {0.6, 0.5, 0.9}}, maker.material(material));
         maker.add(rectangle({-0.5, -0.5, 2}, {0, 1, 0}, {1, 0, 0}),
                   maker.material(shining({4, 4, 4})));
-        // A lamp and a ball inside.
+        // A light and a ball inside.
         maker.add(ball({0.2, 0, 0.5}, 0.1), maker.material(shining({3, 2, 2})));
         maker.add(ball({-0.3, 0.1, 0.4}, 0.2), maker.material(matt({0.7, 0.7, 0.7})));
         expect_agreement(maker.compile(), c.name, c.mode == AlphaMode::Mask ? kAll : kBehindGlass,

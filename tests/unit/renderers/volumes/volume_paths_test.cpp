@@ -1,4 +1,4 @@
-// Paths from both ends through volumes that scatter: closed forms.
+// Paths from both ends through scattering volumes: closed forms.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ void expect_near(const Scene& scene, const std::string& renderer, const Rgb& exp
     }
 }
 
-/// All of a ball of 1, and some of what is beside it.
+/// A view of a whole ball of radius 1 and some of its surroundings.
 SceneMaker beside_a_ball() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
@@ -76,7 +76,7 @@ TEST(VolumePaths, ABallOfMilkIsInvisibleInEvenSurroundings) {
     }
 }
 
-/// Airlight: the light of a lamp that fog scatters once, along parallel views.
+/// Airlight: light scattered once by fog, along parallel views.
 TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
     const Rgb absorption{0.1, 0, 0.4}, scattering{0.3, 0.2, 0.15};
     const Vec3 lamp{1.6, 0, 1};
@@ -114,7 +114,7 @@ TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
     }
 }
 
-/// A layer in the sun, through boundaries that are passed straight.
+/// A layer in sunlight, with boundaries without refraction.
 TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     const Rgb absorption{0.1, 0.3, 0}, scattering{0.3, 0.2, 0.6};
     constexpr double kThick = 1.5;
@@ -138,15 +138,15 @@ TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     }
 }
 
-/// A small lamp in the middle of a ball of fog, seen by what the ball scatters once.
+/// A small light in the middle of a ball of fog, seen by single scattering.
 TEST(VolumePaths, ALampInABallOfFogIsFoundFromOutside) {
     const Rgb scattering{0.2, 0.5, 0.8};
     SceneMaker maker = beside_a_ball();
     maker.description().conventions.shading.clamp_attenuation = false;
     maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, scattering)));
     maker.light(PointLight{.position = {0, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
-    // By the distance r from the lamp: a shell sends its light to all sides alike; the view passes
-    // the way from there to the surface.
+    // Integral over the distance r from the light: a shell scatters isotropically, and the light is
+    // attenuated from there to the surface.
     Rgb expected;
     constexpr int kShells = 200, kCosines = 200;
     for (int i = 0; i < kShells * kCosines; ++i) {
@@ -160,7 +160,7 @@ TEST(VolumePaths, ALampInABallOfFogIsFoundFromOutside) {
         }
     }
     const Scene scene = maker.compile();
-    // Views that pass the lamp closely have an endless variance where paths begin at the eye alone.
+    // Views that pass close to the light have an infinite variance with paths from the eye alone.
     for (const std::string& renderer : kJoining) {
         if (renderer == "path_tracing") continue;
         expect_near(scene, with(renderer, "depth=1"), expected, 100, 0.02, 8);

@@ -24,14 +24,14 @@ TEST(AlbedoTables, GgxIsItsIntegral) {
 }
 
 TEST(AlbedoTables, GiveTheSameBitsHoweverOftenTheyAreAsked) {
-    // Two tables, whose slices take turns: each alpha is asked for once, then again and again.
+    // Two tables, whose slices alternate: each alpha is looked up once, then repeatedly.
     const auto albedo = [](double mu, double alpha) { return 0.2 + 0.7 * mu * (1.0 - alpha); };
     const auto other = [](double mu, double alpha) { return 0.9 - 0.5 * mu * alpha; };
     const AlbedoTable first(albedo), second(other, AlbedoTable::Axis::Angle);
     for (const AlbedoTable* table : {&first, &second}) {
         for (const double mu : kCosines) {
             for (const double r : kRoughnesses) {
-                // The same values by a table that has never been asked.
+                // The same values by an unused table.
                 const AlbedoTable fresh = table == &first
                                               ? AlbedoTable(albedo)
                                               : AlbedoTable(other, AlbedoTable::Axis::Angle);

@@ -209,7 +209,7 @@ TEST(Bsdf, BlendedMaterialsHaveTheMeanOfTheirValues) {
     }
 }
 
-/// What is asked of a single lobe without its variant is what the lobe says.
+/// Queries of a single lobe without its variant give the lobe's own values.
 template <class L>
 void expect_lobe_alone(const L& lobe, const Spectrum& weight) {
     Bsdf bsdf;

@@ -14,7 +14,7 @@ constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1};
 void expect_furnace(const NamedBsdf& b, double expected) {
     for (const double cosine : kViews) {
         Spectrum sum = furnace(b.bsdf, view_at(cosine), 1 << 14);
-        // Where these samples are too few to tell, more.
+        // More samples if these are too few to decide.
         if (std::abs(sum.a - expected) > 0.7 * b.error * expected) {
             sum = furnace(b.bsdf, view_at(cosine), 1 << 18);
         }
@@ -64,7 +64,7 @@ Bsdf bsdf_of_parameters(const MetallicRoughness& p, double index = 1.5, bool ins
     return bsdf_of(m, {}, {}, {.from_inside = inside});
 }
 
-/// White materials of the glTF model, whose layers lose nothing.
+/// White materials of the glTF model, whose layers lose no energy.
 std::vector<NamedBsdf> white_materials(double roughness) {
     std::vector<NamedBsdf> list;
     const auto add = [&](std::string name, const auto& change, bool inside = false) {

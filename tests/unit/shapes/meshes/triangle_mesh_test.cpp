@@ -109,7 +109,7 @@ TEST(TriangleMesh, AnEdgeOfFourTrianglesIsNoOpening) {
     EXPECT_EQ(edges.description(), "closed");
     TriangleMesh turned = mesh;  // one of the two inside out: still evenly many
     for (std::size_t i = 0; i < 4; ++i) std::swap(turned.triangles[i][0], turned.triangles[i][1]);
-    EXPECT_TRUE(mesh_edges(turned).oriented());  // as often one way as the other
+    EXPECT_TRUE(mesh_edges(turned).oriented());  // equally often in both directions
     std::swap(turned.triangles[0][0], turned.triangles[0][1]);
     EXPECT_TRUE(mesh_edges(turned).closed());
     EXPECT_EQ(mesh_edges(turned).turned, 3u);

@@ -1,5 +1,5 @@
 #pragma once
-/// Closed patch meshes for tests, and lines aimed at what is hard in them.
+/// Closed patch meshes for tests, and lines aimed at their difficult places.
 
 #include <array>
 #include <vector>

@@ -48,7 +48,7 @@ std::vector<double> crossings_of(const PatchMethodEntry& entry, const BezierNet&
     return t;
 }
 
-/// What a method's crossings are off by: a pixel, or rounding.
+/// The tolerance of a method's crossings: a pixel, or rounding.
 double error_of(const PatchMethodEntry& entry) {
     return std::string(entry.name) == "subdivision" ? 5e-3 : 1e-8;
 }

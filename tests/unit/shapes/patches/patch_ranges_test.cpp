@@ -1,5 +1,6 @@
-// A ray's first crossing is the first of its whole line's that is in the ray's range, bit for bit:
-// rays that begin or end close to a crossing, one by one, side by side, and many apart.
+// A ray's first crossing is the first crossing of its line within the ray's range, bit for bit:
+// rays that begin or end close to a crossing, one by one, in coherent bundles, and many incoherent
+// ones.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,7 @@ struct Line {
     }
 };
 
-/// Side by side; the first through a patch, or nearly tangent to it.
+/// A coherent bundle; the first ray passes through a patch, or is nearly tangent to it.
 std::vector<Ray> bundle_at(std::span<const BezierNet> nets, double size, Random& random) {
     const auto patch = static_cast<std::size_t>(random.below(static_cast<int>(nets.size())));
     const PatchPoint p = derivatives_at(nets[patch], random.uniform(), random.uniform());
@@ -137,7 +138,7 @@ std::size_t expect_crossings_in_ranges(std::span<const BezierNet> nets, int bund
     return crossings;
 }
 
-/// Each instruction set has lines of its own.
+/// Each instruction set tests different lines.
 void expect_on_targets(std::span<const BezierNet> nets, int bundles, std::size_t least) {
     const std::vector<std::string> targets = simd_targets();
     const int count = static_cast<int>(targets.size());

@@ -1,6 +1,6 @@
 #pragma once
 /// Bilinear and Steiner patches for tests: sheets with shared edges, random patches, pieces of the
-/// Roman surface and of a sphere; the crossings of a Steiner patch beside those by its quartic.
+/// Roman surface and of a sphere; the crossings of a Steiner patch against those by its quartic.
 
 #include <gtest/gtest.h>
 
@@ -106,7 +106,7 @@ inline SteinerPatch random_steiner(Random& random) {
     return patch;
 }
 
-/// What rounding may decide: a crossing on the border, or two that are close.
+/// True if rounding may decide the count: a crossing on the border, or two that are close.
 inline bool is_delicate(const ShapeHit* hits, int count) {
     for (int k = 0; k < count; ++k) {
         if (std::min({hits[k].u, hits[k].v, 1.0 - hits[k].u - hits[k].v}) < 1e-8) return true;

@@ -1,5 +1,5 @@
 // A million rays each: at shared edges and corners of bilinear patches, and at Steiner patches
-// beside their quartics.
+// against their quartics.
 
 #include "simple_patches.h"
 

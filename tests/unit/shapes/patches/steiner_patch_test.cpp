@@ -1,4 +1,4 @@
-// Crossings of Steiner patches: beside those by their implicit quartic or cubic, pieces of the
+// Crossings of Steiner patches: against those by their implicit quartic or cubic, pieces of the
 // Roman surface and of a sphere, tangent rays, planar patches, bad input.
 
 #include "alhazen/shapes/patches/steiner_patch.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// The cheapest split of each axis, the axes in lanes; what binned_split.cpp and swept_split.cpp
-/// share.
+/// The cheapest split of each axis, with the axes in lanes; shared by binned_split.cpp and
+/// swept_split.cpp.
 
 #include <cstdint>
 #include <cstring>
@@ -12,7 +12,7 @@ namespace alhazen {
 
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
-/// One side of a split, or a bin: of primitives of several kinds.
+/// One side of a split, or a bin, of primitives of several kinds.
 struct KindBox {
     Box4 box;
     KindCounts count{};
@@ -74,7 +74,7 @@ struct AxisSplits {
         cost = chosen(better, sum, cost);
         last_left = (better & last) | (~better & last_left);
     }
-    /// The cheapest one of all, without boxes.
+    /// The cheapest split of all axes, without its boxes.
     [[nodiscard]] ObjectSplit best() const {
         ObjectSplit split;
         for (int axis = 0; axis < 3; ++axis) {

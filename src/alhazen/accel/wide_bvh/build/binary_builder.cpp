@@ -9,12 +9,12 @@
 namespace alhazen {
 namespace {
 
-/// Bound of the levels of nodes above a part: halving ends all from kMaxSahLevel on.
+/// Bound of the levels of nodes above a part: from kMaxSahLevel on sets are halved.
 constexpr std::uint32_t kMostLevels = kMaxSahLevel + 32;
 
-/// Nodes lie close together, as most subtrees have fewer than their references allow: parts of the
-/// tree that are built by one thread are copied to where the last one ended. The nodes above that
-/// have a part as their leftmost one lie right before it.
+/// Stores nodes contiguously, although most subtrees have fewer nodes than their references allow:
+/// a part of the tree built by one thread is copied to the end of the last one. The nodes above
+/// whose leftmost part it is are stored right before it.
 class Builder {
   public:
     Builder(std::span<BuildReference> references, const LeafKinds& kinds)
@@ -30,13 +30,13 @@ class Builder {
     }
 
   private:
-    /// A part of the tree with its own numbers of nodes.
+    /// A part of the tree with its own node indices.
     struct Part {
         BinaryNode* nodes;
         std::uint32_t count = 0;
     };
 
-    /// Returns the place of the root. `above`: the number of nodes right before it.
+    /// Returns the index of the root. `above`: number of nodes right before it.
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, const RangeSummary& all, int level,
                         std::uint32_t above) {
         if (end - begin < kParallelBuildSize || all.indivisible(kinds_)) {

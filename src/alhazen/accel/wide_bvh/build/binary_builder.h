@@ -6,7 +6,7 @@
 /// Differs: sets are divided as in sah_split.h; from level 48 on they are halved, so the depth is
 /// bounded for every input.
 /// Complexity and threads: O(n log n), parallel; the tree and the order of the references are the
-/// same for every number of threads, the places of its nodes are not.
+/// same for every number of threads, though not the indices of its nodes.
 
 #include <span>
 

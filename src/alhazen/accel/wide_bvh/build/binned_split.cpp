@@ -45,7 +45,7 @@ struct Binning {
     }
 };
 
-/// Whether the bin of a reference along the axis of a split is on its left.
+/// True if the bin of a reference along the axis of a split is on its left.
 class LeftOf {
   public:
     LeftOf(const Binning& binning, const ObjectSplit& split)
@@ -188,7 +188,7 @@ class PlainBins {
 };
 
 void fill(std::span<const BuildReference> references, const Binning& all, PlainBins& bins) {
-    const Binning binning = all;  // seen not to change
+    const Binning binning = all;  // a local copy, known to be constant
     const auto add = [&](const BuildReference& r, PlainBins& to) {
         const Box4 box(r);
         to.include(box, binning.bin(box.center2()));
@@ -196,7 +196,7 @@ void fill(std::span<const BuildReference> references, const Binning& all, PlainB
     const BuildReference* r = references.data();
     const BuildReference* const end = r + references.size();
     if (references.size() >= kTwoSets) {
-        // Neighbors often fall into one bin, and would wait for each other.
+        // Neighbors often fall into one bin; a second set avoids waiting for the first update.
         PlainBins others(binning.bins);
         for (; end - r >= 2; r += 2) {
             add(r[0], bins);

@@ -7,11 +7,11 @@
 
 namespace alhazen {
 
-/// The effort of building. Hits are the same for all; building and tracing times differ.
+/// Build effort. Hits are the same for all; build and trace times differ.
 enum class BuildQuality : std::uint8_t {
     Fast,     ///< for scenes that change with every image: clustering along a space-filling curve
     Default,  ///< binned surface area heuristic
-    High,     ///< for scenes that are traced for long: spatial splits, reinsertion
+    High,     ///< for scenes that are traced often: spatial splits, reinsertion
 };
 
 /// The arithmetic of the ray-triangle test.
@@ -24,7 +24,7 @@ enum class Precision : std::uint8_t {
 /// The representation of triangles in the leaves.
 enum class Leaves : std::uint8_t {
     Vertices,  ///< vertices in float, eight triangles in five cache lines
-    Indices,   ///< triangle numbers only: a fifth of the memory, and slower to trace
+    Indices,   ///< triangle indices only: a fifth of the memory, and slower to trace
 };
 
 struct BuildOptions {
@@ -46,7 +46,7 @@ struct BuildQualityEntry {
 };
 
 [[nodiscard]] std::span<const BuildQualityEntry> build_quality_table();
-/// The entry called `name`. Throws Error(Usage) with the valid names for an unknown one.
+/// The entry with this name. Throws Error(Usage) with the valid names for an unknown one.
 [[nodiscard]] BuildQuality find_build_quality(const std::string& name);
 [[nodiscard]] const char* name_of(BuildQuality quality);
 

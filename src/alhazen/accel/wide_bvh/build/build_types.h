@@ -17,15 +17,15 @@ inline constexpr std::size_t kLeafKinds = 4;
 /// The cost of a leaf of one kind.
 struct LeafKind {
     std::uint32_t width_log2 = 0;  ///< log2 of the number of primitives in a block
-    float cost = 1;                ///< of a block, in units of visits of a wide node
+    float cost = 1;                ///< cost of a block, in units of visits of a wide node
 
     [[nodiscard]] std::uint32_t width() const { return 1u << width_log2; }
     /// Number of blocks that `count` primitives fill.
     [[nodiscard]] std::uint32_t blocks(std::uint32_t count) const {
         return (count + width() - 1) >> width_log2;
     }
-    /// Size up to which builders need not divide: half a block is not worth its own box, except by
-    /// the cost that `collapse` weighs.
+    /// Largest number of primitives that builders need not divide: half a block is not worth its
+    /// own box, unless the cost evaluated by `collapse` says otherwise.
     [[nodiscard]] std::uint32_t indivisible() const { return width() > 2 ? width() / 2 : 1; }
 };
 using LeafKinds = std::array<LeafKind, kLeafKinds>;
@@ -59,11 +59,11 @@ static_assert(sizeof(BuildReference) == 32);
 
 struct BinaryNode {
     FloatBox box;
-    std::uint32_t begin = 0, end = 0;  ///< its range of the references
+    std::uint32_t begin = 0, end = 0;  ///< range of its references
     std::uint32_t right =
         0;  ///< index of the right child; the left child follows the node; 0: a leaf
     std::uint32_t kind =
-        kLeafKinds;  ///< of all primitives in the range; kLeafKinds where they differ
+        kLeafKinds;  ///< kind of all primitives in the range; kLeafKinds if they differ
 
     [[nodiscard]] bool is_leaf() const { return right == 0; }
     [[nodiscard]] std::uint32_t size() const { return end - begin; }

@@ -27,7 +27,7 @@ struct Cluster {
     std::uint32_t kind = 0;  ///< common kind, or kLeafKinds
 };
 
-/// Finds the small subtrees in a part of the sorted references.
+/// Finds small subtrees in a part of the sorted references.
 class Seeds {
   public:
     Seeds(std::span<const BuildReference> references, std::span<const std::uint64_t> codes,
@@ -49,7 +49,7 @@ class Seeds {
     }
 
   private:
-    /// At the first bit in which codes differ; in the middle where they are all the same.
+    /// Divides at the first bit in which codes differ, or in the middle if they are all equal.
     [[nodiscard]] std::uint32_t divide(std::uint32_t begin, std::uint32_t end) const {
         const std::uint64_t differ = codes_[begin] ^ codes_[end - 1];
         if (differ == 0) return begin + (end - begin) / 2;
@@ -66,8 +66,8 @@ class Seeds {
     std::vector<DraftNode>& out_;
 };
 
-/// The partners of the clusters of a chunk: the joined box of the least surface, then the number
-/// that differs in the lowest bits.
+/// The partners of the clusters of a chunk: by the joined box of the least surface, then by the
+/// index that differs in the lowest bits.
 class Partners {
   public:
     Partners(const Cluster* clusters, std::size_t count) : clusters_(clusters), count_(count) {}
@@ -87,8 +87,8 @@ class Partners {
     static constexpr std::size_t kMargin = 2 * kRadius + 3 * kLanes;  // read beside a chunk
     static constexpr std::size_t kRoom = kChunk + kMargin;
 
-    /// Clusters from kRadius before the chunk to kRadius behind it, a row for each number. Where
-    /// there is none, an infinite box stands. Returns whether kinds differ.
+    /// Loads clusters from kRadius before the chunk to kRadius behind it, one row for each value;
+    /// missing ones have an infinite box. Returns whether kinds differ.
     bool load(std::size_t begin, std::size_t end) {
         constexpr float kFar = std::numeric_limits<float>::infinity();
         const std::size_t rows = end - begin + kMargin;
@@ -127,7 +127,7 @@ class Partners {
             const Float4 hi[3] = {lanes<Float4>(&hi_[0][i]), lanes<Float4>(&hi_[1][i]),
                                   lanes<Float4>(&hi_[2][i])};
             for (std::size_t d = 1; d <= kRadius; ++d) {
-                // Not a loop: the compiler would keep the boxes in memory.
+                // Not a loop, in which the compiler would keep the boxes in memory.
                 const auto size_along = [&](std::size_t k) {
                     return greater(lanes<Float4>(&hi_[k][i + d]), hi[k]) -
                            lesser(lanes<Float4>(&lo_[k][i + d]), lo[k]);
@@ -158,12 +158,12 @@ class Partners {
                 least = lesser(lanes<Float4>(&weight_[d - 1][kRadius + i]), least);
                 least = lesser(lanes<Float4>(&weight_[d - 1][kRadius + i - d]), least);
             }
-            // Of those with the least weight, the one whose number differs least. Numbers are
-            // compared by their bits as those of floats, which have the same order; what stands for
-            // others is larger than all.
+            // Among those with the least weight selects the one whose index differs least. Indices
+            // are compared as the bits of floats, which have the same order; the placeholder for
+            // all others is larger.
             const Int4 self = Int4{0, 1, 2, 3} + static_cast<std::int32_t>(begin + i);
             constexpr std::int32_t kOther = 1 << 30;
-            // So that none is a denormal number, which some threads take for zero.
+            // Avoids denormal numbers, which some threads treat as zero.
             constexpr std::int32_t kBias = 1 << 23;
             Float4 apart = bits_as<Float4>(Int4{} + (kOther + kBias));
             const auto offer = [&](const float* weights, Int4 other) {
@@ -192,7 +192,7 @@ class Partners {
 
 class Clustering {
   public:
-    /// `nodes`: the seeds, and room for as many nodes less one.
+    /// `nodes`: the seeds, followed by capacity for one node less than there are seeds.
     Clustering(DraftNode* nodes, std::size_t count)
         : nodes_(nodes),
           count_(count),
@@ -200,7 +200,7 @@ class Clustering {
           next_(make_huge_array<Cluster>(count)),
           partners_(make_huge_array<std::uint32_t>(count)) {}
 
-    /// Returns the root.
+    /// Clusters until one is left and returns the root.
     std::uint32_t run(const BuildReference* references) {
         parallel_for(count_, kChunk, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -256,8 +256,8 @@ class Clustering {
         return node;
     }
 
-    /// For rounds with hardly any mutual partners, which some inputs cause: joins neighbors, so
-    /// that the number of rounds stays small.
+    /// For rounds with hardly any mutual partners, which occur for some inputs: joins neighbors,
+    /// which bounds the number of rounds.
     std::size_t pair_up(std::size_t used) {
         const std::size_t n = count_;
         for (std::size_t i = 0; i + 1 < n; i += 2) {
@@ -278,7 +278,7 @@ class Clustering {
     }
 
     DraftNode* nodes_;
-    std::size_t count_;  ///< of clusters
+    std::size_t count_;  ///< number of clusters
     HugeArray<Cluster> clusters_, next_;
     HugeArray<std::uint32_t> partners_;
 };

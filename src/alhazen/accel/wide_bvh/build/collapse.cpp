@@ -103,7 +103,7 @@ SpreadOf<8> spread_of<8>(const CostsOf<8>& l, const CostsOf<8>& r) {
     return spread;
 }
 
-/// Numbers of nodes and blocks of a wide subtree, or where it begins.
+/// Numbers of nodes and blocks of a wide subtree, or their start indices.
 struct Extent {
     std::size_t nodes = 0;
     std::array<std::size_t, kLeafKinds> blocks{};
@@ -118,7 +118,7 @@ struct Extent {
 struct Plan {
     Extent extent;
     int depth = 0;               ///< levels of inner nodes
-    std::vector<Plan> children;  ///< only where they are separate tasks
+    std::vector<Plan> children;  ///< only if they are separate tasks
 
     void add(const Plan& child) {
         extent.add(child.extent);
@@ -140,13 +140,13 @@ struct Emitted {
     float cost = 0;     ///< expected cost of a line that intersects its box and passes through
 };
 
-/// The child with the larger value is visited first: the probability of a hit over the cost.
+/// Visiting priority of a child, larger first: the probability of a hit over the cost.
 float promise_of(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
 }
 
-/// As WideNodeOf::set_order. Ranks the children of all octants at once, an octant a lane, without
-/// branches, as the order is unpredictable.
+/// As WideNodeOf::set_order. Ranks the children of all octants at once, one octant per lane,
+/// without branches, as the order is unpredictable.
 template <std::size_t Width>
 void set_order(WideNodeOf<Width>& node, std::uint32_t used) {
     using Int4 = std::int32_t __attribute__((vector_size(16)));
@@ -177,7 +177,7 @@ void set_order(WideNodeOf<Width>& node, std::uint32_t used) {
             across[octant] |= std::uint64_t{i} << kBits * (used - 1 - place);
         }
     }
-    std::uint64_t free = 0;  // free slots stay
+    std::uint64_t free = 0;  // free slots keep their place
     for (std::uint32_t i = used; i < Width; ++i) free |= std::uint64_t{i} << kBits * i;
     for (std::size_t octant = 0; octant < 4; ++octant) {
         node.order[octant] = static_cast<Order>(all[octant] | free);
@@ -186,7 +186,7 @@ void set_order(WideNodeOf<Width>& node, std::uint32_t used) {
 }
 
 /// Three passes: choose the conversion of each binary node, bottom-up; count the nodes and blocks
-/// of each wide subtree; write all subtrees, each to its place.
+/// of each wide subtree; write all subtrees, each at its position.
 template <std::uint32_t kWidth>
 class WideCollapse {
     using Choice = ChoiceOf<kWidth>;
@@ -256,7 +256,7 @@ class WideCollapse {
         return area * kind.cost * static_cast<float>(blocks);
     }
 
-    /// Of an inner node of the binary tree: sets its costs.
+    /// Sets the costs of an inner node of the binary tree.
     static Choice weigh(const Costs& l, const Costs& r, float area, float as_leaf, Costs& costs) {
         const SpreadOf<kWidth> spread = spread_of<kWidth>(l, r);
         const float inner = area + spread.cost[kWidth - 1];
@@ -346,7 +346,7 @@ class WideCollapse {
                 kinds_[node.kind].cost * static_cast<float>(count)};
     }
 
-    /// The same with the children in parallel, where they have plans.
+    /// The same with the children in parallel, if they have plans.
     Emitted emit(std::uint32_t index, const Plan& plan, Extent place) {
         if (plan.children.empty()) return emit(index, place);
         const std::size_t number = place.nodes++;

@@ -26,9 +26,9 @@ class LeafSink {
     virtual ~LeafSink() = default;
     /// Allocates the blocks; called once, before the leaves are packed.
     virtual void resize(const std::array<std::size_t, kLeafKinds>& blocks) = 0;
-    /// Packs a leaf of at most NodeRef::kMaxBlocks blocks, the first at `offset`. Called from many
-    /// threads. Leaves follow each other in the order of traversal of the tree. Returns the area of
-    /// the surfaces at which an any-hit query ends.
+    /// Packs a leaf of at most NodeRef::kMaxBlocks blocks, the first at `offset`. Must be
+    /// thread-safe. Leaves are in the order of traversal of the tree. Returns the area of the
+    /// surfaces at which an any-hit query ends.
     virtual float pack(std::uint32_t kind, std::size_t offset,
                        std::span<const BuildReference> references) = 0;
 };
@@ -63,7 +63,7 @@ decltype(auto) with_nodes(Tree& tree, F&& f) {
     return f(tree.nodes);
 }
 
-/// `width` is one of kNodeWidths. Throws Error(Resource) when there are more nodes or blocks than
+/// `width` is one of kNodeWidths. Throws Error(Resource) if there are more nodes or blocks than
 /// references can address.
 [[nodiscard]] WideBvh collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
                                const LeafKinds& kinds, LeafSink& sink, std::uint32_t width = 8);

@@ -13,10 +13,10 @@ constexpr std::size_t kRadixChunk = 65536;
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr int kCodeBits = 63;
-/// Bits of a code that are sorted by digits: the first ones.
+/// Number of leading bits of a code that are sorted by digits.
 constexpr int kKeyBits = 32;
 
-/// The first bits of a code, and below them the number of its reference.
+/// The leading bits of a code, and below them the index of its reference.
 using Entry = std::uint64_t;
 
 /// The lowest 21 bits with two zeros before each.
@@ -76,7 +76,7 @@ void find_codes(std::span<const BuildReference> references, std::uint64_t* codes
     });
 }
 
-/// Where the runs of entries with the same key that begin in each chunk start, and the end of all.
+/// Start indices of the runs of entries with the same key that begin in each chunk, and the end.
 std::vector<std::size_t> starts_of_runs(const Entry* entries, std::size_t size) {
     std::vector<std::size_t> starts;
     for (std::size_t begin = 0; begin < size; begin += kRadixChunk) {

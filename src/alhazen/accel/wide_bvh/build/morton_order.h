@@ -3,8 +3,8 @@
 ///
 /// Source: Morton, "A Computer Oriented Geodetic Data Base", IBM 1966 (the curve); Lauterbach et
 /// al., "Fast BVH Construction on GPUs", CGF 28(2), 2009 (its use).
-/// Differs: the first 32 bits of the codes are sorted by digits, and where these are the same for
-/// many the rest, too; few codes are left to be compared.
+/// Differs: the first 32 bits of the codes are sorted by digits; the remaining bits only in long
+/// runs of equal ones, so that few codes are compared.
 /// Complexity and threads: O(n), parallel. The result is the same for every number of threads.
 
 #include <span>

@@ -11,8 +11,8 @@
 
 namespace alhazen {
 
-/// Moves the references with is_left(r) to the front. Swaps every reference, if need be with
-/// itself, without branches: the side is unpredictable. Returns their number.
+/// Moves the references with is_left(r) to the front and returns their number. Swaps every
+/// reference, possibly with itself, without branches, as the side is unpredictable.
 template <class IsLeft>
 std::uint32_t partition(std::span<BuildReference> references, const IsLeft& is_left) {
     BuildReference* middle = references.data();

@@ -88,7 +88,7 @@ class Optimizer {
             float saved;
         };
 
-        /// `own_sibling`: x is already there, only positions below are new.
+        /// `own_sibling`: x is already its sibling; only positions below are new.
         void descend(std::uint32_t start, float saved, const FloatBox& box, float area, Move& best,
                      int& visits, bool own_sibling) {
             stack_.clear();
@@ -153,7 +153,7 @@ class Optimizer {
                          entries.end(), larger);
         std::vector<std::uint32_t> result(count);
         for (std::size_t i = 0; i < count; ++i) result[i] = entries[i].node;
-        // Neighbors in the tree are searched one after another.
+        // Sorted, so that neighbors in the tree are searched consecutively.
         std::sort(result.begin(), result.end());
         return result;
     }
@@ -184,11 +184,11 @@ class Optimizer {
         (node.left == from ? node.left : node.right) = to;
         parent_[to] = parent;
     }
-    /// Refits from a node with changed children up to where nothing changes.
+    /// Refits from a node with changed children upwards until a box is unchanged.
     void refit_from(std::uint32_t i) {
         while (i != kNone && refit(i)) i = parent_[i];
     }
-    /// Returns true when the box changes.
+    /// Returns true if the box changes.
     bool refit(std::uint32_t i) {
         FloatBox box = nodes_[nodes_[i].left].box;
         box.include(nodes_[nodes_[i].right].box);

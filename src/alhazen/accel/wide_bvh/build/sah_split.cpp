@@ -44,7 +44,7 @@ Box4 box_of_centers(std::span<const BuildReference> references) {
     return centers;
 }
 
-/// The same where the sides and their boxes are known from the split.
+/// The same, for sides whose boxes are known from the split.
 void summarize_sides(std::span<const BuildReference> references, const RangeSummary& all,
                      const ObjectSplit& split, std::uint32_t middle, RangeSummary& left,
                      RangeSummary& right) {

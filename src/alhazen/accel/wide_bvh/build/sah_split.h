@@ -6,7 +6,7 @@
 /// Hierarchies", RT 2007 (binning).
 /// Differs: counts primitives in blocks of the lanes that test them together, by kind; sweeps small
 /// sets exactly; keeps boxes in registers of four floats, bins all three axes in one pass, and
-/// weighs them in lanes where all primitives are of one kind.
+/// evaluates the bins in lanes if all primitives are of one kind.
 /// Complexity and threads: O(n); large sets in parallel, with the same result for every number of
 /// threads.
 
@@ -82,22 +82,22 @@ struct ObjectSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< areas times costs of blocks
     int axis = -1;                                        ///< -1: none found
     int last_left = 0;  ///< the last bin, or rank along the axis, on the left
-    Box4 left, right;   ///< of the two sides
-    /// Of a set that was swept: the order of its references along the axis.
+    Box4 left, right;   ///< boxes of the two sides
+    /// For a swept set: the order of its references along the axis.
     std::array<std::uint8_t, kSweepSize> places;
 };
 
-/// The cheapest split; none when all centers coincide.
+/// The cheapest split; none if all centers coincide.
 [[nodiscard]] ObjectSplit best_object_split(std::span<const BuildReference> references,
                                             const RangeSummary& all, const LeafKinds& kinds);
 
-/// Its two ways: by bins of the centers, and by sweeps along them for at most kSweepSize
-/// references.
+/// The two methods of best_object_split: by bins of the centers, and by sweeps along them for at
+/// most kSweepSize references.
 [[nodiscard]] ObjectSplit split_by_bins(std::span<const BuildReference> references,
                                         const RangeSummary& all, const LeafKinds& kinds);
 [[nodiscard]] ObjectSplit split_by_sweeps(std::span<const BuildReference> references,
                                           const RangeSummary& all, const LeafKinds& kinds);
-/// Reorders by a split of split_by_bins, its left side first; returns the size of that.
+/// Reorders by a split of split_by_bins, its left side first; returns the size of the left side.
 std::uint32_t partition_by_bins(std::span<BuildReference> references, const RangeSummary& all,
                                 const ObjectSplit& split);
 

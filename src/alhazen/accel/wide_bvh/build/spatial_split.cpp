@@ -13,7 +13,7 @@ constexpr int kMaxSpatialBins = 16;
 int bins_for(std::size_t size) {
     return size < 2048 ? 8 : kMaxSpatialBins;
 }
-/// Boxes that overlap by less than this share of the root's surface are not split.
+/// Boxes whose overlap is less than this share of the root's surface are not split.
 constexpr float kAlpha = 1e-5f;
 
 bool is_empty(const FloatBox& box) {
@@ -91,7 +91,7 @@ void best_plane(const SpatialBin* bins, const BinPlanes& planes, const LeafKinds
     }
 }
 
-/// A range of the references with spare capacity behind it.
+/// A range of the references, followed by spare capacity.
 struct Room {
     std::uint32_t begin, end, limit;
 
@@ -99,11 +99,11 @@ struct Room {
     [[nodiscard]] std::uint32_t capacity() const { return limit - begin; }
 };
 
-/// Decides whether to search for a spatial split on the way down. After several failures in a row
-/// it skips more and more levels: a search reads all references, and there are many levels.
+/// Decides whether to search for a spatial split at a level. After several failures in a row it
+/// skips more and more levels, since a search reads all references.
 class Patience {
   public:
-    /// Called once on each level.
+    /// Must be called once per level.
     [[nodiscard]] bool tries() {
         if (wait_ == 0) return true;
         --wait_;
@@ -218,7 +218,7 @@ class SpatialBuilder {
         return true;
     }
 
-    /// True when dividing primitives would only increase their number.
+    /// True if dividing primitives would only increase their number.
     [[nodiscard]] bool fits_one_block(const RangeSummary& all) const {
         const std::uint32_t kind = all.kind();
         return kind != kLeafKinds && all.size() <= kinds_[kind].width();
@@ -247,7 +247,7 @@ class SpatialBuilder {
             [](const SpatialSplit& a, const SpatialSplit& b) { return a.cost < b.cost; });
     }
 
-    /// Puts every reference on its side, or divides it while there is capacity.
+    /// Moves every reference to its side, or divides it while there is capacity.
     void distribute(const Room& room, const SpatialSplit& split,
                     std::vector<BuildReference> (&sides)[2]) {
         std::uint32_t spare = room.capacity() - room.size();
@@ -268,7 +268,7 @@ class SpatialBuilder {
             FloatBox below, above;
             splitter_.split(r, split.axis, split.plane, below, above);
             if (is_empty(below) || is_empty(above)) {
-                // All of it is here; rounding may have emptied both parts.
+                // The reference lies here entirely; rounding may have emptied both parts.
                 sides[is_empty(above) ? 0 : 1].push_back(r);
                 continue;
             }

@@ -1,14 +1,14 @@
 #pragma once
-/// Builds a binary bounding volume hierarchy by the surface area heuristic with spatial splits:
-/// where long primitives make boxes overlap, a plane divides the cell, and a primitive on both
-/// sides goes to both.
+/// Builds a binary bounding volume hierarchy by the surface area heuristic with spatial splits: if
+/// long primitives make boxes overlap, a plane divides the cell, and primitives on both sides are
+/// referenced on both.
 ///
 /// Source: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG
 /// 2009.
-/// Differs: the number of references is bounded beforehand, in proportion to the size of each
-/// subtree, so that the tree is built in place and in parallel; kinds that cannot be divided stay
-/// whole; planes are weighed with parts cut in float; after a few failed searches more and more
-/// levels are skipped, so that no input is slow.
+/// Differs: the number of references is bounded in advance, in proportion to the size of each
+/// subtree, so that the tree is built in place and in parallel; primitives of kinds that cannot be
+/// divided stay whole; planes are evaluated with parts cut in float; after several failed searches
+/// more and more levels are skipped, which bounds the time for any input.
 /// Conventions: a primitive may lie in several leaves; every point of it lies in the box of one.
 /// Complexity and threads: O(n log n), parallel; the result is the same for every number of
 /// threads.
@@ -34,7 +34,7 @@ struct BinPlanes {
     [[nodiscard]] float operator()(int i) const { return lo + static_cast<float>(i) * step; }
     [[nodiscard]] int bin(float x) const {
         const float place = (x - lo) * per_step;
-        // Written so that NaN is in the first bin.
+        // Written so that NaN falls into the first bin.
         if (!(place > 0)) return 0;
         return place < static_cast<float>(bins - 1) ? static_cast<int>(place) : bins - 1;
     }
@@ -47,11 +47,11 @@ class ReferenceSplitter {
     virtual ~ReferenceSplitter() = default;
     [[nodiscard]] virtual bool can_split(std::uint32_t kind) const = 0;
     /// Boxes, within that of `reference`, that contain the points of its primitive there, below and
-    /// above the plane; empty where there are none. Called from many threads.
+    /// above the plane; empty if there are none. Must be thread-safe.
     virtual void split(const BuildReference& reference, int axis, float plane, FloatBox& below,
                        FloatBox& above) const = 0;
-    /// Approximate boxes of its parts in the bins from `first` to `last`, one per bin; empty where
-    /// it has no part. For costs only, so rounding does not matter. Called from many threads.
+    /// Approximate boxes of its parts in the bins from `first` to `last`, one per bin; empty if it
+    /// has no part there. For costs only, so rounding is irrelevant. Must be thread-safe.
     virtual void slice(const BuildReference& reference, const BinPlanes& planes, int first,
                        int last, Box4* slices) const;
 };

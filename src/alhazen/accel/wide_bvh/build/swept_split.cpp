@@ -10,7 +10,7 @@ namespace {
 /// The order of a few references along each axis.
 using Places = std::array<std::array<std::uint8_t, kSweepSize>, 3>;
 
-/// Stable. Compares all pairs without branches, as comparisons are unpredictable.
+/// A stable sort that compares all pairs without branches, as comparisons are unpredictable.
 void sort_places(const BuildReference* references, std::size_t size, Places& places) {
     Float4 center[kSweepSize];
     Int4 rank[kSweepSize];

@@ -8,7 +8,7 @@
 namespace alhazen {
 namespace {
 
-/// Height below kMaxSahLevel that needs no balancing: that of a balanced tree of 2^32 leaves.
+/// Height below kMaxSahLevel that needs no rebalancing: that of a balanced tree of 2^32 leaves.
 constexpr std::uint32_t kHeightLeft = 32;
 
 class Linearizer {
@@ -23,7 +23,7 @@ class Linearizer {
     /// Number of references in the leaves.
     [[nodiscard]] std::size_t size() const { return sums_[draft_.root].references; }
 
-    /// `ordered`: room for all references.
+    /// `ordered`: capacity for all references.
     BinaryBvh run(BuildReference* ordered) {
         ordered_ = ordered;
         const std::uint32_t count = 2 * sums_[draft_.root].leaves - 1;
@@ -54,7 +54,7 @@ class Linearizer {
         sums_[index] = {l.leaves + r.leaves, l.references + r.references,
                         1 + std::max(l.height, r.height)};
     }
-    /// For a draft made bottom-up: every node comes after its children. False where it does not.
+    /// Only for a draft made bottom-up, with every node after its children; else returns false.
     bool measure_upwards() {
         for (std::size_t i = 0; i < draft_.size; ++i) {
             const DraftNode& node = draft_.nodes[i];
@@ -102,7 +102,7 @@ class Linearizer {
     }
 
     void write_leaf(const DraftNode& node, std::uint32_t place, std::uint32_t begin) {
-        // Few: not worth a call.
+        // Few references: a call does not pay.
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
             ordered_[begin + (i - node.begin)] = references_[i];
         }
@@ -110,7 +110,7 @@ class Linearizer {
                          references_[node.begin].kind};
     }
 
-    /// Makes the inner node at `place` of its two existing children.
+    /// Makes the inner node at index `place` from its two existing children.
     void join(std::uint32_t place, std::uint32_t right) {
         const BinaryNode &l = nodes_[place + 1], &r = nodes_[right];
         FloatBox box = l.box;
@@ -135,7 +135,7 @@ class Linearizer {
         return leaves;
     }
 
-    /// Writes leaves in their order, half of them on each side.
+    /// Writes leaves in their order as a balanced tree.
     void write_balanced(std::span<const std::uint32_t> leaves, std::uint32_t place,
                         std::uint32_t begin) {
         if (leaves.size() == 1) return write_leaf(draft_.nodes[leaves[0]], place, begin);
@@ -157,7 +157,7 @@ class Linearizer {
 
 namespace {
 
-/// The least sum of the areas of blocks for the references of a subtree.
+/// The minimum sum of the areas of blocks for the references of a subtree.
 float block_area(const BinaryBvh& tree, std::uint32_t index, const LeafKinds& kinds) {
     const BinaryNode& node = tree.nodes[index];
     const float area = node.box.weight();
@@ -168,7 +168,7 @@ float block_area(const BinaryBvh& tree, std::uint32_t index, const LeafKinds& ki
                : apart;
 }
 
-/// Whether a subtree is best kept in one block.
+/// True if a subtree is best kept in one block.
 bool is_block(const BinaryBvh& tree, std::uint32_t index, const LeafKinds& kinds) {
     const BinaryNode& node = tree.nodes[index];
     if (node.is_leaf()) return true;

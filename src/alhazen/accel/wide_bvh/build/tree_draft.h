@@ -15,16 +15,16 @@ namespace alhazen {
 struct DraftNode {
     FloatBox box;
     std::uint32_t left = 0, right = 0;  ///< nodes; both 0: a leaf
-    std::uint32_t begin = 0, end = 0;   ///< of a leaf: its references, of one kind
+    std::uint32_t begin = 0, end = 0;   ///< range of a leaf's references, of one kind
 
     [[nodiscard]] bool is_leaf() const { return right == 0; }
 };
 
 struct DraftBvh {
-    std::vector<DraftNode> nodes;  ///< none for an empty tree
+    std::vector<DraftNode> nodes;  ///< empty for an empty tree
     std::uint32_t root = 0;
 };
-/// A DraftBvh whose nodes lie elsewhere.
+/// A DraftBvh with nodes stored elsewhere.
 struct DraftView {
     std::span<const DraftNode> nodes;
     std::uint32_t root = 0;
@@ -36,7 +36,7 @@ struct DraftView {
 /// Writes the tree with the references in leaf order. Subtrees that begin at level kMaxSahLevel and
 /// are too deep are rebalanced, so the depth is bounded.
 [[nodiscard]] BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references);
-/// The same, from `references` to `ordered`, as many as the leaves have.
+/// The same, from `references` to `ordered`, which has capacity for all references of the leaves.
 [[nodiscard]] BinaryBvh linearize(const DraftView& draft,
                                   std::span<const BuildReference> references,
                                   std::span<BuildReference> ordered);

@@ -1,7 +1,7 @@
 #pragma once
 /// The frame of the float boxes of a wide BVH: the scene moved to the origin and scaled by a power
-/// of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps the full resolution
-/// of float.
+/// of two into [-1, 1], so that scenes that are far from the origin, huge or tiny have the full
+/// resolution of float.
 ///
 /// A scene with the origin near its middle is only scaled: coordinates that are exact in float stay
 /// exact.
@@ -48,7 +48,7 @@ struct DistanceBound {
 struct FrameSlack {
     DistanceBound delta;  ///< displacement that covers the errors of computations in double
     DistanceBound reach;  ///< bound of the distance of all scene coordinates from the origin
-    DistanceBound slab;   ///< of the slab test, for a direction of length 1
+    DistanceBound slab;   ///< slack of the slab test, for a direction of length 1
     float least_length;   ///< shorter directions use the careful path
 
     /// For a frame with the offset `offset`; `usual` is LocalFrame::usual.
@@ -72,12 +72,12 @@ struct LocalFrame {
     double inverse_scale = 1;
     /// Largest coordinate of the center, in local units: the bits of a double that the offset uses.
     double offset = 0;
-    /// False where exponents could leave the range of double in the exact tests.
+    /// False if exponents could leave the range of double in the exact tests.
     bool usual = true;
     FrameSlack slack;
 
     LocalFrame() = default;
-    /// `box` is finite or empty, with coordinates up to 1e150.
+    /// `box` must be finite or empty, with coordinates up to 1e150.
     explicit LocalFrame(const Box3& box) {
         if (box.empty()) return;
         center = box.center();

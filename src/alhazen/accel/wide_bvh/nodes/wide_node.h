@@ -29,7 +29,7 @@ class NodeRef {
                                       std::uint32_t count) {
         return NodeRef(kLeafBit | kind << 28 | (count - 1) << 25 | offset);
     }
-    /// A leaf of an unused kind: marks the end of a ray's traversal.
+    /// A leaf of an unused kind: a sentinel that ends a ray's traversal.
     [[nodiscard]] static NodeRef none() { return leaf(7, 0, 1); }
     [[nodiscard]] static NodeRef from_bits(std::uint32_t bits) { return NodeRef(bits); }
 
@@ -59,9 +59,9 @@ struct FloatBox {
             hi[k] = b.hi[k] > hi[k] ? b.hi[k] : hi[k];
         }
     }
-    /// The weight of the surface area heuristic: half the surface area, plus small terms for the
-    /// edges and for each box, so that flat, thin and pointlike sets are divided well too. The box
-    /// must not be empty.
+    /// The weight in the surface area heuristic: half the surface area, plus small terms for the
+    /// edges and for each box, so that flat, thin and pointlike sets can be divided as well. The
+    /// box must not be empty.
     [[nodiscard]] float weight() const {
         const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
         return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
@@ -79,7 +79,7 @@ template <std::size_t Width>
 struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
     static constexpr std::size_t kWidth = Width;
     static constexpr std::uint32_t kSlotBits = std::bit_width(Width - 1);
-    /// Holds every slot's number; uses the rest of the cache lines.
+    /// An integer with the index of every slot; it fills the rest of the cache lines.
     using Order = std::conditional_t<Width == 4, std::uint16_t,
                                      std::conditional_t<Width == 8, std::uint32_t, std::uint64_t>>;
 
@@ -87,7 +87,7 @@ struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
     float planes[6][Width];
     NodeRef child[Width]{};  ///< the slots in use are the first ones
     /// [octant of the direction] the slots from the farthest to the nearest, kSlotBits bits each
-    /// from the lowest; bit k of the octant is set when component k is negative.
+    /// from the lowest; bit k of the octant is set if component k is negative.
     Order order[8];
 
     WideNodeOf() {
@@ -117,7 +117,7 @@ struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
         return box;
     }
 };
-/// The usual width.
+/// The default width.
 using WideNode = WideNodeOf<8>;
 static_assert(sizeof(WideNodeOf<4>) == 128 && sizeof(WideNodeOf<8>) == 256 &&
               sizeof(WideNodeOf<16>) == 512);

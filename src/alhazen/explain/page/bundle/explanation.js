@@ -79,7 +79,7 @@ var BeamPieces = class {
   rows = /* @__PURE__ */ new Map();
   near = true;
   chosen;
-  // The pieces from the eye to a piece.
+  // The pieces on the way from the eye to a piece.
   chain(piece) {
     const list = [piece];
     for (let at = piece; at.from !== at.id; ) {
@@ -172,7 +172,7 @@ var ConeTree = class {
       root2.append(element("p", {}, `cone_tracing does not take this scene: ${cones.unavailable}`));
       return;
     }
-    root2.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; seen of it is the weight. A cone\u2019s radiance is the sum of weight \xD7 colour, and what is left of it times the background."));
+    root2.append(element("p", { class: "soft" }, "By cone_tracing: each piece covers a share of its cone; the weight is its visible fraction. A cone\u2019s radiance is the sum of weight \xD7 colour, plus what is left of the cone times the background."));
     if (cones.cut) root2.append(element("p", { class: "cut" }, "The tree is cut: it has more than 2000 cones."));
     root2.append(element("div", { class: "outline" }, element("ul", { "aria-label": "Cones" }, listItem(1, this.cone(cones.tree)))));
     view.cones = [cones.tree];
@@ -302,11 +302,11 @@ function pathSteps(root2, data, path, view) {
     view.draw();
   };
   root2.append(
-    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Carried is how much of the light that comes along a ray to where the ray begins reaches the pixel. The light of all rows adds up to the sample.`),
+    element("p", { class: "soft" }, `Sample ${data.sample} as path_tracing followed it; each sample of each pixel has another path. Throughput is the fraction of the radiance at the origin of the ray that reaches the pixel. The light of all rows adds up to the sample.`),
     scrolling("The path", element(
       "table",
       {},
-      headRow(["ray", "", "carries", "comes upon", "from a light", "then", ""]),
+      headRow(["ray", "", "throughput", "hits", "direct light", "event", ""]),
       element("tbody", {}, ...path.vertices.map((v, i) => row(v, i))),
       element("tfoot", {}, element(
         "tr",
@@ -431,7 +431,7 @@ function isShadow(light) {
   return light !== void 0 && light.kind === "shadow";
 }
 var RayOutline = class {
-  // what the weights are shares of
+  // denominator of the weights
   constructor(root2, data, onSelect) {
     this.onSelect = onSelect;
     this.whole = data.samples.length > 1 ? "sample" : "pixel";
@@ -481,7 +481,7 @@ var RayOutline = class {
     if (ray.left) body.append(element("p", {}, ray.given_up ? `It ends here: it has passed as many surfaces as a ray may, and (${triple(ray.left)}) of its light is not known.` : `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
     return body;
   }
-  // `level`: of the rays that leave it, in the outline.
+  // `level`: level in the outline of the rays that leave it.
   surface(s, level) {
     const box = element("div", { class: "surface" });
     box.append(element(
@@ -586,22 +586,22 @@ var SceneView = class {
   up;
   center = [0, 0, 0];
   radius = 1;
-  // Where the view is: a turn and a rise around the target.
+  // The view: an azimuth and an elevation around the target.
   front = [0, 0, 1];
   side = [1, 0, 0];
   turn = 0;
   rise = 0;
   distance = 1;
   target = [0, 0, 0];
-  // Of the drawing in hand.
+  // Of the current drawing.
   width = 0;
   height = 0;
   near = 0;
   f;
   g;
   hot = [];
-  // The ball that is looked at: around the first surface, as large as what the camera sees near it. What lies far
-  // behind, such as an endless ground, does not count.
+  // The sphere in view: around the first surface, as large as what the camera sees near it. Distant points, such as
+  // those of an unbounded ground, do not count.
   measure() {
     const first = this.data.tree.surfaces[0];
     const points = this.data.points.map((p) => [p[0], p[1], p[2]]);
@@ -671,7 +671,7 @@ var SceneView = class {
     }
     this.g.globalAlpha = 1;
   }
-  // A line cut at the near plane; returns its ends on the canvas, or null.
+  // Clips a line at the near plane; returns its ends on the canvas, or null.
   segment(a, b) {
     let p = this.project(a), q = this.project(b);
     if (p[2] < this.near && q[2] < this.near) return null;
@@ -714,7 +714,7 @@ var SceneView = class {
       if (!this.data.parallel) this.line(this.eye, p, { color, width: 1, alpha: 0.35 });
     });
   }
-  // Where a ray ends: at its last surface, or in the open.
+  // The end of a ray: its last surface, or a point in free space.
   end(ray) {
     if (ray.kind === "shadow") return along(ray, ray.t ?? 0.8 * this.radius);
     const met = ray.surfaces.at(-1);
@@ -806,7 +806,7 @@ var SceneView = class {
       g.globalAlpha = 1;
     }
   }
-  // A cone up to its end: its sides as seen from here, and circles; then those that leave it.
+  // A cone up to its end: its silhouette and circles; then the cones that leave it.
   drawCone(c) {
     const color = this.color(c.kind), parts = c.kind === "shadow" ? [] : c.parts;
     const e1 = unit(cross(c.axis, Math.abs(c.axis[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0])), e2 = cross(c.axis, e1);
@@ -1207,7 +1207,7 @@ function header(data, picture) {
 }
 function otherRenderer({ renderer, draws_at_random, path }) {
   if (renderer === "whitted") return null;
-  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws other rays at random for each sample. Told here are the rays that whitted sends for this pixel: towards points of lights, in mirror directions and straight through glass. So the colour can be another one.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour can be another one.`);
+  return element("p", { class: "cut", id: "other" }, draws_at_random ? `The picture is by ${renderer}, which draws rays at random for each sample. The tree shows the rays that whitted traces for this pixel: towards points of lights, in mirror directions and through glass. Its colour may differ.` + (path ? " One path of the picture follows below the tree." : "") : `The picture is by ${renderer}; the tree of rays is that of whitted, whose colour may differ.`);
 }
 function legend(data, view) {
   const shadows = element("input", { type: "checkbox", checked: true, change: () => {

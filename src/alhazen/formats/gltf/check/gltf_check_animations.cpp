@@ -22,10 +22,10 @@ void check_bind_matrices(const Loading& loading, const Skin& skin, const std::st
     }
 }
 
-/// Each scene with a skinned mesh has the joints of its skin.
+/// Checks that each scene with a skinned mesh contains the joints of its skin.
 void check_scenes_of_skins(const Loading& loading, const NodeTree& tree) {
     const Document& document = loading.document;
-    // Joints without a common root are reported elsewhere, so the first stands for all.
+    // Joints without a common root are reported elsewhere, so the first joint stands for all.
     for (std::size_t i = 0; i < document.scenes.size(); ++i) {
         const std::vector<Index>& nodes = document.scenes[i].nodes;
         const std::set<Index> roots(nodes.begin(), nodes.end());

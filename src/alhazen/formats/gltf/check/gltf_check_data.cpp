@@ -15,10 +15,10 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Tolerances for the length of unit vectors stored in few bits; same as Khronos' validator.
+/// Tolerances for the length of unit vectors stored in few bits, those of Khronos' validator.
 constexpr double kUnitVectorTolerance = 0.00674, kUnitQuaternionTolerance = 0.00769;
 
-/// Sums of weights: rounding of four bytes stays below the first.
+/// Tolerances for sums of weights: four bytes round by less than the first.
 constexpr double kWeightTolerance = 0.01, kWeightRounding = 1e-6;
 
 /// True if the declared number equals the number found after rounding to the stored type.
@@ -80,7 +80,7 @@ class DataChecker {
         declared(accessor.max, extent.max, accessor.component, place + "/max");
     }
 
-    /// False for accessors without data: an extension may supply the numbers.
+    /// False for accessors without data, whose numbers an extension may supply.
     [[nodiscard]] bool has_data(Index index) const {
         const Accessor& accessor = document_.accessors[index];
         return accessor.view || accessor.sparse;
@@ -121,7 +121,7 @@ class DataChecker {
         }
     }
 
-    /// Weights are not negative and sum up to 1, and no joint has two of them.
+    /// Checks that weights are not negative and add up to 1, and that no joint has two of them.
     void weights(const Primitive& primitive, const std::string& place) {
         std::vector<Index> joints, weights;
         for (std::size_t set = 0;; ++set) {
@@ -310,7 +310,7 @@ class DataChecker {
         }
     }
 
-    /// Half a quantisation step in each of four components for bytes.
+    /// Half a quantisation step in each of four components, for bytes.
     static double tolerance_of(ComponentType type) {
         const bool is_byte = type == ComponentType::Byte || type == ComponentType::UnsignedByte;
         return is_byte ? 2 * kUnitQuaternionTolerance : kUnitQuaternionTolerance;
@@ -324,7 +324,7 @@ class DataChecker {
     bool told_rounding_ = false;
     std::set<std::pair<Index, bool>> checked_quaternions_;
     std::set<std::pair<std::vector<Index>, std::vector<Index>>> checked_weights_;
-    std::uint64_t weight_budget_ = std::uint64_t{1} << 30;  ///< numbers that may still be read
+    std::uint64_t weight_budget_ = std::uint64_t{1} << 30;  ///< values left to read
 };
 
 }  // namespace

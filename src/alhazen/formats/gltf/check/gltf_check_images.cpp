@@ -27,7 +27,7 @@ std::string media_type_of(std::string_view bytes) {
     return "";
 }
 
-/// Only so much of an image is inspected; decoding finds errors beyond.
+/// Number of bytes of an image that are inspected; decoding finds errors beyond.
 constexpr std::size_t kHeadBytes = std::size_t{1} << 20;
 
 /// Walks the JPEG segments up to the frame header. Returns the error message, empty on success.

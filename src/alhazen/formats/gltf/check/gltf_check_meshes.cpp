@@ -58,7 +58,8 @@ class PrimitiveChecker {
         }
     }
 
-    /// Numbered attributes start at 0 without gaps; joints and weights come in pairs.
+    /// Checks that numbered attributes start at 0 without gaps, and that joints and weights come in
+    /// pairs.
     void sets() const {
         std::map<std::string_view, std::set<std::uint32_t>> sets;
         for (const auto& [name, index] : primitive_.attributes) {
@@ -74,7 +75,8 @@ class PrimitiveChecker {
             loading_.error(place_ + "/attributes", "there must be as many JOINTS_n as WEIGHTS_n");
         }
         const auto has = [&](const char* name) { return primitive_.attributes.count(name) != 0; };
-        if (!has("POSITION")) loading_.warning(place_, "there are no positions; nothing to see");
+        if (!has("POSITION"))
+            loading_.warning(place_, "there are no positions; the primitive is invisible");
         if (has("TANGENT") && !has("NORMAL")) {
             loading_.warning(place_, "there are tangents without normals");
         }

@@ -29,7 +29,7 @@ const char* described(Use use) {
     return "";
 }
 
-/// Times and values of animations may lie in one view.
+/// The content that a use implies: times and values of animations may lie in one view.
 Use content_of(Use use) {
     return use == Use::Times ? Use::Values : use;
 }
@@ -148,8 +148,8 @@ class UsageChecker {
     const Loading& loading_;
     const Document& document_;
     std::vector<Use> accessors_, views_;
-    std::vector<Index> vertex_accessors_;  ///< the last one that uses the view
-    std::vector<bool> told_;               ///< the view lacks a stride
+    std::vector<Index> vertex_accessors_;  ///< [view] the last accessor that uses the view
+    std::vector<bool> told_;               ///< [view] the missing stride has been reported
 };
 
 }  // namespace

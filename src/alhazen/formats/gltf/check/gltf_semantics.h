@@ -20,7 +20,8 @@ struct Semantic {
     bool is_custom = false;            ///< begins with an underscore; `name` is then the whole name
 };
 
-/// None for a name that is neither in the specification nor begins with an underscore.
+/// Parses an attribute name; none if it is neither in the specification nor begins with an
+/// underscore.
 [[nodiscard]] std::optional<Semantic> parse_semantic(std::string_view attribute);
 
 /// True if the accessor's types are allowed for this attribute of a vertex or of a morph target.

@@ -14,7 +14,7 @@ struct Extent {
     bool is_finite = true;                ///< no component is NaN or infinite
 };
 
-/// Takes one pass over the elements; zeros for an accessor without data.
+/// Computes the extent in one pass over the elements; zeros for an accessor without data.
 [[nodiscard]] Extent extent_of(const Document& document, const Accessor& accessor);
 
 }  // namespace alhazen::gltf

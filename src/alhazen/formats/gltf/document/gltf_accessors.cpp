@@ -141,7 +141,7 @@ void read_sparse(const JsonObject& object, Accessor& accessor) {
     });
 }
 
-/// False for a type that is not known, with a warning.
+/// Reads the types; false, with a warning, for an unknown type.
 bool read_types(const JsonObject& object, Accessor& accessor) {
     bool is_known = true;
     object.require("componentType");
@@ -211,7 +211,7 @@ Accessor read_accessor(const JsonObject& object) {
                                        name_of(accessor.component));
     }
     if (!is_known) {
-        // No use allows this type without data; each reports it.
+        // No use allows this type without data, so each use reports it.
         Accessor unusable;
         unusable.component = ComponentType::Byte;
         unusable.count = 1;

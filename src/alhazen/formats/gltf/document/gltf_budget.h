@@ -44,10 +44,9 @@ class Budget {
         }
     }
 
-    /// Default limit of bytes, for a file of `file_bytes` including its buffers. Real files stay
-    /// far below it: a vertex of 12 bytes becomes one of 24, a node of 20 bytes a part of 500. The
-    /// result of a small file fits into memory together with the acceleration structure built over
-    /// it.
+    /// Default limit of bytes for a file of `file_bytes` including its buffers. Real files stay far
+    /// below it: a vertex of 12 bytes becomes one of 24, a node of 20 bytes a part of 500. The
+    /// result of a small file fits into memory together with its acceleration structure.
     [[nodiscard]] static std::uint64_t default_bytes(std::uint64_t file_bytes) {
         constexpr std::uint64_t kMiB = std::uint64_t{1} << 20, kPerByte = 64;
         constexpr std::uint64_t kLeast = 64 * kMiB, kMost = 16384 * kMiB;

@@ -30,8 +30,8 @@ constexpr Named kTopLevel[] = {
     {"textures", Collection::Textures},
 };
 
-/// Limit for the values of the JSON text. A low limit of elements applies to the buffers, not to
-/// the names in a file.
+/// Limit on the number of values of the JSON text. A low limit on elements applies to the buffers,
+/// not to the names in a file.
 std::uint64_t max_values(const ImportOptions& options) {
     constexpr std::uint64_t kElementsPerValue = 20, kLeast = 1'000'000;
     return std::max(kLeast, options.max_elements / kElementsPerValue);
@@ -78,7 +78,7 @@ void count_arrays(const JsonObject& root, Loading& loading) {
     count_in_extension("KHR_materials_variants", "variants", Collection::Variants);
 }
 
-/// "2.0" -> {2, 0}.
+/// Parses a version, such as "2.0" -> {2, 0}.
 std::optional<std::array<int, 2>> version_in(const JsonObject& asset, std::string_view key) {
     const auto text = asset.text(key);
     if (!text) return std::nullopt;
@@ -108,7 +108,7 @@ void read_all(const JsonObject& root, Loading& loading) {
     read_animations(root, loading);
 }
 
-/// Accessors in buffers without data become zeros, like those without a view.
+/// Makes accessors in buffers without data zeros, like those without a view.
 void zeros_without_data(Loading& loading) {
     Document& document = loading.document;
     const auto lacks_data = [&](Index view) {

@@ -28,7 +28,7 @@ struct Buffer {
         owned;                 ///< null for the chunk of a GLB, which the source owns
     std::string_view bytes;    ///< byteLength bytes; empty for a buffer without references
     std::uint64_t length = 0;  ///< byteLength
-    bool lacks_data = false;   ///< names no data: what lies in it is zero
+    bool lacks_data = false;   ///< the buffer names no data, and is all zeros
 };
 struct BufferView {
     Index buffer = 0;
@@ -68,13 +68,13 @@ struct Accessor {
 
 struct Image {
     std::string name;
-    std::string uri;            ///< decoded file name relative to the document; or empty
+    std::string uri;            ///< decoded file name, relative to the document; may be empty
     std::optional<Index> view;  ///< the encoded image
     std::string data;           ///< the encoded image of a data: URI
     std::string mime_type;      ///< as declared; empty: undeclared
-    bool elsewhere = false;     ///< on the net: the textures that name it have no source
+    bool elsewhere = false;     ///< stored on the network: the textures that name it have no source
 };
-/// Mipmap: any mipmap mode.
+/// Filters of a sampler; Mipmap in a name means any mipmap mode.
 enum class Filter { Unset, Nearest, Linear, NearestMipmap, LinearMipmap };
 struct Sampler {
     Filter magnify = Filter::Unset, minify = Filter::Unset;
@@ -91,7 +91,7 @@ struct TextureInfo {
     double rotation = 0;                              ///< KHR_texture_transform, radians
     double strength = 1;  ///< scale of a normal texture or strength of an occlusion texture
 };
-/// KHR_materials_pbrSpecularGlossiness: instead of metal, roughness and base colour.
+/// KHR_materials_pbrSpecularGlossiness, which replaces metal, roughness and base colour.
 struct SpecularGlossiness {
     std::array<double, 4> diffuse{1, 1, 1, 1};
     std::array<double, 3> specular{1, 1, 1};
@@ -159,7 +159,7 @@ struct Primitive {
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
-    std::vector<double> weights;  ///< of the morph targets; empty: zero
+    std::vector<double> weights;  ///< of the morph targets; empty: all zero
 };
 
 struct Skin {
@@ -177,7 +177,7 @@ struct Node {
     std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
     std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w
     Attributes instances;                        ///< EXT_mesh_gpu_instancing; empty: none
-    bool visible = true;  ///< KHR_node_visibility: false hides all below, too
+    bool visible = true;  ///< KHR_node_visibility: false also hides all descendants
 };
 struct Scene {
     std::string name;
@@ -211,7 +211,7 @@ struct AnimationSampler {
 enum class AnimationPath { Translation, Rotation, Scale, Weights };
 struct AnimationChannel {
     Index sampler = 0;
-    std::optional<Index> node;  ///< none: the target belongs to an extension
+    std::optional<Index> node;  ///< none: an extension defines the target
     AnimationPath path = AnimationPath::Translation;
 };
 struct Animation {
@@ -253,7 +253,7 @@ struct Document {
 /// converted to -1..1 or 0..1; matrices are column-major without padding; sparse values are
 /// applied.
 [[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor);
-/// The first `most` elements only, at a cost proportional to `most`.
+/// Reads only the first `most` elements, at a cost proportional to `most`.
 [[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor,
                                                std::uint64_t most);
 /// All numbers of an accessor of unsigned integers (indices, joints).

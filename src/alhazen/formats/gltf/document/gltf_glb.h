@@ -21,8 +21,8 @@ struct Container {
 /// True if the bytes begin with the GLB magic.
 [[nodiscard]] bool is_glb(std::string_view bytes);
 
-/// The chunks of a GLB; for any other file all bytes as JSON. Views into `bytes`. Reports errors
-/// and then returns none.
+/// The chunks of a GLB; for any other file, all bytes as JSON. The result refers to `bytes`.
+/// Reports errors and then returns none.
 [[nodiscard]] std::optional<Container> open_container(std::string_view bytes,
                                                       const std::string& file,
                                                       Diagnostics& diagnostics);

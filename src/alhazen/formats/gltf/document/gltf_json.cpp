@@ -84,7 +84,7 @@ std::string without_positions(std::string_view pointer) {
     return text;
 }
 
-/// True if the extension is not known, or extends the objects at this place.
+/// True if the extension is unknown, or extends the objects at this place.
 bool is_expected(std::string_view extension, std::string_view place) {
     if (extension == kTextureTransform) return place.ends_with(kTextureInfo);
     for (const Extended& known : kExtended) {
@@ -353,7 +353,7 @@ std::vector<Index> JsonObject::indices(std::string_view key, Collection collecti
 namespace {
 
 constexpr int kMaxDepth = 64;
-// Costs in plain values, in proportion to the memory of the tree, so that the limit bounds memory
+// Costs in plain values, proportional to the memory of the tree, so that the limit bounds memory
 // for any mix of values.
 constexpr std::uint64_t kStringCost = 4, kContainerCost = 8;
 

@@ -27,7 +27,7 @@ namespace alhazen::gltf {
 /// True if the extension is supported.
 [[nodiscard]] bool is_supported(std::string_view extension);
 
-/// True if a file without the extension shows the same shapes: only their look changes.
+/// True if a file without the extension shows the same shapes, with another appearance only.
 [[nodiscard]] bool is_only_look(std::string_view extension);
 
 /// The shortest decimal text that identifies the number, for messages.
@@ -79,7 +79,7 @@ struct JsonContext {
 
     void error(const Place& place, const std::string& message) const;
     void warning(const Place& place, const std::string& message) const;
-    /// For checks after the JSON is freed: `pointer` as in "#/meshes/0".
+    /// For checks after the JSON is freed. `pointer`: as in "#/meshes/0".
     void error(const std::string& pointer, const std::string& message) const;
     void warning(const std::string& pointer, const std::string& message) const;
     [[nodiscard]] std::size_t size_of(Collection collection) const {
@@ -90,7 +90,7 @@ struct JsonContext {
 struct Range {
     double lo = -std::numeric_limits<double>::infinity();
     double hi = std::numeric_limits<double>::infinity();
-    bool above_lo = false;  ///< lo itself is not allowed
+    bool above_lo = false;  ///< true: lo itself is not allowed
 };
 inline constexpr Range kUnitRange{0, 1};
 inline constexpr Range kNotNegative{0};
@@ -105,7 +105,7 @@ class JsonObject {
     [[nodiscard]] const Place& place() const { return place_; }
     [[nodiscard]] const JsonContext& context() const { return context_; }
     [[nodiscard]] bool has(std::string_view key) const;
-    /// The member without a type check; null if absent.
+    /// The member, without a type check; null if absent.
     [[nodiscard]] nlohmann::json* find(std::string_view key) const;
     [[nodiscard]] std::vector<std::string> keys() const;
 
@@ -116,7 +116,7 @@ class JsonObject {
     std::optional<std::string> text(std::string_view key) const;
     /// Like `text`, but moves the string out of the tree, since it may be large.
     std::optional<std::string> take_text(std::string_view key) const;
-    /// A non-empty list of `size` numbers; any number of them if `size` is 0.
+    /// A non-empty list of `size` numbers, or of any number of them if `size` is 0.
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size,
                                                Range range = {}) const;
     template <std::size_t n>

@@ -7,8 +7,8 @@
 
 namespace alhazen::gltf {
 
-/// The matrix as other formats have it. The specification requires the last row (0, 0, 0, 1): what
-/// is not that up to rounding has no transform.
+/// Converts a matrix for `HomogeneousMatrix`. The specification requires the last row (0, 0, 0, 1):
+/// a matrix with another last row, up to rounding, has no transform.
 [[nodiscard]] inline HomogeneousMatrix matrix_of(const double* m) {
     HomogeneousMatrix matrix({m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13], m[2], m[6], m[10],
                               m[14], m[3], m[7], m[11], m[15]});

@@ -154,7 +154,7 @@ void read_materials(const JsonObject& root, Loading& loading) {
     root.each_object("materials", [&](const JsonObject& object, std::size_t) {
         loading.document.materials.push_back(read_material(object));
     });
-    // Variants are not shown, but what a file says of them must hold together.
+    // Variants are not rendered, but their description in a file must be consistent.
     root.with_extension("KHR_materials_variants", [](const JsonObject& extension) {
         extension.require("variants");
         extension.each_object("variants", [](const JsonObject& variant, std::size_t) {

@@ -17,7 +17,7 @@ Attributes read_attributes(const JsonObject& object) {
     return attributes;
 }
 
-/// Variants are not shown, but what a file says of them must hold together.
+/// Variants are not rendered, but their description in a file must be consistent.
 void check_variants(const JsonObject& primitive) {
     primitive.with_extension("KHR_materials_variants", [](const JsonObject& extension) {
         extension.require("mappings");

@@ -8,7 +8,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// True if the columns stand upright on each other and none is 0, up to rounding.
+/// True if the columns are mutually perpendicular and none is 0, up to rounding.
 bool is_trs(const std::array<double, 16>& m) {
     constexpr double kLargestCosine = 1e-3;
     const auto dot = [&](std::size_t i, std::size_t j) {
@@ -22,7 +22,7 @@ bool is_trs(const std::array<double, 16>& m) {
     return true;
 }
 
-/// Warns of the first rounded matrix.
+/// Reads a matrix; warns of the first rounded matrix of a document.
 void read_matrix(const JsonObject& object, Node& node, bool& told_rounding) {
     std::array<double, 16> matrix{};
     if (!object.has("matrix")) return;

@@ -78,15 +78,15 @@ Wrap wrap_in(const JsonObject& object, std::string_view key) {
     return Wrap::Repeat;
 }
 
-/// Reports the source of a texture whose declared type is not one of these.
+/// Reports an error if the declared media type of a texture's source is not one of `allowed`.
 void media_type(const JsonObject& texture, const std::vector<Image>& images, Index source,
                 std::initializer_list<std::string_view> allowed) {
     if (source >= images.size()) return;  // reported already
     const std::string& type = images[source].mime_type;
     if (type.empty() || std::find(allowed.begin(), allowed.end(), type) != allowed.end()) return;
-    // Types that nobody knows are told of elsewhere, and the image shows what it is.
+    // Unknown types are reported elsewhere; the content then determines the type.
     if (type != "image/jpeg" && type != "image/png" && type != "image/webp") return;
-    texture.error("source", "an image of " + type + " cannot be the source here");
+    texture.error("source", "the source must not be an image of type " + type);
 }
 
 }  // namespace

@@ -26,20 +26,20 @@ struct Loading : JsonContext {
     bool quantized = false;  ///< KHR_mesh_quantization is used
 };
 
-// Readers: JSON to document. Each appends one element per element of the JSON array if there is no
-// error.
+// Readers: JSON to document. If there is no error, each appends one element per element of the JSON
+// array.
 void read_asset(const JsonObject& root);
 /// Counts the top-level arrays and reports unsupported extensions; false if reading must stop.
 [[nodiscard]] bool read_extensions(const JsonObject& root, Loading& loading);
-void read_buffers(const JsonObject& root, Loading& loading);  ///< and buffer views
+void read_buffers(const JsonObject& root, Loading& loading);  ///< also reads buffer views
 void read_accessors(const JsonObject& root, Loading& loading);
-void read_textures(const JsonObject& root, Loading& loading);   ///< and images, samplers
-void read_materials(const JsonObject& root, Loading& loading);  ///< and KHR_materials_variants
+void read_textures(const JsonObject& root, Loading& loading);   ///< also reads images and samplers
+void read_materials(const JsonObject& root, Loading& loading);  ///< and variants
 void read_meshes(const JsonObject& root, Loading& loading);
 void read_cameras(const JsonObject& root, Loading& loading);
 void read_lights(const JsonObject& root, Loading& loading);
-void read_nodes(const JsonObject& root, Loading& loading);       ///< and scenes
-void read_animations(const JsonObject& root, Loading& loading);  ///< and skins
+void read_nodes(const JsonObject& root, Loading& loading);       ///< also reads scenes
+void read_animations(const JsonObject& root, Loading& loading);  ///< also reads skins
 
 // Checks of a document that was read without errors.
 void check_layout(const Loading& loading);  ///< views in buffers, accessors in views, sparse order
@@ -48,7 +48,7 @@ void check_images(const Loading& loading);
 void check_graph(const Loading& loading);
 void check_meshes(const Loading& loading);
 void check_skins_and_animations(const Loading& loading);
-/// Call only if check_layout has found no errors.
+/// Precondition: check_layout has found no errors.
 void check_data(const Loading& loading);
 
 /// "#/meshes/3", or with a part "#/meshes/3/primitives/1".

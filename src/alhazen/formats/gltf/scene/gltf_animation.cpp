@@ -12,7 +12,7 @@ namespace alhazen::gltf {
 namespace {
 
 /// The keys around a time: `from` and `from` + 1. Before the first and after the last key
-/// `fraction` is 0 and only `from` counts.
+/// `fraction` is 0 and only `from` is used.
 struct Span {
     std::size_t from = 0;
     double fraction = 0;  ///< in [0, 1)
@@ -24,7 +24,7 @@ Span find_span(const std::vector<double>& times, double time) {
     if (!(time > times.front())) return {};
     if (time >= times.back()) return {times.size() - 1, 0, 0};
     const auto after = std::upper_bound(times.begin(), times.end(), time);
-    if (after == times.begin()) return {};  // only if the times do not ascend
+    if (after == times.begin()) return {};  // occurs only if the times do not ascend
     const std::size_t from = std::size_t(after - times.begin()) - 1;
     const double duration = times[from + 1] - times[from];
     return {from, (time - times[from]) / duration, duration};

@@ -13,7 +13,7 @@
 
 namespace alhazen::gltf {
 
-/// Keys of one sampler. `values` has `width` numbers per key, for cubic splines three times as many
+/// Keys of one sampler. `values` has `width` numbers per key; three times as many for cubic splines
 /// (in-tangent, value, out-tangent).
 struct Keys {
     std::vector<double> times;  ///< ascending

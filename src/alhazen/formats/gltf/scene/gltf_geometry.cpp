@@ -60,8 +60,8 @@ class PrimitiveReader {
         return order;
     }
 
-    /// Drops unused vertices, since primitives that share one large vertex buffer would otherwise
-    /// each carry all of it. The other vertices keep their order.
+    /// Drops unused vertices: otherwise primitives that share one large vertex buffer would each
+    /// carry all of it. The other vertices keep their order.
     void number_used_vertices(std::vector<std::array<std::uint32_t, 3>>& triangles) {
         constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
         std::vector<std::uint32_t> new_number(vertex_count_, kUnused);
@@ -178,7 +178,7 @@ class PrimitiveReader {
     std::span<const double> weights_;
     Budget& budget_;
     std::size_t vertex_count_ = 0;
-    std::vector<std::uint32_t> used_;  ///< kept vertices of the file, ascending
+    std::vector<std::uint32_t> used_;  ///< indices of the kept vertices in the file, ascending
 };
 
 }  // namespace

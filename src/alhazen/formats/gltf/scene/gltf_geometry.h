@@ -4,7 +4,7 @@
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.7.2.
 /// Differs: triangles of zero area are kept; unused vertices are dropped.
 /// Conventions: texture coordinates are flipped so that v runs upward. A mesh without normals in
-/// the file has none and is shaded flat, as the specification requires.
+/// the file keeps none and is shaded flat, as the specification requires.
 
 #include <span>
 
@@ -26,15 +26,15 @@ struct PrimitiveGeometry {
     VertexJoints joints;
 };
 
-/// True for the modes that make triangles.
+/// True for the modes that form triangles.
 [[nodiscard]] bool makes_surface(PrimitiveMode mode);
 
 /// Vertex numbers of the triangles of a list, strip or fan that runs through `order`.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
     PrimitiveMode mode, std::span<const std::uint32_t> order);
 
-/// Empty if the primitive has no triangles or no positions. `weights`: of the morph targets, zero
-/// where missing. `with_joints`: also reads JOINTS_n and WEIGHTS_n.
+/// The triangles of a primitive; empty if it has no triangles or no positions. `weights`: of the
+/// morph targets; missing ones are zero. `with_joints`: also reads JOINTS_n and WEIGHTS_n.
 [[nodiscard]] PrimitiveGeometry read_primitive(const Document& document, const Primitive& primitive,
                                                std::span<const double> weights, bool with_joints,
                                                Budget& budget);

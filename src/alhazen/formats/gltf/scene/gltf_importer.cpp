@@ -35,7 +35,7 @@ Conventions gltf_conventions() {
 bool looks_like_json_gltf(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     if (begin == std::string_view::npos || text[begin] != '{') return false;
-    // Large files may have their buffers in front, so the search covers the whole text.
+    // Covers the whole text: large files may have their buffers in front.
     for (std::size_t at = text.find("\"asset\""); at != std::string_view::npos;
          at = text.find("\"asset\"", at + 1)) {
         const std::size_t next = text.find_first_not_of(" \t\r\n", at + 7);
@@ -64,7 +64,7 @@ gltf::Budget budget_of(const gltf::Document& document, const ImportSource& sourc
 
 void name_animations(const gltf::Document& document, gltf::Budget& budget,
                      SceneDescription& scene) {
-    std::map<gltf::Index, Interval> times;  // samplers share them
+    std::map<gltf::Index, Interval> times;  // shared by samplers
     for (const gltf::Animation& animation : document.animations) {
         Interval all;
         for (const gltf::AnimationSampler& sampler : animation.samplers) {

@@ -13,11 +13,12 @@ Rgb rgb(const std::array<double, 3>& c) {
     return {c[0], c[1], c[2]};
 }
 
-/// Of light that is scattered again and again in a deep volume: what a single scattering leaves.
+/// The albedo of a single scattering event, from the albedo of multiple scattering in a deep
+/// volume.
 ///
-/// Source: KHR_materials_volume_scatter (draft), after Kulla and Conty, "Revisiting Physically Based
-/// Shading at Imageworks", SIGGRAPH 2017 course.
-/// Differs: from theirs, as the draft does: the anisotropy is left out.
+/// Source: KHR_materials_volume_scatter (draft), after Kulla and Conty, "Revisiting Physically
+/// Based Shading at Imageworks", SIGGRAPH 2017 course.
+/// Differs: ignores the anisotropy, as the draft does.
 Rgb single_scatter_albedo(const Rgb& multiple) {
     Rgb single;
     for (int i = 0; i < 3; ++i) {
@@ -95,8 +96,8 @@ class MaterialMaker {
         return p;
     }
 
-    /// As the extensions of the specular colour and of the index say: an index of 0 reflects all,
-    /// times the specular colour, and the rest is left to the diffuse one.
+    /// Converts as KHR_materials_specular and KHR_materials_ior define it: an index of 0 reflects
+    /// all light times the specular colour, and the diffuse colour gets the rest.
     void set_specular_glossiness(const SpecularGlossiness& old, MetallicRoughness& p) {
         p.base_color = color({old.diffuse[0], old.diffuse[1], old.diffuse[2]}, old.diffuse_texture);
         p.metallic = {0.0, kNoTexture, Channel::Blue};
@@ -108,7 +109,7 @@ class MaterialMaker {
         if (of_gloss != kNoTexture) p.roughness = {1.0, of_gloss, Channel::Green};
     }
 
-    /// What attenuates light scatters a share of it; the rest is absorbed.
+    /// Splits the attenuation into scattering and absorption.
     static void set_scattering(const Material& m, MetallicRoughness& p, VolumeScattering& out) {
         if (!m.attenuation_distance || m.multiscatter == std::array<double, 3>{}) return;
         const Rgb single = single_scatter_albedo(rgb(m.multiscatter));

@@ -1,5 +1,5 @@
 #pragma once
-/// Converts glTF materials to materials of a scene. Keeps all parameters unchanged.
+/// Converts glTF materials to materials of a scene, with unchanged parameters.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and the KHR_materials extensions
 /// of docs/reference/formats/gltf.md.
@@ -12,7 +12,7 @@ namespace alhazen::gltf {
 void add_materials(const Document& document, const ImportSource& source, SceneDescription& scene,
                    Diagnostics& diagnostics);
 
-/// Material of primitives without one; added to `scene` at its first use.
+/// The material of primitives without one; added to `scene` at its first use.
 class DefaultMaterial {
   public:
     explicit DefaultMaterial(SceneDescription& scene) : scene_(scene) {}

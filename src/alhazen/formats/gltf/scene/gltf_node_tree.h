@@ -20,7 +20,7 @@ class NodeTree {
     [[nodiscard]] bool has_parent(Index node) const;
     /// True for a node in a cycle or below one.
     [[nodiscard]] bool is_in_loop(Index node) const;
-    /// The topmost ancestor, for a root the node itself; undefined in a cycle.
+    /// The topmost ancestor, which is the node itself for a root; undefined in a cycle.
     [[nodiscard]] Index root_of(Index node) const;
     /// True if `node` is `ancestor` or a descendant of it.
     [[nodiscard]] bool contains(Index ancestor, Index node) const;

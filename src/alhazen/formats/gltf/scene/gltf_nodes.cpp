@@ -24,7 +24,7 @@ bool has_joints(const Primitive& primitive) {
     return primitive.attributes.count("JOINTS_0") != 0;
 }
 
-/// Number of instances of EXT_mesh_gpu_instancing; ignored attributes count, too.
+/// Number of instances of EXT_mesh_gpu_instancing; ignored attributes are also considered.
 std::uint64_t instance_count(const Document& document, const Attributes& attributes) {
     std::uint64_t count = std::numeric_limits<std::uint64_t>::max();
     for (const auto& [semantic, accessor] : attributes) {
@@ -192,7 +192,7 @@ void NodeBuilder::place(ObjectIndex object, const Affine& world_from_part, std::
 void NodeBuilder::place_instances(const Node& node, ObjectIndex object,
                                   const Affine& world_from_node, const std::string& name) {
     const std::uint64_t count = instance_count(document_, node.instances);
-    // Check the budget before reading: an accessor without data may have any number of elements.
+    // Checks the budget before reading: an accessor without data may have any number of elements.
     budget_.expect(count, part_bytes(name));
     const std::vector<Affine> transforms =
         instance_transforms(document_, node.instances, count, budget_);

@@ -3,8 +3,7 @@
 /// hierarchy; nodes share the objects of their meshes.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, sections 3.5 and 3.7; EXT_mesh_gpu_instancing.
-/// Differs: a node with a singular transform is omitted (files hide nodes with a scale of zero).
-/// things).
+/// Differs: a node with a singular transform is omitted (files hide nodes by a scale of zero).
 
 #include "alhazen/formats/gltf/scene/gltf_geometry.h"
 #include "alhazen/formats/gltf/scene/gltf_materials.h"
@@ -21,8 +20,8 @@ class NodeBuilder {
     void add(std::span<const Index> nodes, const std::vector<Affine>& world_from_node);
 
   private:
-    /// Primitives of a mesh in an object. Of a node with a skin, primitives with joints are already
-    /// in world space; those without are transformed by the node.
+    /// The primitives of a mesh in an object. For a node with a skin, primitives with joints are
+    /// already in world space; those without are transformed by the node.
     enum class Primitives { All, WithJoints, WithoutJoints };
     struct ObjectKey {
         Index mesh;
@@ -45,7 +44,7 @@ class NodeBuilder {
     void place(ObjectIndex object, const Affine& world_from_part, std::string name);
     void place_instances(const Node& node, ObjectIndex object, const Affine& world_from_node,
                          const std::string& name);
-    /// Size of a part of this name, for the budget.
+    /// Number of bytes of a part of this name, for the budget.
     [[nodiscard]] std::size_t part_bytes(const std::string& name) const;
     [[nodiscard]] std::string mesh_name(Index mesh) const;
     void report_left_out() const;
@@ -59,7 +58,7 @@ class NodeBuilder {
     DefaultMaterial default_material_;
     std::map<ObjectKey, ObjectIndex> objects_;                    ///< shared by nodes
     std::map<Index, std::vector<Affine>> joints_;                 ///< of the used skins
-    std::vector<char> mesh_seen_;                                 ///< [mesh] already counted below
+    std::vector<char> mesh_seen_;                                 ///< [mesh] counted below
     std::size_t points_ = 0, lines_ = 0, without_positions_ = 0;  ///< omitted primitives
     std::map<std::string, std::size_t> other_attributes_;         ///< ignored attributes
 };

@@ -4,7 +4,7 @@
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.5.
 /// Differs: quaternions are normalised; they need not be unit.
-/// Conventions: nothing recurses, since chains of nodes may be as long as the file.
+/// Conventions: no function recurses, since chains of nodes may be as long as the file.
 
 #include <array>
 #include <vector>
@@ -29,7 +29,7 @@ using Pose = std::vector<NodePose>;
 
 [[nodiscard]] Pose rest_pose(const Document& document);
 
-/// The unit quaternion; the identity for one without a direction.
+/// The unit quaternion; the identity for one that is zero or not finite.
 [[nodiscard]] Quaternion normalized(const Quaternion& q);
 /// Translation * rotation * scale.
 [[nodiscard]] Affine transform_of(const Vec3& translation, const Quaternion& rotation,
@@ -43,7 +43,8 @@ using Pose = std::vector<NodePose>;
 /// Nodes of a scene in depth-first order, children in file order, each once.
 [[nodiscard]] std::vector<Index> nodes_below(const Document& document,
                                              const std::vector<Index>& roots);
-/// Those of `nodes`, parents before children, that neither they nor an ancestor hide.
+/// The nodes of `nodes`, parents before children, that are hidden neither themselves nor by an
+/// ancestor.
 [[nodiscard]] std::vector<Index> visible_nodes(const Document& document,
                                                const std::vector<Index>& nodes);
 /// Nodes without a parent.

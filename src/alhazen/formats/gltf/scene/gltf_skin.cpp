@@ -30,7 +30,7 @@ Affine blend(const VertexJoints& joints, std::size_t vertex,
     if (total != 0.0) {
         add(result, 1.0 / total, sum);
     } else if (joints.joints[first] < world_from_bound.size()) {
-        // A vertex without weights follows the first joint it names.
+        // A vertex without weights follows the first of its joints.
         result = world_from_bound[joints.joints[first]];
     } else {
         result = Affine{};
@@ -39,7 +39,7 @@ Affine blend(const VertexJoints& joints, std::size_t vertex,
 }
 
 /// The normal of a transformed surface. Uses the cofactor matrix, which equals the inverse
-/// transpose times the determinant and exists for singular transforms, too.
+/// transpose times the determinant and also exists for singular transforms.
 Vec3 transformed_normal(const Mat3& m, const Vec3& n) {
     const Vec3 turned = n.x * cross(m.y_axis, m.z_axis) + n.y * cross(m.z_axis, m.x_axis) +
                         n.z * cross(m.x_axis, m.y_axis);

@@ -14,8 +14,8 @@ namespace alhazen::gltf {
 [[nodiscard]] std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
                                                  const std::vector<Affine>& world_from_node);
 
-/// Transforms positions, normals and tangents. Reverses triangles whose corner transforms on
-/// average mirror, so that they keep their front. `geometry.joints.per_vertex` must not be 0.
+/// Transforms positions, normals and tangents. Reverses triangles whose corner transforms mirror on
+/// average, so that they keep their front. Precondition: `geometry.joints.per_vertex` is not 0.
 void apply_skin(PrimitiveGeometry& geometry, const std::vector<Affine>& world_from_bound);
 
 }  // namespace alhazen::gltf

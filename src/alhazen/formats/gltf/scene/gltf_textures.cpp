@@ -16,7 +16,7 @@ std::string name_of(const Image& image, Index index) {
     return fmt::format("image {}", index);
 }
 
-/// Three times 1 - `glossiness` times the alpha, in codes of 8 bits.
+/// 1 - `glossiness` times the alpha, repeated in three channels, as codes of 8 bits.
 StoredImage roughness_of_gloss(const StoredImage& picture, double glossiness) {
     StoredImage result;
     result.width = picture.width;

@@ -26,10 +26,10 @@ class Textures {
     Textures(const Document& document, const ImportSource& source, SceneDescription& scene,
              Diagnostics& diagnostics);
 
-    /// kNoTexture if there is no texture, or if it cannot be read (reported).
+    /// The texture; kNoTexture if there is none or it cannot be read (reported).
     [[nodiscard]] TextureId use(const std::optional<TextureInfo>& info, ColorSpace space);
 
-    /// 1 - `glossiness` times its alpha, in all channels.
+    /// A texture of 1 - `glossiness` times the alpha of the image, in all channels.
     [[nodiscard]] TextureId use_as_roughness(const std::optional<TextureInfo>& info,
                                              double glossiness);
 

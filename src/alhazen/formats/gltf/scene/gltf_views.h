@@ -13,7 +13,7 @@
 
 namespace alhazen::gltf {
 
-/// `nodes`: of the scene, in order; `world_from_node` [node]. Scale is ignored in both.
+/// `nodes`: those of the scene, in order; `world_from_node`: [node]. Ignores scale in transforms.
 void add_cameras(const Document& document, std::span<const Index> nodes,
                  const std::vector<Affine>& world_from_node, SceneDescription& scene);
 void add_lights(const Document& document, std::span<const Index> nodes,

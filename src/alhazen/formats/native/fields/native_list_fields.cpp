@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// `((point, normal), ...)`.
+/// Reads `((point, normal), ...)`.
 void read_planes(TextNode list, const ValueReader& values, Polyhedron& solid) {
     if (!values.is_list(list, "planes")) return;
     for (const TextNode entry : list) {
@@ -35,7 +35,7 @@ bool read_vertex_number(TextNode value, const ValueReader& values, std::uint32_t
     return true;
 }
 
-/// `((a, b, c, ...), ...)`.
+/// Reads `((a, b, c, ...), ...)`.
 void read_faces(TextNode list, const ValueReader& values, Polyhedron& solid) {
     if (!values.is_list(list, "faces")) return;
     for (const TextNode face : list) {
@@ -99,7 +99,7 @@ void write_native_fields(NativeBlockText& block, const Polyhedron& s) {
 
 namespace {
 
-/// sphere(center, radius, strength) or cylinder(base, top, radius, strength).
+/// Reads sphere(center, radius, strength) or cylinder(base, top, radius, strength).
 bool read_component(TextNode entry, const ValueReader& values, BlobComponent& component) {
     component.rod = entry.is(NodeKind::Entry, "cylinder");
     const std::size_t count = component.rod ? 4 : 3;

@@ -51,7 +51,7 @@ namespace {
 constexpr const char* kTrimExpected =
     "polyline((u, v), (u, v), ...) or curve { degree = ...; knots = [...]; points = [...] }";
 
-/// `polyline((u, v), ...)` or `curve { degree, knots, points, weights }`.
+/// Reads `polyline((u, v), ...)` or `curve { degree, knots, points, weights }`.
 bool read_trim_curve(TextNode entry, std::string_view key, const ValueReader& values,
                      TrimCurve& curve) {
     if (entry.is(NodeKind::Entry, "polyline") && !entry.empty() &&
@@ -99,7 +99,7 @@ void read_native_list(BlockReader& reader, std::string_view key, std::vector<Tri
 
 namespace {
 
-/// `[a, b, ...]`, in lines of about 100 characters.
+/// Writes `[a, b, ...]`, in lines of about 100 characters.
 template <class T, class TextOf>
 std::string wrapped_list(const std::vector<T>& list, const TextOf& text_of) {
     constexpr std::size_t kWidth = 100;

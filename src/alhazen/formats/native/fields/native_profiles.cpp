@@ -6,8 +6,8 @@ namespace alhazen {
 
 namespace {
 
-/// One step of a loop: a point (the end of a line), or curve(control, control, point). False after
-/// an error.
+/// Reads one step of a loop: a point (the end of a line), or curve(control, control, point). False
+/// after an error.
 bool read_step(TextNode step, std::string_view key, const ValueReader& values, Vec2& last,
                Profile& profile) {
     if (!step.is(NodeKind::Entry, "curve")) {
@@ -31,8 +31,8 @@ bool read_step(TextNode step, std::string_view key, const ValueReader& values, V
     return true;
 }
 
-/// `[(x, y), (x, y), curve(...), ...]`. `close`: adds a line from the end to the beginning of a
-/// loop where they differ.
+/// Reads `[(x, y), (x, y), curve(...), ...]`. `close`: adds a line from the end of a loop to its
+/// beginning if they differ.
 void read_loop(TextNode loop, std::string_view key, const ValueReader& values, bool close,
                Profile& profile) {
     if (!values.is_list(loop, key)) return;

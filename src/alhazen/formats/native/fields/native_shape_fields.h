@@ -25,7 +25,7 @@ template <class S, class T>
 void read_native_field(BlockReader& reader, const Field<S, T>& field, S& shape) {
     reader.read(field.name, shape.*field.member);
 }
-/// A number or an index, from 0.
+/// A number or an index, at least 0.
 template <class S>
 void read_native_field(BlockReader& reader, const Field<S, std::uint32_t>& field, S& shape) {
     read_native_count(reader, field.name, shape.*field.member);
@@ -38,11 +38,11 @@ void read_native_field(BlockReader& reader, const Field<S, std::vector<T>>& fiel
 /// `((x, y, z), (x, y, z))`: the lower and the upper corner.
 void read_native_field(BlockReader& reader, const Field<Quadric, Box3>& field, Quadric& shape);
 void read_native_field(BlockReader& reader, const Field<Algebraic, Box3>& field, Algebraic& shape);
-/// `((x, y, z, offset), ...)`: cuts off dot((x, y, z), p) > offset.
+/// `((x, y, z, offset), ...)`: removes the points p with dot((x, y, z), p) > offset.
 void read_native_field(BlockReader& reader, const Field<Quadric, std::vector<ClipPlane>>& field,
                        Quadric& shape);
-/// `profile = [(x, y), curve((x, y), (x, y), (x, y)), ...]` or `loops = [[...], ...]`. Closes the
-/// loops of a prism.
+/// `profile = [(x, y), curve((x, y), (x, y), (x, y)), ...]` or `loops = [[...], ...]`. The loops of
+/// a prism are closed.
 void read_native_field(BlockReader& reader, const Field<Prism, Profile>& field, Prism& shape);
 void read_native_field(BlockReader& reader, const Field<Lathe, Profile>& field, Lathe& shape);
 /// `[sphere(center, radius, strength), cylinder(base, top, radius, strength), ...]`, required.
@@ -64,7 +64,7 @@ template <class T>
 [[nodiscard]] std::string native_field_text(const Profile& profile);
 [[nodiscard]] std::string native_field_text(const std::vector<BlobComponent>& components);
 
-/// Whether the value is the reader's default for an absent key.
+/// True if the value is the reader's default for an absent key.
 template <class T>
 [[nodiscard]] bool is_native_default(const T& value, const T& usual) {
     return native_field_text(value) == native_field_text(usual);
@@ -73,7 +73,7 @@ template <class T>
 [[nodiscard]] bool is_native_default(const std::vector<T>& value, const std::vector<T>& usual) {
     return value.empty() && usual.empty();
 }
-/// An unbounded box cannot be written.
+/// True for an unbounded box, which cannot be written.
 inline bool is_native_default(const Box3& box, const Box3&) {
     return !box.bounded();
 }
@@ -99,7 +99,7 @@ void read_native_fields(BlockReader& reader, S& shape) {
 void read_native_fields(BlockReader& reader, Polygon& shape);
 /// `planes = ((point, normal), ...)`, or `vertices` and `faces`.
 void read_native_fields(BlockReader& reader, Polyhedron& shape);
-/// `heights` row by row and `columns`; for heights of a picture see native_height_picture.h.
+/// `heights` row by row and `columns`; for heights from an image see native_height_picture.h.
 void read_native_fields(BlockReader& reader, HeightField& shape);
 
 template <class S>

@@ -1,9 +1,8 @@
 #pragma once
 /// Values and blocks as text of the native format.
 ///
-/// Conventions: numbers are the shortest decimals that read back to the same double, -0 included;
-/// strings are escaped so that all bytes are preserved. Numbers that are not finite cannot be
-/// written.
+/// Conventions: numbers are the shortest decimals that read back to the same double, including -0;
+/// strings are escaped so that all bytes are preserved. Non-finite numbers cannot be written.
 
 #include <string>
 #include <string_view>
@@ -15,7 +14,7 @@
 
 namespace alhazen {
 
-/// Throws Error (Scene) when the number is not finite.
+/// Throws Error (Scene) if the number is not finite.
 [[nodiscard]] std::string native_value(double number);
 [[nodiscard]] std::string native_value(int number);
 [[nodiscard]] std::string native_value(bool truth);
@@ -23,15 +22,15 @@ std::string native_value(const char*) = delete;  // prevents a conversion to boo
 [[nodiscard]] std::string native_value(const Vec2& v);
 [[nodiscard]] std::string native_value(const Vec3& v);
 [[nodiscard]] std::string native_value(const Rgb& color);
-/// As matrix(row, row, row).
+/// `matrix(row, row, row)`.
 [[nodiscard]] std::string native_value(const Affine& transform);
-/// [(time, matrix), ...].
+/// `[(time, matrix), ...]`.
 [[nodiscard]] std::string native_value(const std::vector<TransformKey>& keys);
-/// In quotes, escaped.
+/// The text in quotes, escaped.
 [[nodiscard]] std::string native_string(std::string_view text);
-/// [a, b, c].
+/// `[a, b, c]`.
 [[nodiscard]] std::string native_list(const std::vector<std::string>& values);
-/// The list of the texts of all values.
+/// The list of the texts of all values, by `text_of`.
 template <class Values, class TextOf>
 [[nodiscard]] std::string native_list_of(const Values& values, TextOf text_of) {
     std::vector<std::string> texts;
@@ -40,17 +39,17 @@ template <class Values, class TextOf>
     return native_list(texts);
 }
 
-/// One block: `head { key = value; ... }`.
+/// The text of a block: `head { key = value; ... }`.
 class NativeBlockText {
   public:
-    /// `type "label"`, or `type` alone when the label is empty; neither for a block used as a
-    /// value.
+    /// The head is `type "label"`, or `type` alone if the label is empty; a block used as a value
+    /// has no head.
     explicit NativeBlockText(std::string_view type = {}, std::string_view label = {});
 
     void add(std::string_view key, std::string value) {
         pairs_.emplace_back(key, std::move(value));
     }
-    /// Omits the reader's defaults.
+    /// Adds a pair unless the value is the reader's default.
     template <class T>
     void add_unless(std::string_view key, const T& value, const T& usual) {
         std::string text = native_value(value);
@@ -58,9 +57,9 @@ class NativeBlockText {
     }
 
     [[nodiscard]] bool empty() const { return pairs_.empty(); }
-    /// On one line when it is short. Without a final line end.
+    /// The block, on one line if it is short, without a final line end.
     [[nodiscard]] std::string text(int indent = 0) const;
-    /// The same for a block whose first line is already begun.
+    /// The block for use after the beginning of a line, without the first indent.
     [[nodiscard]] std::string value(int indent) const {
         return text(indent).substr(static_cast<std::size_t>(indent));
     }

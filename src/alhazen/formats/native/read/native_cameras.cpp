@@ -43,7 +43,8 @@ void add_camera(const NativeBlock& block, NativeContext& context, const Camera& 
     context.scene.cameras.push_back({block.name, camera, aspect, block.location, std::move(keys)});
 }
 
-/// A radius above 0 makes a lens; `focus_at` is a point in the plane of focus.
+/// Reads the lens of a camera: a radius above 0 makes one; `focus_at` is a point in the plane of
+/// focus.
 void read_lens(BlockReader& reader, PerspectiveCamera& camera) {
     const bool has_lens = reader.read("lens_radius", camera.lens.radius);
     double turn_deg = camera.lens.turn / kRadiansPerDegree;
@@ -59,7 +60,7 @@ void read_lens(BlockReader& reader, PerspectiveCamera& camera) {
     }
     if (has_point && reader.has("focus_distance")) {
         reader.error(reader.block(),
-                     "'focus_at' and 'focus_distance' say the same; expected one "
+                     "'focus_at' and 'focus_distance' exclude each other; expected one "
                      "of them");
     }
     if (has_lens && camera.lens.radius > 0 && !has_point && !reader.has("focus_distance")) {
@@ -157,7 +158,7 @@ void read_fisheye_camera(const NativeBlock& block, NativeContext& context) {
                view.aspect, std::move(keys));
 }
 
-/// Its aspect ratio is that of its angles.
+/// Reads a panorama, whose aspect ratio is that of its angles.
 void read_panorama_camera(const NativeBlock& block, NativeContext& context) {
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);

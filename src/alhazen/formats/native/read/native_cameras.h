@@ -10,7 +10,7 @@ namespace alhazen {
 /// The blocks of all alternatives of `Camera`, in the order of the variant.
 [[nodiscard]] std::span<const NativeTopBlock> native_camera_blocks();
 
-/// Gives cameras without an aspect that of the image. Call after the last block.
+/// Gives cameras without an aspect ratio that of the image. To be called after the last block.
 void complete_cameras(NativeContext& context);
 
 }  // namespace alhazen

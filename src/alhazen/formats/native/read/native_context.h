@@ -1,5 +1,6 @@
 #pragma once
-/// Shared state of the native importer while one scene is read, and the current position in it.
+/// State that the functions of the native importer share while a scene is read, including the
+/// current position in it.
 
 #include <filesystem>
 #include <map>
@@ -21,7 +22,7 @@ struct NativeContext {
     SceneDescription& scene;
     Diagnostics& diagnostics;
     const ImportOptions& options;
-    std::vector<std::filesystem::path> roots;  ///< named files must lie inside one of these
+    std::vector<std::filesystem::path> roots;  ///< folders of files that may be named
     TextureTable textures;
 
     // Names defined so far; a name must be defined before it is used.
@@ -33,14 +34,14 @@ struct NativeContext {
     std::map<std::string, FileLocation, std::less<>> listed_objects;
     std::optional<MaterialId> built_in_material;
 
-    std::vector<std::size_t> cameras_without_aspect;  ///< they take the aspect of the image
+    std::vector<std::size_t> cameras_without_aspect;  ///< get the aspect ratio of the image
     std::vector<std::filesystem::path>
         open_files;                ///< the file being read and those that include it
     std::filesystem::path folder;  ///< of the file whose top level is being read
     std::uint64_t included_bytes = 0;
     std::uint64_t included_files = 0;
-    std::uint64_t elements = 0;         ///< vertices, triangles and parts
-    BlockObserver* observer = nullptr;  ///< of all blocks; null: none
+    std::uint64_t elements = 0;         ///< number of vertices, triangles and parts
+    BlockObserver* observer = nullptr;  ///< observes all blocks; may be null
 
     [[nodiscard]] BlockReader reader(TextNode block, std::string what) const {
         BlockReader made(block, std::move(what), BlockReader::Strictness::Strict, diagnostics);
@@ -51,18 +52,18 @@ struct NativeContext {
     void count_elements(std::uint64_t more, const FileLocation& where);
 };
 
-/// Where an item is added, and the settings in force there.
+/// The target of new items, and the settings in force there.
 struct NativeScope {
     std::vector<Part>& parts;
     Affine object_from_here;
-    std::optional<MaterialId> material;  ///< default for parts without one
-    std::filesystem::path folder;        ///< of the file that is being read
+    std::optional<MaterialId> material;  ///< default of parts without one
+    std::filesystem::path folder;        ///< of the file being read
     int nesting = 0;  ///< number of enclosing objects and groups, through all included files
-    RayMask visible_to = kAllRays;  ///< rays that all enclosing groups are visible to
+    RayMask visible_to = kAllRays;  ///< kinds of rays to which all enclosing groups are visible
 
     [[nodiscard]] bool top_level() const { return nesting == 0; }
-    /// The transform of this scope times one written here. A single transform is kept bit for bit:
-    /// multiplication by the identity turns -0 into 0.
+    /// The transform of this scope times `here_from_part`. A single transform is kept bit for bit:
+    /// multiplication by the identity would turn -0 into 0.
     [[nodiscard]] Affine placed(const Affine& here_from_part) const {
         return object_from_here == Affine{} ? here_from_part : object_from_here * here_from_part;
     }
@@ -74,7 +75,7 @@ struct NativeBlock {
     std::optional<TextNode> block;
     FileLocation location;
 };
-/// Reports an error when the entry has no block; never throws.
+/// Splits an entry; reports an error if it has no block. Never throws.
 [[nodiscard]] NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics);
 
 /// Defines `name` in `names`, or reports that it is already defined.
@@ -87,7 +88,7 @@ void define_name(const std::string& name, Id id, const char* kind, const FileLoc
     }
 }
 
-/// The id of the name `value`, or an error that lists the defined names.
+/// The id of the name `value`; for an unknown name an error that lists the defined names.
 template <class Id>
 std::optional<Id> look_up(TextNode value, const char* kind,
                           const std::map<std::string, Id, std::less<>>& names,

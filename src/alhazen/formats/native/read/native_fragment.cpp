@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Makes the things of a scene known by name.
+/// Enters the named items of a scene into `names`.
 template <class Things, class Id, class NameOf>
 void know_names(const Things& things, std::map<std::string, Id, std::less<>>& names,
                 NameOf name_of) {

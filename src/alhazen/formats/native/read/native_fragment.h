@@ -1,12 +1,13 @@
 #pragma once
-/// Adds blocks of the native format to a scene that exists: for programs that build scenes piece by
-/// piece with the format's vocabulary.
+/// Adds blocks of the native format to an existing scene, for programs that build scenes
+/// incrementally with the format's vocabulary.
 ///
 /// Source: docs/reference/formats/native.md.
-/// Differs: a fragment has no header, and sees what the scene has: materials, textures, meshes (as
-/// geometries) and objects by their names, the first of each name. Its top level is that of the
+/// Differs: a fragment has no header, and may refer to the scene's materials, textures, meshes (as
+/// geometries) and objects by name; the first of each name is meant. Its top level is that of the
 /// root object.
-/// Errors: every finding is reported at its line of the fragment; the scene is then not valid.
+/// Errors: all findings are reported at their lines of the fragment; after an error the scene is
+/// invalid.
 
 #include <string>
 #include <string_view>
@@ -15,9 +16,9 @@
 
 namespace alhazen {
 
-/// `name` stands for the file in locations. File names in the fragment are relative to the folder
-/// of `scene.path`, and must lie in it or in ImportOptions::allowed_folders. Throws Error
-/// (Resource) beyond the limits of the options.
+/// Reads the fragment `text` into `scene`. `name`: the file in locations. File names in the
+/// fragment are relative to the folder of `scene.path`, and must lie in it or in
+/// ImportOptions::allowed_folders. Throws Error (Resource) beyond the limits of the options.
 void read_native_fragment(std::string_view text, const std::string& name,
                           const ImportOptions& options, SceneDescription& scene,
                           Diagnostics& diagnostics);

@@ -14,7 +14,7 @@ const char* NativeImporter::description() const {
 }
 
 int NativeImporter::recognise(const ImportSource& source) const {
-    constexpr std::size_t kLook = 65536;  // comments may come before the header
+    constexpr std::size_t kLook = 65536;  // comments may precede the header
     const SourceText text(source.bytes.substr(0, kLook), "");
     Diagnostics ignored;
     Lexer lexer(text, ignored);

@@ -9,10 +9,10 @@ namespace alhazen {
 
 namespace {
 
-/// Stops a chain of small files that each include the next one twice.
+/// Limit that stops a chain of small files each of which includes the next one twice.
 constexpr std::uint64_t kMaxIncludedFiles = 10'000;
 
-/// Throws Error (Resource) when one more file would exceed the limits.
+/// Throws Error (Resource) if one more file would exceed the limits.
 void check_limits(const NativeContext& context, const FileLocation& where) {
     if (context.open_files.size() > static_cast<std::size_t>(context.options.max_include_depth)) {
         throw Error(ErrorKind::Resource,
@@ -26,7 +26,7 @@ void check_limits(const NativeContext& context, const FileLocation& where) {
     }
 }
 
-/// The bytes of the file, if it is readable and not already being read.
+/// The bytes of the file; none if it is unreadable or already being read.
 std::optional<std::string> read_bytes(TextNode name, NativeContext& context,
                                       const NativeScope& scope, std::filesystem::path& path) {
     const FileLocation where = name.location();

@@ -41,14 +41,14 @@ void read_cone(BlockReader& reader, SpotLight& light) {
     const bool has_outer =
         read_angle(reader, "outer_angle_deg", "outer_angle_rad", light.outer_angle);
     if (has_outer && !has_inner) light.inner_angle = light.outer_angle;
-    constexpr double kHalfTurn = 3.1415926535897936;  // as `validate`: one rounding beyond pi
+    constexpr double kHalfTurn = 3.1415926535897936;  // as in `validate`: one rounding above pi
     if (!(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle &&
           light.outer_angle <= kHalfTurn)) {
         reader.error(reader.block(), "expected 0 <= inner angle <= outer angle <= 180 degrees");
     }
 }
 
-/// The axes of an IES profile, and the file.
+/// Reads the file and the axes of an IES profile.
 void read_profile(BlockReader& reader, NativeContext& context, LightProfile& profile) {
     for (const auto& [key, out] :
          {std::pair{"profile_down", &profile.down}, std::pair{"profile_front", &profile.front}}) {
@@ -68,13 +68,13 @@ void read_profile(BlockReader& reader, NativeContext& context, LightProfile& pro
     }
 }
 
-/// Watts or lumens of a light that sends `per_unit` of them where its colour is 1; nothing where
-/// neither is given.
+/// The watts or lumens of a light that emits `per_unit` of them if its colour is 1, as a factor of
+/// the colour; none if neither is given.
 std::optional<double> read_power(BlockReader& reader, double per_unit) {
     double power = 0;
     if (reader.has("power_watts") && reader.has("lumens")) {
         reader.error(reader.block(),
-                     "'power_watts' and 'lumens' say the same; expected one of them");
+                     "'power_watts' and 'lumens' exclude each other; expected one of them");
     }
     if (read_positive(reader, "power_watts", power)) return power / per_unit;
     if (read_positive(reader, "lumens", power)) return power / kLumensPerWatt / per_unit;
@@ -107,7 +107,7 @@ void read_directional_light(const NativeBlock& block, NativeContext& context) {
     const std::string_view key = require_one_of(reader, "direction", "to_light");
     if (reader.read(key, vector)) {
         if (length_squared(vector) > 0) {
-            light.to_light = key == "to_light" ? vector : -vector;  // normalised by `compile`
+            light.to_light = key == "to_light" ? vector : -vector;  // `compile` normalises it
         } else {
             reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
         }
@@ -146,7 +146,7 @@ void read_spot_light(const NativeBlock& block, NativeContext& context) {
     reader.require("position");
     reader.read("position", light.position);
     if (const auto axis = read_direction(reader, light.position, "look_at", "direction")) {
-        light.direction = *axis;  // normalised by `compile`
+        light.direction = *axis;  // `compile` normalises it
     }
     read_cone(reader, light);
     read_emission(reader, light.color, light.ambient);
@@ -216,7 +216,7 @@ void read_area_light(const NativeBlock& block, NativeContext& context) {
     }
     reader.read("two_sided", light.two_sided);
     reader.read("seen", light.seen);
-    // The radiance is then a tint.
+    // The given radiance is then only a tint.
     const double area = fault_of(extent) == nullptr ? LightSurface(extent, false).area() : 1;
     if (const auto times = read_power(reader, kPi * area * (light.two_sided ? 2 : 1))) {
         light.radiance = *times * light.radiance;

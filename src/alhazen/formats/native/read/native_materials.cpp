@@ -46,7 +46,7 @@ std::optional<TextureCall> read_texture_call(TextNode value, std::string_view ke
     return call;
 }
 
-/// For colours, which have no channel.
+/// Reads a texture call for a colour, which has no channel.
 std::optional<TextureCall> read_whole_texture_call(TextNode value, std::string_view key,
                                                    NativeContext& context) {
     auto call = read_texture_call(value, key, context);
@@ -109,7 +109,7 @@ void read_alpha(BlockReader& reader, NativeContext& context, Material& m) {
     reader.read("double_sided", m.double_sided);
 }
 
-/// The block `key`, if there is one.
+/// Reads the block `key`, if there is one.
 template <class F>
 void read_layer(BlockReader& outer, std::string_view key, NativeContext& context, const F& fields) {
     const auto value = outer.find(key);
@@ -123,7 +123,7 @@ void read_layer(BlockReader& outer, std::string_view key, NativeContext& context
     reader.finish();
 }
 
-/// texture("NAME") alone.
+/// Reads texture("NAME") without further arguments.
 void read_plain_texture(BlockReader& reader, std::string_view key, NativeContext& context,
                         TextureId& out) {
     const auto value = reader.find(key);
@@ -238,8 +238,8 @@ void read_dielectric(BlockReader& outer, NativeContext& context, Material& m) {
     });
 }
 
-/// blackbody(KELVIN) or illuminant("NAME"), both with a luminance as the last argument, which is 1
-/// without.
+/// Reads blackbody(KELVIN) or illuminant("NAME"). The last argument of both is an optional
+/// luminance, by default 1.
 void read_illuminant(TextNode value, NativeContext& context, Material& m) {
     constexpr std::string_view kKey = "emission";
     const ValueReader values{context.diagnostics};
@@ -326,13 +326,13 @@ void read_sellmeier(BlockReader& reader, TextNode value, Material& m) {
     m.dispersion = d;
 }
 
-/// How the index depends on the wavelength: `glass`, `sellmeier` or `abbe`.
+/// Reads the dependence of the index on the wavelength: `glass`, `sellmeier` or `abbe`.
 void read_dispersion(BlockReader& reader, Material& m) {
     const auto glass = reader.find("glass"), sellmeier = reader.find("sellmeier"),
                abbe = reader.find("abbe");
     if ((glass ? 1 : 0) + (sellmeier ? 1 : 0) + (abbe ? 1 : 0) > 1) {
         reader.error(reader.block(),
-                     "'glass', 'sellmeier' and 'abbe' say the same; expected one of them");
+                     "'glass', 'sellmeier' and 'abbe' exclude each other; expected one of them");
         return;
     }
     if ((glass || sellmeier) && reader.has("index")) {
@@ -389,7 +389,7 @@ MaterialId add_material(TextNode block, std::string name, NativeContext& context
     return static_cast<MaterialId>(context.scene.materials.size() - 1);
 }
 
-/// Default material of parts: a matt grey.
+/// The default material of parts, a matte grey.
 MaterialId built_in_material(NativeContext& context) {
     if (!context.built_in_material) {
         Material grey;

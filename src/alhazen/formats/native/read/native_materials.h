@@ -10,13 +10,13 @@ void read_native_solid_texture(const NativeBlock& block, NativeContext& context)
 void read_native_texture(const NativeBlock& block, NativeContext& context,
                          const NativeScope& scope);
 
-/// A colour, or one number for a grey.
+/// Reads a colour, or one number for a grey.
 bool read_native_color(TextNode value, std::string_view key, const ValueReader& values, Rgb& out);
 
-/// The material that `value` names or describes. Nothing, after an error, when it does neither.
+/// The material that `value` names or describes; none, after an error, if it does neither.
 [[nodiscard]] std::optional<MaterialId> read_material_value(TextNode value, NativeContext& context);
-/// `material = ...` of a part; the default of `scope`, or the built-in grey, when it is absent or
-/// invalid.
+/// The value of `material = ...` of a part; if it is absent or invalid, the default of `scope`, or
+/// else the built-in grey.
 [[nodiscard]] MaterialId read_part_material(BlockReader& reader, NativeContext& context,
                                             const NativeScope& scope);
 

@@ -22,7 +22,7 @@ void read_inline_mesh(BlockReader& reader, TriangleMesh& mesh) {
     if (uvs) read_uvs(*uvs, "uvs", reader.values(), mesh);
 }
 
-/// `materials`: maps the material numbers of the file; without it they are ignored.
+/// `materials`: maps the material numbers of the file, which are ignored without it.
 void read_materials_of_file(BlockReader& reader, NativeContext& context, TriangleMesh& mesh) {
     const auto list = reader.find("materials");
     if (!list || !reader.values().is_list(*list, "materials")) {
@@ -73,7 +73,7 @@ void read_vertex_materials(BlockReader& reader, NativeContext& context, Triangle
     }
 }
 
-/// The points of one key, in the list or in a mesh file, which may have normals.
+/// Reads the points of one key, from the list or from a mesh file, which may have normals.
 bool read_point_key(TextNode value, BlockReader& reader, NativeContext& context,
                     const NativeScope& scope, TriangleMesh& pose) {
     if (!value.is(NodeKind::String)) {
@@ -90,7 +90,7 @@ bool read_point_key(TextNode value, BlockReader& reader, NativeContext& context,
     return true;
 }
 
-/// `point_keys = [(time, points or "FILE"), ...]`.
+/// Reads `point_keys = [(time, points or "FILE"), ...]`.
 std::vector<MeshKey> read_point_keys(BlockReader& reader, NativeContext& context,
                                      const NativeScope& scope, const TriangleMesh& mesh,
                                      bool smooth) {

@@ -6,9 +6,9 @@
 
 namespace alhazen {
 
-/// `geometry "NAME" { ... }`: a mesh that parts refer to by name.
+/// Reads `geometry "NAME" { ... }`: a mesh that parts refer to by name.
 void read_native_geometry(const NativeBlock& block, NativeContext& context, NativeScope& scope);
-/// The mesh of a `mesh` block: the geometry it names or its own. Nothing after an error.
+/// The mesh of a `mesh` block: the geometry that it names, or its own. None after an error.
 [[nodiscard]] std::optional<MeshIndex> read_native_mesh(BlockReader& reader,
                                                         const NativeBlock& block,
                                                         NativeContext& context,

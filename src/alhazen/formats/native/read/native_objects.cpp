@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// A definition takes the number that the list of objects gave the name, or the next one.
+/// Defines an object under the number that the list of objects gave its name, or the next number.
 void define_object(const NativeBlock& block, ObjectDescription object, NativeContext& context) {
     auto& objects = context.scene.objects;
     const auto listed = context.listed_objects.find(block.name);
@@ -50,7 +50,7 @@ void read_native_object_list(const NativeBlock& block, NativeContext& context, N
     const bool has_root = reader.read("root", root);
     std::string root_name = root;
     reader.read("root_name", root_name);
-    ObjectDescription how;  // the root combines its parts
+    ObjectDescription how;  // how the root combines its parts
     read_combination(reader, how);
     reader.finish();
     if (!names || !has_root || !reader.values().is_list(*names, "names")) return;
@@ -75,7 +75,7 @@ void read_native_object_list(const NativeBlock& block, NativeContext& context, N
         object.cut_material = how.cut_material;
         context.listed_objects.erase(root);
     }
-    // Also after an error, because the names are numbered already.
+    // Done after an error too, because the names are numbered already.
     context.scene.objects = std::move(objects);
 }
 

@@ -78,7 +78,7 @@ void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope
 
 // Dispatch of the blocks.
 
-/// Blocks of the top level besides cameras and lights.
+/// Top-level blocks other than cameras and lights.
 constexpr NativeTopBlock kSettingsBlocks[] = {
     {"picture", read_picture},
     {"environment", read_environment},
@@ -98,7 +98,7 @@ constexpr std::pair<std::string_view, ReadPart> kPartBlocks[] = {
     {"defaults", read_defaults},
 };
 
-/// True when `type` is a block of the top level; reads it, or reports that it is nested.
+/// Reads a top-level block, or reports that it is nested; false if `type` is no such block.
 bool read_top_level_block(const NativeBlock& block, NativeContext& context,
                           const NativeScope& scope) {
     const auto read_one_of = [&](std::span<const NativeTopBlock> blocks) {

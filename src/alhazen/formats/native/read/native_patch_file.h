@@ -5,7 +5,8 @@
 
 namespace alhazen {
 
-/// Reads `file` where the block, which stands at `where`, has one: its patches, all of one degree.
+/// Reads `file` if the block, located at `where`, has one: its patches, which must have one pair of
+/// degrees.
 void read_native_patch_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
                             const FileLocation& where, AnyShape& shape);
 

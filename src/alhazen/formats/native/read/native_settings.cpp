@@ -57,11 +57,11 @@ void read_environment_picture(BlockReader& reader, NativeContext& context,
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::Resource) throw;
         reader.error(*reader.find("file"), error.what());
-        settings.picture = std::make_shared<const Image>(1, 1, 3);  // one finding is enough
+        settings.picture = std::make_shared<const Image>(1, 1, 3);  // prevents a second report
     }
 }
 
-/// A vector that `out` has only where it is given.
+/// Reads a vector; sets `out` only if it is given.
 void read_given(BlockReader& reader, std::string_view key, std::optional<Vec3>& out) {
     Vec3 v;
     if (reader.read(key, v)) out = v;

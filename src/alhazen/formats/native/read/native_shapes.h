@@ -1,6 +1,6 @@
 #pragma once
 /// The analytic shapes of the native format: all of shapes/shape_list.h. The keys of a shape are
-/// the names in its kFields (torus: shapes/algebraic/torus.h).
+/// the names in its kFields (example: shapes/algebraic/torus.h).
 
 #include <string_view>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace alhazen {
 
-/// Reads the shape of block type `type` from the keys of its block. Precondition:
+/// Reads a shape of block type `type` from the keys of its block. Precondition:
 /// is_native_shape(type).
 [[nodiscard]] AnyShape read_native_shape(std::string_view type, BlockReader& reader);
 [[nodiscard]] bool is_native_shape(std::string_view type);

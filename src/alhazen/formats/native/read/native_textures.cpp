@@ -5,11 +5,12 @@ namespace alhazen {
 
 namespace {
 
-/// `filter`, or `bilinear` in files of the first version.
+/// Reads `filter`, or `bilinear` in files of the first version.
 void read_filter(BlockReader& reader, TextureFilter& out) {
     bool bilinear = true;
     if (reader.has("filter") && reader.has("bilinear")) {
-        reader.error(reader.block(), "'filter' and 'bilinear' say the same; expected one of them");
+        reader.error(reader.block(),
+                     "'filter' and 'bilinear' exclude each other; expected one of them");
     }
     reader.read_word("filter", native_words<TextureFilter>(), out);
     if (reader.read("bilinear", bilinear)) {
@@ -17,7 +18,7 @@ void read_filter(BlockReader& reader, TextureFilter& out) {
     }
 }
 
-/// Two rows of three numbers that act on the column (u, v, 1).
+/// Reads two rows of three numbers, a matrix that multiplies the column (u, v, 1).
 void read_uv_transform(BlockReader& reader, UvTransform& out) {
     constexpr std::string_view kKey = "uv_transform";
     const auto value = reader.find(kKey);

@@ -67,7 +67,7 @@ std::optional<Affine> read_one(TextNode value, const ValueReader& values) {
     return std::nullopt;
 }
 
-/// One transform, or a list of them.
+/// Reads one transform, or a list of them.
 Affine read_any(TextNode value, const ValueReader& values) {
     if (value.broken()) return {};
     if (!value.is(NodeKind::List)) return read_one(value, values).value_or(Affine{});

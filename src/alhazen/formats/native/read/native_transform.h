@@ -7,15 +7,15 @@
 
 namespace alhazen {
 
-/// `transform = ...`: one of translate(x, y, z), rotate((x, y, z), degrees), scale(s), scale(x, y,
-/// z), matrix(row, row, row), or a list of them, applied from the first to the last. The identity
-/// when the key is absent or invalid.
+/// Reads `transform = ...`: one of translate(x, y, z), rotate((x, y, z), degrees), scale(s),
+/// scale(x, y, z), matrix(row, row, row), or a list of them, applied from the first to the last.
+/// The identity if the key is absent or invalid.
 [[nodiscard]] Affine read_native_transform(BlockReader& reader);
 
-/// `motion = [(time, transform), ...]`; none when the key is absent or invalid.
+/// Reads `motion = [(time, transform), ...]`; none if the key is absent or invalid.
 [[nodiscard]] std::vector<TransformKey> read_native_motion(BlockReader& reader);
 
-/// Sets where the part stands and how it moves, from `transform` and `motion`.
+/// Sets the placement and the motion of the part from `transform` and `motion`.
 void read_native_placement(BlockReader& reader, const NativeScope& scope, Part& part);
 
 }  // namespace alhazen

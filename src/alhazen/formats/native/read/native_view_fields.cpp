@@ -48,7 +48,7 @@ bool read_angle(BlockReader& reader, std::string_view degrees_key, std::string_v
     if (reader.has(degrees_key) && reader.has(radians_key)) {
         reader.error(reader.block(), "'" + std::string(degrees_key) + "' and '" +
                                          std::string(radians_key) +
-                                         "' say the same; expected one of them");
+                                         "' exclude each other; expected one of them");
     }
     if (reader.read(degrees_key, degrees)) radians = degrees * kRadiansPerDegree;
     reader.read(radians_key, radians);

@@ -1,6 +1,5 @@
 #pragma once
-/// What the blocks of cameras and of lights share: fields, and a table by the alternatives of a
-/// variant.
+/// Fields that blocks of cameras and lights share, and a table by the alternatives of a variant.
 
 #include <optional>
 #include <string_view>
@@ -12,24 +11,24 @@
 
 namespace alhazen {
 
-/// Requires exactly one of the keys; returns it.
+/// Returns the one key that is present; an error if none or both are.
 [[nodiscard]] std::string_view require_one_of(BlockReader& reader, std::string_view a,
                                               std::string_view b);
 
-/// The vector from `origin` to a point, or a direction; nothing, after an error, when it is zero.
+/// The vector from `origin` to a point, or a direction; none, after an error, if it is zero.
 [[nodiscard]] std::optional<Vec3> read_direction(BlockReader& reader, const Vec3& origin,
                                                  std::string_view point_key,
                                                  std::string_view direction_key);
 
-/// True when it is present and greater than 0.
+/// True if the key is present and its value greater than 0.
 bool read_positive(BlockReader& reader, std::string_view key, double& out);
 
-/// An angle in degrees or, for an exact value, in radians; true when it is present.
+/// Reads an angle in degrees or, for an exact value, in radians; true if it is present.
 bool read_angle(BlockReader& reader, std::string_view degrees_key, std::string_view radians_key,
                 double& radians);
 
-/// The blocks of all alternatives, in the order of the variant, by `blocks_of(std::type_identity)`
-/// of each.
+/// The blocks of all alternatives, in the order of the variant; `blocks_of(std::type_identity)`
+/// gives those of one.
 template <class... Alternatives, class BlocksOf>
 [[nodiscard]] std::vector<NativeTopBlock> blocks_of_all(
     std::type_identity<std::variant<Alternatives...>>, BlocksOf&& blocks_of) {

@@ -1,5 +1,5 @@
 #pragma once
-/// `visible_to` of parts: the kinds of rays that see them.
+/// `visible_to` of parts: the kinds of rays to which they are visible.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Reads the key; kAllRays when it is absent.
+/// Reads the key; kAllRays if it is absent.
 [[nodiscard]] RayMask read_native_visibility(BlockReader& reader);
 
 /// The value that reads back to the same mask: `all`, `none` or a list of kinds.

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// Notes the keys of one type of block.
+/// Records the keys of one type of block.
 class KeyNotes final : public BlockObserver {
   public:
     explicit KeyNotes(NativeBlockType& type) : type_(type) {}
@@ -22,11 +22,11 @@ class KeyNotes final : public BlockObserver {
         NativeKey& known = entry(key);
         if (known.words.empty()) known.words.assign(words.begin(), words.end());
     }
-    /// What a block of one kind requires is not required of all.
+    /// Only a key that an empty block requires is required: others depend on the kind of block.
     void required(std::string_view block, std::string_view key) override {
         if (block == type_.name) entry(key).required |= empty_;
     }
-    /// The block that is read next has no keys, or some.
+    /// Announces the next block, with no keys (`empty`) or some.
     void begin(bool empty) { empty_ = empty; }
 
   private:
@@ -41,8 +41,8 @@ class KeyNotes final : public BlockObserver {
     bool empty_ = true;
 };
 
-/// Reads a text for what the reader asks of it; findings do not matter. `with_object`: there is an
-/// object "x".
+/// Reads a text and records the reader's queries; ignores findings. `with_object`: an object "x"
+/// exists.
 void read_noted(const std::string& text, bool with_object, KeyNotes& notes) {
     SceneDescription scene;
     scene.path = "scene.alhazen";

@@ -1,5 +1,5 @@
 #pragma once
-/// Shared state of the native writer while one scene is written.
+/// State that the functions of the native writer share while a scene is written.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct NativeWriteContext {
     const NativeFileSink& write_beside;
     std::string text = {};
 
-    // Unique labels of the blocks: one for each material, texture, geometry and so on.
+    // Unique labels of the blocks, one for each material, texture, geometry and so on.
     std::vector<std::string> material_labels = {}, texture_labels = {}, geometry_labels = {},
                              object_labels = {};
 
@@ -30,7 +30,7 @@ struct NativeWriteContext {
     }
 };
 
-/// Adds the original name where the label differs from it.
+/// Adds the original name if the label differs from it.
 inline void add_name(NativeBlockText& block, const std::string& label, const std::string& name) {
     if (label != name) block.add("name", native_string(name));
 }

@@ -15,7 +15,7 @@ class MaterialText {
     MaterialText(const NativeWriteContext& context, NativeBlockText& block)
         : context_(context), block_(block) {}
 
-    /// Omits what equals `usual`.
+    /// Adds an input unless it equals `usual`.
     void add(std::string_view key, const ColorInput& input, const ColorInput& usual) {
         const std::string value = text_of(input);
         if (value != text_of(usual)) block_.add(key, value);
@@ -61,7 +61,7 @@ class MaterialText {
     NativeBlockText& block_;
 };
 
-/// The layers of `p`, each as a block of its own where it says anything.
+/// Adds the layers of `p` that differ from the default, each as a block.
 void add_layers(const NativeWriteContext& context, const MetallicRoughness& p,
                 NativeBlockText& block) {
     const MetallicRoughness usual;
@@ -202,7 +202,7 @@ NativeBlockText image_texture_block(const std::string& label, const std::string&
 }  // namespace
 
 void write_native_textures(NativeWriteContext& context) {
-    std::map<const StoredImage*, std::string> files;  // pictures are often shared
+    std::map<const StoredImage*, std::string> files;  // shared pictures are written once
     for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
         const TextureDescription& description = context.scene.textures[i];
         const std::string& label = context.texture_labels[i];

@@ -20,7 +20,7 @@ constexpr std::size_t kInlineTriangles = 16;
 
 bool can_stand_in_text(const TriangleMesh& mesh) {
     const auto finite = [](const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); };
-    // Normals in the text are normalised again by the reader, which may change a last bit.
+    // The reader normalises normals in the text again, which may change a last bit.
     return mesh.triangles.size() <= kInlineTriangles &&
            mesh.positions.size() <= 3 * kInlineTriangles && mesh.normals.empty() &&
            mesh.uvs2.empty() && mesh.colors.empty() && mesh.tangents.empty() &&
@@ -53,7 +53,8 @@ std::string write_ply(const NativeWriteContext& context, const TriangleMesh& mes
                               std::as_bytes(std::span(bytes)));
 }
 
-/// In the file materials are numbered by their first use; `materials` names them.
+/// Adds the mesh as a file, in which materials are numbered by their first use; `materials` names
+/// them.
 void add_file(NativeBlockText& block, const NativeWriteContext& context, const TriangleMesh& mesh,
               std::size_t number) {
     if (mesh.vertex_materials.empty()) {
@@ -136,7 +137,8 @@ void write_part_block(NativeWriteContext& context, const Part& part, int indent)
         std::get<AnyShape>(part.what));
 }
 
-/// What moves inside of a frame that rests stands in a group with that transform.
+/// Writes a part; one that moves inside a static frame goes into a group with the frame's
+/// transform.
 void write_part(NativeWriteContext& context, const Part& part, int indent) {
     if (!part.motion || part.motion->outer == Affine{}) {
         return write_part_block(context, part, indent);
@@ -148,7 +150,7 @@ void write_part(NativeWriteContext& context, const Part& part, int indent) {
     context.text += margin + "}\n";
 }
 
-/// How the object combines its parts, where it differs from the default.
+/// The properties of the object's combination that differ from the default.
 std::vector<std::pair<std::string, std::string>> combination_of(const ObjectDescription& object) {
     std::vector<std::pair<std::string, std::string>> pairs;
     if (object.combine != Combine::Group) {
@@ -160,8 +162,8 @@ std::vector<std::pair<std::string, std::string>> combination_of(const ObjectDesc
     return pairs;
 }
 
-/// Without a list, objects are numbered in the order of definition, after the scene itself, and
-/// must be defined before they are placed.
+/// True if the scene needs a list of objects: without one, objects are numbered in the order of
+/// definition, after the scene itself, and must be defined before they are placed.
 bool needs_object_list(const SceneDescription& scene) {
     if (scene.root != ObjectIndex{0} || scene.objects.front().name != "scene") return true;
     if (!combination_of(scene.objects.front()).empty()) return true;

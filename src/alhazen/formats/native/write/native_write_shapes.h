@@ -1,5 +1,5 @@
 #pragma once
-/// Writing of the fields of analytic shapes in the native format.
+/// Writes the fields of analytic shapes in the native format.
 
 #include "alhazen/formats/native/fields/native_text.h"
 #include "alhazen/shapes/shape_list.h"

@@ -18,7 +18,7 @@ void add_light_colors(NativeBlockText& block, const Rgb& color, const Rgb& ambie
     block.add_unless("ambient", ambient, Rgb{});
 }
 
-/// Common fields of point and spot lights.
+/// Adds the common fields of point and spot lights.
 template <class L>
 void add_falloff(NativeBlockText& block, const L& light) {
     const auto [constant, linear, quadratic] = light.attenuation;
@@ -26,7 +26,7 @@ void add_falloff(NativeBlockText& block, const L& light) {
     if (light.range != kNoRange) block.add("range", native_value(light.range));
 }
 
-/// In degrees where they convert to the same radians, else in radians.
+/// Adds an angle in degrees if they convert to the same radians, otherwise in radians.
 void add_angle(NativeBlockText& block, const std::string& key, double radians) {
     const double degrees = radians / kRadiansPerDegree;
     if (degrees * kRadiansPerDegree == radians) {
@@ -36,7 +36,7 @@ void add_angle(NativeBlockText& block, const std::string& key, double radians) {
     }
 }
 
-/// `name_of`: gives the name of its file.
+/// `name_of`: returns the name of its file.
 template <class NameOf>
 void add_profile(NativeBlockText& block, const LightProfile& p, const Vec3& usual_down,
                  const NameOf& name_of) {
@@ -137,7 +137,7 @@ NativeBlockText block_of(const std::string& name, const AreaLight& light) {
     return block;
 }
 
-/// The forms without a field of view can express every camera.
+/// The camera blocks without a field of view can express every camera.
 NativeBlockText block_of(const std::string& name, const PerspectiveCamera& camera) {
     NativeBlockText block("sheared_camera", name);
     block.add("eye", native_value(camera.eye));
@@ -282,7 +282,7 @@ NativeBlockText light_block(const LightDescription& light, const NameOf& name_of
 
 void write_native_lights(NativeWriteContext& context) {
     for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {
-        // The file of a profile is written beside the scene.
+        // Writes the file of a profile beside the scene.
         context.append(light_block(context.scene.lights[i], [&](const LightProfile& p) {
             const std::span<const char> text(p.profile->text());
             return context.write_file("light_" + std::to_string(i) + ".ies", std::as_bytes(text));

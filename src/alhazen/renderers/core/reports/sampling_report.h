@@ -1,5 +1,5 @@
 #pragma once
-/// What rounds of samples report besides the picture.
+/// Statistics of rounds of samples.
 
 #include <cstdint>
 #include <vector>
@@ -8,16 +8,16 @@ namespace alhazen {
 
 struct SamplingReport {
     struct Round {
-        std::uint32_t samples = 0;  ///< of each pixel in it
+        std::uint32_t samples = 0;  ///< of each pixel
         std::uint64_t pixels = 0;
         double seconds = 0;
     };
 
-    std::vector<Round> rounds;       ///< the finished ones
+    std::vector<Round> rounds;       ///< finished rounds
     std::uint64_t pixels = 0;        ///< of the crop
-    std::uint64_t pixels_above = 0;  ///< that still want samples for SamplingPlan::noise
+    std::uint64_t pixels_above = 0;  ///< pixels whose noise is above SamplingPlan::noise
     bool out_of_time = false;        ///< SamplingPlan::seconds ended the work
-    std::uint32_t most_samples = 0;  ///< of a pixel
+    std::uint32_t most_samples = 0;  ///< largest number of a pixel
 
     [[nodiscard]] std::uint64_t samples() const {
         std::uint64_t total = 0;

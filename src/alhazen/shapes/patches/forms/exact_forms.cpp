@@ -68,7 +68,7 @@ struct RingFrame {
 using Profile1 = std::array<std::array<double, 3>, 2>;
 using Profile2 = std::array<std::array<double, 3>, 3>;
 
-/// A side between two parallel ellipses, and their interiors where it is capped. Caps have the
+/// A ruled side between two parallel ellipses, and discs inside them if capped. The caps have the
 /// parts `base_part` and `base_part + 1`.
 void append_ruled(const RingPoint& base, const RingPoint& top, bool capped, std::uint32_t base_part,
                   std::vector<BezierPiece>& pieces) {
@@ -104,8 +104,8 @@ void append_ends(const RingFrame& frame, std::vector<BezierPiece>& pieces) {
     frame.append(Profile1{{{1, 1, 1}, {0, 1, 1}}}, 6, pieces);
 }
 
-/// Whether the normal of the lathe at the middle of a curve is left of the curve's direction, seen
-/// with the radius to the right and the height upward.
+/// True if the normal of the lathe at the middle of a curve is to the left of the curve's
+/// direction, with the radius to the right and the height upward.
 bool normal_is_left(const Lathe& lathe, std::uint32_t part) {
     const ProfileCurve& curve = lathe.profile.curves[part];
     const Vec2 middle = curve.point(0.5);
@@ -210,7 +210,7 @@ void append_pieces(const Lathe& shape, std::vector<BezierPiece>& pieces) {
             on_axis = on_axis && p.x == 0.0;
         }
         if (on_axis) continue;
-        // The normal of a ring is right of its profile's direction.
+        // A ring's normal is to the right of its profile's direction.
         if (normal_is_left(shape, part)) std::reverse(profile.begin(), profile.end());
         frame.append(profile, part, pieces);
     }

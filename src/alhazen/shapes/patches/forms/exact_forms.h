@@ -1,5 +1,5 @@
 #pragma once
-/// The rational Bezier patches that a shape exactly is.
+/// Exact representations of shapes as rational Bezier patches.
 ///
 /// Source: Piegl and Tiller, "The NURBS Book", 2nd ed., Springer, 1997, sections 7.3 to 7.5
 /// (circles, conics), 8.3 and 8.5 (quadrics, surfaces of revolution). Differs: exact up to the
@@ -34,7 +34,7 @@
 
 namespace alhazen {
 
-// Each appends the patches of a prepared, valid shape.
+// Appends the patches of a prepared, valid shape.
 void append_pieces(const Sphere& shape, std::vector<BezierPiece>& pieces);
 void append_pieces(const Ellipsoid& shape, std::vector<BezierPiece>& pieces);
 void append_pieces(const Cylinder& shape, std::vector<BezierPiece>& pieces);
@@ -51,7 +51,7 @@ void append_pieces(const Disc& shape, std::vector<BezierPiece>& pieces);
 void append_pieces(const Rectangle& shape, std::vector<BezierPiece>& pieces);
 void append_pieces(const BezierPatch& shape, std::vector<BezierPiece>& pieces);
 void append_pieces(const PatchMesh& shape, std::vector<BezierPiece>& pieces);
-/// Without its trimming loops.
+/// Without the trimming loops.
 void append_pieces(const NurbsSurface& shape, std::vector<BezierPiece>& pieces);
 void append_pieces(const BilinearPatch& shape, std::vector<BezierPiece>& pieces);
 /// As a biquadratic patch whose edge v = 1 is the last corner.

@@ -1,13 +1,14 @@
-/// `bezier_clipping`: parameters outside of the convex hull of distances to a line are cut away, in
-/// u and v by turns.
+/// `bezier_clipping`: clips away parameters outside of the convex hull of distances to a line,
+/// alternately in u and v.
 ///
 /// Source: Nishita, Sederberg and Kakimoto, "Ray Tracing Trimmed Rational Surface Patches",
 /// SIGGRAPH 1990; Efremov, Havran and Seidel, "Robust and Numerically Stable Bezier Clipping Method
-/// for Ray Tracing NURBS Surfaces", SCCG 2005, for the cures: clipped ranges grown by a little,
-/// only what has not converged is clipped, a crossing found twice at the border of two halves is
-/// one, and a domain that has converged counts only if its control points surround the line.
-/// Differs: every crossing; halves where a clip leaves more than 80 %, as in the source.
-/// Conventions: converged at a width of 2^-38; crossings nearer than 2^-34 in both are one.
+/// for Ray Tracing NURBS Surfaces", SCCG 2005, for the robustness: clipped ranges are grown
+/// slightly, only unconverged parameters are clipped, duplicate crossings at the border of two
+/// halves are merged, and a converged domain counts only if its control points surround the line.
+/// Differs: finds every crossing; halves if a clip leaves more than 80 %, as in the source.
+/// Conventions: converged at a width of 2^-38; crossings within 2^-34 in both parameters are
+/// merged.
 /// Complexity: quadratic convergence at a simple root, halving at a double one.
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double kConverged = 0x1p-38;
 constexpr double kSameClip = 0x1p-34;
-constexpr double kLeastCut = 0.8;  // what a clip may leave before the domain is halved
+constexpr double kLeastCut = 0.8;  // fraction above which the domain is halved
 constexpr double kGrown = 1e-12;
 constexpr int kMostClips = 4000;
 
@@ -28,14 +29,14 @@ struct ParameterRange {
     double lo = 1, hi = 0;
 };
 
-/// Where the convex hull of the points (k / degree, lo[k]) and (k / degree, hi[k]) meets zero.
+/// Range where the convex hull of (k / degree, lo[k]) and (k / degree, hi[k]) meets zero.
 ParameterRange hull_at_zero(int degree, const double* lo, const double* hi) {
     ParameterRange range;
     const auto include = [&](double x) { range = {std::min(range.lo, x), std::max(range.hi, x)}; };
     for (int a = 0; a <= degree; ++a) {
         if (lo[a] <= 0.0 && hi[a] >= 0.0) include(double(a) / degree);
         for (int b = 0; b <= degree; ++b) {
-            // From each point above at a to each one below at b.
+            // Lines from each point above at a to each point below at b.
             for (const double above : {lo[a], hi[a]}) {
                 for (const double below : {lo[b], hi[b]}) {
                     if (!(above > 0.0 && below < 0.0)) continue;
@@ -47,8 +48,8 @@ ParameterRange hull_at_zero(int degree, const double* lo, const double* hi) {
     return range;
 }
 
-/// The part of u (or v) in which the patch can meet the line through the origin along the mean of
-/// the two borders across.
+/// The range of u (or v) in which the patch can meet the line through the origin along the mean
+/// direction of the two opposite borders.
 ParameterRange clip(const PlaneNet& net, bool along_u) {
     const int n = net.degree_u, m = net.degree_v;
     const auto at = [&](int i, int j) { return net.at[static_cast<std::size_t>(i * (m + 1) + j)]; };

@@ -1,7 +1,7 @@
-/// `certified_newton`: the production search (patch_tree.h), under the interface of the others.
+/// `certified_newton`: the production search (patch_tree.h) under the interface of the methods.
 ///
 /// Source: patch_tree.h.
-/// Conventions: all patches in one tree, as of a patch mesh. Steps are not counted.
+/// Conventions: all patches are in one tree, as in a patch mesh. Steps are not counted.
 
 #include "alhazen/shapes/patches/methods/each_patch.h"
 #include "alhazen/shapes/patches/patch_tree.h"

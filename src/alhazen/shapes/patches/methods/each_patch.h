@@ -1,6 +1,6 @@
 #pragma once
-/// What the methods have in common: the patches whose boxes a line meets, and their numerators in
-/// the two planes through the line.
+/// Common parts of the methods: the patches whose boxes a line meets, and their numerators in the
+/// two planes through the line.
 ///
 /// Source: Kajiya, "Ray Tracing Parametric Patches", SIGGRAPH 1982 (a ray as two planes).
 /// Conventions: internal to the methods.
@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// A line in a method's hands: its planes, its range, and where crossings go.
+/// The query of a method: the line with its planes and its range, and the list of crossings.
 class PatchQuestion {
   public:
     PatchQuestion(const Ray& ray, std::vector<PatchCrossing>& out, PatchMethodCounts& counts);
@@ -44,10 +44,10 @@ class EachPatchMethod : public PatchMethod {
     Box3 box_;
 };
 
-/// Whether the line of a ray meets a box grown by `margin`.
+/// True if the line of a ray meets a box grown by `margin`.
 [[nodiscard]] bool line_meets(const Box3& box, double margin, const Ray& ray);
 
-/// The two numerators at (u, v), and by u and v.
+/// The two numerators at (u, v), and their derivatives by u and v.
 struct PlaneValue {
     PlanePoint f, f_u, f_v;
 };
@@ -64,7 +64,7 @@ struct PlaneRange {
 };
 [[nodiscard]] PlaneRange range_of(const PlaneNet& net);
 
-/// Whether (u, v) is not yet in a list of roots, within `same` in both; adds it.
+/// True, and appended to `roots`, if no root lies within `same` of (u, v) in both parameters.
 [[nodiscard]] bool is_new_root(std::vector<std::pair<double, double>>& roots, double u, double v,
                                double same);
 

@@ -1,15 +1,16 @@
-/// `joy_bhetanabhotla`: the distance of a point of the patch from the line is minimised by a
-/// quasi-Newton method, from the crossings of the ray before; else from parts whose boxes are met.
+/// `joy_bhetanabhotla`: minimises the distance of a point of the patch from the line by a
+/// quasi-Newton method, starting at the crossings of the previous ray, or else in parts whose boxes
+/// are met.
 ///
 /// Source: Joy and Bhetanabhotla, "Ray Tracing Parametric Surface Patches Utilizing Numerical
 /// Techniques and Ray Coherence", SIGGRAPH 1986; the update: Broyden, Fletcher, Goldfarb and
 /// Shanno, 1970.
-/// Differs: the parts are an even grid of kParts x kParts, each once; the first estimate of the
-/// inverse Hessian is diagonal.
-/// Conventions: coherence as in the source: where every crossing that the ray before had with the
-/// patch leads to a crossing of this one, these are all. A minimum is a crossing below 1e-9 of the
-/// patch's size in the plane of the line. Crossings nearer than 2^-22 in both are one.
-/// Complexity: some ten steps for each start.
+/// Differs: the parts are a uniform grid of kParts x kParts, tried once each; the first estimate of
+/// the inverse Hessian is diagonal.
+/// Conventions: coherence as in the source: if every crossing of the previous ray with the patch
+/// leads to a crossing of this ray, no others are sought. A minimum is a crossing below 1e-9 of the
+/// patch's size in the plane of the line. Crossings within 2^-22 in both parameters are merged.
+/// Complexity: about ten steps for each start.
 
 #include <algorithm>
 #include <cmath>
@@ -41,12 +42,12 @@ SquaredDistance squared_distance(const PlaneNet& net, double u, double v, double
 
 using ParameterPair = std::pair<double, double>;
 
-/// Minimises from (u, v); true where it ends on the line, inside of the patch.
+/// Minimises from (u, v); true if the minimum is on the line and inside the patch.
 bool minimised(const PlaneNet& net, double zero, double& u, double& v, std::uint64_t& steps) {
     double curvature[2];
     SquaredDistance now = squared_distance(net, u, v, curvature);
     const double tiny = 1e-300;
-    // The estimate of the inverse Hessian.
+    // Estimate of the inverse Hessian.
     double h_uu = 1.0 / (curvature[0] + tiny), h_uv = 0, h_vv = 1.0 / (curvature[1] + tiny);
     for (int step = 0; step < kMostQuasiSteps; ++step) {
         ++steps;
@@ -127,7 +128,7 @@ class JoyBhetanabhotla final : public EachPatchMethod {
     }
 
     std::vector<Box3> parts_;                         // [patch][kParts * kParts]
-    std::vector<std::vector<ParameterPair>> before_;  // [patch]: roots of the ray before
+    std::vector<std::vector<ParameterPair>> before_;  // [patch]: roots of the previous ray
 };
 
 }  // namespace

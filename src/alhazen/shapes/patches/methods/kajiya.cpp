@@ -4,10 +4,10 @@
 /// Source: Kajiya, "Ray Tracing Parametric Patches", SIGGRAPH 1982; Laguerre's method with
 /// deflation: Press, Flannery, Teukolsky and Vetterling, "Numerical Recipes", 1986, section 9.5.
 /// Differs: Bezout's determinant (3 x 3) in place of Sylvester's; v is the common root of both
-/// polynomials, picked among the roots of one by the value of the other.
+/// polynomials, selected from the roots of one by the value of the other.
 /// Conventions: power basis and double precision, as in the source: a root is real if its imaginary
 /// part is below 1e-7, and common if the other polynomial is below 1e-6 of its coefficients.
-/// Complexity: O(degree^4) for the resultant, some five steps for each of its roots.
+/// Complexity: O(degree^4) for the resultant, about five steps for each of its roots.
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@
 namespace alhazen {
 namespace {
 
-using PowerPolynomial = std::vector<double>;  // rising powers
+using PowerPolynomial = std::vector<double>;  // ascending powers
 using Complex = std::complex<double>;
 
 constexpr double kReal = 1e-7;
@@ -114,7 +114,7 @@ Complex laguerre(const std::vector<Complex>& c, Complex x, std::uint64_t& steps)
         const Complex root = std::sqrt((n - 1.0) * (n * h - g * g));
         const Complex plus = g + root, minus = g - root;
         const Complex larger = std::abs(plus) > std::abs(minus) ? plus : minus;
-        // A rare cycle is broken by a step of another length.
+        // Breaks a rare cycle by a step of another length.
         const Complex move = std::abs(larger) > 0.0 ? n / larger : Complex(1.0, double(step));
         const Complex next = x - (step % 10 != 0 ? move : 0.37 * move);
         if (next == x) break;
@@ -123,7 +123,7 @@ Complex laguerre(const std::vector<Complex>& c, Complex x, std::uint64_t& steps)
     return x;
 }
 
-/// The real roots in [0, 1], each refined in the polynomial itself.
+/// The real roots in [0, 1], each refined with the undeflated polynomial.
 std::vector<double> unit_roots(PowerPolynomial p, std::uint64_t& steps) {
     double most = 0;
     for (const double c : p) most = std::max(most, std::abs(c));
@@ -158,7 +158,7 @@ PowerPolynomial at_u(const std::vector<PowerPolynomial>& rows, double u) {
     return out;
 }
 
-/// The value at v over the sum of the sizes of the coefficients.
+/// The value at v over the sum of the magnitudes of the coefficients.
 double relative_value(const PowerPolynomial& p, double v) {
     double value = 0, size = 0;
     for (std::size_t k = p.size(); k-- > 0;) {

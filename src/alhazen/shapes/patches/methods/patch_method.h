@@ -1,13 +1,12 @@
 #pragma once
-/// The methods of the literature for the crossings of a line with rational Bezier patches, by name,
-/// all over the same patches: to compare with the production one, never to render.
-///
+/// Published methods for the crossings of a line with rational Bezier patches, selected by name,
+/// all over the same patches; for comparison with the production method, not for rendering.
 /// Source: with each method (make_* below, one file each).
-/// Differs: each finds every crossing, not the first one alone; before a method is asked about a
-/// patch, the line meets the patch's box. Rational patches enter by their numerators in the two
-/// planes of the line, which are polynomials.
-/// Conventions: what a method misses or finds twice it reports so; nothing is mended behind it.
-/// Not for several threads: a method may remember the ray before.
+/// Differs: each finds all crossings, not only the first; a method is called only for patches whose
+/// box the line meets. Rational patches are represented by their numerators in the two planes of
+/// the line, which are polynomials.
+/// Conventions: missed and duplicate crossings are reported as the method finds them, without
+/// correction. Not thread-safe: a method may keep state of the previous ray.
 
 #include <cstdint>
 #include <memory>
@@ -27,9 +26,9 @@ struct PatchCrossing {
 
 struct PatchMethodCounts {
     std::uint64_t rays = 0;
-    std::uint64_t patches = 0;       ///< whose box the line meets
-    std::uint64_t steps = 0;         ///< boxes, clips, iterations: what the method repeats
-    std::uint64_t subdivisions = 0;  ///< domains divided
+    std::uint64_t patches = 0;  ///< patches whose box the line meets
+    std::uint64_t steps = 0;  ///< boxes, clips or iterations: the repeated operation of the method
+    std::uint64_t subdivisions = 0;  ///< number of divided domains
 };
 
 class PatchMethod {
@@ -46,13 +45,13 @@ class PatchMethod {
 
 struct PatchMethodEntry {
     const char* name;
-    const char* step;  ///< what `steps` counts; null: not counted
+    const char* step;  ///< name of the operation counted in `steps`; null: not counted
     std::unique_ptr<PatchMethod> (*make)(std::span<const BezierNet> nets);
 };
 
-/// In the order of their years, the production one last.
+/// Sorted by year, the production method last.
 [[nodiscard]] std::span<const PatchMethodEntry> patch_methods();
-/// Throws Error (Usage) for a name that is none.
+/// Throws Error (Usage) for an unknown name.
 [[nodiscard]] const PatchMethodEntry& patch_method(const std::string& name);
 
 }  // namespace alhazen

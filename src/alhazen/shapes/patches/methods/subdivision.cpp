@@ -1,13 +1,13 @@
-/// `subdivision`: boxes around parts of a patch, halved until they are as small as a pixel.
+/// `subdivision`: boxes around parts of a patch, halved down to the size of a pixel.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980, section
 /// "Object representation and hidden surface elimination"; Rubin and Whitted, "A 3-Dimensional
 /// Representation for Fast Rendering of Complex Scenes", SIGGRAPH 1980 (boxes).
-/// Differs: boxes in place of spheres; every crossing, hence parts that touch in the parameters
-/// are one crossing, at the part whose middle is nearest to the line. A pixel is 2^-10 of the
-/// model's box.
-/// Conventions: the error of t is some pixels, more where the line grazes; crossings a pixel apart
-/// are one, and a line that passes a silhouette within a pixel has one.
+/// Differs: boxes in place of spheres; every crossing is reported, hence parts that touch in the
+/// parameters are merged to one crossing, at the part whose middle is nearest to the line. A pixel
+/// is 2^-10 of the model's box.
+/// Conventions: the error of t is some pixels, more at grazing incidence; crossings within a pixel
+/// are merged, and a line that passes a silhouette within a pixel has one.
 /// Complexity: O(log(1 / pixel)) boxes for a crossing, O(1 / pixel) along a tangent.
 
 #include <cstdlib>

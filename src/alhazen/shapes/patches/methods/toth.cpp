@@ -1,13 +1,14 @@
-/// `toth`: Newton's method from where Krawczyk's operator proves that it converges, halving
+/// `toth`: Newton's method from where Krawczyk's operator proves that it converges, bisection
 /// elsewhere.
 ///
 /// Source: Toth, "On Ray Tracing Parametric Surfaces", SIGGRAPH 1985; Krawczyk, "Newton-Algorithmen
 /// zur Bestimmung von Nullstellen mit Fehlerschranken", Computing 4, 1969.
 /// Differs: two unknowns, u and v, in the two planes of the line, in place of three with t; ranges
-/// of the derivatives are those of their control points over the domain; every crossing.
+/// of the derivatives are those of their control points over the domain; every crossing is
+/// reported.
 /// Conventions: without directed rounding. A domain as narrow as 2^-44 that is neither safe nor
-/// empty counts as a crossing if its control points surround the line; crossings nearer than 2^-36
-/// in both are one.
+/// empty counts as a crossing if its control points surround the line; crossings within 2^-36 in
+/// both parameters are merged.
 /// Complexity: O(log(1 / distance of two roots)) domains for each.
 
 #include <algorithm>
@@ -25,8 +26,8 @@ constexpr int kMostDomains = 4000;
 /// Krawczyk's operator for a domain, in half-widths from its middle.
 struct KrawczykTest {
     bool regular = false;
-    double norm = kInfinity;    ///< of I - Y F'
-    double middle_u, middle_v;  ///< of the image
+    double norm = kInfinity;    ///< norm of I - Y F'
+    double middle_u, middle_v;  ///< middle of the image
     double radius_u, radius_v;
 };
 
@@ -34,7 +35,7 @@ KrawczykTest krawczyk(const PlaneNet& net) {
     const int n = net.degree_u, m = net.degree_v;
     const auto at = [&](int i, int j) { return net.at[static_cast<std::size_t>(i * (m + 1) + j)]; };
     const PlaneValue mid = plane_value(net, 0.5, 0.5);
-    // By half-widths.
+    // Derivatives by half-widths.
     const PlanePoint a = 0.5 * mid.f_u, b = 0.5 * mid.f_v;
     const double det = a.x * b.y - a.y * b.x;
     KrawczykTest test{};
@@ -105,7 +106,7 @@ class Toth final : public EachPatchMethod {
                            question.counts, report);
                     continue;
                 }
-                // What is left of the domain; halved where that is most of it.
+                // The remaining domain; halved if it is most of the domain.
                 const double left_u = std::min(1.0, hi_u) - std::max(-1.0, lo_u);
                 const double left_v = std::min(1.0, hi_v) - std::max(-1.0, lo_v);
                 const PatchCell left{

@@ -16,21 +16,21 @@ namespace alhazen {
 
 using HomogeneousRow = std::vector<HomogeneousPoint>;
 
-/// Inserts every knot of the domain until its multiplicity is at least the degree: then each span
-/// that is not empty is a Bezier curve.
+/// Inserts every knot of the domain until its multiplicity is at least the degree: each non-empty
+/// span is then a Bezier curve.
 void insert_all_knots(std::vector<double>& knots, HomogeneousRow& row, int degree);
 
-/// A span of the domain and the first of its control points.
+/// A span of the domain, and the index of its first control point.
 struct KnotSpan {
     double lo, hi;
     std::size_t first;
 };
-/// The spans of [lo, hi] that are not empty. Precondition: `insert_all_knots` made the knots.
+/// The non-empty spans of [lo, hi]. Precondition: the knots are those of `insert_all_knots`.
 [[nodiscard]] std::vector<KnotSpan> knot_spans(const std::vector<double>& knots, int degree,
                                                double lo, double hi);
 
-/// Adds a finding for each knot that is not finite or falls, for an empty domain, and for an inner
-/// knot that repeats more often than the degree. False after one.
+/// Reports each knot that is not finite or descends, an empty domain, and each inner knot with a
+/// multiplicity above the degree. False if anything was reported.
 bool check_knots(FieldChecks& checks, const std::string& name, const std::vector<double>& knots,
                  std::uint32_t degree);
 

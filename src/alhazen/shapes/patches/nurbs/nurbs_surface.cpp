@@ -64,7 +64,7 @@ void NurbsSurface::prepare() {
         std::erase_if(pieces, [&](const BezierPiece& piece) {
             return region->cover(piece.lo, piece.hi) == TrimRegion::Cover::None;
         });
-        if (pieces.empty()) pieces.push_back(first);  // a surface has a box
+        if (pieces.empty()) pieces.push_back(first);  // a surface needs a box
     }
     tree = std::make_shared<PatchTree>(std::move(pieces));
 }

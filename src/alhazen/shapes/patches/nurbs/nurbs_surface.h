@@ -1,5 +1,5 @@
 #pragma once
-/// A NURBS surface with trimming loops, held as the rational Bezier pieces that it exactly is.
+/// A NURBS surface with trimming loops, stored as its exact rational Bezier pieces.
 ///
 /// Source: Piegl and Tiller, "The NURBS Book", 2nd ed., Springer, 1997, chapters 4 and 5 (knot
 /// insertion, decomposition); Martin, Cohen, Fish and Shirley, "Practical Ray Tracing of Trimmed
@@ -8,8 +8,8 @@
 /// Conventions: control points are u-major: [i * n + j] with n = knots_v.size() - degree_v - 1. The
 /// domain is [knots[degree], knots[size - degree - 1]] in each direction. u and v of a hit are
 /// parameters in the domain; texture coordinates are these mapped to [0, 1]. part = Bezier piece.
-/// The surface is kept inside of the odd-even region of the trimming loops (trim_region.h); none:
-/// all of it. A loop along the border of the domain keeps the border.
+/// The kept part is the odd-even region of the trimming loops (trim_region.h); without loops it is
+/// the whole surface. A loop along the border of the domain keeps the border.
 
 #include <memory>
 
@@ -18,8 +18,8 @@
 
 namespace alhazen {
 
-/// A piece of a trimming loop in the parameter plane: a rational B-spline curve; without knots a
-/// polyline where degree is 1, else one Bezier curve of degree points.size() - 1.
+/// A part of a trimming loop in the parameter plane: a rational B-spline curve; without knots a
+/// polyline if the degree is 1, else one Bezier curve of degree points.size() - 1.
 struct TrimCurve {
     std::uint32_t degree = 1;
     std::vector<double> knots{};
@@ -27,7 +27,7 @@ struct TrimCurve {
     std::vector<double> weights{};  ///< one for each point, positive; empty: all 1
     friend bool operator==(const TrimCurve&, const TrimCurve&) = default;
 };
-/// Curves end to end; the last one ends where the first begins.
+/// Consecutive curves; the last one ends where the first begins.
 using TrimLoop = std::vector<TrimCurve>;
 
 class TrimRegion;
@@ -61,7 +61,7 @@ struct NurbsSurface {
     [[nodiscard]] Box3 box() const { return tree->box(); }
     [[nodiscard]] Interval extent(const Vec3& axis) const { return tree->extent(axis); }
     void intersect(const Ray& ray, ShapeHits& hits) const;
-    /// Whether the loops leave the surface there.
+    /// True if the point lies in the kept part.
     [[nodiscard]] bool keeps(const ShapeHit& hit) const;
     /// The same for texture coordinates.
     [[nodiscard]] bool keeps_uv(const Vec2& uv) const;

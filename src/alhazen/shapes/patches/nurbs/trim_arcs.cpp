@@ -94,7 +94,7 @@ std::pair<TrimPiece, TrimPiece> halved(const TrimArcOf<Points>& arc) {
     auto& [first, second] = halves;
     first.loop = second.loop = arc.loop;
     for (const HomogeneousPoint& point : arc.points) second.points.push_back(point);
-    // The last of each row stays: it is a point of the second half.
+    // The last point of each row is a point of the second half.
     for (std::size_t last = second.points.size(); last-- > 0;) {
         first.points.push_back(second.points[0]);
         for (std::size_t k = 0; k < last; ++k) {
@@ -133,7 +133,7 @@ std::vector<TrimArc> trim_arcs(std::span<const TrimLoop> loops, double flatness)
         }
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             pieces[k].begin = in_plane(pieces[k].points.front());
-            // The next piece's first point, so that both have one value.
+            // The next piece's first point, for one common value.
             pieces[k].end = in_plane(pieces[(k + 1) % pieces.size()].points.front());
             fit_box(pieces[k]);
         }
@@ -144,14 +144,14 @@ std::vector<TrimArc> trim_arcs(std::span<const TrimLoop> loops, double flatness)
 
 namespace {
 
-/// Looks for a proper crossing of two arcs.
+/// Searches for a proper crossing of two arcs.
 class ArcCrossing {
   public:
     explicit ArcCrossing(double size) : flatness_(1e-9 * size) {}
 
     template <class A, class B>
     bool find(const A& a, const B& b, int depth, Vec2& point) {
-        // Arcs that run along each other are not followed for ever: that is no proper crossing.
+        // Arcs that run along each other have no proper crossing: the search is limited.
         if (++steps_ > 20000) return false;
         if (a.hi.x < b.lo.x || b.hi.x < a.lo.x || a.hi.y < b.lo.y || b.hi.y < a.lo.y) return false;
         const bool flat_a = is_flat(a), flat_b = is_flat(b);

@@ -11,10 +11,10 @@ namespace alhazen {
 
 namespace {
 
-/// Flatness of the stored arcs, as a part of the loops' size: few halvings are left for a point.
+/// Flatness of the stored arcs relative to the loops' size; few halvings then remain per query.
 constexpr double kArcFlatness = 1e-3;
 
-/// Whether the half-line from p towards greater u crosses an arc an odd number of times.
+/// True if the half-line from p towards greater u crosses an arc an odd number of times.
 template <class Arc>
 bool crosses_half_line(const Arc& arc, const Vec2& p, int depth) {
     if (p.y < arc.lo.y || p.y > arc.hi.y || p.x > arc.hi.x) return false;
@@ -66,7 +66,7 @@ TrimRegion::TrimRegion(std::span<const TrimLoop> loops) {
 }
 
 TrimRegion::StripRange TrimRegion::strips_of(double v_lo, double v_hi) const {
-    // Monotone in v: an arc is listed in the strip of every v between its ends.
+    // Arcs are listed in every strip between the v of their ends, by a function monotone in v.
     const auto strips = static_cast<double>(strip_starts_.size() - 1);
     const auto strip_of = [&](double v) {
         const double at = v_hi_ > v_lo_ ? (v - v_lo_) / (v_hi_ - v_lo_) * strips : 0.0;
@@ -114,7 +114,7 @@ std::string place_of(const Vec2& p) {
     return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
-/// Findings of one loop.
+/// Reports the faults of one loop.
 class TrimFindings {
   public:
     explicit TrimFindings(FieldChecks& checks) : checks_(checks) {}
@@ -172,7 +172,7 @@ void check_trim_values(TrimFindings& findings, const std::string& name, const Tr
     }
 }
 
-/// Whether each curve begins where the one before it ends.
+/// Checks that each curve begins where the one before it ends.
 void check_trim_joints(TrimFindings& findings, const std::string& name, const TrimLoop& loop,
                        const Vec2& size) {
     for (std::size_t k = 0; k < loop.size(); ++k) {

@@ -1,15 +1,16 @@
 #pragma once
-/// The part of a parameter plane that trimming loops keep: points inside of an odd number of them.
+/// The part of a parameter plane that trimming loops keep: the points inside an odd number of
+/// loops.
 ///
 /// Source: Martin, Cohen, Fish and Shirley, "Practical Ray Tracing of Trimmed NURBS Surfaces",
-/// Journal of Graphics Tools 5(1), 2000 (parity of a half-line); Nishita, Sederberg and Kakimoto,
-/// "Ray Tracing Trimmed Rational Surface Patches", SIGGRAPH 1990 (curves outside of whose hull the
-/// point lies count by their ends).
-/// Differs: curves are halved where the hull holds the point, down to chords whose side is an exact
-/// sign; a list of arcs for each strip of v.
-/// Conventions: a loop counts where the half-line towards greater u from the point crosses it. An
-/// end point shared by two arcs is one value, thus no point is between them. A point on the border
-/// is in or out, always the same.
+/// Journal of Graphics Tools 5(1), 2000 (parity along a half-line); Nishita, Sederberg and
+/// Kakimoto, "Ray Tracing Trimmed Rational Surface Patches", SIGGRAPH 1990 (a curve whose hull does
+/// not contain the point counts by its ends).
+/// Differs: curves whose hull contains the point are halved, down to chords whose side is an exact
+/// sign; arcs are listed by strips of v.
+/// Conventions: parity is taken along the half-line from the point towards greater u. Neighbouring
+/// arcs share their end point exactly, so that no point lies between them. A point on the border is
+/// inside or outside, consistently.
 /// Complexity: O(arcs over the strip) for a point, and O(log 1/distance) for an arc around it.
 
 #include <span>
@@ -22,13 +23,13 @@ namespace alhazen {
 
 class TrimRegion {
   public:
-    /// Precondition: `check_trim_loops` finds nothing.
+    /// Precondition: `check_trim_loops` reports nothing.
     explicit TrimRegion(std::span<const TrimLoop> loops);
 
     [[nodiscard]] bool contains(const Vec2& p) const;
 
     enum class Cover { None, Some, All };
-    /// How much of the rectangle is in the region; Some where that is not certain.
+    /// How much of the rectangle is in the region; Some if uncertain.
     [[nodiscard]] Cover cover(const Vec2& lo, const Vec2& hi) const;
 
     [[nodiscard]] std::size_t bytes() const;
@@ -42,12 +43,12 @@ class TrimRegion {
 
     std::vector<TrimArc> arcs_;
     double v_lo_ = 0, v_hi_ = 0;
-    std::vector<std::uint32_t> strip_starts_;  ///< [strip], into strip_arcs_; one more
+    std::vector<std::uint32_t> strip_starts_;  ///< [strip] into strip_arcs_, and one more
     std::vector<std::uint32_t> strip_arcs_;
 };
 
-/// Adds findings: curves without a good degree, knots, points or weights; loops that are open,
-/// cross themselves or one another. `size`: of the domain, the measure of a gap.
+/// Reports curves with an invalid degree, knots, points or weights, and loops that are open,
+/// self-intersecting or intersect each other. `size`: of the domain, to which gaps are relative.
 void check_trim_loops(FieldChecks& checks, std::span<const TrimLoop> loops, const Vec2& size);
 
 }  // namespace alhazen
