@@ -43,6 +43,9 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
     ids_ = ids;
+    // After an exception in a bounce they still refer to the paths of the last batch.
+    waiting_ = 0;
+    draws_.clear();
     chance_.begin(ids);
     paths_.resize(rays.size());
     alive_.clear();
