@@ -58,6 +58,16 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
+# NARROW_COPIES: modules whose structs are written number by number and copied soon after. Copies of two numbers in one
+# register wait until both have left the store buffer, some 15 cycles each (docs/design/build.md).
+set(ALHAZEN_NARROW_OPTIONS)
+check_cxx_compiler_flag(-mtune-ctrl=^sse_unaligned_load_optimal ALHAZEN_HAS_NARROW_COPIES)
+if(ALHAZEN_HAS_NARROW_COPIES)
+    set(ALHAZEN_NARROW_OPTIONS -mtune-ctrl=^sse_unaligned_load_optimal)
+    # For kernels of these modules; undoes the option above.
+    set(ALHAZEN_WIDE_OPTIONS -mtune-ctrl=sse_unaligned_load_optimal)
+endif()
+
 # Options of kernels: files compiled once per instruction set (src/alhazen/simd/lanes-inl.h).
 set(ALHAZEN_KERNEL_OPTIONS)
 # No 512-bit registers for copies: see LaneTag in simd/lanes-inl.h.
@@ -122,15 +132,16 @@ function(alhazen_set_units target temperature batch)
     target_compile_options(${target} PRIVATE ${ALHAZEN_${temperature}_OPTIONS})
 endfunction()
 
-# alhazen_library(NAME [COLD|FROZEN] [BATCH number] [UNITS_OF room] SOURCES file... FROZEN_SOURCES file... KERNELS file...
-# SMALL_KERNELS file... DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...) defines the target alhazen_NAME
+# alhazen_library(NAME [COLD|FROZEN] [NARROW_COPIES] [BATCH number] [UNITS_OF room] SOURCES file...
+# FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file... DEPENDS room... LIBRARIES target...
+# PRIVATE_LIBRARIES target...) defines the target alhazen_NAME
 # of one room of src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build),
 # kernels one by one, small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of
 # the room. UNITS_OF: the sources are compiled with those of another room, in its library and with its options; the
 # target stands for it. The compile flags are private to this build: an installed library has only those of
 # AlhazenInstall.cmake.
 function(alhazen_library name)
-    cmake_parse_arguments(ARG "COLD;FROZEN" "UNITS_OF;BATCH"
+    cmake_parse_arguments(ARG "COLD;FROZEN;NARROW_COPIES" "UNITS_OF;BATCH"
         "SOURCES;FROZEN_SOURCES;KERNELS;SMALL_KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     set(library alhazen_${name})
@@ -174,10 +185,19 @@ function(alhazen_library name)
         endif()
         target_link_libraries(${library} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
                               PRIVATE ${ARG_PRIVATE_LIBRARIES})
+        set(kernel_options ${ALHAZEN_KERNEL_OPTIONS})
+        get_target_property(narrow ${library} ALHAZEN_NARROW)
+        if(ARG_NARROW_COPIES)
+            set_target_properties(${library} PROPERTIES ALHAZEN_NARROW ON)
+            target_compile_options(${library} PRIVATE ${ALHAZEN_NARROW_OPTIONS})
+        endif()
+        if(ARG_NARROW_COPIES OR narrow)
+            list(APPEND kernel_options ${ALHAZEN_WIDE_OPTIONS})
+        endif()
         if(kernels)
             set_source_files_properties(${kernels} TARGET_DIRECTORY ${library} PROPERTIES
                 SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
-                COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${ALHAZEN_KERNEL_OPTIONS}")
+                COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${kernel_options}")
         endif()
         if(ARG_SMALL_KERNELS)
             set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/small_kernels.cpp" TARGET_DIRECTORY ${library}

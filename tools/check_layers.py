@@ -192,7 +192,8 @@ INSIDE = {
 
 # Start of an include -> rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
-    "hwy/": {"simd", "imaging", "shapes", "cameras", "accel", "csg", "aggregates", "renderers", "verification"},
+    "hwy/": {"simd", "imaging", "shapes", "cameras", "accel", "csg", "aggregates", "illumination", "renderers",
+             "verification"},
     "tbb/": {"parallel"},
     "oneapi/": {"parallel"},
     "Imf": {"imaging"},

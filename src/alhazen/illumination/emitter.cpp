@@ -12,9 +12,6 @@ namespace alhazen {
 
 namespace {
 
-/// Emitters of a smaller solid angle are sampled by area: both densities are about equal there, and
-/// the formulas of solid angles lose digits.
-constexpr double kLeastSolidAngle = 1e-4;
 /// Points whose squared distance from the centre of a unit sphere is at most 1 + kOnSphere count as
 /// inside: the cone of a nearer point would contain the point itself.
 constexpr double kOnSphere = 1e-9;
@@ -93,7 +90,7 @@ EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u)
 
 EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u) {
     if (e.right_angled) {
-        const SphericalRectangle seen(corner_of(e) - from, axis_x(e), axis_y(e));
+        const SphericalRectangle seen(corner_of(e) - from, e.sides);
         if (seen.solid_angle() > kLeastSolidAngle) {
             if (!e.two_sided && !(dot(corner_of(e) - from, axis_z(e)) < 0.0)) return {};
             const Vec3 offset = seen.point(u);
@@ -274,6 +271,7 @@ bool make_ready(Emitter& e) {
         case EmitterForm::Rectangle:
             e.area = span;
             e.right_angled = std::abs(dot(x, y)) <= 1e-12 * length(x) * length(y);
+            if (e.right_angled) e.sides = RectangleSides::of(x, y);
             break;
         case EmitterForm::Disc:
             e.area = kPi * (1.0 - e.inner * e.inner) * span;
@@ -319,7 +317,7 @@ double density(const Emitter& e, const Vec3& from, const EmitterHit& hit) {
         }
         case EmitterForm::Rectangle:
             if (e.right_angled) {
-                const SphericalRectangle seen(corner_of(e) - from, axis_x(e), axis_y(e));
+                const SphericalRectangle seen(corner_of(e) - from, e.sides);
                 if (seen.solid_angle() > kLeastSolidAngle) return 1.0 / seen.solid_angle();
             }
             break;

@@ -17,12 +17,17 @@
 #include <vector>
 
 #include "alhazen/geometry/box.h"
+#include "alhazen/illumination/spherical_polygons.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/shading/optics/illuminant.h"
 #include "alhazen/shapes/patches/bezier_net.h"
 
 namespace alhazen {
+
+/// Emitters of a smaller solid angle are sampled by area: both densities are about equal there, and
+/// the formulas of solid angles lose digits.
+inline constexpr double kLeastSolidAngle = 1e-4;
 
 struct EmittingPatch {
     BezierNet net;
@@ -50,6 +55,7 @@ struct Emitter {
     EmitterForm form = EmitterForm::Triangle;
     bool two_sided = false;
     bool right_angled = false;  ///< Rectangle: its edges are perpendicular
+    RectangleSides sides;       ///< Rectangle with perpendicular edges
     Affine world_from_own;
     double inner = 0;  ///< Disc: radius of the hole
     double area = 0;   ///< of one side; of curved forms by numerical integration

@@ -198,49 +198,60 @@ bool Illumination::chooses() const {
     return !(one_near || (d.near_share == 0.0 && d.far.size() == 1));
 }
 
-LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u,
-                             const Wavelengths& waves) const {
-    const Data& d = *data_;
-    if (choice >= d.near_share) {
-        const double rest = (choice - d.near_share) / (1.0 - d.near_share);
-        const ChosenLight chosen = d.far.choose(rest);
-        const double probability = (1.0 - d.near_share) * chosen.probability;
-        if (!(probability > 0.0)) return {};
-        LightDraw draw = d.is_environment(chosen.light)
-                             ? draw_environment(*d.environment, at, probability, u, waves)
-                             : draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]],
-                                             at, probability, waves);
-        draw.place.source = d.near_count() + chosen.light;
-        return draw;
-    }
-    const ChosenLight chosen = d.choose_near(at, choice / d.near_share);
-    const double probability = d.near_share * chosen.probability;
+LightDraw Illumination::Data::draw_far(const LitPoint& at, double choice, const Vec2& u,
+                                       const Wavelengths& waves) const {
+    const ChosenLight chosen = far.choose((choice - near_share) / (1.0 - near_share));
+    const double probability = (1.0 - near_share) * chosen.probability;
     if (!(probability > 0.0)) return {};
-    if (const Light* light = d.point_light(chosen.light)) {
-        LightDraw draw = draw_singular(*d.scene, *light, at, probability, waves);
-        draw.place.source = chosen.light;
-        return draw;
+    LightDraw draw =
+        is_environment(chosen.light)
+            ? draw_environment(*environment, at, probability, u, waves)
+            : draw_singular(*scene, scene->lights[parallel[chosen.light]], at, probability, waves);
+    draw.place.source = near_count() + chosen.light;
+    return draw;
+}
+
+LightDraw Illumination::Data::draw_near(std::size_t light, double probability, const LitPoint& at,
+                                        const Vec2& u, const Wavelengths& waves) const {
+    if (is_emitter(light)) {
+        return draw_of_emitter(light, probability, at.point, sample(emitter(light), at.point, u),
+                               waves);
     }
-    const Emitter& emitter = d.emitter(chosen.light);
-    const EmitterSample s = sample(emitter, at.point, u);
+    LightDraw draw = draw_singular(*scene, *point_light(light), at, probability, waves);
+    draw.place.source = light;
+    return draw;
+}
+
+LightDraw Illumination::Data::draw_of_emitter(std::size_t light, double probability, const Vec3& at,
+                                              const EmitterSample& s,
+                                              const Wavelengths& waves) const {
     if (!(s.density > 0.0) || !std::isfinite(s.density)) return {};
     LightDraw draw;
-    draw.place = {chosen.light, s.parameters};
+    draw.place = {light, s.parameters};
     draw.to_light = s.to_light;
     draw.distance = s.distance;
     draw.density = probability * s.density;
     draw.passes = mask_of(RayKind::Shadow);
-    if (chosen.light < d.emitters.size()) {
-        draw.radiance = waves.emission(
-            d.emitters.radiance(chosen.light, at.point, s.to_light, s.distance, s.parameters),
-            emitter.illuminant);
+    if (light < emitters.size()) {
+        draw.radiance =
+            waves.emission(emitters.radiance(light, at, s.to_light, s.distance, s.parameters),
+                           emitters[light].illuminant);
     } else {
         // Invisible area lights are sampled as singular lights, with their irradiance.
-        draw.radiance = waves.emission((1.0 / s.density) * emitter.radiance);
+        draw.radiance = waves.emission((1.0 / s.density) * emitter(light).radiance);
         draw.density = probability;
         draw.singular = true;
     }
     return draw;
+}
+
+LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u,
+                             const Wavelengths& waves) const {
+    const Data& d = *data_;
+    if (choice >= d.near_share) return d.draw_far(at, choice, u, waves);
+    const ChosenLight chosen = d.choose_near(at, choice / d.near_share);
+    const double probability = d.near_share * chosen.probability;
+    return probability > 0.0 ? d.draw_near(chosen.light, probability, at, u, waves) : LightDraw{};
 }
 
 double Illumination::density(const LitPoint& at, const Ray& ray, const Hit& hit,

@@ -169,6 +169,7 @@ class Illumination {
                                 const Vec3& direction) const;
 
   private:
+    friend class LightDraws;
     struct Data;
     std::unique_ptr<const Data> data_;
 };

@@ -1,7 +1,7 @@
 #pragma once
 /// The lights of an `Illumination`, sorted by how they are chosen and sampled.
 ///
-/// Internal to the source files of `Illumination`.
+/// Internal to the source files of `Illumination` and `LightDraws`.
 /// Conventions: near lights are numbered in this order: the emitters of the scene, those of
 /// invisible area lights (`hidden`), `points`. Far lights: `parallel`, the environment. Sources
 /// of `emit`: near lights, far lights. `points` and `parallel` are indices into Scene::lights.
@@ -70,6 +70,19 @@ struct Illumination::Data {
         const std::size_t surfaces = emitters.size() + hidden.size();
         return near_light < surfaces ? nullptr : &scene->lights[points[near_light - surfaces]];
     }
+    /// True if a near light is an emitter, of the scene or hidden.
+    [[nodiscard]] bool is_emitter(std::size_t near_light) const {
+        return near_light < emitters.size() + hidden.size();
+    }
+    /// `Illumination::draw` for a `choice` of a far light.
+    [[nodiscard]] LightDraw draw_far(const LitPoint& at, double choice, const Vec2& u,
+                                     const Wavelengths& waves) const;
+    /// `Illumination::draw` of a near light, chosen with `probability`.
+    [[nodiscard]] LightDraw draw_near(std::size_t light, double probability, const LitPoint& at,
+                                      const Vec2& u, const Wavelengths& waves) const;
+    /// `Illumination::draw` of an emitter, chosen with `probability` and sampled as `s`.
+    [[nodiscard]] LightDraw draw_of_emitter(std::size_t light, double probability, const Vec3& at,
+                                            const EmitterSample& s, const Wavelengths& waves) const;
     [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const {
         return options.choice == LightChoice::Tree ? tree.choose(at, choice) : near.choose(choice);
     }

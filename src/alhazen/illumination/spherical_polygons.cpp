@@ -59,20 +59,22 @@ Vec3 SphericalTriangle::direction(const Vec2& u) const {
     return normalize(z * b + root_of_rest(z) * beside(end, b));
 }
 
-SphericalRectangle::SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v) {
+RectangleSides RectangleSides::of(const Vec3& edge_u, const Vec3& edge_v) {
     const double width = length(edge_u), height = length(edge_v);
-    x_ = edge_u / width;
-    y_ = edge_v / height;
-    z_ = cross(x_, y_);
-    z0_ = dot(corner, z_);
+    const Vec3 x = edge_u / width, y = edge_v / height;
+    return {x, y, cross(x, y), width, height};
+}
+
+SphericalRectangle::SphericalRectangle(const Vec3& corner, const RectangleSides& sides)
+    : x_(sides.x), y_(sides.y), z_(sides.z), z0_(dot(corner, z_)) {
     if (z0_ > 0.0) {
         z_ = -z_;
         z0_ = -z0_;
     }
     x0_ = dot(corner, x_);
     y0_ = dot(corner, y_);
-    x1_ = x0_ + width;
-    y1_ = y0_ + height;
+    x1_ = x0_ + sides.width;
+    y1_ = y0_ + sides.height;
     if (!(z0_ < 0.0)) return;
     // Normals of the planes through the sides, in the local frame; only these parts matter.
     const auto across = [&](double a) { return 1.0 / root_of_sum(a, z0_); };

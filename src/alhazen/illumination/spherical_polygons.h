@@ -30,10 +30,18 @@ class SphericalTriangle {
     double triple_ = 0, solid_angle_ = 0;
 };
 
+/// Axes and lengths of a rectangle, independent of the point of view.
+struct RectangleSides {
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< unit: along the edges, normal
+    double width = 1, height = 1;
+
+    /// The edges must be perpendicular.
+    [[nodiscard]] static RectangleSides of(const Vec3& edge_u, const Vec3& edge_v);
+};
+
 class SphericalRectangle {
   public:
-    /// The edges must be perpendicular.
-    SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
+    SphericalRectangle(const Vec3& corner, const RectangleSides& sides);
 
     [[nodiscard]] double solid_angle() const { return solid_angle_; }
     /// The point for `u` in the unit square, relative to the point of view.

@@ -1,7 +1,9 @@
-// Lanes have the bits of the scalar code on every instruction set: operators, triangle and sphere.
+// Lanes have the bits of the scalar code on every instruction set: operators, triangle and sphere,
+// arc cosine, sine and cosine.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -12,6 +14,7 @@
 
 #include "alhazen/geometry/sphere_roots.h"
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/simd/dispatch.h"
 #include "alhazen/simd/targets.h"
 
@@ -21,6 +24,7 @@
 // Must follow foreach_target.h.
 #include "alhazen/simd/lane_rows-inl.h"
 #include "alhazen/simd/lanes-inl.h"
+#include "alhazen/simd/trigonometry-inl.h"
 
 #ifndef ALHAZEN_LANES_TEST_ONCE
 #define ALHAZEN_LANES_TEST_ONCE
@@ -123,6 +127,19 @@ void sphere(Case& c) {
     store_lanes(r.t_far, c.out[2]);
 }
 
+void arc_cosine(Case& c) {
+    const Doubles x = load_lanes(c.in[0]), all[4] = {x, -x, x * Doubles(0.5), x};
+    Doubles found[4];
+    acos_of_lanes(all, found);
+    for (std::size_t i = 0; i < 4; ++i) store_lanes(found[i], c.out[i]);
+}
+
+void sine_cosine(Case& c) {
+    const SineCosine found = sine_cosine_of_lanes(load_lanes(c.in[0]));
+    store_lanes(found.sine, c.out[0]);
+    store_lanes(found.cosine, c.out[1]);
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen
@@ -136,6 +153,8 @@ ALHAZEN_KERNEL_TABLE(operators);
 ALHAZEN_KERNEL_TABLE(triangle);
 ALHAZEN_KERNEL_TABLE(sphere);
 ALHAZEN_KERNEL_TABLE(turn_rows);
+ALHAZEN_KERNEL_TABLE(arc_cosine);
+ALHAZEN_KERNEL_TABLE(sine_cosine);
 
 using lanes_test::Case;
 using lanes_test::kInputs;
@@ -315,6 +334,76 @@ TEST(Lanes, TheSphereTestGivesTheBitsOfTheScalar) {
             return Scalar{r.discriminant, r.t_near, r.t_far};
         },
         [](std::size_t, double a, double b) { return same_value(a, b); });
+}
+
+/// Numbers of [low, high]: random ones, numbers near to `special`, and its neighbours.
+std::vector<double> numbers(double low, double high, const std::vector<double>& special) {
+    std::mt19937_64 random(71);
+    const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    std::vector<double> all;
+    for (const double s : special) {
+        double up = s, down = s;
+        for (int i = 0; i < 40; ++i) {
+            all.push_back(up);
+            all.push_back(down);
+            up = std::nextafter(up, high);
+            down = std::nextafter(down, low);
+        }
+        for (int i = 0; i < 2000; ++i) {
+            const double away = std::ldexp(2.0 * unit() - 1.0, -static_cast<int>(random() % 60));
+            all.push_back(std::clamp(s + away, low, high));
+        }
+    }
+    for (int i = 0; i < 100000; ++i) all.push_back(low + unit() * (high - low));
+    while (all.size() % 8 != 0) all.push_back(low);
+    return all;
+}
+
+/// Compares `kernel` with `scalar` for these numbers on every instruction set.
+template <class Kernel, class ScalarForm>
+void compare_numbers(const std::vector<double>& all, std::size_t outputs, const Kernel& kernel,
+                     const ScalarForm& scalar) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        for (std::size_t first = 0; first < all.size(); first += 8) {
+            Case c{};
+            std::copy_n(all.data() + first, 8, c.in[0]);
+            kernel(c);
+            for (std::size_t lane = 0; lane < 8; ++lane) {
+                const Scalar expected = scalar(c.in[0][lane]);
+                for (std::size_t i = 0; i < outputs; ++i) {
+                    ASSERT_TRUE(same(expected[i], c.out[i][lane]))
+                        << target << std::hexfloat << ": " << c.in[0][lane] << " result " << i;
+                }
+            }
+        }
+    }
+}
+
+TEST(Lanes, ArcCosinesHaveTheBitsOfTheLibrary) {
+    compare_numbers(
+        numbers(-1, 1, {-1, -0.5, 0, 0.5, 1}), 4,
+        [](Case& c) {
+            ALHAZEN_KERNEL(arc_cosine)
+            (c);
+        },
+        [](double x) {
+            return Scalar{std::acos(x), std::acos(-x), std::acos(0.5 * x), std::acos(x)};
+        });
+}
+
+TEST(Lanes, SinesAndCosinesHaveTheBitsOfTheLibrary) {
+    std::vector<double> special;
+    for (int eighth = 0; eighth <= 8; ++eighth) special.push_back(0.25 * kPi * eighth);
+    compare_numbers(
+        numbers(0, 7, special), 2,
+        [](Case& c) {
+            ALHAZEN_KERNEL(sine_cosine)
+            (c);
+        },
+        [](double x) {
+            return Scalar{std::sin(x), std::cos(x)};
+        });
 }
 
 }  // namespace

@@ -99,6 +99,8 @@ FilterKernel::FilterKernel(const FilterEntry& entry, double radius) : radius_(ra
         const double sign = entry.value(middle, radius) < 0.0 ? -1.0 : 1.0;
         nodes_.push_back({0.0, std::abs(entry.value(place(node), radius)), sign});
     }
+    even_ = std::all_of(nodes_.begin(), nodes_.end(),
+                        [](const Node& n) { return n.magnitude == 1.0 && n.sign == 1.0; });
     double sum = 0.0, signed_sum = 0.0;
     for (std::size_t cell = 0; cell < kCells; ++cell) {
         const double area = 0.5 * (nodes_[cell].magnitude + nodes_[cell + 1].magnitude);

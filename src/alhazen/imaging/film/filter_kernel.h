@@ -51,6 +51,8 @@ class FilterKernel {
     /// Samples an offset whose density is proportional to the magnitude of the kernel; monotonic in
     /// both coordinates of `u`, in [0, 1).
     [[nodiscard]] Drawn draw(const Vec2& u) const {
+        // The bits of `draw_one`, which computes exactly in this case.
+        if (even_) return {{radius_ * (2.0 * u.x - 1.0), radius_ * (2.0 * u.y - 1.0)}, 1.0};
         const OneDrawn x = draw_one(u.x), y = draw_one(u.y);
         return {{x.offset, y.offset}, x.sign * y.sign};
     }
@@ -72,6 +74,7 @@ class FilterKernel {
     };
 
     double radius_;
+    bool even_ = false;        ///< the kernel is 1 everywhere
     std::vector<Node> nodes_;  ///< one more than cells
     /// [floor(u kCells)]: a cell at or before that of u (Chen and Asau, "On Generating Random
     /// Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974).

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/bsdf/bsdf.h"
@@ -14,10 +15,14 @@ namespace alhazen {
 class BsdfCache {
   public:
     /// The scene must outlive the cache and keep its materials.
-    explicit BsdfCache(const Scene& scene) : scene_(scene) {}
+    explicit BsdfCache(const Scene& scene, bool keeps = false) : scene_(scene), keeps_(keeps) {}
 
+    /// True if replaced BSDFs are kept until `release`.
+    [[nodiscard]] bool keeps() const { return keeps_; }
+    /// Frees the replaced BSDFs.
+    void release() { replaced_.clear(); }
     /// The BSDF of a material; null if it depends on the point or on wavelengths. Valid until the
-    /// next call.
+    /// next call; if replaced BSDFs are kept, until `release`.
     [[nodiscard]] const Bsdf* find(MaterialId id, const BsdfPlace& place) {
         if (place.etas != nullptr || place.waves.is_spectral()) return nullptr;
         Entry& entry = entries_[static_cast<std::uint32_t>(id) % kEntries];
@@ -43,9 +48,11 @@ class BsdfCache {
     };
 
     void begin(MaterialId id, Entry& entry) const;
-    void make(MaterialId id, const BsdfPlace& place, Side& side) const;
+    void make(MaterialId id, const BsdfPlace& place, Side& side);
 
     const Scene& scene_;
+    bool keeps_;
+    std::vector<std::unique_ptr<Bsdf>> replaced_;
     std::array<Entry, kEntries> entries_;
 };
 

@@ -9,14 +9,7 @@ namespace alhazen {
 namespace {
 
 /// Sets the BSDF at the point; for blended materials the weighted sum.
-void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, BsdfCache* known,
-              Bsdf& bsdf) {
-    if (known != nullptr && !surface.has_extras) {
-        if (const Bsdf* const shared = known->find(surface.materials[0], place)) {
-            bsdf = *shared;
-            return;
-        }
-    }
+void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, Bsdf& bsdf) {
     const SurfaceLookup lookup{
         {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
     const auto of = [&](std::size_t i) {
@@ -32,6 +25,22 @@ void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place
 }
 
 }  // namespace
+
+void ScatterPoint::set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place,
+                            BsdfCache* known) {
+    shared_ = nullptr;
+    if (known != nullptr && !surface.has_extras) {
+        if (const Bsdf* const shared = known->find(surface.materials[0], place)) {
+            if (known->keeps()) {
+                shared_ = shared;
+            } else {
+                own_ = *shared;
+            }
+            return;
+        }
+    }
+    make_bsdf(scene, surface, place, own_);
+}
 
 Medium ScatterPoint::volume_of(const ShadingPoint& point) {
     const MaterialSample& material = *point.material;
@@ -69,20 +78,26 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
                     .from_inside = !entering_,
                     .etas = disperses ? &all : nullptr,
                     .waves = waves};
-    set_bsdf(scene, surface, place, known, bsdf_);
-    needs_hero_ = disperses && bsdf_.has_rough_boundary();
+    set_bsdf(scene, surface, place, known);
+    needs_hero_ = disperses && bsdf().has_rough_boundary();
     if (needs_hero_) {
         place.etas = nullptr;
-        set_bsdf(scene, surface, place, known, bsdf_);
+        set_bsdf(scene, surface, place, known);
     }
     null_ = scene.has_scattering && all == Spectrum::all(1) && !thin_ && material.coverage >= 1.0 &&
-            material.emission.is_black() && !material.unlit && bsdf_.refracts_alone();
+            material.emission.is_black() && !material.unlit && bsdf().refracts_alone();
     from_behind_.reset();
-    if (!both_ways || !bsdf_.has_density() || !bsdf_.transmits()) return;
+    if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;
     place.from_inside = entering_;
     if (place.eta > 0.0) place.eta = 1.0 / place.eta;
-    set_bsdf(scene, surface, place, known, from_behind_.emplace());
+    if (const Bsdf* const shared = known != nullptr && !surface.has_extras
+                                       ? known->find(surface.materials[0], place)
+                                       : nullptr) {
+        from_behind_ = *shared;
+    } else {
+        make_bsdf(scene, surface, place, from_behind_.emplace());
+    }
 }
 
 Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
@@ -124,18 +139,18 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
 Spectrum ScatterPoint::value(const Vec3& direction, Transport transport) const {
     const Vec3 local = frame_.to_local(direction);
     if (!sides_agree(direction, local)) return {};
-    return std::abs(local.z) * bsdf_.value(local_view_, local, transport);
+    return std::abs(local.z) * bsdf().value(local_view_, local, transport);
 }
 
 double ScatterPoint::density(const Vec3& direction) const {
     const Vec3 local = frame_.to_local(direction);
-    return sides_agree(direction, local) ? bsdf_.density(local_view_, local) : 0.0;
+    return sides_agree(direction, local) ? bsdf().density(local_view_, local) : 0.0;
 }
 
 double ScatterPoint::reverse_density(const Vec3& direction) const {
     const Vec3 local = frame_.to_local(direction);
     if (!sides_agree(direction, local)) return 0.0;
-    if (local.z > 0.0) return bsdf_.density(local, local_view_);
+    if (local.z > 0.0) return bsdf().density(local, local_view_);
     const auto turned = [](const Vec3& v) { return Vec3{v.x, v.y, -v.z}; };
     return from_behind_ ? from_behind_->density(turned(local), turned(local_view_)) : 0.0;
 }
@@ -150,14 +165,22 @@ std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
                          .transmitted = true,
                          .straight = true};
     }
-    const std::optional<BsdfSample> drawn = bsdf_.sample(local_view_, choice, u, transport);
-    if (!drawn) return std::nullopt;
-    Scattered s{frame_.to_world(drawn->direction), drawn->weight, drawn->density, drawn->singular,
-                drawn->direction.z < 0.0,          drawn->eta,    false,          drawn->dispersed};
+    const std::optional<BsdfSample> drawn = bsdf().sample(local_view_, choice, u, transport);
+    return drawn ? in_world(*drawn) : std::nullopt;
+}
+
+std::optional<Scattered> ScatterPoint::sample_matt(const Vec3& local) const {
+    const std::optional<BsdfSample> drawn = bsdf().sample_matt(local_view_, local);
+    return drawn ? in_world(*drawn) : std::nullopt;
+}
+
+std::optional<Scattered> ScatterPoint::in_world(const BsdfSample& drawn) const {
+    Scattered s{frame_.to_world(drawn.direction), drawn.weight, drawn.density, drawn.singular,
+                drawn.direction.z < 0.0,          drawn.eta,    false,         drawn.dispersed};
     s.straight = s.singular && s.transmitted && thin_;
     if (s.straight) {
         s.direction = -view_;
-    } else if (!sides_agree(s.direction, drawn->direction)) {
+    } else if (!sides_agree(s.direction, drawn.direction)) {
         return std::nullopt;
     }
     return s;

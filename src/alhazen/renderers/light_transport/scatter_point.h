@@ -35,8 +35,9 @@ struct Scattered {
 class ScatterPoint {
   public:
     /// `media`: around the path before the surface. `both_ways`: enables `reverse_density`.
-    /// `known`: shared BSDFs; may be null. `others`: faces that coincide with the surface and are
-    /// crossed with it; null: none.
+    /// `known`: shared BSDFs; may be null; if it keeps replaced BSDFs, the point is valid until
+    /// `BsdfCache::release`. `others`: faces that coincide with the surface and are crossed with
+    /// it; null: none.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
              const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr,
              const OtherFaces* others = nullptr);
@@ -51,11 +52,11 @@ class ScatterPoint {
     [[nodiscard]] Spectrum value(const Vec3& direction, Transport transport) const;
     /// Share of diffuse lobes in `value`.
     [[nodiscard]] Spectrum diffuse_share(const Vec3& direction) const {
-        return bsdf_.diffuse_share(local_view_, frame_.to_local(direction));
+        return bsdf().diffuse_share(local_view_, frame_.to_local(direction));
     }
     /// The Mueller matrix for light from `direction`, of the singular lobes or of the others.
     [[nodiscard]] PlaneMueller polarization(const Vec3& direction, bool singular) const {
-        return bsdf_.polarization(local_view_, frame_.to_local(direction), singular);
+        return bsdf().polarization(local_view_, frame_.to_local(direction), singular);
     }
     /// The density of `sample` for `direction`.
     [[nodiscard]] double density(const Vec3& direction) const;
@@ -64,8 +65,12 @@ class ScatterPoint {
     [[nodiscard]] double reverse_density(const Vec3& direction) const;
     [[nodiscard]] std::optional<Scattered> sample(double choice, const Vec2& u,
                                                   Transport transport) const;
+    /// True if the BSDF is a single diffuse reflection.
+    [[nodiscard]] bool is_matt() const { return bsdf().is_only_matt(); }
+    /// `sample` for a direction of `cosine_direction`; valid if `is_matt`.
+    [[nodiscard]] std::optional<Scattered> sample_matt(const Vec3& local) const;
     /// True if `sample` uses `choice`.
-    [[nodiscard]] bool chooses() const { return !null_ && bsdf_.chooses(); }
+    [[nodiscard]] bool chooses() const { return !null_ && bsdf().chooses(); }
 
     /// Reflection and refraction, in this order, at a smooth boundary without dispersion, each with
     /// its weight without a random choice; none at other surfaces and if one of the two is missing.
@@ -74,20 +79,20 @@ class ScatterPoint {
     [[nodiscard]] bool is_null_boundary() const { return null_; }
     /// The straight transmittance of a thin sheet or a null boundary.
     [[nodiscard]] Spectrum straight() const {
-        return null_ ? bsdf_.singular(local_view_, Transport::Radiance).transmitted
-                     : bsdf_.straight(local_view_);
+        return null_ ? bsdf().singular(local_view_, Transport::Radiance).transmitted
+                     : bsdf().straight(local_view_);
     }
     /// The probability that `sample` passes a thin sheet straight.
     [[nodiscard]] double straight_probability() const {
-        return thin_ ? bsdf_.straight_probability(local_view_) : 0.0;
+        return thin_ ? bsdf().straight_probability(local_view_) : 0.0;
     }
-    [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
-    [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf_.lambert(); }
-    [[nodiscard]] bool has_singular() const { return bsdf_.has_singular(); }
-    [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
+    [[nodiscard]] bool has_density() const { return bsdf().has_density(); }
+    [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf().lambert(); }
+    [[nodiscard]] bool has_singular() const { return bsdf().has_singular(); }
+    [[nodiscard]] bool transmits() const { return bsdf().transmits(); }
     /// The singular lobes for light to the view.
     [[nodiscard]] SingularLight singular(Transport transport) const {
-        return bsdf_.singular(local_view_, transport);
+        return bsdf().singular(local_view_, transport);
     }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }
     [[nodiscard]] const Vec3& geometric() const { return geometric_; }
@@ -101,7 +106,7 @@ class ScatterPoint {
 
     /// True if the surface bounds a volume.
     [[nodiscard]] bool bounds_volume() const {
-        return media_known_ || (bsdf_.lets_through() && !thin_);
+        return media_known_ || (bsdf().lets_through() && !thin_);
     }
     /// Changes the media before the surface to those behind it, for a transmitted path.
     void cross(MediumStack& media) const;
@@ -111,6 +116,11 @@ class ScatterPoint {
     }
 
   private:
+    [[nodiscard]] std::optional<Scattered> in_world(const BsdfSample& drawn) const;
+    [[nodiscard]] const Bsdf& bsdf() const { return shared_ != nullptr ? *shared_ : own_; }
+    /// Sets the BSDF at the point: shared, copied from the cache or made.
+    void set_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place,
+                  BsdfCache* known);
     /// The index on the side of the view over that behind, by wavelength; 0: that of the material.
     [[nodiscard]] Spectrum etas(const Scene& scene, const ShadingPoint& point,
                                 const MediumStack& media, const Wavelengths& waves) const;
@@ -118,7 +128,8 @@ class ScatterPoint {
         return local.z * dot(direction, geometric_) > 0.0;
     }
 
-    Bsdf bsdf_;
+    Bsdf own_;
+    const Bsdf* shared_ = nullptr;     ///< in a cache that keeps it; null: `own_`
     std::optional<Bsdf> from_behind_;  ///< BSDF from the other side, with `both_ways`
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "alhazen/renderers/light_transport/emission_of.h"
+#include "alhazen/renderers/light_transport/matt_directions.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
@@ -24,7 +25,13 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      bsdfs_(scene_),
+      bsdfs_(scene_, true),
+      // Records, layers, polarisation and manifold search handle one vertex at a time.
+      most_waiting_(job.path != nullptr || layers != nullptr || settings.polarization ||
+                            manifold != nullptr
+                        ? 1
+                        : LightDraws::kMost),
+      draws_(lights),
       faces_(scene_),
       media_(scene_),
       layers_(layers),
@@ -36,6 +43,9 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
     ids_ = ids;
+    // After an exception in a bounce they still refer to the paths of the last batch.
+    waiting_ = 0;
+    draws_.clear();
     chance_.begin(ids);
     paths_.resize(rays.size());
     alive_.clear();
@@ -142,6 +152,7 @@ void PathTracer::bounce(bool first) {
             ++counters_[path.kind].hit;
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
         });
+    scatter_all();
     shadows_.finish();
     if (recorded_ != kNoSample) record_arrival();
     if (joins_apart()) add_joined();
@@ -174,14 +185,15 @@ void PathTracer::add_polarized(std::uint32_t sample, int scatterings, const Firs
 }
 
 Spectrum& PathTracer::place_of_joined(const EyePath& path, const FirstScattering& first,
-                                      const Vec3* direction, Spectrum& sum) {
+                                      const ScatterPoint* scatter, const Vec3& direction,
+                                      Spectrum& sum) {
     if (!joins_apart()) return sum;
     if (settings_.polarization) {
         const PolarizedPath& polarized = polarized_[path.sample];
-        joined_to_eye_.push_back(direction == nullptr
+        joined_to_eye_.push_back(scatter == nullptr
                                      ? polarized.arrived()
-                                     : polarized.arrived(scatter_.view(), *direction,
-                                                         scatter_.polarization(*direction, false)));
+                                     : polarized.arrived(scatter->view(), direction,
+                                                         scatter->polarization(direction, false)));
     }
     return joined_.emplace_back(JoinedLight{path.sample, path.scatterings + 1, first, Spectrum{}})
         .light;
@@ -200,9 +212,10 @@ void PathTracer::add_joined() {
     }
 }
 
-FirstScattering PathTracer::first_along(const EyePath& path, const Vec3& direction) const {
-    if (layers_ == nullptr || path.scatterings > 0) return path.first;
-    return {dot(direction, scatter_.geometric()) < 0.0, scatter_.diffuse_share(direction)};
+FirstScattering PathTracer::first_along(const Vertex& vertex, const Vec3& direction) const {
+    const ScatterPoint& scatter = vertex.scatter;
+    if (layers_ == nullptr || vertex.path->scatterings > 0) return vertex.path->first;
+    return {dot(direction, scatter.geometric()) < 0.0, scatter.diffuse_share(direction)};
 }
 
 double PathTracer::limit_of(const Spectrum& light, int scatterings) const {
@@ -243,8 +256,8 @@ void PathTracer::pass(EyePath& path, const Ray& ray, const ShadingPoint& point) 
     if (path.met >= kMaxPassedSurfaces) return record_step(path, PathStep::PassedMost);
     record_step(path, PathStep::Straight);
     if (media_.has_open_boundaries()) {
-        scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
-        scatter_.cross_opening(path.media);
+        passed_.set(scene_, point, path.media, waves(path), false, &bsdfs_);
+        passed_.cross_opening(path.media);
         path.inside = !path.media.empty();
     }
     go_on(path, leaving_ray(point.surface, ray.direction));
@@ -277,18 +290,69 @@ void PathTracer::stop(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
         if (!point.material->unlit) record_step(path, PathStep::Deepest);
         return;
     }
-    scatter_.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
-    if (deepest && !scatter_.is_null_boundary()) {
+    Vertex& vertex = vertices_[waiting_];
+    vertex.scatter.set(scene_, point, path.media, waves(path), false, &bsdfs_, &faces_.others());
+    if (deepest && !vertex.scatter.is_null_boundary()) {
         record_step(path, PathStep::Deepest);
         return;
     }
-    if (scatter_.needs_hero()) keep_hero(path);
-    leaving_.emplace(point.surface);
-    if (scatter_.has_density()) {
-        add_direct_light(path, point, sum);
-        if (chains_) add_chains(path, point, sum);
+    if (vertex.scatter.needs_hero()) keep_hero(path);
+    vertex.path = &path;
+    vertex.point = most_waiting_ == 1 ? &point : nullptr;
+    vertex.place = point.surface.point;
+    vertex.leaving.emplace(point.surface);
+    if (++waiting_ == most_waiting_) scatter_all();
+}
+
+void PathTracer::scatter_all() {
+    const std::span<const Vertex> vertices = std::span(vertices_).first(waiting_);
+    for (const Vertex& vertex : vertices) {
+        if (!vertex.scatter.has_density()) continue;
+        const EyePath& path = *vertex.path;
+        const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
+        const double choice = choices(path, chooses_light_).y;
+        draws_.add({vertex.place, vertex.scatter.normal(), vertex.scatter.transmits()}, choice,
+                   place, waves(path));
     }
-    scatter(path, point);
+    draws_.draw();
+    draw_directions(vertices);
+    for (std::size_t i = 0, lit = 0; i < vertices.size(); ++i) {
+        const Vertex& vertex = vertices[i];
+        if (vertex.scatter.has_density()) {
+            Spectrum& sum = light_[vertex.path->sample];
+            add_direct_light(vertex, draws_[lit++], sum);
+            if (chains_) add_chains(vertex, sum);
+        }
+        scatter(vertex, directions_[i]);
+    }
+    draws_.clear();
+    bsdfs_.release();
+    waiting_ = 0;
+}
+
+void PathTracer::draw_directions(std::span<const Vertex> vertices) {
+    std::array<Vec2, LightDraws::kMost> matt;
+    std::array<std::size_t, LightDraws::kMost> places;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const EyePath& path = *vertices[i].path;
+        const ScatterPoint& scatter = vertices[i].scatter;
+        const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
+        if (scatter.is_matt()) {
+            places[count] = i;
+            matt[count++] = u;
+        } else {
+            const bool has_lobes = scatter.has_density() || scatter.has_singular();
+            const double choice = choices(path, has_lobes && scatter.chooses()).x;
+            directions_[i] = scatter.sample(choice, u, Transport::Radiance);
+        }
+    }
+    static_assert(LightDraws::kMost == kMostMattDirections);
+    std::array<Vec3, LightDraws::kMost> found;
+    set_matt_directions(std::span(matt).first(count), found.data());
+    for (std::size_t k = 0; k < count; ++k) {
+        directions_[places[k]] = vertices[places[k]].scatter.sample_matt(found[k]);
+    }
 }
 
 void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
@@ -307,31 +371,29 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
     add(path, light, sum);
 }
 
-void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
-    const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
-    const double choice = choices(path, chooses_light_).y;
-    const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
-    const LightDraw drawn = lights_.draw(at, choice, place, waves(path));
+void PathTracer::add_direct_light(const Vertex& vertex, const LightDraw& drawn, Spectrum& sum) {
+    const EyePath& path = *vertex.path;
+    const ScatterPoint& scatter = vertex.scatter;
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
-    Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    Spectrum light = scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
     double weight = 1.0 / drawn.density;
     if (!drawn.singular) {
-        weight *= power_heuristic(drawn.density, scatter_.density(drawn.to_light));
+        weight *= power_heuristic(drawn.density, scatter.density(drawn.to_light));
     }
     light = path.throughput * (weight * light);
-    const bool goes_behind = dot(drawn.to_light, scatter_.geometric()) < 0.0;
+    const bool goes_behind = dot(drawn.to_light, scatter.geometric()) < 0.0;
     if (goes_behind) {
         behind_ = path.media;
-        scatter_.cross(behind_);
+        scatter.cross(behind_);
     }
-    const Ray shadow = leaving_->along(drawn.to_light, kBeforeEnd * drawn.distance);
+    const Ray shadow = vertex.leaving->along(drawn.to_light, kBeforeEnd * drawn.distance);
     const Spectrum shown = limited_joined(light, path.scatterings + 1);
     Spectrum* const waiting = record_shadow(path, shadow, shown);
     Spectrum& to = waiting != nullptr ? *waiting
                    : !joins_apart()   ? sum
-                                      : place_of_joined(path, first_along(path, drawn.to_light),
-                                                        &drawn.to_light, sum);
+                                      : place_of_joined(path, first_along(vertex, drawn.to_light),
+                                                        &scatter, drawn.to_light, sum);
     shadows_.add(shadow, path.time, goes_behind ? behind_ : path.media, waves(path), shown, to);
 }
 
@@ -378,7 +440,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
             limited_joined(path.throughput * (weight * drawn.radiance), path.scatterings + 1);
         Spectrum* const waiting = record_shadow(path, to_light, shown);
         Spectrum& to =
-            waiting != nullptr ? *waiting : place_of_joined(path, path.first, nullptr, sum);
+            waiting != nullptr ? *waiting : place_of_joined(path, path.first, nullptr, {}, sum);
         shadows_.add(to_light, path.time, path.media, waves(path), shown, to);
     }
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
@@ -396,31 +458,35 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     if (survives(path)) go_on(path, {ray.origin, direction});
 }
 
-void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
-    const ManifoldLight::Receiver at{
-        point.surface, scatter_,          path.media,
-        path.time,     waves(path),       settings_.depth - path.scatterings - 1,
-        chance_,       ids_[path.sample], static_cast<std::uint32_t>(path.drawn)};
+void PathTracer::add_chains(const Vertex& vertex, Spectrum& sum) {
+    const EyePath& path = *vertex.path;
+    const ManifoldLight::Receiver at{vertex.point->surface,
+                                     vertex.scatter,
+                                     path.media,
+                                     path.time,
+                                     waves(path),
+                                     settings_.depth - path.scatterings - 1,
+                                     chance_,
+                                     ids_[path.sample],
+                                     static_cast<std::uint32_t>(path.drawn)};
     chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {
         const int scatterings = path.scatterings + 1 + arrived.bends;
         const Spectrum light = limited(path.throughput * arrived.light, scatterings);
         if (layers_ != nullptr) {
-            parts_[path.sample].add(light, scatterings, first_along(path, arrived.direction));
+            parts_[path.sample].add(light, scatterings, first_along(vertex, arrived.direction));
         }
         sum += light;
     });
 }
 
-void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
-    const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
-    const bool has_lobes = scatter_.has_density() || scatter_.has_singular();
-    const double choice = choices(path, has_lobes && scatter_.chooses()).x;
-    const std::optional<Scattered> drawn = scatter_.sample(choice, u, Transport::Radiance);
+void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& drawn) {
+    EyePath& path = *vertex.path;
+    const ScatterPoint& scatter = vertex.scatter;
     if (!drawn || drawn->weight.is_black()) return;
     path.throughput = path.throughput * drawn->weight;
     if (drawn->dispersed) keep_hero(path);
     if (layers_ != nullptr && path.scatterings == 0 && !drawn->straight) {
-        path.first = first_along(path, drawn->direction);
+        path.first = first_along(vertex, drawn->direction);
         if (drawn->singular) path.first.diffuse = {};
     }
     ++path.drawn;
@@ -437,27 +503,29 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         ++path.scatterings;
         if (settings_.polarization) {
             polarized_[path.sample].scatter(
-                scatter_.view(), drawn->direction,
-                scatter_.polarization(drawn->direction, drawn->singular));
+                scatter.view(), drawn->direction,
+                scatter.polarization(drawn->direction, drawn->singular));
         }
-        if (drawn->singular) {
-            path.trail.go_on(point.surface, drawn->transmitted);
-        } else {
-            path.trail.begin(drawn->density);
+        if (manifold_ != nullptr) {
+            if (drawn->singular) {
+                path.trail.go_on(vertex.point->surface, drawn->transmitted);
+            } else {
+                path.trail.begin(drawn->density);
+            }
         }
         path.singular = drawn->singular;
         path.density = drawn->density;
-        path.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
+        path.from = {vertex.place, scatter.normal(), scatter.transmits()};
         path.travelled = 0.0;
         path.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
         path.kind = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
     }
     if (drawn->transmitted) {
-        scatter_.cross(path.media);
+        scatter.cross(path.media);
         path.inside = !path.media.empty();
     }
     if (!survives(path)) return;
-    go_on(path, leaving_->along(drawn->direction));
+    go_on(path, vertex.leaving->along(drawn->direction));
 }
 
 bool PathTracer::survives(EyePath& path) {

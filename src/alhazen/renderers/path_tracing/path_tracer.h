@@ -1,11 +1,12 @@
 #pragma once
 /// Path tracing of a batch of samples, one bounce of all paths at a time.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "alhazen/illumination/illumination.h"
+#include "alhazen/illumination/light_draws.h"
 #include "alhazen/renderers/core/path_record.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
@@ -66,7 +67,18 @@ class PathTracer {
         Spectrum light;
     };
 
+    /// A surface point where a path scatters.
+    struct Vertex {
+        EyePath* path = nullptr;
+        const ShadingPoint* point = nullptr;  ///< null if vertices wait for each other
+        Vec3 place;
+        ScatterPoint scatter;
+        std::optional<LeavingRays> leaving;
+    };
+
     void bounce(bool first);
+    /// Adds direct light at the waiting vertices and scatters their paths.
+    void scatter_all();
     /// The last vertex of the record (RenderJob::path); null for paths that are not recorded.
     [[nodiscard]] RecordedVertex* recorded(const EyePath& path) {
         return path.sample == recorded_ ? &job_.path->vertices.back() : nullptr;
@@ -89,10 +101,11 @@ class PathTracer {
     /// at the eye for unpolarised light 1.
     void add_polarized(std::uint32_t sample, int scatterings, const FirstScattering& first,
                        const Spectrum& light, const StokesLight& to_eye);
-    /// The sum that receives direct light from `direction`; `direction` null: scattered inside a
+    /// The sum that receives direct light from `direction`; `scatter` null: scattered inside a
     /// volume.
     [[nodiscard]] Spectrum& place_of_joined(const EyePath& path, const FirstScattering& first,
-                                            const Vec3* direction, Spectrum& sum);
+                                            const ScatterPoint* scatter, const Vec3& direction,
+                                            Spectrum& sum);
     /// Applies the limit to light of a shadow ray; polarised light is limited in `add_polarized`.
     [[nodiscard]] Spectrum limited_joined(const Spectrum& light, int scatterings) const {
         return settings_.polarization ? light : limited(light, scatterings);
@@ -118,12 +131,15 @@ class PathTracer {
     [[nodiscard]] Vec2 choices(const EyePath& path, bool needed) {
         return needed ? chance_.draw(path.sample, path.drawn, PathChance::kChoices) : Vec2{};
     }
-    void add_direct_light(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
+    void add_direct_light(const Vertex& vertex, const LightDraw& drawn, Spectrum& sum);
     /// Adds light by way of mirrors and glass, found by manifold search.
-    void add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum);
-    void scatter(EyePath& path, const ShadingPoint& point);
+    void add_chains(const Vertex& vertex, Spectrum& sum);
+    /// Continues the path along `drawn`; empty: the path is absorbed.
+    void scatter(const Vertex& vertex, const std::optional<Scattered>& drawn);
+    /// Sets `directions_`; diffuse directions are sampled together.
+    void draw_directions(std::span<const Vertex> vertices);
     /// The kind of the first scattering, if the path is scattered along `direction` next.
-    [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
+    [[nodiscard]] FirstScattering first_along(const Vertex& vertex, const Vec3& direction) const;
     [[nodiscard]] bool survives(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
         next_alive_.push_back(path.sample);
@@ -162,8 +178,12 @@ class PathTracer {
     VisibleBatch visible_;
     LightBatch shadows_;
     BsdfCache bsdfs_;
-    ScatterPoint scatter_;
-    std::optional<LeavingRays> leaving_;  ///< from the current surface
+    ScatterPoint passed_;
+    /// Vertices that wait for each other: their lights are sampled together.
+    std::array<Vertex, LightDraws::kMost> vertices_;
+    std::size_t waiting_ = 0, most_waiting_;
+    LightDraws draws_;
+    std::array<std::optional<Scattered>, LightDraws::kMost> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
     ShadingPoint opaque_face_;  ///< an opaque coincident face that is hit instead
     ScatteringMedia media_;

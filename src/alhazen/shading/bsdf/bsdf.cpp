@@ -210,7 +210,7 @@ double Bsdf::density(const Vec3& view, const Vec3& direction) const {
 std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Vec2& u,
                                        Transport transport) const {
     if (!(view.z > 0.0)) return std::nullopt;
-    if (matt_.is) return sample_matt(u);
+    if (matt_.is) return sample_matt(view, cosine_direction(u));
     const Choice shares = choose(view);
     if (!shares.any) return std::nullopt;
     std::size_t i = 0;
@@ -253,9 +253,8 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
     return sample;
 }
 
-std::optional<BsdfSample> Bsdf::sample_matt(const Vec2& u) const {
-    if (!matt_.is_chosen) return std::nullopt;
-    const Vec3 direction = cosine_direction(u);
+std::optional<BsdfSample> Bsdf::sample_matt(const Vec3& view, const Vec3& direction) const {
+    if (!(view.z > 0.0) || !matt_.is_chosen) return std::nullopt;
     const double density = cosine_density(direction);
     if (!(density > 0.0)) return std::nullopt;
     const Spectrum weight = (direction.z / density) * matt_.value;

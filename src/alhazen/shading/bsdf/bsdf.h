@@ -68,6 +68,11 @@ class Bsdf {
                                                    Transport transport) const;
     /// True if `sample` uses `choice`.
     [[nodiscard]] bool chooses() const { return !matt_.is; }
+    /// True if the BSDF is a single diffuse reflection, sampled by `cosine_direction`.
+    [[nodiscard]] bool is_only_matt() const { return matt_.is; }
+    /// `sample` for a direction of `cosine_direction`; valid if `is_only_matt`.
+    [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec3& view,
+                                                        const Vec3& direction) const;
     /// Share of the light from all directions that is scattered to `view`, or a close
     /// approximation.
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;
@@ -117,8 +122,6 @@ class Bsdf {
         bool is_chosen = false;  ///< false: all light is absorbed
         Spectrum value;          ///< constant above the surface; 0 where the product is not usable
     };
-
-    [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec2& u) const;
 
     /// `value` of all lobes, or of the matt ones only.
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction, Transport transport,

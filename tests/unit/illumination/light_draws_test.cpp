@@ -1,0 +1,109 @@
+// Lights sampled for eight points at once have the bits of those sampled one by one.
+
+#include "alhazen/illumination/light_draws.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "alhazen/sampling/random.h"
+#include "alhazen/simd/targets.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+Rectangle rectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v) {
+    Rectangle r;
+    r.corner = corner;
+    r.edge_u = edge_u;
+    r.edge_v = edge_v;
+    return r;
+}
+
+/// Rectangles on both sides of the points, one of them oblique, and lights of other forms.
+Scene lamps(bool one) {
+    SceneMaker maker;
+    const auto shining = [&](bool two_sided) {
+        Material m;
+        m.emission.color = {2, 3, 4};
+        m.double_sided = two_sided;
+        return maker.material(m);
+    };
+    maker.add(rectangle({-1, -0.5, 3}, {0, 1.5, 0}, {2, 0, 0}), shining(false));
+    if (!one) {
+        maker.add(rectangle({-3, -2, 0.25}, {1.5, 0.5, 0.25}, {-0.5, 1.5, 0}), shining(true));
+        maker.add(rectangle({2, -2, -1}, {0, 0, 0.75}, {0, 3, 0}), shining(false));
+        maker.add(rectangle({40, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}), shining(true));
+        maker.add(Sphere{{0.3, 2, 1}, 0.4}, shining(true));
+        TriangleMesh mesh;
+        mesh.positions = {{-1, -1, -3}, {1, -1, -3.5}, {0.2, 1.5, -2.5}};
+        mesh.triangles = {{0, 1, 2}};
+        maker.add(maker.mesh(mesh), shining(true));
+        maker.light(PointLight{.position = {1, 1, 2}, .color = {9, 9, 9}});
+    }
+    return maker.compile();
+}
+
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(const Vec3& a, const Vec3& b) {
+    return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+
+/// A point anywhere, or on a coarse grid: in the planes of the lights or beside their edges.
+Vec3 random_point(RandomStream& random, bool on_grid) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) {
+        p[k] = random.uniform(-4, 4);
+        if (on_grid) p[k] = 0.5 * std::round(2.0 * p[k]);
+    }
+    return p;
+}
+
+TEST(LightDraws, EightAtOnceHaveTheBitsOfThoseOneByOne) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        for (const bool one : {true, false}) {
+            const Scene scene = lamps(one);
+            const Illumination lights(scene);
+            LightDraws draws(lights);
+            RandomStream random(31);
+            std::size_t shone = 0;
+            for (int batch = 0; batch < 4000; ++batch) {
+                draws.clear();
+                // Some lanes stay empty.
+                const std::size_t count = 1 + random.below(LightDraws::kMost);
+                std::vector<LightDraw> expected;
+                for (std::size_t i = 0; i < count; ++i) {
+                    LitPoint at{random_point(random, batch % 2 == 0), {0, 0, 1}, true};
+                    const double choice = random.uniform(0, 1);
+                    const Vec2 u{random.uniform(0, 1),
+                                 random.below(9) == 0 ? 0.0 : random.uniform(0, 1)};
+                    expected.push_back(lights.draw(at, choice, u, kColorChannels));
+                    draws.add(at, choice, u, kColorChannels);
+                }
+                draws.draw();
+                ASSERT_EQ(draws.size(), count);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const LightDraw &a = draws[i], &b = expected[i];
+                    ASSERT_TRUE(same_bits(a.density, b.density)) << target << " " << batch;
+                    ASSERT_TRUE(same_bits(a.distance, b.distance)) << target << " " << batch;
+                    ASSERT_TRUE(same_bits(a.to_light, b.to_light)) << target << " " << batch;
+                    ASSERT_EQ(a.radiance, b.radiance);
+                    ASSERT_EQ(a.singular, b.singular);
+                    ASSERT_EQ(a.place.source, b.place.source);
+                    shone += a.density > 0.0;
+                }
+            }
+            EXPECT_GT(shone, 3000u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
