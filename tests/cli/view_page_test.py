@@ -441,7 +441,7 @@ class ViewPage(unittest.TestCase):
     def test_rays_that_are_not_those_of_the_picture_are_said_to_be(self):
         self.open("900,700")
         page = self.page
-        for renderer, said in (("whitted", None), ("path_tracing", "draws other rays at random"), ("distributed", "at random"),
+        for renderer, said in (("whitted", None), ("path_tracing", "draws rays at random"), ("distributed", "at random"),
                                ("ray_casting", "by ray_casting; the tree of rays is that of whitted")):
             self.choose("renderer", renderer)
             page.wait(FINE)

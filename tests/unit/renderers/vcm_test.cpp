@@ -302,7 +302,7 @@ TEST(Vcm, SaysWhatItCannotDo) {
     });
     const RenderReport report = report_of(unsent, "vcm", 2, 2);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_NE(report.notes[0].find("nothing is merged"), std::string::npos);
+    EXPECT_NE(report.notes[0].find("no vertices are merged"), std::string::npos);
     EXPECT_NEAR(mean_of(picture_of(unsent, "vcm:pilot=off", 4, 64)).g,
                 mean_of(picture_of(unsent, "path_tracing", 4, 64)).g, 0.02);
 }
