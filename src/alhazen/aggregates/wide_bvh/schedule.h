@@ -44,21 +44,18 @@ enum class CoherentTraversal {
 };
 
 /// The traversal of a tree whose schedule is Packets. `registers`: of sixteen floats. Lane packets
-/// test all but triangles and spheres ray by ray. Frustum packets test only cylinders, cones and
-/// discs ray by ray, other shapes eight rays at a time.
+/// test solids and algebraic surfaces ray by ray, frustum packets eight rays at a time; both test
+/// cylinders, cones and discs ray by ray.
 [[nodiscard]] inline CoherentTraversal coherent_traversal(const WideBvhLayout& layout, bool any_hit,
                                                           std::size_t registers) {
+    if (!layout.others.empty()) return CoherentTraversal::Frusta;
     const std::size_t lanes = layout.triangles.size() + layout.spheres.size();
-    const std::size_t scalars = layout.frustums.size() + layout.others.size();
-    const bool lanes_serve = any_hit || registers <= kMostLaneRegisters;
-    if (!layout.others.empty() &&
-        (!lanes_serve || kLanePrimitivesPerScalar * layout.others.size() > lanes)) {
-        return CoherentTraversal::Frusta;
-    }
+    const std::size_t scalars = layout.frustums.size();
     // Shadow rays end early: packets gain nothing where two fifths of the blocks are scalar.
-    if (any_hit)
+    if (any_hit) {
         return 3 * scalars <= 2 * lanes ? CoherentTraversal::Lanes : CoherentTraversal::Alone;
-    if (lanes_serve) return CoherentTraversal::Lanes;
+    }
+    if (registers <= kMostLaneRegisters) return CoherentTraversal::Lanes;
     return kLanePrimitivesPerScalar * scalars <= lanes ? CoherentTraversal::Frusta
                                                        : CoherentTraversal::Alone;
 }
