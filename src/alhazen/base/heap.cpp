@@ -14,11 +14,12 @@ namespace alhazen {
 void prepare_heap() {
 #ifdef __GLIBC__
     constexpr int kHeapBytes = 64 << 20, kDefaultPad = 128 << 10;
-    // Larger blocks have mappings of their own, which they give back.
+    // Larger blocks have mappings of their own, which are unmapped when they are freed.
     (void)mallopt(M_MMAP_THRESHOLD, 16 << 20);
     (void)mallopt(M_TRIM_THRESHOLD, 2 * kHeapBytes);
     (void)mallopt(M_TOP_PAD, kHeapBytes);
-    void* volatile block = std::malloc(kDefaultPad);  // else the compiler leaves both calls out
+    void* volatile block =
+        std::malloc(kDefaultPad);  // volatile: keeps the compiler from removing both calls
     std::free(block);
     (void)mallopt(M_TOP_PAD, kDefaultPad);
     auto* const end = static_cast<std::byte*>(sbrk(0));

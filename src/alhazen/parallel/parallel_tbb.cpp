@@ -1,5 +1,5 @@
-// TBB is started by the first call that has more than one task and may use more than one thread: to
-// load and start it takes longer than a small picture.
+// TBB is started by the first call with several tasks and several threads: loading and starting it
+// takes longer than rendering a small picture.
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -22,7 +22,7 @@ struct Arena {
     tbb::task_arena tasks;  ///< starts TBB when it is entered
 };
 
-/// The arena that the calls of a thread belong to, until it is entered.
+/// Sets the arena that the calls of a thread will enter, for the lifetime of the object.
 class Ahead {
   public:
     explicit Ahead(Arena* arena) : before_(current_) { current_ = arena; }
@@ -30,7 +30,7 @@ class Ahead {
     Ahead(const Ahead&) = delete;
     Ahead& operator=(const Ahead&) = delete;
 
-    /// Of the calling thread; null: entered, or there is no limit.
+    /// The arena of the calling thread; null if it is entered, or if there is no limit.
     [[nodiscard]] static Arena* current() { return current_; }
 
   private:
@@ -38,7 +38,7 @@ class Ahead {
     static inline constinit thread_local Arena* current_ = nullptr;
 };
 
-/// Whether the calls of this thread take no other thread.
+/// True if calls of this thread are limited to one thread.
 bool is_alone() {
     return Ahead::current() != nullptr && Ahead::current()->threads == 1;
 }

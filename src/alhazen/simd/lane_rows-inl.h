@@ -1,8 +1,8 @@
-/// Rows of numbers turned about in registers: from the rays of an array to lanes of rays, and the
-/// extremes of several rows at once.
+/// Transposition of rows of numbers in registers, from an array of rays to rays in lanes, and the
+/// extremes of several rows.
 ///
-/// Conventions: included once per target (see simd/lanes-inl.h). Nothing goes through memory where
-/// registers hold four floats: what is stored by parts is waited for when it is read as a whole.
+/// Conventions: included once per target (see simd/lanes-inl.h). If registers hold four floats,
+/// nothing goes through memory: a wide load after narrow stores stalls on store forwarding.
 
 #if defined(ALHAZEN_SIMD_LANE_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SIMD_LANE_ROWS_INL_H_
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Rows of four become columns: lane k of row i is lane i of row k then.
+/// Transposes a 4 x 4 matrix: lane k of row i becomes lane i of row k.
 HWY_INLINE void transpose(Lanes<float, 4> (&rows)[4]) {
 #if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to interleave
     if constexpr (kParts<float, 4> == 1) {
@@ -42,7 +42,7 @@ HWY_INLINE void transpose(Lanes<float, 4> (&rows)[4]) {
     }
     for (std::size_t i = 0; i < 4; ++i) rows[i] = load_lanes<4>(columns[i]);
 }
-/// One after the other.
+/// The lanes of a, b, c and e in this order.
 template <std::size_t N = 16>
 HWY_INLINE Lanes<float, N> joined(const Lanes<float, N / 4>& a, const Lanes<float, N / 4>& b,
                                   const Lanes<float, N / 4>& c, const Lanes<float, N / 4>& e) {
@@ -71,7 +71,7 @@ HWY_INLINE Lanes<float, N> joined(const Lanes<float, N / 4>& a, const Lanes<floa
     return r;
 }
 
-/// The least lanes of four rows, and the largest. Precondition: no NaN.
+/// The minimum and the maximum of each of four rows, in lane i for row i. Precondition: no NaN.
 template <std::size_t N>
 struct LaneExtremes {
     Lanes<float, 4> least, most;

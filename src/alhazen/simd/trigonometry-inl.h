@@ -93,10 +93,6 @@ HWY_INLINE void ask_library(std::uint32_t known, const Doubles& x, Doubles& valu
     value = load_lanes(out);
 }
 
-}  // namespace trigonometry
-
-namespace trigonometry {
-
 /// Sets `value` to the arc cosines of `x` in [-1, 1]; returns the lanes that are certain.
 HWY_INLINE std::uint32_t find_acos(const Doubles& x, Doubles& value) {
     if constexpr (kFusesExactly) {

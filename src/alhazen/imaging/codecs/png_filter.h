@@ -1,10 +1,11 @@
 #pragma once
-/// The filter of a row of a PNG picture: how its bytes are predicted from those before them.
+/// Selection of the filter of a PNG row, which predicts its bytes from earlier ones.
 ///
-/// Source: ISO/IEC 15948 (PNG), clause 9 (the filters), and 12.7 (the filter whose differences, as
-/// signed bytes, have the least sum is chosen). The sign test in place of Paeth's sum is ours.
-/// Differs: sums in lanes, where libpng takes byte after byte; the choice is the same.
-/// Conventions: of equal sums the first filter is taken, as by libpng.
+/// Source: ISO/IEC 15948 (PNG), clause 9 (the filters), and 12.7 (the filter with the least sum of
+/// absolute differences, as signed bytes).
+/// Differs: the sums are computed in lanes, and a sign test replaces Paeth's sum; the selected
+/// filter is that of libpng.
+/// Conventions: among equal sums the first filter is selected, as in libpng.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +13,11 @@
 
 namespace alhazen {
 
-/// In the order of their numbers in the file.
+/// Ordered by their numbers in the file.
 enum class PngFilter : std::uint8_t { None, Sub, Up, Average, Paeth };
 
-/// The filter for `row`, below `above`, of as many bytes; `pixel`: the bytes of a pixel, 1 to 8.
-/// Each has `kPngRowMargin` zeros in memory before its first byte.
+/// The filter for `row`. `above`: the row above it, of equal size. `pixel`: bytes per pixel, 1 to
+/// 8. Both rows are preceded by `kPngRowMargin` zeros in memory.
 [[nodiscard]] PngFilter best_png_filter(std::span<const std::uint8_t> row,
                                         std::span<const std::uint8_t> above, std::size_t pixel);
 inline constexpr std::size_t kPngRowMargin = 8;

@@ -99,8 +99,8 @@ void ShadowBatch::find_met_by_light(std::span<bool> met) {
                     [&](const Waiting& w) { return w.light == light; })) {
         return aggregate.occluded_batch(rays(), met, query(), coherence_to(light));
     }
-    // Sorted by counting: `begins_` has first how many rays go to each light, then where the next
-    // one of them goes to.
+    // Counting sort: `begins_` holds the number of rays of each light, then the place of its next
+    // ray.
     begins_.assign(scene_.lights.size(), 0);
     for (const Waiting& w : waiting()) ++begins_[w.light];
     for (std::uint32_t before = 0; std::uint32_t & count : begins_) {

@@ -39,7 +39,7 @@ struct RayRows {
     }
 };
 
-/// The crossings with the plane; returns the rays that the polygon's box does not exclude.
+/// Computes the crossings with the plane. Returns the rays that the polygon's box does not exclude.
 std::uint32_t meet_plane(const Polygon& polygon, const RayRows& rays, Doubles& t) {
     const Vec3& n = polygon.normal;
     const auto along = [&](const std::array<Doubles, 3>& v) {
@@ -65,7 +65,7 @@ std::uint32_t meet_plane(const Polygon& polygon, const RayRows& rays, Doubles& t
     return ~bits_of(missed);
 }
 
-/// As the scalar function.
+/// `clamped_to_box` of polygon.cpp in lanes.
 Doubles clamped_to_box(const Doubles& t, const RayRows& rays, const Box3& box) {
     const Doubles zero(0.0), half(0.5);
     Doubles lo(-std::numeric_limits<double>::infinity());
@@ -85,8 +85,8 @@ Doubles clamped_to_box(const Doubles& t, const RayRows& rays, const Box3& box) {
     return select_lanes(lo <= hi, inside, half * lo + half * hi);
 }
 
-/// As the scalar function, for `rays`, whose dominant axis is `kz`; adds to `unsure` those left to
-/// it.
+/// The rays of `among` whose crossing is inside the polygon, as by the scalar function. `kz`: their
+/// dominant axis. Adds rays that need the scalar function to `unsure`.
 std::uint32_t surrounded(const Polygon& polygon, const RayRows& rays, int kz, std::uint32_t among,
                          std::uint32_t& unsure) {
     const int kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;

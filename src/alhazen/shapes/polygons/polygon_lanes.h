@@ -2,8 +2,8 @@
 /// The first crossings of eight rays with a polygon, in lanes.
 ///
 /// Source: polygon.cpp, the same formulas in the same order.
-/// Differs: rays along another axis than the first one, and those whose edge function is zero, are
-/// left to the scalar code.
+/// Differs: rays whose dominant axis is not that of the first ray, and those with an edge function
+/// of zero, use the scalar code.
 /// Conventions: bit i of a set stands for lane i. Every target returns the bits of the scalar code.
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace alhazen {
 
-/// What the kernel finds.
+/// Output of the kernel.
 struct alignas(64) PolygonHitLanes {
     double t[kRayLanes];  ///< for the lanes that hit
     std::uint32_t hit;
-    std::uint32_t unsure;  ///< lanes left to the scalar code
+    std::uint32_t unsure;  ///< lanes that need the scalar code
 };
 
-/// Of the rays `wanted`: returns those that hit, and writes their crossings to [lane]. Shapes with
-/// this form alone are none that packets are made for (shapes/core/first_hits.h).
+/// Returns the rays of `wanted` that hit, and writes their first crossings to hits[lane]. Polygons
+/// do not count as shapes with a test in lanes for the schedule (shapes/core/first_hits.h).
 [[nodiscard]] std::uint32_t first_hits(const Polygon& shape, const RayLanes& rays,
                                        std::uint32_t wanted, ShapeHit* hits);
 
