@@ -542,7 +542,7 @@ var RayOutline = class {
   }
   lightText(light) {
     const names = light.crossings.map((c) => `\u2018${c.object}\u2019`);
-    if (light.intensity.every((c) => c === 0)) return `shines elsewhere: I (0, 0, 0), N\xB7L = ${number(light.cosine)}`;
+    if (light.intensity.every((c) => c === 0)) return `emits nothing towards this point: I (0, 0, 0), N\xB7L = ${number(light.cosine)}`;
     const through = !light.cast ? "no shadow rays are cast" : isShadow(light) && light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}` : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";
     return `${through}; I (${triple(light.intensity)}) \xD7 [kd (N\xB7L) (${triple(light.diffuse)}) + ks highlight (${triple(light.highlight)})], N\xB7L = ${number(light.cosine)}`;
   }
