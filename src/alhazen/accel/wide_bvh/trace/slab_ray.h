@@ -24,7 +24,6 @@
 /// of it.
 /// Conventions: parameters in the local frame, s = t * scale - shift (`LocalParameter`). A ray from
 /// farther than 2^40 scene sizes passes every box: doubles have no precision at that distance.
-/// farther than 2^40 scene sizes passes every box: doubles say nothing at that distance.
 
 #include <array>
 #include <cmath>
