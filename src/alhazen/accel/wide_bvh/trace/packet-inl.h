@@ -13,11 +13,8 @@
 /// depth of the rays along it, P a point near which all rays pass, either where they begin or where
 /// they end, k = D - D_P, and h = k or -k the distance from P, not negative within the rays'
 /// ranges. A point of a ray has x = P_x + T h + r, where T is the ray's slope and |r| at most the
-/// distance at which the ray passes P. The frustum meets a box if this equation holds for one of
-/// its points with a slope in the range of all rays. The products with h >= 0 are monotone, so four
-/// planes decide. The error of the computation in float is less than 8 e R, including 3 e for a
-/// slope (e = 2^-24, R the reach, as for SlabRay), and `delta` covers the exact test. The slack is
-/// twice 13.2 e R + 4 delta, because h is clamped to 0 as well, and twice the distance from P.
+/// distance at which the ray passes P. The slack is twice 13.2 e R + 4 delta (e = 2^-24, R the
+/// reach, as for SlabRay) and twice the distance from P; docs/design/boxes.md has the proof.
 /// Conventions: included once per target (see simd/lanes-inl.h). A packet of rays in all directions
 /// or from afar is rejected; statistics count a packet as one ray.
 

@@ -5,23 +5,14 @@
 /// Source: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013 (the problem).
 /// Differs: a relative factor on the far distance does not suffice for the form p * r + c; all
 /// slack is absolute and added to the constants c, once per ray.
-/// In the local frame let R be the reach of the ray: 1, where the scene ends, plus the largest
-/// coordinate of its origin; A = 1 / |d| along an axis and e = 2^-24. The parameter of a plane is
-/// (p - o) / d; the computed value is fl(fl(p r) + c) with c = fl(-fl(o r) -+ slack), |r| <= A (1 +
-/// 2.01 e). Its error is at most the sum of
-/// - 2.01 e |p - o| A for r: the direction and the quotient are rounded to float
-/// - e |p| A for the product, where multiply-add is not fused
-/// - 3 e |o| A for the origin, its product and the sum with the slack
-/// - e |p - o| A for the last sum
-/// which is 6.01 e R A; the slack is 6.5 e R A. `delta` is a displacement in space in addition to
-/// that. It covers all computations in double: the local frame, the shift of the origin and the
-/// rounding of the exact tests (a computed hit lies within delta of the ray). A direction component
-/// below 2^-100, which is at most 2^-60 of the largest, is replaced by 2^-100: inside the scene
-/// this displaces the ray by 2^-60 R.
-/// The range of a ray begins at s >= 0, so that parameters can be compared as integers. A ray with
-/// a negative t_min, or with an origin far from the scene, is first moved along itself to the point
-/// nearest to the scene's center and back by twice the direction, so that the scene lies in front
-/// of it.
+/// With R the reach of the ray (1, where the scene ends in the local frame, plus the largest
+/// coordinate of its origin), A = 1 / |d| along an axis and e = 2^-24, the error of the parameter
+/// of a plane is at most 6.01 e R A (docs/design/boxes.md has the proof); the slack is 6.5 e R A,
+/// plus the displacement `delta` for all computations in double: the local frame, the shift of the
+/// origin and the rounding of the exact tests. A direction component below 2^-100 is replaced by
+/// 2^-100.
+/// The range of a ray begins at s >= 0, so that parameters can be compared as integers:
+/// local_ray_from_afar moves the origin of a ray with a negative t_min, or far from the scene.
 /// Conventions: parameters in the local frame, s = t * scale - shift (`LocalParameter`). A ray from
 /// farther than 2^40 scene sizes passes every box: doubles have no precision at that distance.
 
