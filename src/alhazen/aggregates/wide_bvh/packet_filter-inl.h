@@ -41,13 +41,13 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The triangles of a block, sheared for the rays of a packet.
-struct SeenBlock {
+struct ShearedBlock {
     /// [edges 1 2, 2 0, 0 1][constant, factor of the relative slope in x, in y][lane]
     HWY_ALIGN float edge[3][3][kBlockWidth];
     HWY_ALIGN float error[kBlockWidth];  ///< of an edge function
     HWY_ALIGN float z[3][kBlockWidth];   ///< relative to the point
 
-    HWY_INLINE SeenBlock(const TriangleBlock& block, const RayPacket& packet) {
+    HWY_INLINE ShearedBlock(const TriangleBlock& block, const RayPacket& packet) {
         const std::uint32_t axes[3] = {packet.kx, packet.ky, packet.kz};
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -69,7 +69,7 @@ struct SeenBlock {
         }
         return kAllLanes & ~bits_of(missed);
     }
-    /// Must be called before a SeenTriangle is constructed.
+    /// Must be called before a ShearedTriangle is constructed.
     HWY_INLINE void find_edges(const RayPacket& packet) {
         struct {
             Floats x, y, z;
@@ -132,15 +132,15 @@ struct SeenBlock {
 };
 
 /// A triangle of a block, repeated in every lane.
-struct SeenTriangle {
+struct ShearedTriangle {
     Floats edge[3][3], error, z[3];
     Floats first, last;  ///< of z
     Floats spread;       ///< error of a position by those of the weights, times their sum
     Floats place_error;  ///< the remaining error of a position
     TrianglePlace place;
 
-    HWY_INLINE SeenTriangle(const SeenBlock& block, const RayPacket& packet, std::size_t lane,
-                            TrianglePlace at)
+    HWY_INLINE ShearedTriangle(const ShearedBlock& block, const RayPacket& packet, std::size_t lane,
+                               TrianglePlace at)
         : error(block.error[lane]), place_error(packet.s_error), place(at) {
         HWY_UNROLL(3)
         for (std::size_t e = 0; e < 3; ++e) {
@@ -163,7 +163,8 @@ struct FilteredGroup {
 };
 
 /// As `filter_triangles`; false if certainly no ray hits the triangle.
-HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, FilteredGroup& out) {
+HWY_INLINE bool filter_group(const ShearedTriangle& seen, const RayGroup& group,
+                             FilteredGroup& out) {
     using F = GroupFloats;
     const auto row = [](const GroupRow& r) HWY_ATTR { return load_lanes<kGroupRays>(r); };
     const F a = row(group.aside[0]), b = row(group.aside[1]);

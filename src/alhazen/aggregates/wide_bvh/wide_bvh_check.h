@@ -12,6 +12,6 @@ namespace alhazen {
 /// Null if the frame is valid, every node has one parent that precedes it, nodes are at most
 /// `kMaxWideDepth` deep, every reference lies within the arrays and every id within its kind in the
 /// table; else a short description of the first violation.
-[[nodiscard]] const char* find_unsound(const WideBvhLayout& layout, const PrimitiveTable& table);
+[[nodiscard]] const char* first_violation(const WideBvhLayout& layout, const PrimitiveTable& table);
 
 }  // namespace alhazen
