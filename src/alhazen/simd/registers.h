@@ -10,8 +10,8 @@ namespace alhazen {
 using Float4 = float __attribute__((vector_size(16)));
 using Double2 = double __attribute__((vector_size(16)));
 
-/// Lane by lane a < b ? a : b and a > b ? a : b, by one instruction; compilers use it for the
-/// expression only where they may ignore NaN.
+/// Lane by lane a < b ? a : b and a > b ? a : b, as one instruction, which compilers generate for
+/// these expressions only where they may ignore NaN.
 inline Float4 lesser(Float4 a, Float4 b) {
 #ifdef __SSE2__
     return _mm_min_ps(a, b);

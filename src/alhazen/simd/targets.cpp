@@ -23,8 +23,8 @@ bool has_cpuid_bit(unsigned leaf, int bit) {
     return __get_cpuid(leaf, &a, &b, &c, &d) != 0 && (c >> bit & 1U) != 0;
 }
 
-/// The targets that this machine and its operating system support. Highway's library could tell,
-/// but it measures the timer for some milliseconds whenever a program is loaded.
+/// The targets that this machine and its operating system support. Highway's own function is not
+/// used: it measures the timer for some milliseconds whenever a program is loaded.
 std::int64_t targets_of_machine() {
     __builtin_cpu_init();
     std::int64_t targets = HWY_EMU128 | HWY_SCALAR;

@@ -2,7 +2,7 @@
 /// Rays that are difficult for patches, and the comparison of a list of crossings with the exact
 /// one.
 ///
-/// Source of the rays: docs/design/patches.md, "Shown by".
+/// Source of the rays: docs/design/patches.md, "Verification in 113 bits".
 /// Conventions: crossings are compared for a whole model: a root on a border that two patches share
 /// belongs to either. A line within `kNear` roundings (PatchModel::rounding) of a place where
 /// crossings appear or vanish has two valid results:

@@ -1,4 +1,4 @@
-/// Exact resolution of the candidates of a batch: eight pairs of any of its rays and a triangle.
+/// Exact resolution of the candidates of a batch, eight pairs of a ray and a triangle at a time.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -17,8 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Collects pairs of a ray and a triangle, and offers hits to the best of the ray. Vertices that
-/// are not in the block are fetched from the mesh in two steps, eight triangles at a time.
+/// Collects pairs of a ray and a triangle, and offers hits to the best hit of the ray. Vertices
+/// that the block does not hold exactly are fetched from the mesh in two steps, eight triangles at
+/// a time.
 class BatchResolution {
   public:
     HWY_INLINE explicit BatchResolution(const WideBvhScene& scene) : scene_(scene) {}
@@ -57,7 +58,7 @@ class BatchResolution {
         return static_cast<std::uint32_t>(id) - scene_.table->first(kTriangleKind);
     }
 
-    /// Places the triangles whose vertices have been fetched, and fetches the next ones.
+    /// Adds the triangles whose vertices have been prefetched, and prefetches the next ones.
     template <class Stats>
     HWY_NOINLINE void fetch(Stats stats) {
         for (std::size_t i = 0; i < fetched_count_; ++i) {
@@ -84,7 +85,7 @@ class BatchResolution {
 
     template <class Stats>
     HWY_NOINLINE void resolve(Stats stats) {
-        // Lanes beyond the count hold what was there before, or zeros.
+        // Lanes beyond the count hold earlier pairs or zeros.
         pairs_.resolve((1u << count_) - 1,
                        [&](std::size_t lane, ShapeHit& hit)
                            HWY_ATTR { return resolve_scalar(pair_[lane], hit); },

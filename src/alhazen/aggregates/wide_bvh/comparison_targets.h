@@ -1,7 +1,7 @@
 #pragma once
-/// The instruction sets of kernels that only comparisons need: all but AVX-512. Included first.
+/// The instruction sets of kernels used only for comparisons: all but AVX-512. Included first.
 ///
-/// AVX-512 fuses as AVX2 does, so that counts of tests are those of the set.
+/// AVX-512 fuses as AVX2 does, so it gives the same counts of tests.
 
 #include <hwy/detect_targets.h>
 #undef HWY_DISABLED_TARGETS

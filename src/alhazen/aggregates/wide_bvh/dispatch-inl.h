@@ -1,4 +1,4 @@
-/// Dispatch: traverses the tree of a scene for one ray, or for a batch.
+/// Traversal of the tree of a scene by one ray or by a batch.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -33,7 +33,7 @@ HWY_INLINE bool run(Query& query, Stats stats) {
     return stopped;
 }
 
-/// The rays of a batch in order, without invalid and finished ones.
+/// The valid, unfinished rays of a batch, in order.
 template <class Query, class Result>
 class BatchSource {
   public:
@@ -53,7 +53,7 @@ class BatchSource {
         return false;
     }
 
-    /// The query has seen all of its leaves.
+    /// Called when the query has visited all of its leaves.
     template <class Stats>
     HWY_INLINE void finish(Query& query, Stats stats) {
         if constexpr (requires { query.finish_later(resolution_, stats); }) {
@@ -62,14 +62,14 @@ class BatchSource {
             query.finish(stats);
         }
     }
-    /// After the last ray.
+    /// Called after the last ray.
     template <class Stats>
     HWY_INLINE void finish_all(Stats stats) {
         resolution_.flush(stats);
     }
 
   private:
-    /// Rays so far ahead are fetched.
+    /// Number of rays to prefetch ahead.
     static constexpr std::size_t kSoon = 6;
 
     static bool done(const Hit&) { return false; }

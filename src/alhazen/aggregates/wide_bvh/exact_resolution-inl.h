@@ -1,9 +1,10 @@
-/// Exact resolution of the primitives that pass a filter: the test in double, one pair of a ray and
-/// a primitive or eight pairs in lanes, without a call into code for another instruction set.
+/// Exact resolution of the primitives that pass a filter: the test in double, for one pair of a ray
+/// and a primitive or eight pairs in lanes, without a call into code for another instruction set.
 ///
-/// Formulas and their order are those of geometry/watertight_triangle.h and
-/// geometry/sphere_roots.h: the bits are those of the scalar tests. Cases in doubt (a zero among
-/// the edge functions, a triangle seen nearly edge on, a root that is zero) are left to those.
+/// The formulas and their order are those of geometry/watertight_triangle.h and
+/// geometry/sphere_roots.h, so the bits are those of the scalar tests. Cases in doubt (an edge
+/// function that is zero, a triangle seen nearly edge on, a root that is zero) are left to the
+/// scalar tests.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_EXACT_RESOLUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -37,8 +38,9 @@ namespace exact {
 
 enum class Verdict { Missed, Hit, Unsure };
 
-/// `intersect_triangle` for one ray. `axis` is the order of axes of RayShear for a direction whose
-/// largest component is the third of them and no other; corners are [corner][axis in that order].
+/// `intersect_triangle` for one ray. `axis` is the order of axes of RayShear. Precondition: exactly
+/// one component of the direction, the third of `axis`, has the largest magnitude. Corners are
+/// [corner][axis in that order].
 HWY_INLINE Verdict resolve_triangle(const Ray& ray, const std::uint32_t (&axis)[3],
                                     const double (&corner)[3][3], ShapeHit& hit) {
     const auto at = [&](const Vec3& v, std::size_t k) { return (&v.x)[axis[k]]; };
@@ -65,7 +67,7 @@ struct SphereCrossings {
     std::uint32_t count = 0;
 };
 
-/// The crossings of a ray with a sphere, as Sphere::intersect finds them.
+/// The crossings of a ray with a sphere, with the bits of Sphere::intersect.
 HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, SphereCrossings& met) {
     using exact::FastMinMaxDouble;
     const Vec3& d = ray.direction;
@@ -82,7 +84,7 @@ HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, SphereCr
     return met.count == 0 ? Verdict::Missed : Verdict::Hit;
 }
 
-/// Eight rays, each with a triangle of its own: rows of eight numbers. Axes as in RayShear.
+/// Eight rays, each with its own triangle, as rows of eight numbers; axes as in RayShear.
 struct PairRows {
     const double* vertex[3][3];  ///< [corner][axis]
     const double *origin[3], *direction[3], *t_min, *t_max;
@@ -90,7 +92,7 @@ struct PairRows {
 /// The corners of eight triangles: [corner][axis].
 using PairCorners = Doubles[3][3];
 
-/// What the test in double finds for them.
+/// The results of the test in double for them.
 struct PairVerdicts {
     std::uint32_t hit, unsure;
     alignas(64) double t[kLaneCount], u[kLaneCount], v[kLaneCount];
@@ -102,7 +104,7 @@ struct PairVerdicts {
         }
         test(rows, corners);
     }
-    /// With corners that lie elsewhere than the rows say.
+    /// With corners other than those of the rows.
     HWY_INLINE void test(const PairRows& rows, const PairCorners& corners) {
         using D = Doubles;
         const D dz = load_lanes(rows.direction[2]);
@@ -128,9 +130,9 @@ struct PairVerdicts {
         unsure = ~plain & ~missed & kAllLanes;
     }
 
-    /// Calls `accept(lane, hit)` for the lanes of `used` that hit until it returns true, and
-    /// returns whether it did; `scalar(lane, hit)` is the scalar test, for lanes in doubt and those
-    /// not in `set_up`, which do not hold their ray along its dominant axis.
+    /// Calls `accept(lane, hit)` for the lanes of `used` that hit until it returns true; returns
+    /// whether it did. `scalar(lane, hit)` is the scalar test, for lanes in doubt and those not in
+    /// `set_up`, whose ray is not stored along its dominant axis.
     template <class Scalar, class Accept>
     HWY_INLINE bool take(std::uint32_t used, std::uint32_t set_up, Scalar&& scalar,
                          Accept&& accept) const {
@@ -145,7 +147,7 @@ struct PairVerdicts {
     }
 };
 
-/// Eight rays of any kind, each with a triangle of its own; [..][lane].
+/// Eight arbitrary rays, each with its own triangle; [..][lane].
 struct TrianglePairs {
     alignas(64) double vertex[3][3][kLaneCount];  ///< [corner][axis], axes as in RayShear
     alignas(64) double origin[3][kLaneCount], direction[3][kLaneCount];

@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// `W` children a node. `Stats` is CountingStats, which counts into the statistics of a query, or
+/// `W` children per node. `Stats` is CountingStats, which adds to the statistics of a query, or
 /// NoStats, which ignores them.
 template <std::size_t W, class TriangleTest, class Stats>
 struct Kernels {
@@ -52,7 +52,7 @@ struct Kernels {
                                std::span<bool> occluded, TraversalStats* stats) {
         run_batch<Occluded, W>(scene, rays, occluded, policy(stats));
     }
-    /// Rays in no packet go one by one where they are few or the tree is small.
+    /// Rays in no packet are traced one by one if they are few or the tree is small.
     static void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                                  std::span<Hit> best, TraversalStats* stats) {
         const auto otherwise = [&](std::size_t first, std::size_t count) {
@@ -80,8 +80,8 @@ struct Kernels {
         run_coherent<OccludedPacket, OccludedLanes>(scene, rays, result, policy(stats), otherwise);
     }
 
-    /// Packets are for nodes of 8, and exact. The collecting queries are exact in both precisions:
-    /// with FloatTriangleTest they are null here, and taken from the exact kernels.
+    /// Packets exist for nodes of 8 and exact tests only. The collecting queries are exact in both
+    /// precisions: with FloatTriangleTest they are null, and the exact kernels serve instead.
     static constexpr WideBvhKernels table() {
         WideBvhKernels kernels{&closest,       &occluded,       nullptr, nullptr,
                                &closest_batch, &occluded_batch, nullptr, nullptr};
@@ -97,7 +97,7 @@ struct Kernels {
     }
 
   private:
-    /// One traversal for both, which is half as much to compile.
+    /// One traversal for both queries halves the compilation.
     static HWY_NOINLINE bool collect(const WideBvhScene& scene, const Ray& ray,
                                      std::vector<Hit>& hits, bool stops_at_opaque,
                                      TraversalStats* stats) {

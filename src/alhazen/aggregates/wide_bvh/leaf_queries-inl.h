@@ -1,8 +1,8 @@
 /// The queries of the wide BVH aggregate on the leaves: the filter on a block, then exact
-/// resolution of the primitives that pass.
+/// resolution of the primitives that pass it.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h). The traversals of accel/wide_bvh
-/// take these queries; every result is that of the scalar tests.
+/// call these queries; every result is that of the scalar tests.
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAF_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAF_QUERIES_INL_H_
@@ -27,13 +27,13 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// A query of one ray. `Query`, its kind, derives from it (CRTP) and offers:
+/// A query of one ray. `Query`, the kind of query, derives from it (CRTP) and has
 /// - `kOrdered`: children are visited nearest first, else in the order of the tree
 /// - `kFirstOnly`: the first crossing with a shape suffices
-/// - `bool triangles(block, found, stats)`: what the test finds in a block
-/// - `bool shape(id, stats)`: asks the table about any other primitive
+/// - `bool triangles(block, found, stats)`: processes what the test finds in a block
+/// - `bool shape(id, stats)`: tests any other primitive through the table
 /// - `bool accept(id, hit)`: a primitive is hit
-/// each true to stop. `Test` is a triangle test (triangle_tests-inl.h).
+/// The functions return true to stop. `Test` is a triangle test (triangle_tests-inl.h).
 template <class Query, class Test>
 struct LeafQuery {
     SlabRay slabs;
@@ -79,13 +79,13 @@ struct LeafQuery {
         return true;
     }
 
-    /// Computed for the few tests that need it.
+    /// Computed only for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
     [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
     }
 
-    /// The exact test of a lane in use.
+    /// The exact test of a lane. Precondition: the lane is used.
     HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
                                   ShapeHit& hit) const {
         const BlockId id = block.ids[lane];
@@ -117,7 +117,7 @@ struct LeafQuery {
 
     template <class Stats>
     HWY_INLINE bool visit_block(const TriangleBlock& block, Stats stats) {
-        // The ray does not fit into float (LocalRay::regular).
+        // The ray is out of the range of float (LocalRay::regular).
         if (!Test::kExact && HWY_UNLIKELY(parameter.scale == 0)) {
             return visit_block_in_double(block, stats);
         }
@@ -143,7 +143,7 @@ struct LeafQuery {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             FilteredShapes found;
             std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
-            // The query counts those that it tests.
+            // The query counts the shapes that it tests.
             stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
             for (; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -179,7 +179,7 @@ struct LeafQuery {
         return !Query::kFirstOnly && met.count == 2 && query().accept(id, {met.t[1], 0, 0, 0});
     }
 
-    /// Indexed triangles: all are tested in double, eight at a time.
+    /// Indexed triangles are all tested in double, eight at a time.
     template <class Stats>
     HWY_NOINLINE bool visit_indices(NodeRef ref, Stats stats) {
         const IndexBlock* blocks = &scene.layout->indices[ref.offset()];
@@ -210,8 +210,8 @@ struct LeafQuery {
     }
 };
 
-/// The closest hit. Each sure triangle ends the search behind it. Candidates wait: most of those
-/// that are not sure are the triangle that the ray leaves, which is missed.
+/// The closest hit. Each sure triangle lowers s_max. Other candidates wait: most of them are the
+/// triangle that the ray leaves, which it misses.
 template <class Test>
 struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     using Base = LeafQuery<ClosestQuery<Test>, Test>;
@@ -235,7 +235,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
                               Stats stats) {
         for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            // Written so that a NaN is not passed over.
+            // Written so that NaN is a candidate.
             if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
             if (!scene.sees(block.ids[lane].id())) continue;
             while (HWY_UNLIKELY(!candidates.add(block, lane, found.lo[lane]))) finish(stats);
@@ -243,7 +243,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
         }
         return false;
     }
-    /// The nearest is the hit.
+    /// The nearest of a block is the hit.
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FloatTriangles& found,
                               Stats stats) {
@@ -274,7 +274,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     HWY_INLINE bool shape(BlockId id, Stats stats) {
         const double last = ray.t_max;
         scene.table->closest(id.id(), ray, kUnusedShear, best, stats, scene.mask);
-        // Most are missed, and converting t to the float parameter is slow.
+        // Most shapes are missed, and converting t to the float parameter is slow.
         if (ray.t_max != last) shrink();
         return false;
     }
@@ -289,7 +289,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane)
                                        HWY_ATTR { resolve(block, lane, stats); });
     }
-    /// As `finish`, in lanes with candidates of other rays.
+    /// As `finish`, in lanes together with candidates of other rays.
     template <class Stats>
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
@@ -311,7 +311,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     }
 };
 
-/// Whether there is any hit.
+/// True if there is any hit.
 template <class Test>
 struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     using Base = LeafQuery<OccludedQuery<Test>, Test>;
@@ -351,7 +351,7 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     }
 };
 
-/// All hits; with `stops_at_opaque` up to the first opaque one.
+/// All hits; with `stops_at_opaque`, those up to the first opaque one found.
 struct CollectQuery : LeafQuery<CollectQuery, FilteredTriangleTest> {
     static constexpr bool kOrdered = false;
     static constexpr bool kFirstOnly = false;

@@ -1,7 +1,7 @@
-/// A ray of a packet in lanes on its own: made ready for nodes and leaves from the packet's rows.
+/// A single ray of a lane packet, prepared for nodes and leaves from the packet's rows.
 ///
-/// Source: slab_ray.h, triangle_filter.h, shape_filters.h, whose bounds it has; errors that depend
-/// on the ray are those of the farthest ray of the packet.
+/// Source: slab_ray.h, triangle_filter.h and shape_filters.h, whose bounds apply; errors that
+/// depend on the ray are those of the farthest ray of the packet.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LONE_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -27,9 +27,9 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// What `traverse` takes. `Leaves` offers `triangles(lane, number of the block, found, s_max,
-/// stats)`, `sphere(lane, id, s_max, stats)` and `shape` likewise for all else, which may lower
-/// `s_max`: true to stop.
+/// The query that `traverse` takes. `Leaves` has `triangles(lane, block number, found, s_max,
+/// stats)`, `sphere(lane, id, s_max, stats)` and `shape`, with the same parameters, for all other
+/// primitives. These may lower `s_max`, and return true to stop.
 template <class Leaves>
 struct LoneRay {
     SlabRay slabs;
@@ -39,7 +39,7 @@ struct LoneRay {
     std::size_t lane;
     float s_max;
 
-    /// The packet's set is that of the ray.
+    /// Precondition: the packet's set is that of the ray.
     HWY_INLINE LoneRay(const WideBvhScene& s, const LanePacket& packet, std::size_t i, Leaves& l)
         : scene(s), leaves(l), lane(i), s_max(packet.s_max[i]) {
         std::size_t octant = 0;
@@ -90,7 +90,7 @@ struct LoneRay {
         return true;
     }
 
-    /// Of triangles.
+    /// A block of triangles.
     template <class Stats>
     HWY_INLINE bool visit_block(std::uint32_t number, Stats stats) {
         const TriangleBlock& block = scene.layout->triangles[number];
@@ -106,7 +106,7 @@ struct LoneRay {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             FilteredShapes found;
             std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
-            // Those that are tested count themselves.
+            // The shapes that are tested are counted there.
             stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
             for (; rest != 0; rest &= rest - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(rest));

@@ -1,5 +1,5 @@
-/// Exact resolution of the candidates of a packet: the rays of a group, which are in lanes already,
-/// each with a triangle of its own. Most of them have the same.
+/// Exact resolution of the candidates of a packet: the rays of a group, which are in lanes, each
+/// with its own triangle, for most rays the same.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 /// Position of a triangle in the leaves: 8 times the number of its block, plus the lane.
 using TrianglePlace = std::uint32_t;
 
-/// `Packet` has the rays in groups of eight, and the axes of its rays as in RayShear.
+/// `Packet` has rays in groups of eight, and the axes of its rays as in RayShear.
 template <class Packet>
 class PacketResolution {
   public:
@@ -89,8 +89,8 @@ class PacketResolution {
         return bits_of(same);
     }
 
-    /// Calls `take(place, same)` for each triangle of `lanes` and its lanes; the first has those
-    /// that are not in use, too. False when `take` was.
+    /// Calls `take(place, same)` for each triangle of `lanes` with the lanes that have it; the
+    /// first call includes the lanes outside of `lanes`. False if `take` returned false.
     template <class Take>
     static HWY_INLINE bool for_each_place(std::uint32_t lanes, const TrianglePlace* places,
                                           Take&& take) {
@@ -104,8 +104,8 @@ class PacketResolution {
         }
         return true;
     }
-    /// The corners of blocks that float holds exactly, as LocalFrame::world; false where one is not
-    /// among them.
+    /// The corners of blocks that float holds exactly, as LocalFrame::world; false if one is not
+    /// exact.
     HWY_INLINE bool take_corners_of_blocks(std::uint32_t lanes, const TrianglePlace* places,
                                            PairCorners& corners) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
@@ -138,7 +138,7 @@ class PacketResolution {
         }
         return true;
     }
-    /// From the mesh where they are rounded in the block.
+    /// Corners from the mesh where the block holds rounded ones.
     HWY_INLINE void take_corners(std::uint32_t lanes, const TrianglePlace* places,
                                  PairCorners& corners) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};

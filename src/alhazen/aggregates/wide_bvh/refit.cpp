@@ -11,7 +11,7 @@
 namespace alhazen {
 namespace {
 
-constexpr std::size_t kRefitGrain = 1024;  // nodes of one task
+constexpr std::size_t kRefitGrain = 1024;  // nodes per task
 
 template <std::uint32_t kWidth>
 class Refit {
@@ -20,7 +20,7 @@ class Refit {
   public:
     Refit(WideBvhLayout& layout, const PrimitiveTable& table)
         : layout_(layout), table_(table), nodes_(nodes_of<kWidth>(layout.tree).data()) {
-        // Asked for once: asking may copy what is mapped.
+        // Fetched once: data() may copy a mapped array.
         triangles_ = layout.triangles.data();
         indices_ = layout.is_indexed() ? layout.indices.data() : nullptr;
         spheres_ = layout.spheres.data();
@@ -38,7 +38,7 @@ class Refit {
         parallel_for(count, kRefitGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) refit_leaves(nodes_[n]);
         });
-        // Children come behind their parents.
+        // Children follow their parents.
         for (std::size_t n = count; n-- > 0;) refit_inner(nodes_[n]);
         parallel_for(count, kRefitGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) nodes_[n].set_order();
@@ -102,8 +102,7 @@ class Refit {
         const Box3 its = table_.box(static_cast<std::uint32_t>(id));
         box.include(its.empty() ? point_of(id) : layout_.frame.local(its));
     }
-    /// A point for what cannot be hit: the leaf needs a box, and one within the frame, wherever the
-    /// vertices are that met.
+    /// The box of a primitive that cannot be hit: a point within the frame, near its vertices.
     [[nodiscard]] FloatBox point_of(PrimitiveId id) const {
         FloatBox point;
         Vec3 p{};
@@ -111,7 +110,7 @@ class Refit {
             p = layout_.frame.local(table_.triangle_vertices(table_.index(id))[0]);
         }
         for (int k = 0; k < 3; ++k) {
-            // Written so that a NaN becomes 0.
+            // Written so that NaN becomes 0.
             const double x = std::abs(p[k]) <= 1 ? p[k] : p[k] > 0 ? 1.0 : p[k] < 0 ? -1.0 : 0.0;
             point.lo[k] = point.hi[k] = static_cast<float>(x);
         }
@@ -122,13 +121,13 @@ class Refit {
     const PrimitiveTable& table_;
     Node* nodes_;
     TriangleBlock* triangles_;
-    IndexBlock* indices_;  ///< null: the triangles are in blocks of their own
+    IndexBlock* indices_;  ///< null if triangles are in `triangles_`
     SphereBlock* spheres_;
     FrustumBlock* frustums_;
     BoxBlock* others_;
 };
 
-/// Whether every primitive that has bounds now is in the tree, and every one in the tree has.
+/// Throws Error(Usage) unless the tree holds exactly the primitives that have bounds.
 void check(const WideBvhLayout& layout, const PrimitiveTable& moved,
            const BoundedPrimitives& bounded) {
     std::vector<bool> in_tree(moved.size(), false);

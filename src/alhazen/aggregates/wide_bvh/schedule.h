@@ -1,6 +1,6 @@
 #pragma once
-/// The schedule of a batch of rays in the wide BVH, and the thresholds of its choice. Which rays
-/// fit into one packet is geometry: accel/wide_bvh/trace/packet-inl.h.
+/// The schedule of a batch of rays in the wide BVH, and the thresholds of its choice. The geometric
+/// conditions of a packet: accel/wide_bvh/trace/packet-inl.h.
 ///
 /// The schedule never changes a hit. Measurements: docs/benchmarks.md, docs/log/wide_bvh.md.
 /// Complexity and threads: chosen once per tree; const functions may be called from many threads.
@@ -24,22 +24,22 @@ enum class Schedule {
     TreelessPackets,  ///< lanes of rays against every primitive (treeless_packets.h)
 };
 
-/// Most primitives of a tree that treeless packets replace. Lanes miss a few shapes in less time
-/// than one ray takes through the tree (docs/log/wide_bvh.md).
+/// Largest number of primitives of a tree that treeless packets replace (docs/log/wide_bvh.md).
 inline constexpr std::size_t kMaxTreelessPrimitives = 4;
 
-/// Fewest rays of a lane packet (lane_queries-inl.h) in a subtree; fewer continue one by one.
+/// Smallest number of rays of a lane packet (lane_queries-inl.h) in a subtree; fewer continue one
+/// by one.
 inline constexpr int kMinPacketLanes = 3;
-/// Most registers of sixteen floats with which lane packets look for closest hits. With more,
-/// frustum packets are faster; for any hit lane packets always are.
+/// Largest number of registers of sixteen floats for which lane packets trace closest hits. With
+/// more, frustum packets are faster; any-hit queries always use lane packets.
 inline constexpr std::size_t kMostLaneRegisters = 2;
-/// Fewest leaf blocks with a test in lanes for each one without. The latter are tested ray by ray.
+/// Smallest ratio of leaf blocks with a test in lanes to those tested ray by ray.
 inline constexpr std::size_t kLanePrimitivesPerScalar = 64;
 
 /// The traversal of coherent rays.
 enum class CoherentTraversal {
     Lanes,   ///< lane packets (lane_queries-inl.h)
-    Frusta,  ///< frustum packets (packet_queries-inl.h), given up where they fail
+    Frusta,  ///< frustum packets (packet_queries-inl.h), given up if they exceed PacketWork::most
     Alone,   ///< no packets
 };
 
@@ -59,36 +59,36 @@ enum class CoherentTraversal {
     return kLanePrimitivesPerScalar * scalars <= lanes ? CoherentTraversal::Frusta
                                                        : CoherentTraversal::Alone;
 }
-/// Fewest rays of a packet: fewer are no faster than single rays.
+/// Smallest number of rays of a frustum packet: fewer are no faster than single rays.
 inline constexpr std::uint32_t kMinPacketRays = 16;
-/// Work of a packet: 2 a node, 4 a leaf block, 1 a triangle and group of rays, 3 more where the
-/// finer filter decides, and `shape` for a shape and a group of rays. A unit is about 50
+/// Work of a frustum packet: 2 per node, 4 per leaf block, 1 per triangle and group of rays, 3 more
+/// if the finer filter decides, and `shape` per shape and group of rays. A unit is about 50
 /// instructions.
 struct PacketWork {
     std::uint32_t shape;
-    /// Work per ray from which on single rays are as fast. A packet with more counts as a failure.
+    /// Work per ray from which on single rays are as fast. A packet with more is a failure.
     std::uint32_t fair;
-    std::uint32_t most;  ///< work per ray at which the packet is given up
+    std::uint32_t most;  ///< work per ray at which the packet is abandoned
 };
 inline constexpr PacketWork kClosestPacketWork = {6, 14, 20};
-/// A single ray that may end at any hit is soon done.
+/// Single any-hit rays end early.
 inline constexpr PacketWork kOccludedPacketWork = {12, 10, 14};
-/// After n failures in a row, n at most this, 2^n - 1 packets are not tried.
+/// After n failures in a row, n at most this value, 2^n - 1 packets are skipped.
 inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 /// Largest tree whose coherent rays in no packet are traced one by one, bytes. The stream hides the
 /// latency of memory; a tree in the caches has little, and neighbouring rays predict each other's
-/// branches. Single eye rays are 5 to 10 % faster than the stream's, shadow rays 25 %.
+/// branches.
 inline constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
-/// The same of rays that are not coherent.
+/// The same for rays that are not coherent.
 inline constexpr std::size_t kMaxIncoherentSingleBytes = std::size_t{1} << 20;
-/// Fewest rays for the stream.
+/// Smallest number of rays for the stream.
 inline constexpr std::size_t kMinStreamRays = 16;
 
 /// The schedules of one tree, by coherence.
 class Schedules {
   public:
     Schedules() = default;
-    /// `unbounded`: primitives outside the tree, ascending. `treeless`: TreelessPackets takes all
+    /// `unbounded`: primitives outside the tree, ascending. `treeless`: TreelessPackets traces all
     /// others. `has_packets`: the kernels of the tree trace packets.
     Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
               std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets);

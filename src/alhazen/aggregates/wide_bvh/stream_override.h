@@ -1,13 +1,13 @@
 #pragma once
-/// For tests and `verify`: the stream for small trees, too.
+/// Forces the stream for small trees, for tests and `verify`.
 ///
-/// Threads: aggregates choose their schedules when they are built, so force it before, from one
+/// Threads: aggregates choose their schedules when they are built; construct it before, from one
 /// thread.
 
 namespace alhazen {
 
-/// While one exists, rays that are not coherent are traced by the stream in every tree that is
-/// built, except where there is none (Schedule::TreelessPackets).
+/// During its lifetime, every tree that is built traces incoherent rays by the stream, unless its
+/// schedule is TreelessPackets.
 class StreamOverride {
   public:
     StreamOverride();

@@ -14,7 +14,7 @@ void add(Checksum& sum, const Box3& box) {
     add(sum, box.hi);
 }
 
-/// What the filters of leaves know of a primitive, but for spheres.
+/// Adds the bounding body of a primitive in its leaf, except for spheres.
 void add_body(Checksum& sum, const PrimitiveTable& table, PrimitiveId id) {
     const LeafType leaf = leaf_type(table, id);
     sum.add(static_cast<std::uint64_t>(leaf));
@@ -41,7 +41,7 @@ void add_meshes(Checksum& sum, const PrimitiveTable& table) {
         sum.add(std::span(mesh.positions));
         sum.add(std::span(mesh.triangles));
         const std::uint32_t first = table.first(kTriangleKind) + placed.first_triangle;
-        // One answer for all, where the vertices do not differ in it.
+        // One value for the whole mesh if its vertices have no materials.
         const std::size_t answers = mesh.vertex_materials.empty()
                                         ? std::min<std::size_t>(1, mesh.triangles.size())
                                         : mesh.triangles.size();
@@ -58,7 +58,7 @@ std::uint64_t table_fingerprint(const PrimitiveTable& table) {
     for (std::uint32_t kind = 0; kind <= kKindCount; ++kind) {
         sum.add(std::uint64_t{table.first(kind)});
     }
-    // Analytic shapes and instances; their boxes do not tell all that the leaves hold of them.
+    // Analytic shapes and instances: their boxes do not determine the bodies in the leaves.
     const auto add_boxes = [&](std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t i = begin; i < end; ++i) {
             add(sum, table.box(i));

@@ -1,10 +1,10 @@
 #pragma once
-/// Tells whether a tree that was built over one table serves another.
+/// A number that is equal for tables with the same tree.
 ///
-/// What goes into the number is what the builder of `wide_bvh` reads: kinds and opacity of all
-/// primitives, the triangles and spheres that are copied into leaves, and of everything else the
-/// boxes alone. Masks are the table's and in no tree, so they may differ. Two tables with one
-/// fingerprint get the same tree, so a tree of the one gives the right hits on the other.
+/// It covers the input of the builder of `wide_bvh`: kinds and opacity of all primitives, the
+/// triangles and spheres that are copied into leaves, and the boxes and bounding bodies of all
+/// others. Masks are not stored in trees and may differ. Tables with equal fingerprints get the
+/// same tree, so a tree of one gives correct hits on the other.
 /// Complexity: O(size of the table); a fraction of a build.
 
 #include <cstdint>

@@ -13,10 +13,10 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kBlock = 32;  ///< a set of rays has a bit for each
+constexpr std::size_t kBlock = 32;  ///< number of rays of a block, which a set holds as bits
 static_assert(kMostPatchRays <= kBlock && kMaxPacketRays <= kBlock);
 
-/// Some rays of a batch, where they are or, as far as they differ from that, as copies.
+/// Some rays of a batch: references to them or, where they differ, copies.
 class RayBlock {
   public:
     [[nodiscard]] std::size_t size() const { return count_; }
@@ -25,7 +25,7 @@ class RayBlock {
         rays_[count_] = &ray;
         numbers_[count_++] = number;
     }
-    /// Which ray of the batch the i-th is.
+    /// The index in the batch of the i-th ray.
     [[nodiscard]] std::size_t number(std::size_t i) const { return numbers_[i]; }
     /// The rays in the frame of a shape.
     [[nodiscard]] std::span<const Ray* const> in_frame(const Affine* inner_from_outer,
@@ -49,7 +49,7 @@ class RayBlock {
     std::array<Ray, kBlock> own_;
 };
 
-/// The rays of a block that hit the shape; `best` as `in_frame` takes it.
+/// The rays of a block that hit the shape; `best` as for `in_frame`.
 std::uint32_t test_block(const PrimitiveTable& table, PrimitiveId id, RayBlock& block,
                          std::span<const Hit> best, ShapeHit* hits, TraversalStats* stats) {
     const std::uint32_t kind = table.kind(id);
@@ -70,7 +70,7 @@ std::uint32_t test_block(const PrimitiveTable& table, PrimitiveId id, RayBlock& 
             }
             return set;
         } else {
-            return std::uint32_t{0};  // never listed
+            return std::uint32_t{0};  // kinds without a packet test are never listed
         }
     });
     if (stats != nullptr) {
@@ -80,7 +80,7 @@ std::uint32_t test_block(const PrimitiveTable& table, PrimitiveId id, RayBlock& 
     return found;
 }
 
-/// Calls f(block) for the valid rays that are not `done`, block by block.
+/// Calls f(block) for all valid rays that are not `done`.
 template <class Done, class F>
 void for_each_block(std::span<const Ray> rays, Done&& done, F&& f) {
     RayBlock block;

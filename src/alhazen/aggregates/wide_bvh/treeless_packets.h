@@ -1,8 +1,8 @@
 #pragma once
-/// Treeless packets: batches of rays against a few shapes with a test of eight rays at a time
-/// (shapes/core/first_hits.h). Traversal of the tree would take longer.
+/// Treeless packets: tests batches of rays, eight rays at a time, against each of a few shapes
+/// (shapes/core/first_hits.h), for scenes in which traversal of the tree takes longer.
 ///
-/// Conventions: those of `Aggregate::closest_batch`, for the shapes that are listed.
+/// Conventions: those of `Aggregate::closest_batch`, for the shapes in the list.
 /// Complexity and threads: every ray is tested against every shape. Const functions may be called
 /// from many threads.
 
@@ -16,15 +16,15 @@ namespace alhazen {
 class TreelessPackets {
   public:
     TreelessPackets() = default;
-    /// Of a finished table without the primitives `outside`: empty unless the rest are at most
-    /// kMaxTreelessPrimitives shapes of kinds with a packet test.
+    /// `table` is finished. Takes all its primitives except `outside` if they are at most
+    /// kMaxTreelessPrimitives shapes of kinds with a packet test, else none.
     TreelessPackets(const PrimitiveTable& table, std::span<const PrimitiveId> outside);
 
     [[nodiscard]] bool empty() const { return ids_.empty(); }
-    /// [ray] each; `best` may hold earlier hits.
+    /// For each ray; `best` may hold earlier hits.
     void closest(const PrimitiveTable& table, std::span<const Ray> rays, std::span<Hit> best,
                  RayQuery query) const;
-    /// [ray] each; rays that are occluded already are skipped.
+    /// For each ray; skips rays that are already occluded.
     void occluded(const PrimitiveTable& table, std::span<const Ray> rays, std::span<bool> occluded,
                   RayQuery query) const;
 

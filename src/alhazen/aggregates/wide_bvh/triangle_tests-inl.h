@@ -1,5 +1,5 @@
-/// The triangle tests of leaves: policies of a query. A test names what it finds in a block
-/// (`Found`), finds it, and says how much slack boxes need.
+/// The triangle tests of leaves, policies of a query: the type of a result for a block (`Found`),
+/// the test, and the slack of boxes.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -24,7 +24,7 @@ struct FilteredTriangleTest {
     static HWY_INLINE const DistanceBound& slab_slack(const LocalFrame& frame) {
         return frame.slack.slab;
     }
-    /// False when nothing is found; then `found` is not set.
+    /// False if nothing is found; then `found` is not set.
     static HWY_INLINE bool find(const TriangleBlock& block, const TriangleFilterRay& ray,
                                 float s_min, float s_max, Found& found) {
         return filter_triangles(block, ray, s_min, s_max, found);
@@ -36,15 +36,15 @@ struct FloatTriangles {
     Floats ev, ew, det, s;
     std::uint32_t sure;  ///< bits of the lanes that are hit
 
-    // As that of LaneMask: not defaulted, because of the target.
+    // Not defaulted, as for LaneMask.
     HWY_INLINE FloatTriangles() {}
 };
 
-/// Single-precision hits: faster, may err at edges. Parameters carry the rounding of float; boxes
-/// have no slack.
+/// Single-precision hits: faster, with possible errors at edges. Parameters have the precision of
+/// float; boxes have no slack.
 ///
 /// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without
-/// the fallback that makes it watertight at vertices.
+/// its fallback in double for edge functions that are zero.
 struct FloatTriangleTest {
     using Found = FloatTriangles;
     static constexpr bool kExact = false;
@@ -66,7 +66,7 @@ struct FloatTriangleTest {
         found.s =
             mul_add(eu, v.corner[0].z, mul_add(found.ev, v.corner[1].z, found.ew * v.corner[2].z)) *
             Floats(ray.sz) / found.det;
-        // A NaN (a triangle seen edge on) is not a hit.
+        // A NaN (a triangle seen edge on) is no hit.
         found.sure = inside & bits_of((found.s >= Floats(s_min)) & (found.s <= Floats(s_max)));
         return found.sure != 0;
     }

@@ -1,9 +1,9 @@
 #pragma once
-/// The primitives without bounds, which lie outside of the tree: all rays are tested with all.
+/// The primitives without bounds, which are outside the tree: every ray is tested against all of
+/// them.
 ///
-/// Planes without a placement are tested here, by the arithmetic of their shape.
-/// Conventions: hits are those of PrimitiveTable, counted alike; rays that cannot be traced meet
-/// nothing.
+/// Planes without a placement are tested here, with the arithmetic of Plane.
+/// Conventions: hits and counts are those of PrimitiveTable; an invalid ray hits nothing.
 
 #include <span>
 #include <vector>
@@ -23,7 +23,7 @@ class UnboundedParts {
 
     [[nodiscard]] bool empty() const { return parts_.empty(); }
 
-    /// As PrimitiveTable::closest of each.
+    /// As PrimitiveTable::closest for each primitive.
     void closest(const PrimitiveTable& table, const Ray& ray, Hit& best, RayQuery query) const {
         if (parts_.empty()) return;
         Ray shrinking = ray;
@@ -55,7 +55,7 @@ class UnboundedParts {
             return false;
         });
     }
-    /// True where one of them blocks the ray.
+    /// True if one of them blocks the ray.
     [[nodiscard]] bool shadowed(const PrimitiveTable& table, const Ray& ray,
                                 std::vector<Hit>& crossings, RayQuery query) const {
         if (parts_.empty()) return false;
@@ -71,7 +71,7 @@ class UnboundedParts {
     }
 
   private:
-    /// Triangles beyond BoundedPrimitives::kReach are among the parts.
+    /// The shear is needed for triangles beyond BoundedPrimitives::kReach.
     [[nodiscard]] static RayShear shear_of(const PrimitiveTable& table, PrimitiveId id,
                                            const Ray& ray) {
         return table.kind(id) == kTriangleKind ? RayShear(ray.direction) : kUnusedShear;
@@ -83,7 +83,7 @@ class UnboundedParts {
     };
 
     /// Calls test(id, hit, stats) until it returns true: for planes that are hit, and with a null
-    /// pointer for what the table must be asked about.
+    /// pointer for primitives to be tested through the table.
     template <class Test>
     bool meet(const PrimitiveTable& table, const Ray& ray, RayQuery query, Test&& test) const {
         return with_stats(query.stats, [&](auto stats) {

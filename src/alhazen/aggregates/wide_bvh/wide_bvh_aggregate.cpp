@@ -12,7 +12,8 @@ namespace alhazen {
 
 namespace {
 
-/// Hits that are made empty before their rays are traced, so that they are in the cache then.
+/// Number of hits that are cleared together before their rays are traced, so that they stay in the
+/// cache.
 constexpr std::size_t kInCache = 512;
 
 }  // namespace
@@ -68,7 +69,7 @@ void WideBvhAggregate::finish_build() {
     outside_ = UnboundedParts(table_, unbounded_);
     schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
                            kernels_.plain.closest_coherent != nullptr);
-    // Rays that come from everywhere read the meshes at random.
+    // Incoherent rays read the meshes at random.
     for (const PlacedMesh& placed : table_.meshes) {
         collapse_to_huge_pages(std::span(placed.mesh->triangles));
         collapse_to_huge_pages(std::span(placed.mesh->positions));
@@ -82,7 +83,7 @@ std::size_t WideBvhAggregate::memory_bytes() const {
 void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) const {
     if (hits.size() - before < 2) return;
     sort_appended(hits, before);
-    // A triangle may lie in several leaves (accel/wide_bvh/build/spatial_split.h), and is hit once.
+    // A triangle may lie in several leaves (accel/wide_bvh/build/spatial_split.h), but is one hit.
     const auto is_triangle = [&](const Hit& hit) {
         const auto id = static_cast<std::uint32_t>(hit.primitive);
         return hit.path.empty() && table_.first(kTriangleKind) <= id &&
@@ -155,7 +156,7 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
         case Schedule::Stream:
             return kernels.closest_batch(seen, rays, hits, query.stats);
         case Schedule::Packets:
-            // Counted work must not depend on earlier batches.
+            // Counts must not depend on earlier batches.
             if (query.stats == nullptr) seen.failures = &closest_failures_;
             return kernels.closest_coherent(seen, rays, hits, query.stats);
         case Schedule::TreelessPackets:

@@ -1,6 +1,6 @@
 #pragma once
-/// The production accelerator: a wide bounding volume hierarchy, traversed with SIMD, its leaves
-/// blocks of eight triangles, spheres, cylinders or boxes around whatever else there is.
+/// The production accelerator: a wide bounding volume hierarchy, traversed with SIMD. Its leaves
+/// are blocks of eight triangles, spheres, cylinders or boxes around any other primitives.
 ///
 /// Source: see the headers of accel/wide_bvh/.
 /// Differs: boxes and the triangle filter are float but conservative with respect to tests in
@@ -29,16 +29,16 @@ namespace alhazen {
 class WideBvhAggregate final : public Aggregate {
   public:
     explicit WideBvhAggregate(PrimitiveTable table, const BuildOptions& options = {});
-    /// With a tree that was stored (aggregates/wide_bvh/wide_bvh_file.h) over a table like this
-    /// one, which is finished. Throws Error (File) where the tree does not fit, saying why.
+    /// With a stored tree (aggregates/wide_bvh/wide_bvh_file.h) over a table like this finished
+    /// one. Throws Error (File) with the reason if the tree does not fit.
     [[nodiscard]] static std::shared_ptr<const WideBvhAggregate> load(
         PrimitiveTable table, const std::filesystem::path& file);
-    /// Stores the tree. Throws Error (File) when that fails.
+    /// Stores the tree. Throws Error (File) on failure.
     void save(const std::filesystem::path& file) const;
 
-    /// Fits the tree to the same primitives in other places (aggregates/wide_bvh/refit.h): no query
-    /// may run meanwhile. Throws Error(Usage) where it must be built anew, and changes nothing
-    /// then.
+    /// Refits the tree to the same primitives in other places (aggregates/wide_bvh/refit.h). No
+    /// query may run meanwhile. Throws Error(Usage), without effect, if the tree must be built
+    /// anew.
     RefitReport refit(PrimitiveTable moved);
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
@@ -62,20 +62,20 @@ class WideBvhAggregate final : public Aggregate {
   private:
     WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);
 
-    /// What follows from the table and the layout.
+    /// Sets the members that depend on the table and the layout.
     void finish_build();
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
-    /// A part of a batch; `hits` are empty.
+    /// Traces a part of a batch. Precondition: `hits` are empty.
     void trace_closest(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                        Coherence coherence) const;
-    /// Sorts what a query appended, and drops what it found twice.
+    /// Sorts the hits that a query appended, and removes duplicates.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
 
     PrimitiveTable table_;
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
-    UnboundedParts outside_;    ///< of the tree: those of `unbounded_`
-    TreelessPackets treeless_;  ///< all that is in the tree, or nothing
+    UnboundedParts outside_;    ///< those of `unbounded_`
+    TreelessPackets treeless_;  ///< all primitives of the tree, or none
     WideBvhLayout layout_;
     Schedules schedules_;
     double built_cost_ = 0;  ///< of the tree before any refit

@@ -2,14 +2,14 @@
 /// A built wide BVH in a file: built once, mapped into memory by every program that traces the same
 /// geometry.
 ///
-/// A header of 512 bytes, then the arrays of the layout as they are in memory, each from a multiple
-/// of 256 on, then the unbounded primitives. The header names format version, byte order and sizes
-/// of the build that wrote it, the fingerprint of the geometry
-/// (aggregates/wide_bvh/table_fingerprint.h) and a checksum of all the rest. Conventions: a cache,
-/// not an archive: a build of another kind refuses it. How well the tree was built does not matter
-/// for what it may be loaded for. Complexity: loading reads all of the file once, for the checksum
-/// and the references in it; that is a small part of a build. The file must not be written to in
-/// place while it is in use.
+/// A header of 512 bytes, then the arrays of the layout as in memory, each at a multiple of 256,
+/// then the unbounded primitives. The header holds format version, byte order and sizes of the
+/// build that wrote it, the fingerprint of the geometry (aggregates/wide_bvh/table_fingerprint.h)
+/// and a checksum of everything else.
+/// Conventions: a cache, not an archive: other builds reject it. A tree of any build quality may be
+/// loaded. The file must not be modified in place while in use.
+/// Complexity: loading reads the whole file once, for the checksum and the check of references; a
+/// small part of a build.
 
 #include <filesystem>
 #include <vector>
@@ -19,21 +19,21 @@
 
 namespace alhazen {
 
-/// Raise it when what the stored arrays mean changes; sizes are compared anyway.
+/// Must be raised when the meaning of the stored arrays changes; sizes are compared anyway.
 inline constexpr std::uint32_t kWideBvhFileVersion = 3;
 
 struct StoredWideBvh {
     WideBvhLayout layout;
     Box3 box;                            ///< of all primitives
-    std::vector<PrimitiveId> unbounded;  ///< those that are not in the tree
+    std::vector<PrimitiveId> unbounded;  ///< those outside the tree
 };
 
-/// Writes the tree as one step: there is the old file or the new one. Throws Error (File).
+/// Writes the tree atomically. Throws Error (File).
 void save_wide_bvh(const std::filesystem::path& path, const WideBvhLayout& layout, const Box3& box,
                    const std::vector<PrimitiveId>& unbounded, const PrimitiveTable& table);
 
-/// Maps the tree. Throws Error (File) when the file is no such tree, damaged, cut short, of another
-/// kind of build or of other geometry than `table`, or when a reference in it leads nowhere.
+/// Maps the tree. Throws Error (File) if the file is no such tree, damaged, truncated, of another
+/// kind of build or of another geometry than `table`, or has an invalid reference.
 [[nodiscard]] StoredWideBvh load_wide_bvh(const std::filesystem::path& path,
                                           const PrimitiveTable& table);
 

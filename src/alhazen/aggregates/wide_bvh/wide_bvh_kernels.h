@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// What packets of earlier batches told: coherent_queries-inl.h.
+/// Failures of packets of earlier batches: coherent_queries-inl.h.
 using PacketFailures = std::atomic<std::uint32_t>;
 
 /// The scene of a kernel, for rays with the mask `mask`.
@@ -23,7 +23,7 @@ class WideBvhScene {
     const PrimitiveTable* table;
     const WideBvhLayout* layout;
     RayMask mask;
-    PacketFailures* failures = nullptr;  ///< null: every batch begins anew
+    PacketFailures* failures = nullptr;  ///< null: each batch starts without failures
 
     [[nodiscard]] bool sees(PrimitiveId id) const {
         return all_seen_ || (table->visible_to(id) & mask) != 0;
@@ -33,23 +33,23 @@ class WideBvhScene {
     bool all_seen_;  ///< every primitive is visible
 };
 
-/// The queries of `Aggregate` on the bounded primitives; the tree is not empty, hits are appended
-/// unsorted. An invalid ray hits nothing. Statistics are ignored by kernels that do not count, and
-/// not null for those that do.
+/// The queries of `Aggregate` on the bounded primitives. Precondition: the tree is not empty. Hits
+/// are appended unsorted; an invalid ray hits nothing. Statistics: not null for kernels that count,
+/// ignored by the others.
 struct WideBvhKernels {
     /// `best` may hold an earlier hit, and limits the search.
     void (*closest)(const WideBvhScene&, const Ray&, Hit& best, TraversalStats*);
     bool (*occluded)(const WideBvhScene&, const Ray&, TraversalStats*);
-    /// Always false.
+    /// Always returns false.
     bool (*all_hits)(const WideBvhScene&, const Ray&, std::vector<Hit>&, TraversalStats*);
     bool (*shadowed)(const WideBvhScene&, const Ray&, std::vector<Hit>&, TraversalStats*);
-    /// [ray] each; `best` may hold earlier hits.
+    /// For each ray; `best` may hold earlier hits.
     void (*closest_batch)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
                           TraversalStats*);
-    /// [ray] each; rays that are occluded already are skipped.
+    /// For each ray; skips rays that are already occluded.
     void (*occluded_batch)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
                            TraversalStats*);
-    /// As the batches, by packets of coherent rays; null where the kernels have no packets.
+    /// As the batches, by packets of coherent rays; null in kernels without packets.
     void (*closest_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
                              TraversalStats*);
     void (*occluded_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
@@ -59,23 +59,23 @@ struct WideBvhKernels {
 struct WideBvhKernelPair {
     WideBvhKernels plain, counting;
 
-    /// Those that count, where there are statistics.
+    /// The kernels that count if there are statistics.
     [[nodiscard]] const WideBvhKernels& for_stats(const TraversalStats* stats) const {
         return stats != nullptr ? counting : plain;
     }
 };
 
-/// Out of line: std::vector's code is not compiled for wide instruction sets.
+/// Out of line, so that std::vector's code is not compiled for wide instruction sets.
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id);
 
 /// The kernels for nodes of 4, 8 or 16 children, for the best instruction set of this machine or
-/// the one that is forced (simd/targets.h). Precision::Fast is for nodes of 8 only, and makes
-/// `closest`, `occluded` and their batches single-precision.
+/// the forced one (simd/targets.h). Precision::Fast requires nodes of 8, and makes `closest`,
+/// `occluded` and their batches single-precision.
 [[nodiscard]] WideBvhKernelPair wide_bvh_kernels(std::uint32_t width,
                                                  Precision precision = Precision::Robust);
 
-/// The parts of the above, each with or without counting; in single precision without `all_hits`
-/// and `shadowed`.
+/// The parts of wide_bvh_kernels, each with or without counting; those in single precision have no
+/// `all_hits` and `shadowed`.
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4_counting();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_8();

@@ -1,4 +1,5 @@
-// Nodes of 8 children, with triangles in double and in single precision, without counting.
+// Kernels for nodes of 8 children, with triangles in double and in single precision, without
+// counting.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/simd/dispatch.h"
 

@@ -1,6 +1,6 @@
-// Nodes of 4, 8 and 16 children, counting.
+// Kernels for nodes of 4, 8 and 16 children, counting.
 #include "alhazen/aggregates/wide_bvh/comparison_targets.h"
-// After it.
+// Included after it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/simd/dispatch.h"
 

@@ -1,6 +1,6 @@
-// Nodes of 4 and 16 children, which are there to be compared with nodes of 8, without counting.
+// Kernels for nodes of 4 and 16 children, for comparison with nodes of 8, without counting.
 #include "alhazen/aggregates/wide_bvh/comparison_targets.h"
-// After it.
+// Included after it.
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/simd/dispatch.h"
 

@@ -37,7 +37,7 @@ struct SideCost {
 struct AxisBoxes {
     Box4 of[3];
 
-    /// As Box4::weight; of an empty box as of a point.
+    /// As Box4::weight; an empty box has the weight of a point.
     [[nodiscard]] Float4 weights() const {
         const Float4 a = size(of[0]), b = size(of[1]), c = size(of[2]);
         const Float4 low = __builtin_shufflevector(a, b, 0, 4, 1, 5);

@@ -32,15 +32,15 @@ struct ChoiceOf {
     [[nodiscard]] std::uint32_t left(std::uint32_t i) const { return lefts[i - 1]; }
 };
 
-/// [j - 1] The least cost of a node's two children as at most j subtrees in all, and how many of
-/// these are the left child's; nothing for j = 1.
+/// [j - 1] The least cost of a node's two children as at most j subtrees in all, and the number of
+/// the left child's among these; an infinite cost for j = 1.
 template <std::uint32_t kWidth>
 struct SpreadOf {
     std::array<float, kWidth> cost;
     std::array<std::uint32_t, kWidth> left;
 };
 
-/// `l`, `r`: of the children.
+/// `l` and `r` are the costs of the children.
 template <std::uint32_t kWidth>
 SpreadOf<kWidth> spread_of(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r) {
     SpreadOf<kWidth> spread;

@@ -32,7 +32,7 @@ inline float round_up(double x) {
     return -round_down(-x);
 }
 
-/// Bound, relative to the distances involved, of the distance of a computed hit from the ray.
+/// Bound of the distance of a computed hit from the ray, relative to the distances involved.
 inline constexpr double kExactTestSlack = 0x1p-38;
 
 /// A bound that grows with the distance of a ray's origin, measured by its largest local
@@ -48,10 +48,11 @@ struct DistanceBound {
 struct FrameSlack {
     DistanceBound delta;  ///< displacement that covers the errors of computations in double
     DistanceBound reach;  ///< bound of the distance of all scene coordinates from the origin
-    DistanceBound slab;   ///< slack of the slab test, for a direction of length 1
-    float least_length;   ///< shorter directions use the careful path
+    DistanceBound slab;   ///< slack of the slab test for a direction of length 1
+    float least_length;   ///< rays with a shorter direction take the slow path
+                          ///< (local_ray_from_afar)
 
-    /// For a frame with the offset `offset`; `usual` is LocalFrame::usual.
+    /// `offset` is LocalFrame::offset, `usual` is LocalFrame::usual.
     explicit FrameSlack(double offset = 0, bool usual = true)
         : delta{kMore * static_cast<float>(kExactTestSlack),
                 kMore * static_cast<float>(kExactTestSlack * (1.0 + offset))},
@@ -70,7 +71,7 @@ struct LocalFrame {
     Vec3 center;
     double scale = 1;
     double inverse_scale = 1;
-    /// Largest coordinate of the center, in local units: the bits of a double that the offset uses.
+    /// Largest coordinate of the center, in local units: the loss of precision by the translation.
     double offset = 0;
     /// False if exponents could leave the range of double in the exact tests.
     bool usual = true;
@@ -88,7 +89,7 @@ struct LocalFrame {
             half = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
             far = 0;
         }
-        // Not finer than the rounding of the coordinates themselves.
+        // Not finer than the rounding of the coordinates.
         const double reach = std::max({half, far * 0x1p-30, 0x1p-500});
         scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
         inverse_scale = 1.0 / scale;

@@ -60,8 +60,8 @@ struct FloatBox {
         }
     }
     /// The weight in the surface area heuristic: half the surface area, plus small terms for the
-    /// edges and for each box, so that flat, thin and pointlike sets can be divided as well. The
-    /// box must not be empty.
+    /// edges and for each box, so that flat, thin and pointlike sets can be divided as well.
+    /// Precondition: the box is not empty.
     [[nodiscard]] float weight() const {
         const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
         return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
@@ -72,9 +72,8 @@ struct FloatBox {
 /// Valid numbers of children per node: BuildOptions::width.
 inline constexpr std::size_t kNodeWidths[] = {4, 8, 16};
 
-/// A node of 4, 8 or 16 children: two, four or eight cache lines. A free slot has planes that no
-/// ray intersects. Any-hit queries visit the children from slot 0 on; see collapse.h for their
-/// order.
+/// A node of 4, 8 or 16 children, in two, four or eight cache lines. No ray intersects the planes
+/// of a free slot. Any-hit queries visit the children in the order of the slots; see collapse.h.
 template <std::size_t Width>
 struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
     static constexpr std::size_t kWidth = Width;

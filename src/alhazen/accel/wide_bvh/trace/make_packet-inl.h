@@ -1,7 +1,7 @@
-/// How a packet is made of rays: those that go one way in its groups, the point near which they all
-/// pass, and the planes around them.
+/// Constructs a frustum packet from rays: groups of rays of a common direction, the point near
+/// which all pass, and the planes around them.
 ///
-/// Source: packet-inl.h, which says what a packet is.
+/// Source: see packet-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_MAKE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -65,7 +65,7 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
         }
         distance = std::max(distance, RayGroup::most_of(most));
     }
-    // Unless a ray cannot be used: it may be NaN, and hide another.
+    // An unused ray may be NaN and hide another, so the limit of load_rays is taken then.
     if ((used & all) != all) distance = 8.0f;
     reach_ = frame.slack.reach.at(distance);
     delta_ = frame.slack.delta.at(distance);
@@ -73,7 +73,7 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
     return used & all;
 }
 
-/// Keeps the rays that go the way of the first one.
+/// Keeps the rays with the dominant axis and the sign of the first one; sets the axes.
 inline bool RayPacket::keep_one_way(std::uint64_t& used) {
     const auto first = static_cast<std::size_t>(std::countr_zero(used));
     const RayGroup& leader = groups[first / kGroupRays];
@@ -129,7 +129,7 @@ HWY_INLINE void RayPacket::make_slopes(std::size_t g) {
     }
 }
 
-/// Middle and half the size of the box around points of the rays, one of each.
+/// The box around points of the rays, one per ray.
 struct PacketPoints {
     GroupFloats lo[3], hi[3];
     HWY_INLINE void include(std::size_t k, const GroupFloats& x, bool first) {
@@ -145,7 +145,8 @@ struct PacketPoints {
     }
 };
 
-/// Takes as P the middle of where the rays begin or end, whichever lies closer together.
+/// Sets P to the middle of the points where the rays begin or end, whichever lie closer together.
+/// False if they lie too far apart.
 inline bool RayPacket::find_point() {
     const std::uint32_t axes[3] = {kx, ky, kz};
     PacketPoints begins;
@@ -197,7 +198,7 @@ inline bool RayPacket::find_point() {
 
 inline bool RayPacket::find_planes() {
     error = 13.2f * kUnit * reach_ + 4.0f * delta_;
-    // With the sum that takes a place from the point to the origin.
+    // Includes the sum that converts a position from the point to the origin.
     s_error = 15.7f * kUnit * reach_ + 4.4f * delta_;
     depth_of_point_ = sign_ * point[2];
     k_slack_ = 2.0f * error + std::max(away[0], away[1]);

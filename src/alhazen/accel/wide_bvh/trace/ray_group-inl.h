@@ -22,29 +22,30 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Rays of a packet, and of a group of it whose rays are in the lanes together.
+/// Number of rays of a packet, and of a group, whose rays are in the lanes of one vector.
 inline constexpr std::size_t kPacketRays = 64;
 inline constexpr std::size_t kGroupRays = kRayLanes;
 inline constexpr std::size_t kPacketGroups = kPacketRays / kGroupRays;
 using GroupFloats = Lanes<float, kGroupRays>;
 using GroupRow = float[kGroupRays];
 
-/// Eight rays in the local frame. Lanes that are not used repeat a ray and end before they begin.
+/// Eight rays in the local frame. Unused lanes repeat another ray and end before they begin.
 struct alignas(64) RayGroup {
-    GroupRow origin[3], direction[3];  ///< [axis]: of the scene first, then as in TriangleFilterRay
+    GroupRow origin[3], direction[3];  ///< [axis]: first those of the scene, then as in
+                                       ///< TriangleFilterRay
     GroupRow s_min, s_max;             ///< as in SlabRay
     GroupRow sure_min, sure_max;       ///< as in TriangleFilterRay
     GroupRow slope[2], reciprocal;     ///< TriangleFilterRay::sx, sy, sz
-    GroupRow aside[2];                 ///< slopes beside the middle one of the packet
+    GroupRow aside[2];                 ///< slopes relative to the middle one of the packet
     GroupRow shift;                    ///< from the origin to the point of the packet, along z
-    GroupRow depth, rate;              ///< k at s = 0, and by how much it grows with s
+    GroupRow depth, rate;              ///< k at s = 0, and its increase per unit of s
     std::uint32_t used;
 
-    /// No ray of the group needs to go deeper.
+    /// The largest k of the group plus `slack`.
     [[nodiscard]] HWY_INLINE float deepest(float slack) const {
         const GroupFloats k = mul_add(load_lanes<kGroupRays>(s_max), load_lanes<kGroupRays>(rate),
                                       load_lanes<kGroupRays>(depth));
-        // Finite, so that no free slot is met.
+        // Finite, so that free slots fail.
         return most_of(min_lanes(k, GroupFloats(1e30f))) + slack;
     }
     static HWY_INLINE float most_of(const GroupFloats& a) { return -least_of(-a); }
@@ -58,12 +59,12 @@ struct alignas(64) RayGroup {
     }
 };
 
-/// Eight rays side by side.
+/// Transposes eight rays.
 HWY_INLINE void take_lanes(std::span<const Ray, kRayLanes> rays, RayLanes& lanes) {
 #if HWY_TARGET != HWY_SCALAR
     const LaneTag<double> d;
     if constexpr (hn::MaxLanes(LaneTag<double>()) == 4) {
-        // A ray is two rows of four numbers; numbers of a kind lie eight apart in `lanes`.
+        // A ray is two rows of four numbers; the numbers of a component are eight apart in `lanes`.
         static_assert(offsetof(Ray, direction) == 3 * sizeof(double) &&
                       offsetof(Ray, t_min) == 6 * sizeof(double));
         static_assert(offsetof(RayLanes, origin) == 0 &&
@@ -94,7 +95,8 @@ HWY_INLINE void take_lanes(std::span<const Ray, kRayLanes> rays, RayLanes& lanes
     for (std::size_t i = 0; i < kRayLanes; ++i) lanes.set(i, rays[i]);
 }
 
-/// Brings eight rays into the local frame, as `local_ray_nearby`; bits of those it could.
+/// Converts eight rays to the local frame, as `local_ray_nearby`; returns the bits of those that it
+/// accepts.
 HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays, RayGroup& group) {
     using D = Doubles;
     using F = Floats;
@@ -105,7 +107,7 @@ HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays
     for (std::size_t k = 0; k < 3; ++k) {
         const F o = as_floats((load_lanes(rays.origin[k]) - D(center[k])) * scale);
         const F d = as_floats(load_lanes(rays.direction[k]));
-        // In this order a NaN comes through on every target.
+        // In this order a NaN propagates on every target.
         away = away + abs(o);
         across = across + abs(d);
         store_lanes(o, group.origin[k]);

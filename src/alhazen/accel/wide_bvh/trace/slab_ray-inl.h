@@ -1,4 +1,4 @@
-/// Makes the rays of the slab test: see slab_ray.h.
+/// Prepares rays for the slab test: see slab_ray.h.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h). The axes are in lanes.
 
@@ -24,10 +24,11 @@ namespace HWY_NAMESPACE {
 struct AxisLanes {
     using F = Lanes<float, 4>;
     F origin, direction;
-    F length, distance;  ///< the largest of direction and origin, in every lane
+    F length, distance;  ///< the largest component of direction and origin, in every lane
 };
 
-/// The ray as it stands where that is valid, near the scene and of a usual length; else false.
+/// Sets `local` and `axes` without a shift. False if the ray is invalid, far from the scene or of
+/// an unusual length.
 HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalRay& local,
                                  AxisLanes& axes) {
     using D = Lanes<double, 4>;
@@ -41,7 +42,7 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalR
     const F away = abs(axes.origin);
     axes.length = largest_of(across);
     axes.distance = largest_of(away);
-    // Written so that a NaN is not near.
+    // Written so that NaN fails.
     const std::uint32_t usual = bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)));
     if (usual != 15 || !(first_lane(axes.length) >= frame.slack.least_length) ||
         !(ray.t_min <= ray.t_max) || !(ray.t_min >= 0.0)) {
@@ -54,8 +55,8 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalR
     local.reach = frame.slack.reach.at(first_lane(axes.distance));
     local.valid = local.regular = true;
     local.parameter = {frame.scale, 0.0};
-    // The scale is a power of two: only the rounding to float counts. The ends are finite in float
-    // and beyond every scene, and not negative.
+    // The scale is a power of two, so only the rounding to float counts. The ends are finite in
+    // float, beyond every scene, and not negative.
     using D2 = Lanes<double, 2>;
     using F2 = Lanes<float, 2>;
     static_assert(offsetof(Ray, t_max) == offsetof(Ray, t_min) + sizeof(double));
@@ -66,11 +67,11 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalR
     return true;
 }
 
-/// `slack` is what the slab test needs for a direction of 1, in every lane.
+/// `slack`: of the slab test, for a direction of length 1, in every lane.
 HWY_INLINE void make_slab_ray(const AxisLanes& axes, const AxisLanes::F& slack,
                               const LocalRay& local, SlabRay& slabs) {
     using F = AxisLanes::F;
-    // The length is at least 2^-40; no bound of the components in it has to be waited for.
+    // The length is at least 2^-40, so its bound is independent of this one of the components.
     const F steep = copysign(larger_by_bits(abs(axes.direction), F(0x1p-100f)), axes.direction);
     const F reciprocal = F(1.0f) / steep;
     const F c = -(axes.origin * reciprocal);
@@ -83,7 +84,7 @@ HWY_INLINE void make_slab_ray(const AxisLanes& axes, const AxisLanes::F& slack,
     slabs.near = kNearRows[bits_of(steep < F(0.0f)) & 7];
 }
 
-/// As `make_ray` below, for a ray that needs care.
+/// As `make_ray`, for the rays that local_ray_nearby rejects.
 HWY_NOINLINE inline void make_ray_from_afar(const LocalFrame& frame, const Ray& ray, SlabRay& slabs,
                                             LocalRay& local) {
     local = local_ray_from_afar(frame, ray);
@@ -97,9 +98,9 @@ HWY_NOINLINE inline void make_ray_from_afar(const LocalFrame& frame, const Ray& 
     make_slab_ray(axes, AxisLanes::F(slack), local, slabs);
 }
 
-/// Makes a ray ready for nodes, and calls `then(local)` to make it ready for leaves; false, without
-/// that, when it is not valid. `bound` is the slack of the slab test: frame.slack.slab, but for
-/// those who would rather be wrong at times than wait.
+/// Prepares a ray for nodes, then calls `then(local)` to prepare it for leaves. Returns false,
+/// without the call, for an invalid ray. `bound`: the slack of the slab test, frame.slack.slab for
+/// exact results.
 template <class Then>
 HWY_INLINE bool make_ray(const LocalFrame& frame, const DistanceBound& bound, const Ray& ray,
                          SlabRay& slabs, Then&& then) {

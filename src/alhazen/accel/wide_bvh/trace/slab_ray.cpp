@@ -11,8 +11,8 @@ LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray) {
     const Vec3 origin = frame.local(ray.origin);
     const double distance = max_component(abs(origin));
     const double length = max_component(abs(ray.direction));
-    // Outside these limits (never in a real scene) exponents could leave the range of double: here,
-    // or in the test in double, whose products have the third power of a length.
+    // Outside these limits exponents could leave the range of double, here or in the exact test,
+    // whose products have the third power of a length.
     local.regular = frame.usual && distance <= 0x1p40 && length >= 0x1p-200 && length <= 0x1p200;
     if (!local.regular) {
         local.above[1] = std::numeric_limits<float>::infinity();
@@ -20,7 +20,7 @@ LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray) {
     }
     const int exponent = std::ilogb(length);
     const Vec3 d = std::ldexp(1.0, -exponent) * ray.direction;
-    // To the point nearest to the center, and so far back that the scene begins at 0 or later.
+    // To the point nearest to the center, and back so far that the scene begins at 0 or later.
     const bool near = distance <= 2.0 && ray.t_min >= 0.0;
     const double shift = near ? 0.0 : -dot(origin, d) / dot(d, d) - 2.0;
     const Vec3 o = origin + shift * d;

@@ -1,19 +1,20 @@
-/// The stream kernel of the wide BVH: any rays, several of them interleaved, so that one ray's
-/// arithmetic hides the latency of the others' memory and branches.
+/// The stream kernel of the wide BVH: arbitrary rays, several interleaved, so that the arithmetic
+/// of one ray hides the latency of memory and branches of the others.
 ///
 /// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015
 /// (slots refilled one by one); Fuetterling, Lojewski, Pfreundt, Hamann and Ebert, "Accelerated
 /// Single Ray Tracing for Wide Vector Units", HPG 2017 (children sorted by the octant of the ray
 /// and compressed onto the stack).
-/// Differs: the order of an octant is that of the centers of the boxes along its diagonal; queries
-/// for any hit have one order for all (collapse.h).
+/// Differs: the order of an octant is that of the centers of the boxes along its diagonal; any-hit
+/// queries have one order for all octants (collapse.h).
 /// Conventions: included once per target (see simd/lanes-inl.h).
 ///
-/// What a turn of a ray decides was stored the turn before, so that a wrongly predicted branch is
-/// found out at once and throws little of the other rays' work away.
-/// `Query`: `visit(NodeRef, stats)` tests a leaf, true to stop, as for NodeRef::none(); `slabs`,
-/// the ray; `s_max`, how far it still needs to go. `Source`: `start(void* place)` makes the query
-/// of the next ray there, false when there is none; `finish(query, stats)` follows its last leaf.
+/// The data that a step of a ray branches on was stored in its previous step, so a mispredicted
+/// branch is detected early and discards little work of the other rays.
+/// `Query` has `visit(NodeRef, stats)`, which tests a leaf and returns true to stop, as for
+/// NodeRef::none(); `slabs`, the ray; and `s_max`, the parameter up to which hits are searched.
+/// `Source` has `start(void* place)`, which constructs the query of the next ray there and returns
+/// false if there is none, and `finish(query, stats)`, called after its last leaf.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_
@@ -34,10 +35,10 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Rays on their way at a time.
+/// Number of rays in flight.
 inline constexpr std::size_t kStreamSlots = 8;
 
-/// Where in memory a node or a leaf lies, computed without a branch.
+/// Computes the address of a node or a leaf without a branch.
 class PrefetchTable {
   public:
     /// Leaf i of kind k is at leaves[k] + i * sizes[k].
@@ -46,7 +47,7 @@ class PrefetchTable {
                              const std::size_t (&sizes)[kLeafKinds]) {
         for (std::size_t i = 0; i < 8; ++i) {
             place_[i] = {nodes, sizeof(WideNodeOf<W>), ~0u, W > 8 ? std::size_t{256} : 0};
-            // Nothing is to be fetched for NodeRef::none().
+            // NodeRef::none() has nothing to prefetch.
             place_[8 + i] = {nodes, 0, 0, 0};
         }
         for (std::size_t i = 0; i < kLeafKinds; ++i) {
@@ -54,7 +55,7 @@ class PrefetchTable {
                              sizes[i] > 256 ? std::size_t{256} : 0};
         }
     }
-    /// Five lines, or what there is.
+    /// Prefetches five cache lines, or all if there are fewer.
     HWY_INLINE void prefetch(std::uint32_t ref) const {
         const Place& place = place_[ref >> 28];
         const char* lines = static_cast<const char*>(place.base) + (ref & place.mask) * place.size;
@@ -75,8 +76,8 @@ class PrefetchTable {
     Place place_[16];
 };
 
-/// Subtrees yet to visit, entries and references apart so that both are stored by lanes. Its height
-/// is kept outside: in a register. The lowest says that there are no more.
+/// The subtrees to visit, with entry parameters and references in separate arrays, so that lanes
+/// are stored. The height is kept outside, in a register. The lowest element is a sentinel.
 template <std::size_t W>
 struct StreamStack {
     static constexpr std::size_t kSize = 1 + kTraversalStackSize<W> + W;
@@ -88,7 +89,7 @@ struct StreamStack {
         child[0] = NodeRef::none().bits();
     }
 
-    /// Puts the children that are hit on top: the farthest first by the order of the octant, or
+    /// Pushes the children that are hit: the farthest first by the order of the octant, or else
     /// those of the highest slots first.
     template <bool kOrdered, std::size_t kRegisters = kParts<float, W>>
     [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNodeOf<W>& node,
@@ -115,11 +116,11 @@ struct StreamStack {
   private:
     using Tag = LaneTag<float, W>;
 
-    /// [lane] the slot that is to be there.
+    /// [lane] The slot of the child that belongs there.
     static HWY_INLINE auto slots_of(const WideNodeOf<W>& node, std::uint32_t octant) {
         const hn::RebindToUnsigned<Tag> du;
         constexpr std::uint32_t kBits = WideNodeOf<W>::kSlotBits;
-        constexpr std::uint32_t kInWord = 32 / kBits;  // slots of which 32 bits of an order tell
+        constexpr std::uint32_t kInWord = 32 / kBits;  // slots in 32 bits of an order
         HWY_ALIGN static constexpr auto kShifts = [] {
             std::array<std::uint32_t, W> shifts{};
             for (std::uint32_t i = 0; i < W; ++i) shifts[i] = i % kInWord * kBits;
@@ -134,8 +135,8 @@ struct StreamStack {
         return hn::And(hn::Shr(word, hn::Load(du, kShifts.data())), hn::Set(du, W - 1));
     }
 
-    /// Moves the lanes of `mask` to the front, as hn::Compress. That of AVX2 reads a table which
-    /// GCC copies to the stack first, a kilobyte a time.
+    /// Moves the lanes of `mask` to the front, as hn::Compress. The version of AVX2 reads a table
+    /// that GCC first copies to the stack, 1 KiB per call.
     static HWY_INLINE auto first_lanes(const hn::Mask<Tag>& mask) {
 #if HWY_TARGET == HWY_AVX2
         if constexpr (W == 8) {
@@ -151,9 +152,9 @@ struct StreamStack {
             }();
             std::uint8_t bits[8];
             hn::StoreMaskBits(Tag(), mask, bits);
-            const auto places = hn::PromoteTo(
-                hn::RebindToSigned<Tag>(),
-                hn::LoadU(hn::Rebind<std::uint8_t, Tag>(), kPlaces[bits[0]].data()));
+            const auto places =
+                hn::PromoteTo(hn::RebindToSigned<Tag>(),
+                              hn::LoadU(hn::Rebind<std::uint8_t, Tag>(), kPlaces[bits[0]].data()));
             const auto indices = hn::IndicesFromVec(Tag(), places);
             return [indices](const hn::Vec<Tag>& v)
                        HWY_ATTR { return hn::TableLookupLanes(v, indices); };
@@ -201,7 +202,7 @@ struct StreamSlot {
     }
 };
 
-/// One node or leaf of one ray; false when the ray is done.
+/// Visits one node or leaf of one ray; false if the ray is done.
 template <class Query, std::size_t W, class Stats>
 HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
                         const PrefetchTable& prefetch_table, Stats stats) {
@@ -228,7 +229,7 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
     return true;
 }
 
-/// Takes every ray of `source` through the tree.
+/// Traces every ray of `source` through the tree.
 template <class Query, std::size_t W, class Source, class Stats>
 HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root,
                                 const PrefetchTable& prefetch_table, Source& source, Stats stats) {

@@ -2,11 +2,11 @@
 /// per instruction set and width of the nodes.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
-/// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for
-/// one and two children hit.
-/// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` offers `bool
-/// visit(NodeRef, stats)`, true to stop, and `float s_max`, how far the ray still needs to go:
-/// boxes that begin at exactly that are visited.
+/// Differs: slab test with all slack in the ray's constants (`SlabRay`); separate code for one and
+/// two children hit.
+/// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` has `bool visit(NodeRef,
+/// stats)`, which returns true to stop, and `float s_max`, the parameter up to which hits are
+/// searched; boxes that begin exactly there are visited.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The children whose boxes the ray meets; `entry` is where.
+/// The children whose boxes the ray meets. `entry`: its parameter where it enters each.
 template <std::size_t W>
 HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const SlabRay& ray,
                                             float s_max, Lanes<float, W>& entry) {
@@ -38,7 +38,7 @@ HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const Sla
         far[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.far_row(k)), reciprocal,
                          F(ray.far_offset[k]));
     }
-    // s_min is not negative: what lies behind it may be compared as it comes.
+    // larger_by_bits is exact, as s_min is not negative.
     entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(ray.s_min)));
     const F exit =
         smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
@@ -50,7 +50,7 @@ struct StackEntry {
     NodeRef ref;
 };
 
-/// Puts the children that are hit on the stack, the nearest on top; returns the new height.
+/// Pushes the children that are hit, the nearest last; returns the new height.
 template <std::size_t W>
 HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit, const float* entry,
                                    StackEntry* stack, std::size_t height) {
@@ -68,8 +68,8 @@ HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit,
     return height;
 }
 
-/// Visits the leaves the ray meets, nearest first if `kOrdered`, else from slot 0 on, until `leaf`
-/// says stop; true when it did.
+/// Visits the leaves that the ray meets, nearest first if `kOrdered`, else in the order of slots,
+/// until `leaf.visit` returns true; returns whether it did.
 template <bool kOrdered, std::size_t W, class Leaf, class Stats>
 HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, Leaf& leaf,
                          Stats stats) {
@@ -118,7 +118,7 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 continue;
             }
         }
-        // Written so that a NaN is not passed over.
+        // Written so that NaN is visited.
         do {
             if (height == 0) return false;
             --height;

@@ -1,4 +1,4 @@
-/// Traversal of the wide BVH by a packet of rays (packet-inl.h).
+/// Traversal of the wide BVH by a frustum packet (packet-inl.h).
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -27,11 +27,11 @@ struct PacketEntry {
     std::uint32_t groups;
 };
 
-/// Puts the children that groups of a packet meet on the stack; returns the new height. The nearest
-/// is on top, or slot 0.
+/// Pushes the children that groups of a packet meet; returns the new height. On top is the nearest
+/// if `kOrdered`, else slot 0.
 template <bool kOrdered>
-HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet,
-                                std::uint32_t groups, PacketEntry* stack, std::size_t height) {
+HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet, std::uint32_t groups,
+                                PacketEntry* stack, std::size_t height) {
     Floats entries;
     std::uint32_t hit = packet.meet_children(node, entries);
     HWY_ALIGN float entry[WideNode::kWidth];
@@ -55,9 +55,9 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet,
     return height;
 }
 
-/// Visits the leaves that groups of the packet meet, nearest first if `kOrdered`, else from slot 0
-/// on: `leaf.visit(ref, groups, stats)` may shrink the packet, and returns true to stop. False when
-/// it gave up: `leaf.work`, two a node beside what the leaves add, exceeds `max_work`.
+/// Visits the leaves that groups of the packet meet, nearest first if `kOrdered`, else in the order
+/// of slots. `leaf.visit(ref, groups, stats)` may shrink the packet, and returns true to stop.
+/// Returns false if `leaf.work`, to which each node adds 2, exceeds `max_work`.
 template <bool kOrdered, class Leaf, class Stats>
 HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
                                 const PrefetchTable& prefetch_table, const RayPacket& packet,
@@ -79,7 +79,7 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
         stats.nodes(1);
         stats.boxes(node.child_count());
         height = push_met<kOrdered>(node, packet, groups, stack, height);
-        // The next two.
+        // Prefetches the next two.
         const std::size_t soon = std::min<std::size_t>(height, 2);
         for (std::size_t i = height - soon; i < height; ++i)
             prefetch_table.prefetch(stack[i].ref.bits());

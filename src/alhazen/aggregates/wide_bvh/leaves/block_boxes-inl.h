@@ -1,11 +1,10 @@
-/// Boxes along the axes and balls around the eight shapes of a block, in float.
+/// Axis-aligned boxes and balls around the eight shapes of a block, in float.
 ///
-/// Of slabs |d_k . (p - c)| <= h_k whose directions are of length 1 and lean by at most e =
-/// |d_i . d_j|, p - c is the sum of (d_k . (p - c)) d_k but for terms of e times the widths:
-/// along an axis a it reaches sum h_k |d_k a| + 1.8 e (h_0 + h_1 + h_2), of which 4 e are
-/// taken.
-/// Conventions: in the frame of the tree, with room for the rounding of all that makes them:
-/// coordinates are at most about 1 there. Included once per target (see simd/lanes-inl.h).
+/// For slabs |d_k . (p - c)| <= h_k whose directions have length 1 and satisfy |d_i . d_j| <= e, p
+/// - c is the sum of (d_k . (p - c)) d_k up to terms of e times the widths: along an axis a it
+/// reaches sum h_k |d_k a| + 1.8 e (h_0 + h_1 + h_2); the bound uses 4 e.
+/// Conventions: in the frame of the tree, where coordinates are at most about 1, with slack for all
+/// rounding. Included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_
@@ -28,13 +27,13 @@ class BlockBoxes {
         const Floats half[3] = {radius, radius, radius};
         set(block.center, half, radius);
     }
-    /// Of each frustum the ball around it.
+    /// The ball around each frustum.
     HWY_INLINE explicit BlockBoxes(const FrustumBlock& block) {
         const Floats radius = load_lanes(block.half_height) + load_lanes(block.radius);
         const Floats half[3] = {radius, radius, radius};
         set(block.center, half, radius);
     }
-    /// Of slabs that do not stand across each other (of what is sheared) the box around the ball.
+    /// For slabs that are not orthogonal (sheared shapes), the box around the ball.
     HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {
         constexpr float kAcross = 0x1p-19f;
         Floats direction[3][3];
@@ -64,7 +63,7 @@ class BlockBoxes {
         set(block.center, half, radius);
     }
 
-    /// What is around one shape.
+    /// The bounds of one shape.
     struct Bounds {
         float lo[3], hi[3];       ///< the box
         float center[3], radius;  ///< the ball
@@ -86,7 +85,7 @@ class BlockBoxes {
   private:
     HWY_INLINE void set(const float (&center)[3][kBlockWidth], const Floats (&half)[3],
                         const Floats& radius) {
-        // Some roundings of numbers up to 2.
+        // Covers some roundings of numbers up to 2.
         const Floats room(0x1p-20f);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Floats c = load_lanes(center[axis]), h = half[axis] + room;

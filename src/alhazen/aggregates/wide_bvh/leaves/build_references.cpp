@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kReferencesAtOnce = 16384;
 constexpr auto kTriangles = static_cast<std::uint32_t>(LeafType::Triangles);
 
-/// Makes references to triangles.
+/// Makes references to triangles, with the same boxes as the generic code.
 class TriangleReferences {
   public:
     explicit TriangleReferences(const LocalFrame& frame)
@@ -38,9 +38,9 @@ class TriangleReferences {
         const __m128 hi =
             rounded_down(_mm_shuffle_ps(high, mid, _MM_SHUFFLE(1, 1, 1, 0)),
                          _mm_shuffle_ps(high_above, mid_above, _MM_SHUFFLE(2, 2, 2, 0)));
-        // In registers to the end: what is stored by parts is slow to read again.
+        // Kept in registers: loading what was stored in parts is slow.
         const auto number = static_cast<std::int32_t>(id);
-        // Not by its sign: zero is positive, as LocalFrame::local gives it but for corners of -0.
+        // Not by the sign bit: zero is positive, as in LocalFrame::local, except for corners of -0.
         const __m128 up = _mm_sub_ps(_mm_setzero_ps(), hi);
         const __m128i low_part = with_fourth(lo, number), high_part = with_fourth(up, kTriangles);
         std::memcpy(to.lo, &low_part, sizeof(low_part));
@@ -56,12 +56,12 @@ class TriangleReferences {
         const __m128i three = _mm_and_si128(_mm_castps_si128(v), _mm_set_epi32(0, -1, -1, -1));
         return _mm_or_si128(three, _mm_slli_si128(_mm_cvtsi32_si128(fourth), 12));
     }
-    /// A mask of the lanes, each twice, in which rounding to float went up.
+    /// A mask of the lanes, each twice, that were rounded up to float.
     static __m128 above(__m128 rounded, Double2 exact) {
         return _mm_castpd_ps(_mm_cmpgt_pd(_mm_cvtps_pd(rounded), exact));
     }
-    /// As round_down, where `above` says whether `v` is to be lowered by a step. That is never +0:
-    /// what is rounded up to zero has its own sign.
+    /// As round_down, where `above` marks the lanes of `v` to lower by a step. Such a lane is never
+    /// +0: a number rounded up to zero keeps its sign.
     static __m128 rounded_down(__m128 v, __m128 above) {
         const __m128i positive = _mm_castps_si128(_mm_cmpgt_ps(v, _mm_setzero_ps()));
         const __m128i step = _mm_or_si128(positive, _mm_set1_epi32(1));
@@ -83,7 +83,7 @@ BuildReference reference_to(std::uint32_t id, const Box3& box, const PrimitiveTa
 
 void make_references(const PrimitiveTable& table, const BoundedPrimitives& bounded,
                      const LocalFrame& frame, std::span<BuildReference> references) {
-    // Where all are bounded, runs of triangles are known by their ids.
+    // If all are bounded, runs of triangles are known by their ids.
     const bool all = bounded.size() == table.size();
     const std::uint32_t first = all ? table.first(kTriangleKind) : 0;
     const std::uint32_t last = all ? table.first(kInstanceKind) : 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// What a wide BVH is built over: the bounded primitives of a table, with their boxes in the local
-/// frame and the kinds of their leaves.
+/// The references that a wide BVH is built over: the bounded primitives of a table, with their
+/// boxes in the local frame and the kinds of their leaves.
 ///
 /// Complexity and threads: O(n), parallel.
 
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// Writes a reference to each bounded primitive, in the order of their ids. The boxes are those of
+/// Writes a reference to each bounded primitive, in ascending order of id. The boxes are those of
 /// LocalFrame::local.
 void make_references(const PrimitiveTable& table, const BoundedPrimitives& bounded,
                      const LocalFrame& frame, std::span<BuildReference> references);

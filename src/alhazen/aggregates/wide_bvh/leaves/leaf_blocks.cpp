@@ -19,7 +19,7 @@
 namespace alhazen {
 namespace {
 
-/// Costs in visits of a wide node, measured.
+/// Costs in visits of a wide node, from measurements.
 constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{3, 1.5f},
                                    LeafKind{3, 1.5f}};
 static_assert(1u << kLeafKindTable[0].width_log2 == kBlockWidth);
@@ -66,7 +66,7 @@ class Packer final : public LeafSink {
         touch_pages(blocks.data(), count * sizeof(Block));
         blocks.resize(count);
     }
-    /// Few ids by their ranks, without branches that depend on them.
+    /// Sorts few ids by their ranks, without branches that depend on them.
     static void sort_ids(std::span<const BuildReference> references, std::span<PrimitiveId> ids) {
         const std::size_t size = references.size();
         if (size > 2 * kBlockWidth) {
@@ -101,15 +101,15 @@ class Packer final : public LeafSink {
                 return fill_blocks(&layout_.others[offset], ids);
         }
     }
-    /// What lets light through may end a query or not.
+    /// A surface that lets light through may not end a query, so it counts for less.
     [[nodiscard]] float surface_of(double area, bool opaque) const {
         const double unit = layout_.frame.scale * layout_.frame.scale;
         area *= unit;
         return static_cast<float>(opaque ? area : 0.5 * area);
     }
 
-    /// Triangles lie about in memory as seen from a leaf: all of a leaf are on their way before the
-    /// first is looked at.
+    /// The triangles of a leaf are scattered in memory: all are prefetched before the first is
+    /// read.
     float pack_triangles(std::size_t offset, std::span<const PrimitiveId> ids) const {
         const std::uint32_t first = table_.first(kTriangleKind);
         std::array<LeafTriangle, kBlockWidth * NodeRef::kMaxBlocks> room;

@@ -1,10 +1,10 @@
 #pragma once
-/// How primitives lie in the leaves of the wide BVH: eight of one kind side by side, lane by lane.
-/// All are there in float, in the local frame, for the filters (triangle_filter.h,
-/// shape_filters.h): triangles and spheres as they are, what is round in a cylinder around it, all
-/// else, rectangles and instances among it, in a slanted box.
+/// The layout of primitives in the leaves of the wide BVH: eight of one kind, lane by lane, in
+/// float and in the local frame, for the filters (triangle_filter.h, shape_filters.h). Triangles
+/// and spheres are stored themselves, round shapes as a cylinder around them, and all others,
+/// including rectangles and instances, as a slanted box.
 ///
-/// Conventions: lanes are in ascending order of id; the used ones come first.
+/// Conventions: lanes are in ascending order of id; the used lanes come first.
 
 #include <cstdint>
 
@@ -21,28 +21,28 @@ class PrimitiveTable;
 
 inline constexpr std::size_t kBlockWidth = 8;
 
-/// Kinds of leaf, as NodeRef::kind.
+/// Kinds of leaves, as NodeRef::kind.
 enum class LeafType : std::uint32_t { Triangles, Spheres, Frustums, Others };
 
-/// What a lane holds.
+/// The primitive of a lane, with two flags.
 class BlockId {
   public:
     BlockId() = default;
     BlockId(PrimitiveId id, bool opaque, bool exact)
         : bits_(static_cast<std::uint32_t>(id) | (opaque ? kOpaqueBit : 0u) |
                 (exact ? kExactBit : 0u)) {}
-    /// Of the lanes that are not in use.
+    /// The value of unused lanes.
     [[nodiscard]] static BlockId none() { return {kNoPrimitive, true, true}; }
 
     [[nodiscard]] bool used() const { return bits_ != static_cast<std::uint32_t>(kNoPrimitive); }
     [[nodiscard]] PrimitiveId id() const { return PrimitiveId{bits_ & kLimit}; }
-    /// It lets no light through.
+    /// True if the primitive is opaque.
     [[nodiscard]] bool opaque() const { return (bits_ & kOpaqueBit) != 0; }
 
-    /// What a block of triangles holds of it is all of it, not rounded.
+    /// True if a block of triangles holds the vertices unrounded.
     [[nodiscard]] bool exact() const { return (bits_ & kExactBit) != 0; }
 
-    /// Ids from this on do not fit.
+    /// Bound of the ids that fit.
     static constexpr std::uint32_t kLimit = 0x3FFFFFFFu;
 
   private:
@@ -51,7 +51,7 @@ class BlockId {
     std::uint32_t bits_;
 };
 
-/// Five cache lines. Lanes not in use hold a triangle far outside of the scene.
+/// Five cache lines. Unused lanes hold a triangle far outside the scene.
 struct alignas(64) TriangleBlock {
     float vertex[3][3][kBlockWidth];  ///< [corner][axis][lane], in the frame of the tree
     BlockId ids[kBlockWidth];
@@ -62,12 +62,12 @@ struct alignas(64) TriangleBlock {
 };
 static_assert(sizeof(TriangleBlock) == 320);
 
-/// In place of a TriangleBlock where memory counts: the vertices are read from the mesh.
+/// Replaces a TriangleBlock to save memory: the vertices are read from the mesh.
 struct alignas(32) IndexBlock {
     BlockId ids[kBlockWidth];
 };
 
-/// How many lanes of a block are in use.
+/// The number of used lanes of a block.
 template <class Block>
 [[nodiscard]] std::uint32_t used_lanes(const Block& block) {
     std::uint32_t count = 0;
@@ -75,32 +75,32 @@ template <class Block>
     return count;
 }
 
-/// Spheres that stand in the frame of the aggregate.
+/// Spheres without a placement.
 struct alignas(64) SphereBlock {
     float center[3][kBlockWidth];  ///< [axis][lane]
-    float radius[kBlockWidth];     ///< with room for the rounding of the center
+    float radius[kBlockWidth];     ///< includes the rounding of the center
     BlockId ids[kBlockWidth];
-    std::uint32_t lanes = 0;  ///< a bit for each lane in use; the others repeat the first
+    std::uint32_t lanes = 0;  ///< bits of the used lanes; the others repeat the first
 };
 static_assert(sizeof(SphereBlock) == 192);
 
-/// Cylinders around cylinders, cones and discs that stand in the frame of the aggregate.
+/// Cylinders around cylinders, cones and discs without a placement.
 struct alignas(64) FrustumBlock {
     float center[3][kBlockWidth];
-    float axis[3][kBlockWidth];  ///< of length 1, rounded
+    float axis[3][kBlockWidth];  ///< of length 1, up to rounding
     float half_height[kBlockWidth];
-    float radius[kBlockWidth];  ///< the wider one
+    float radius[kBlockWidth];  ///< the larger one
     BlockId ids[kBlockWidth];
     std::uint32_t lanes = 0;  ///< as in a SphereBlock
 };
 static_assert(sizeof(FrustumBlock) == 320);
 
-/// Slanted boxes around whatever has no block of its own: all p with |direction_k . (p - center)|
-/// at most half_k, for k = 0, 1, 2; and balls around the same centers that hold it too.
+/// Slanted boxes around all primitives without a block of their own: all p with |direction_k . (p -
+/// center)| <= half_k, for k = 0, 1, 2; and balls around the same centers that contain them too.
 struct alignas(64) BoxBlock {
     float center[3][kBlockWidth];
-    float direction[3][3][kBlockWidth];  ///< [k][axis][lane]; of length 1, rounded
-    float half[3][kBlockWidth];          ///< [k][lane]; of a free lane -inf
+    float direction[3][3][kBlockWidth];  ///< [k][axis][lane]; of length 1, up to rounding
+    float half[3][kBlockWidth];          ///< [k][lane]; -inf for an unused lane
     float radius[kBlockWidth];
     BlockId ids[kBlockWidth];
 };
@@ -111,13 +111,13 @@ struct WideBvhLayout {
     LocalFrame frame;
     WideBvh tree;
     MappableVector<TriangleBlock> triangles;
-    /// In place of `triangles` in a tree with Leaves::Indices.
+    /// Replaces `triangles` in a tree with Leaves::Indices.
     MappableVector<IndexBlock> indices;
     MappableVector<SphereBlock> spheres;
     MappableVector<FrustumBlock> frustums;
     MappableVector<BoxBlock> others;
 
-    /// The triangles are in `indices`.
+    /// True if the triangles are in `indices`.
     [[nodiscard]] bool is_indexed() const { return !indices.empty(); }
     [[nodiscard]] std::size_t memory_bytes() const;
     /// Expected cost of a ray that meets the box, in visits of a node; see
@@ -125,8 +125,8 @@ struct WideBvhLayout {
     [[nodiscard]] double sah_cost() const;
 };
 
-/// Calls `f` with every array of a layout. ADD AN ARRAY HERE: it is then measured, stored and
-/// loaded.
+/// Calls `f` with every array of a layout. Every new array must be added here: this function
+/// determines what is measured, stored and loaded.
 template <class Layout, class F>
 void for_each_array(Layout& layout, F&& f) {
     f(layout.tree.nodes);
@@ -139,10 +139,11 @@ void for_each_array(Layout& layout, F&& f) {
     f(layout.others);
 }
 
-/// Of the primitives that a tree is built over: what its frame is made for.
+/// The box that the frame of a tree over these primitives is made for.
 [[nodiscard]] Box3 box_of_bounded(const BoundedPrimitives& bounded);
 
-/// Builds over the bounded primitives; parallel, the same for every number of threads.
+/// Builds a tree over the bounded primitives, in parallel; the result is the same for every number
+/// of threads.
 [[nodiscard]] WideBvhLayout build_wide_bvh(const PrimitiveTable& table,
                                            const BoundedPrimitives& bounded,
                                            const BuildOptions& options = {});

@@ -21,7 +21,7 @@ RoundBounds bounds_of(const Frustum& f) {
             std::abs(f.slope)};
 }
 
-/// The box of a primitive in its own frame, carried out of it.
+/// The box of a primitive in its own frame, transformed out of it.
 SlantedBounds placed_box(const Box3& box, const Affine& outer_from_inner) {
     const Vec3 size = box.hi - box.lo;
     const Mat3& m = outer_from_inner.linear;
@@ -40,7 +40,7 @@ SlantedBounds bounds_of(const Rectangle& r) {
             {}};
 }
 
-/// How far `box` reaches beyond the corners of the bounds.
+/// The distance along each axis by which `box` extends beyond the corners of the bounds.
 Vec3 reach_beyond(const SlantedBounds& bounds, const Box3& box) {
     Box3 corners;
     for (int i = 0; i < 8; ++i) {
@@ -97,7 +97,7 @@ SlantedBounds slanted_bounds(const PrimitiveTable& table, PrimitiveId id) {
              : placed_box(table.inner_box(id),
                           placement != nullptr ? placement->outer_from_inner : Affine{});
     bounds.pad = reach_beyond(bounds, outer);
-    // A frame that takes the numbers out of range: the box along the axes, which is finite.
+    // If the frame takes numbers out of range: the axis-aligned box, which is finite.
     const double reach = max_component(abs(outer.lo)) + max_component(abs(outer.hi));
     if (is_finite(bounds.pad) && max_component(bounds.pad) <= reach) return bounds;
     return placed_box(outer, {});

@@ -1,10 +1,10 @@
 #pragma once
-/// The simple bodies around shapes that the leaves of the wide BVH hold: what their filters in
-/// float test before the shape itself.
+/// The bounding bodies of shapes in the leaves of the wide BVH, which float filters test before the
+/// shape itself.
 ///
 /// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs of any direction).
-/// Differs: three slabs, those of the shape itself or of its box in its own frame, so that a
-/// rectangle or a turned instance has no empty corners.
+/// Differs: three slabs, those of the shape or of its box in its own frame, so that a rectangle or
+/// a rotated instance has no empty corners.
 /// Conventions: in the frame of the aggregate, in double.
 
 #include <type_traits>
@@ -14,7 +14,7 @@
 
 namespace alhazen {
 
-/// Position of a shape in AnalyticShapes: its kind.
+/// The index of a shape in AnalyticShapes: its kind.
 template <class S>
 constexpr std::uint32_t column_of() {
     std::uint32_t column = 0;
@@ -26,16 +26,16 @@ constexpr std::uint32_t column_of() {
     return column;
 }
 
-/// The kind of leaf that a bounded primitive goes to.
+/// The kind of leaf for a bounded primitive.
 [[nodiscard]] LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id);
-/// True for every primitive whose kind alone may lie in such a leaf.
+/// True if a primitive of this kind may lie in such a leaf.
 [[nodiscard]] bool may_be_in(LeafType leaf, std::uint32_t kind);
 
-/// A cylinder around a round shape, which is in it but for the rounding of its own test.
+/// A cylinder around a round shape, up to the rounding of the shape's test.
 struct RoundBounds {
     Vec3 center, axis;  ///< axis: unit
     double half_height = 0, radius = 0;
-    double slope = 0;  ///< by how much the radius of the shape grows along its axis, at most
+    double slope = 0;  ///< largest growth of the shape's radius per unit along its axis
 };
 
 /// Precondition: the primitive is one for LeafType::Frustums.
@@ -45,14 +45,14 @@ struct RoundBounds {
 struct SlantedBounds {
     Vec3 corner;
     Vec3 edge[3];
-    Vec3 direction[3];  ///< unit; across the two other edges, where these are not parallel
-    Vec3 pad;           ///< how far the shape may reach beyond it along each axis
+    Vec3 direction[3];  ///< unit; perpendicular to the two other edges, unless these are parallel
+    Vec3 pad;           ///< largest distance by which the shape extends beyond it along each axis
 };
 
-/// About the area of a primitive's surface: of its body, where it is no triangle.
+/// Approximate surface area of a primitive; for shapes other than triangles, of the bounding body.
 [[nodiscard]] double surface_area(const PrimitiveTable& table, PrimitiveId id);
 
-/// Of any bounded primitive.
+/// For any bounded primitive.
 [[nodiscard]] SlantedBounds slanted_bounds(const PrimitiveTable& table, PrimitiveId id);
 
 }  // namespace alhazen

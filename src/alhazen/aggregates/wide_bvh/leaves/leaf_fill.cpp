@@ -23,7 +23,7 @@ class LaneWriter {
           across_{frame.center.x, frame.center.y},
           deep_{frame.center.z, frame.center.z} {}
 
-    /// True when the block holds the very triangle.
+    /// True if the block holds the triangle unrounded.
     bool operator()(TriangleBlock& block, std::size_t lane, const LeafTriangle& triangle) const {
         __m128i same = _mm_set1_epi32(-1);
         auto& [a, b, c] = block.vertex;
@@ -64,7 +64,7 @@ class LaneWriter {
   public:
     explicit LaneWriter(const LocalFrame& frame) : frame_(frame) {}
 
-    /// True when the block holds the very triangle.
+    /// True if the block holds the triangle unrounded.
     bool operator()(TriangleBlock& block, std::size_t lane, const LeafTriangle& triangle) const {
         bool exact = true;
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -84,7 +84,7 @@ class LaneWriter {
 
 #endif
 
-/// A triangle that few rays come near; those that do are told by the lane's id.
+/// Writes a triangle that few rays come near; its hits are ignored by the lane's id.
 void leave_free(TriangleBlock& block, std::size_t lane) {
     constexpr float kFar[3][3] = {{40, 47, 53}, {41, 45, 52}, {42, 48, 50}};
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -95,10 +95,10 @@ void leave_free(TriangleBlock& block, std::size_t lane) {
     block.ids[lane] = BlockId::none();
 }
 
-/// For what is rounded in double.
+/// Factor that covers rounding in double.
 constexpr double kMore = 1.0 + 0x1p-40;
 
-/// Rounds a point into a lane; how far that moves it, at most.
+/// Rounds a point into a lane; returns a bound of the displacement.
 double set_point(float (&rows)[3][kBlockWidth], std::size_t lane, const Vec3& p) {
     double moved = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -108,7 +108,7 @@ double set_point(float (&rows)[3][kBlockWidth], std::size_t lane, const Vec3& p)
     return moved;
 }
 
-/// Calls `fill(lane, id)` for every lane; free lanes repeat the first.
+/// Calls `fill(lane, id)` for every lane; unused lanes repeat the first.
 template <class Block, class Fill>
 void fill_lanes(Block& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 Fill&& fill) {
@@ -185,10 +185,10 @@ void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const Pri
         const double turned = set_point(block.axis, lane, bounds.axis);
         const double height = bounds.half_height * frame.scale;
         const double radius = bounds.radius * frame.scale;
-        // A point of the shape is at most that far from the center, so turning the axis moves its
-        // place along the axis and across it by at most twice this.
+        // A point of the shape is at most height + radius from the center, so the error of the axis
+        // moves its position by at most `away` along the axis and twice that across it.
         const double away = turned * (height + radius);
-        // What the test of the shape is off along the axis, it may be off across it by the slope.
+        // An error of the shape's test along the axis is one across it, by the slope.
         const double steep = bounds.slope * (4 * kExactTestSlack);
         block.half_height[lane] = round_up(kMore * height + 1.01 * (moved + away));
         block.radius[lane] = round_up(kMore * radius + 1.01 * (moved + 2.0 * away) + steep);
@@ -198,7 +198,7 @@ void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const Pri
 
 namespace {
 
-/// The center of a box as float has it.
+/// The center of a box as rounded to float.
 Vec3 center_of(const BoxBlock& block, std::size_t lane) {
     return {block.center[0][lane], block.center[1][lane], block.center[2][lane]};
 }
@@ -218,7 +218,7 @@ double largest_of_corners(const SlantedBounds& bounds, const Vec3& center, const
     return largest;
 }
 
-/// Half the width of the body along the direction of a slab, as float has that and the center.
+/// Half the width of the body along the direction of a slab; direction and center as in float.
 double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t lane, int slab,
                const LocalFrame& frame) {
     const auto& d = block.direction[slab];
@@ -228,8 +228,8 @@ double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t l
     return kMore * (half + dot(abs(along), frame.scale * bounds.pad));
 }
 
-/// The radius of the ball around the center: the smaller one of that around the body and of that
-/// around the sphere which is known of the primitive.
+/// The radius of the ball around the center: the smaller one of those around the body and around
+/// the primitive's bounding sphere.
 double radius_of(const SlantedBounds& bounds, const BoundingSphere& sphere, const BoxBlock& block,
                  std::size_t lane, const LocalFrame& frame) {
     const Vec3 center = center_of(block, lane);
@@ -238,7 +238,7 @@ double radius_of(const SlantedBounds& bounds, const BoundingSphere& sphere, cons
         length(frame.scale * bounds.pad);
     const double of_sphere =
         length(frame.local(sphere.center) - center) + frame.scale * sphere.radius;
-    // Written so that a NaN is never taken.
+    // Written so that NaN is never chosen.
     return kMore * (of_sphere < of_body ? of_sphere : of_body);
 }
 

@@ -7,26 +7,26 @@
 
 namespace alhazen {
 
-/// A triangle on its way into a leaf.
+/// A triangle to be written into a leaf.
 struct LeafTriangle {
     const Vec3* corner[3];
     PrimitiveId id;
     bool opaque;
 };
 
-/// Up to kBlockWidth triangles, in the order of their ids; the other lanes are left free.
+/// Up to kBlockWidth triangles, in the order of their ids; the other lanes are unused.
 void fill_block(TriangleBlock& block, std::span<const LeafTriangle> triangles,
                 const LocalFrame& frame);
 void fill_block(IndexBlock& block, std::span<const LeafTriangle> triangles,
                 const LocalFrame& frame);
 
-/// Up to kBlockWidth primitives, in the order of their ids; the other lanes are left free.
+/// Up to kBlockWidth primitives, in the order of their ids; the other lanes are unused.
 void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
-/// The lanes are not exact: the mesh is asked.
+/// The lanes are not exact: vertices are read from the mesh.
 void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
-/// The bodies are rounded outward to what float holds.
+/// The bodies are rounded outward to float.
 void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
 void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,

@@ -1,7 +1,7 @@
 /// The filters of spheres, cylinders and slanted boxes on a block: see shape_filters.h.
 ///
-/// Conventions: included once per target (see simd/lanes-inl.h). They are calls: one copy per
-/// target costs nothing that could be measured, and compiles in a fraction of the time.
+/// Conventions: included once per target (see simd/lanes-inl.h). The filters are not inlined: one
+/// copy per target compiles much faster and traces as fast.
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_SHAPE_FILTERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_SHAPE_FILTERS_INL_H_
@@ -21,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Where the lanes that passed a filter may be hit first, in local parameters.
+/// The first parameters at which the lanes that passed a filter may be hit, in the local frame.
 struct FilteredShapes {
     HWY_ALIGN float lo[kBlockWidth];
 };
@@ -46,7 +46,7 @@ HWY_INLINE AxisRows minus_scaled(const AxisRows& a, const Floats& s, const AxisR
     return {neg_mul_add(s, b.x, a.x), neg_mul_add(s, b.y, a.y), neg_mul_add(s, b.z, a.z)};
 }
 
-/// The part of the ray within all that has been met, by its coordinate along the main axis.
+/// The part of the ray within all bodies met so far, by its coordinate along the main axis.
 struct Chord {
     Floats first, last;
 };
@@ -61,7 +61,7 @@ HWY_INLINE void meet_slab(const Floats& along, const Floats& slope, const Floats
     chord.last = min_lanes(chord.last, middle + reach);
 }
 
-/// Bits of the lanes whose chord is there and within the range of the ray.
+/// Bits of the lanes whose chord is not empty and overlaps the range of the ray.
 HWY_INLINE std::uint32_t finish_filter(const Chord& chord, const TriangleFilterRay& ray,
                                        float s_min, float s_max, FilteredShapes& out) {
     const Floats sz(ray.sz), slack(ray.s_slack);
@@ -72,15 +72,15 @@ HWY_INLINE std::uint32_t finish_filter(const Chord& chord, const TriangleFilterR
            ~bits_of((chord.first > chord.last) | (lo > Floats(s_max)) | (hi < Floats(s_min)));
 }
 
-/// All of them, from anywhere: of a ray of which float knows nothing.
+/// Passes all lanes, from any parameter, for a ray out of the range of float.
 HWY_INLINE bool passes_all(const TriangleFilterRay& ray, FilteredShapes& out) {
     if (HWY_LIKELY(ray.edge_slack < std::numeric_limits<float>::infinity())) return false;
     store_lanes(Floats(-std::numeric_limits<float>::infinity()), out.lo);
     return true;
 }
 
-/// The chord of a line `from` + z `slope` in a circle or a sphere around 0; false, and then nothing
-/// is set, when all lanes miss it.
+/// Sets `chord` to that of a line `from` + z `slope` in a circle or a sphere around 0. False,
+/// without setting anything, if all lanes miss it.
 HWY_INLINE bool round_chord(const AxisRows& from, const AxisRows& slope, const Floats& radius,
                             std::uint32_t used, std::uint32_t& missed, Chord& chord) {
     const Floats squared = max_lanes(dot_rows(slope, slope), Floats(0x1p-60f));
@@ -128,7 +128,7 @@ HWY_NOINLINE inline std::uint32_t shape_candidates(const FrustumBlock& block,
     return block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
 }
 
-/// Of a ray of which float knows nothing, free lanes pass as well.
+/// For a ray out of the range of float, unused lanes pass as well.
 HWY_NOINLINE inline std::uint32_t shape_candidates(const BoxBlock& block,
                                                    const TriangleFilterRay& ray, float s_min,
                                                    float s_max, FilteredShapes& out) {

@@ -22,24 +22,25 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Bits of the lanes that may be hit, and of those that are for sure; where, in local parameters.
+/// Bits of the lanes that may be hit and of those that certainly are; the range of their parameters
+/// in the local frame.
 struct FilteredTriangles {
     std::uint32_t candidates, sure;
     HWY_ALIGN float lo[kBlockWidth];
     HWY_ALIGN float hi[kBlockWidth];
 };
 
-/// `slabs` and `local` are of the same ray.
+/// Precondition: `slabs` and `local` are of the same ray.
 HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& local,
                                          TriangleFilterRay& filter) {
-    // Slots of the axes x, y, z when the main one is 0, 1, 2, and one more that means nothing.
+    // The positions of the axes x, y, z for main axis 0, 1 and 2; the fourth is arbitrary.
     HWY_ALIGN static constexpr std::int32_t kTurned[3][4] = {
         {1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
     const std::uint32_t kz = local.main_axis;
     const float sz = slabs.reciprocal[kz];
     const auto turned = [&](const float* axes) HWY_ATTR { return permuted(axes, kTurned[kz]); };
-    // The fourth of each is set below. Addressed as parts of the whole, of which they are not the
-    // end: where lanes are stored one by one, compilers see it.
+    // The fourth of each is set below. Addressed relative to the whole object, not to the member,
+    // beyond whose end it lies: where lanes are stored one by one, compilers notice.
     static_assert(offsetof(TriangleFilterRay, sx) == offsetof(TriangleFilterRay, origin) + 16);
     float* origin = reinterpret_cast<float*>(&filter);
     store_lanes(turned(local.origin), origin);
@@ -80,13 +81,13 @@ HWY_INLINE ShearedCorners sheared_corners(const TriangleBlock& block,
     }
     return v;
 }
-/// The edge function of two of them.
+/// The edge function of two of these corners.
 template <class Corner>
 HWY_INLINE Floats edge_of(const Corner& a, const Corner& b) {
     return mul_sub(a.x, b.y, a.y * b.x);
 }
 
-/// False when no triangle of the block is hit up to `s_max`: then `out` is not set.
+/// False if no triangle of the block is hit up to `s_max`; then `out` is not set.
 HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRay& ray,
                                  float s_min, float s_max, FilteredTriangles& out) {
     const ShearedCorners sheared = sheared_corners(block, ray);
@@ -100,7 +101,7 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     std::uint32_t candidates = kAllLanes & ~bits_of((least < -error) & (most > error));
     if (candidates == 0) return false;
 
-    // Few blocks come so far: here it pays to know how far off the triangles are.
+    // Few blocks reach this point, where the distance of the triangles tightens the bound.
     const Floats depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
     const Floats off = mul_add(far + depth, Floats(7.3f * 0x1p-24f), Floats(ray.near_error));
     const Floats fine = off * mul_add(far, Floats(5.12f), off * Floats(2.12f));
@@ -109,7 +110,7 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     const Floats det = eu + ev + ew;
     const Floats first = min_lanes(min_lanes(sa, sb), sc);
     const Floats last = max_lanes(max_lanes(sa, sb), sc);
-    // Over the sum of the weights, the place and the weight of its error.
+    // Divided by the sum of the weights: the position, and the factor of its error.
     const Floats inverse = Floats(1.0f) / det;
     const Floats place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
     const Floats s = min_lanes(max_lanes(place, first), last);

@@ -9,8 +9,8 @@
 namespace alhazen {
 namespace {
 
-/// In float, outward by a step or two: cheaper than to the very next one, and what was tight before
-/// is cut down to that again.
+/// Rounds to float, outward by a step or two: faster than to the nearest float; the caller clips
+/// the parts to the box of their reference.
 FloatBox rounded(const Box3& box) {
     FloatBox out;
     if (box.empty()) return out;
@@ -77,7 +77,7 @@ void TriangleSplitter::slice(const BuildReference& reference, const BinPlanes& p
                         static_cast<float>(corner.z), 0};
     }
     std::fill_n(slices, last - first + 1, Box4());
-    // A corner goes to its bin, a cut to both that it parts.
+    // A corner goes to its bin, a cut to both bins at its plane.
     const auto include = [&](int bin, Float4 point) {
         if (first <= bin && bin <= last) slices[bin - first].include_point(point);
     };

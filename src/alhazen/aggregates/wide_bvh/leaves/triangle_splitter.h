@@ -1,9 +1,9 @@
 #pragma once
 /// Divides triangles for the builder with spatial splits.
 ///
-/// Conventions: in the frame of the tree, in double, rounded outward. What the transform into that
-/// frame and the cut round is far below the displacement that the slab test allows for
-/// (SlabRay::delta), so no point of a triangle is lost between two boxes.
+/// Conventions: in the frame of the tree, in double, rounded outward. The rounding errors of the
+/// transform into that frame and of the cut are far below the displacement that the slab test
+/// covers (LocalRay::delta), so no point of a triangle is lost between two boxes.
 
 #include <array>
 
@@ -27,14 +27,14 @@ class TriangleSplitter final : public ReferenceSplitter {
                Box4* slices) const override;
 
   private:
-    /// In the frame of the tree.
+    /// The corners in the frame of the tree.
     [[nodiscard]] std::array<Vec3, 3> corners(const BuildReference& reference) const;
 
     const PrimitiveTable& table_;
     const LocalFrame& frame_;
 };
 
-/// The boxes of the parts of a triangle on both sides of a plane; empty where there is none.
+/// The boxes of the parts of a triangle on both sides of a plane; empty if there is none.
 void split_triangle(const std::array<Vec3, 3>& corners, int axis, double plane, FloatBox& below,
                     FloatBox& above);
 
