@@ -132,12 +132,12 @@ function(alhazen_set_units target temperature batch)
     target_compile_options(${target} PRIVATE ${ALHAZEN_${temperature}_OPTIONS})
 endfunction()
 
-# alhazen_library(NAME [COLD|FROZEN] [NARROW_COPIES] [BATCH number] [UNITS_OF room] SOURCES file...
-# FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file... DEPENDS room... LIBRARIES target...
+# alhazen_library(NAME [COLD|FROZEN] [NARROW_COPIES] [BATCH number] [UNITS_OF folder] SOURCES file...
+# FROZEN_SOURCES file... KERNELS file... SMALL_KERNELS file... DEPENDS folder... LIBRARIES target...
 # PRIVATE_LIBRARIES target...) defines the target alhazen_NAME
-# of one room of src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build),
+# of one folder of src/alhazen; without sources it is header-only. Sources are compiled many to a unit (unity build),
 # kernels one by one, small kernels as one unit. COLD, FROZEN: built for compile time; FROZEN_SOURCES: these sources of
-# the room. UNITS_OF: the sources are compiled with those of another room, in its library and with its options; the
+# the folder. UNITS_OF: the sources are compiled with those of another folder, in its library and with its options; the
 # target stands for it. The compile flags are private to this build: an installed library has only those of
 # AlhazenInstall.cmake.
 function(alhazen_library name)

@@ -2,12 +2,12 @@
 """Fails when a file includes what its folder may not.
 
 Checks of src/alhazen, apps and bindings:
-  - a room (a folder of src/alhazen) includes only the rooms below it (ROOMS), siblings never each other;
-  - a folder inside of a room includes of the same room only the folders below it (INSIDE);
+  - a module (a folder of src/alhazen) includes only the modules below it (MODULES), siblings never each other;
+  - a folder inside of a module includes of the same module only the folders below it (INSIDE);
   - no chain of includes leads from a folder, or a file, back to itself;
-  - each room and folder of the tables exists, and each folder that exists is in them;
+  - each module and folder of the tables exists, and each folder that exists is in them;
   - a third-party library is included only where it belongs (LIBRARIES);
-  - quoted includes are written from src ("alhazen/room/file.h") and exist;
+  - quoted includes are written from src ("alhazen/module/file.h") and exist;
   - a .cpp includes its own header first;
   - headers have #pragma once.
 
@@ -19,8 +19,8 @@ import re
 import sys
 import tempfile
 
-# Room -> rooms that it may include directly; what those may include, it may include too.
-ROOMS = {
+# Module -> modules that it may include directly; what those may include, it may include too.
+MODULES = {
     "base": [],
     "math": ["base"],
     "simd": ["base"],
@@ -55,8 +55,8 @@ OUTSIDE = ("apps", "bindings")
 # Headers that programs include as "alhazen/...", wherever they lie.
 PUBLIC = "/include/"
 
-# Room -> its folders, each with the folders of the room that it may include directly. "" stands for the files of the
-# room itself: without an entry they may include every folder, and no folder includes them.
+# Module -> its folders, each with the folders of the module that it may include directly. "" stands for the files of
+# the module itself: without an entry they may include every folder, and no folder includes them.
 INSIDE = {
     "accel": {
         "core": [],
@@ -190,7 +190,7 @@ INSIDE = {
     },
 }
 
-# Start of an include -> rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
+# Start of an include -> modules that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
     "hwy/": {"simd", "imaging", "shapes", "cameras", "accel", "csg", "aggregates", "illumination", "renderers",
              "verification"},
@@ -225,9 +225,9 @@ def closure(table, name):
     return reached
 
 
-def allowed_inside(room, folder):
-    """The folders of the room that a file in one of them may include."""
-    table = INSIDE.get(room, {})
+def allowed_inside(module, folder):
+    """The folders of the module that a file in one of them may include."""
+    table = INSIDE.get(module, {})
     if folder == "" and "" not in table:
         return set(table) | {""}
     return closure(table, folder)
@@ -239,10 +239,10 @@ def without_comments(text):
 
 
 class Source:
-    """One file: where it is, its room, its folder in the room and what it includes as (line, quote, name)."""
+    """One file: where it is, its module, its folder in the module and what it includes as (line, quote, name)."""
 
-    def __init__(self, path, name, room, folder):
-        self.path, self.name, self.room, self.folder = path, name, room, folder
+    def __init__(self, path, name, module, folder):
+        self.path, self.name, self.module, self.folder = path, name, module, folder
         self.text = without_comments(path.read_text(encoding="utf-8"))
         self.includes = [
             (self.text.count("\n", 0, m.start(2)) + 1, m.group(1), m.group(2))
@@ -253,46 +253,46 @@ class Source:
 def read_sources(root):
     """All sources by the name they are included by (outside of src: by path, but for public headers)."""
     sources = {}
-    for top in (root / "src" / "alhazen", *(root / room for room in OUTSIDE)):
+    for top in (root / "src" / "alhazen", *(root / module for module in OUTSIDE)):
         for path in sorted(top.rglob("*")) if top.is_dir() else []:
             if path.suffix not in (".h", ".cpp"):
                 continue
             inside = path.relative_to(root)
             if inside.parts[0] in OUTSIDE:
-                name, room, folder = inside.as_posix().split(PUBLIC)[-1], inside.parts[0], ""
+                name, module, folder = inside.as_posix().split(PUBLIC)[-1], inside.parts[0], ""
             else:
-                name, room = path.relative_to(root / "src").as_posix(), inside.parts[2]
+                name, module = path.relative_to(root / "src").as_posix(), inside.parts[2]
                 folder = "/".join(inside.parts[3:-1])
-            sources[name] = Source(path, name, room, folder)
+            sources[name] = Source(path, name, module, folder)
     return sources
 
 
 def check_one_include(source, include, sources):
     line, quote, name = include
     where = f"{source.path}:{line}: "
-    for start, rooms in LIBRARIES.items():
-        if name.startswith(start) and source.room not in rooms:
-            yield f"{where}<{name}> belongs to {', '.join(sorted(rooms))}, not to {source.room}"
+    for start, modules in LIBRARIES.items():
+        if name.startswith(start) and source.module not in modules:
+            yield f"{where}<{name}> belongs to {', '.join(sorted(modules))}, not to {source.module}"
     if not name.startswith("alhazen/"):
         beside = (source.path.parent / name).is_file()
-        if quote == '"' and not name.startswith("hwy/") and not (source.room in OUTSIDE and beside):
+        if quote == '"' and not name.startswith("hwy/") and not (source.module in OUTSIDE and beside):
             yield f'{where}write "{name}" from src, as "alhazen/ROOM/FILE.h"'
         return
     if name not in sources:
         yield f'{where}there is no "{name}"'
         return
     other = sources[name]
-    if other.room not in closure(ROOMS, source.room):
-        yield f"{where}{source.room} may not include {other.room} ({name})"
-    elif other.room == source.room and other.folder not in allowed_inside(source.room, source.folder):
-        yield f"{where}{source.room}/{source.folder} may not include {other.room}/{other.folder} ({name})"
+    if other.module not in closure(MODULES, source.module):
+        yield f"{where}{source.module} may not include {other.module} ({name})"
+    elif other.module == source.module and other.folder not in allowed_inside(source.module, source.folder):
+        yield f"{where}{source.module}/{source.folder} may not include {other.module}/{other.folder} ({name})"
 
 
 def check_own_header(source, sources):
     if source.path.suffix != ".cpp":
         return
     own = source.name[:-4] + ".h"
-    if source.room in OUTSIDE:
+    if source.module in OUTSIDE:
         exists, own = source.path.with_suffix(".h").is_file(), source.path.with_suffix(".h").name
     else:
         exists = own in sources
@@ -323,21 +323,21 @@ def find_cycles(sources):
 
 def check_tables(sources):
     """Entries of the tables without a folder, and folders without an entry."""
-    folders = {(s.room, s.folder) for s in sources.values()}
-    for room in sorted({room for room, _ in folders} - ROOMS.keys()):
-        yield f"src/alhazen/{room}: the room is not in ROOMS of tools/check_layers.py"
-    for room in sorted(ROOMS.keys() - {room for room, _ in folders}):
-        yield f"tools/check_layers.py: there is no room {room}"
-    for where, table in [("ROOMS", ROOMS), *INSIDE.items()]:
+    folders = {(s.module, s.folder) for s in sources.values()}
+    for module in sorted({module for module, _ in folders} - MODULES.keys()):
+        yield f"src/alhazen/{module}: the module is not in MODULES of tools/check_layers.py"
+    for module in sorted(MODULES.keys() - {module for module, _ in folders}):
+        yield f"tools/check_layers.py: there is no module {module}"
+    for where, table in [("MODULES", MODULES), *INSIDE.items()]:
         for name, below in table.items():
             if any(name in closure(table, other) for other in below):
-                yield f"tools/check_layers.py: {where}: {name or 'the room itself'} may include itself by way of others"
-    entries = {(room, folder) for room, table in INSIDE.items() for folder in table}
-    for room, folder in sorted(entries - folders):
-        yield f"tools/check_layers.py: there is no folder {room}/{folder} with sources"
-    for room, folder in sorted(folders - entries):
+                yield f"tools/check_layers.py: {where}: {name or 'the module itself'} may include itself through others"
+    entries = {(module, folder) for module, table in INSIDE.items() for folder in table}
+    for module, folder in sorted(entries - folders):
+        yield f"tools/check_layers.py: there is no folder {module}/{folder} with sources"
+    for module, folder in sorted(folders - entries):
         if folder:
-            yield f"src/alhazen/{room}/{folder}: the folder is not in INSIDE of tools/check_layers.py"
+            yield f"src/alhazen/{module}/{folder}: the folder is not in INSIDE of tools/check_layers.py"
 
 
 def check(root, tables=True):
@@ -349,7 +349,7 @@ def check(root, tables=True):
     if tables:
         findings += check_tables(sources)
     for source in sources.values():
-        if source.room not in ROOMS:
+        if source.module not in MODULES:
             continue
         for include in source.includes:
             findings += check_one_include(source, include, sources)
@@ -414,11 +414,11 @@ def self_test():
         findings = check_tree({**GOOD, **change})
         if len(findings) != 1 or expected not in findings[0]:
             failures.append(f"expected one finding with {expected!r}, got {findings}")
-    # The tables themselves: a room and a folder without entries, and entries without a folder.
+    # The tables themselves: a module and a folder without entries, and entries without a folder.
     strange = {**GOOD, "src/alhazen/common/c.h": "#pragma once\n", "src/alhazen/shapes/odd/o.h": "#pragma once\n"}
     findings = check_tree(strange, tables=True)
-    for expected in ("common: the room is not in ROOMS", "shapes/odd: the folder is not in INSIDE",
-                     "there is no room tracer", "there is no folder shapes/blobs"):
+    for expected in ("common: the module is not in MODULES", "shapes/odd: the folder is not in INSIDE",
+                     "there is no module tracer", "there is no folder shapes/blobs"):
         if not any(expected in finding for finding in findings):
             failures.append(f"expected a finding with {expected!r}, got {findings}")
     return failures

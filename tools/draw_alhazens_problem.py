@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws docs/figures/alhazens_problem.svg: a lamp A and an eye B in a round mirror, the points that reflect one to the
+"""Draws docs/figures/alhazens_problem.svg: a light A and an eye B in a round mirror, the points that reflect one to the
 other, and Huygens' hyperbola, which meets the mirror in them.
 
 Usage: draw_alhazens_problem.py [OUT.svg]

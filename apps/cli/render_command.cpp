@@ -384,9 +384,10 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Frame the whole scene from this side instead, degrees; 0,0 is the front")
         ->type_name("AZIMUTH,ELEVATION");
     command
-        ->add_option("--projection", args->projection,
-                     "How the camera sees, from where it is: fisheye, equisolid (180 degrees high "
-                     "unless given), panorama (all around), perspective (45)")
+        ->add_option(
+            "--projection", args->projection,
+            "Projection of the camera, with its position and direction: fisheye, "
+            "equisolid (180 degrees high unless given), panorama (all around), perspective (45)")
         ->type_name("NAME[:DEGREES]");
     // CLI11 reads "-1" into an unsigned number as a huge one.
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")

@@ -189,7 +189,7 @@ void add_verify(CLI::App& app, int& exit_status) {
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_flag("--exact,!--no-exact", args->exact,
-                      "Shoot the exact solids again in numbers of 113 bits (the default)");
+                      "Trace the exact solids again in numbers of 113 bits (the default)");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");

@@ -37,13 +37,13 @@ bool boxes_overlap(const Box3& a, const Box3& b) {
 
 /// True if the surface has a point in the cell.
 bool surface_overlaps(const Sphere& sphere, const Box3& cell) {
-    const double room = kRounding * std::max(reach_of(cell), max_component(abs(sphere.center)));
+    const double margin = kRounding * std::max(reach_of(cell), max_component(abs(sphere.center)));
     double near2 = 0, far2 = 0;
     for (int k = 0; k < 3; ++k) {
         const double below = cell.lo[k] - sphere.center[k];
         const double above = sphere.center[k] - cell.hi[k];
-        const double near = std::max(0.0, std::max(below, above) - room);
-        const double far = std::max(std::abs(below), std::abs(above)) + room;
+        const double near = std::max(0.0, std::max(below, above) - margin);
+        const double far = std::max(std::abs(below), std::abs(above)) + margin;
         near2 += near * near;
         far2 += far * far;
     }
@@ -64,10 +64,10 @@ bool triangle_overlaps(const std::array<Vec3, 3>& corners, const Box3& cell) {
     const auto separates = [&](const Vec3& axis) {
         const Vec3 steep = abs(axis);
         const double radius = dot(half, steep);
-        const double room = kRounding * (reach * (steep.x + steep.y + steep.z) + radius);
+        const double margin = kRounding * (reach * (steep.x + steep.y + steep.z) + radius);
         const double a = dot(axis, v[0]), b = dot(axis, v[1]), c = dot(axis, v[2]);
-        return std::min(a, std::min(b, c)) > radius + room ||
-               std::max(a, std::max(b, c)) < -(radius + room);
+        return std::min(a, std::min(b, c)) > radius + margin ||
+               std::max(a, std::max(b, c)) < -(radius + margin);
     };
     const Vec3 edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     if (separates(cross(edges[0], edges[1]))) return false;

@@ -209,14 +209,14 @@ std::span<const RendererEntry> renderers() {
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
          "irradiance cache for them), projection=on|off, split=SHARE, "
          "turns=1|2|4|8|16 (one of so many samples follows a dimmer branch), clamp=X, "
-         "every=1|2|4|8 "
+         "shadows=N (shadow rays at each surface), every=1|2|4|8 "
          "(one photon lookup per so many samples), irradiance=on|off (of the global "
          "map at its photons, Christensen 1999), memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }, true},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "
          "(Hachisuka and Jensen 2009); photons=N (of a pass), radius=DISTANCE (of the first), "
-         "alpha=X, split=SHARE, turns=N, clamp=X, memory=MB, depth=N, roulette=N",
+         "alpha=X, split=SHARE, turns=N, clamp=X, shadows=N, memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_sppm(settings); }, true},
         {"vcm",
          "bidirectional and photons together, weighed by what each finds, in passes, one for each "
@@ -229,8 +229,8 @@ std::span<const RendererEntry> renderers() {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
          }},
         {"ambient_occlusion",
-         "the share of a uniform sky that is visible from each point; distance=D, "
-         "color=white|albedo",
+         "the share of a uniform sky that is visible from each point; distance=D (default: a "
+         "quarter of the scene's diagonal), color=white|albedo",
          [](RendererSettings& settings) { return make_ambient_occlusion(settings); }},
         {"beam_tracing",
          "visible, mirrored and shadowed surfaces as exact polygons, found once for all "

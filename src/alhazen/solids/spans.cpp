@@ -108,9 +108,9 @@ class Pairer {
         // Far above any error bound; decides nearly all pairs.
         const double far = 1e-9 * (reach + length(ray_.origin) / length(ray_.direction));
         if (!(gap <= far) || !a.is_crossing || !b.is_crossing) return false;
-        const Vec3 room = surface_at(solids_.aggregate(), ray_, a.hit).error +
-                          surface_at(solids_.aggregate(), ray_, b.hit).error;
-        return gap * length(ray_.direction) <= length(room);
+        const Vec3 margin = surface_at(solids_.aggregate(), ray_, a.hit).error +
+                            surface_at(solids_.aggregate(), ray_, b.hit).error;
+        return gap * length(ray_.direction) <= length(margin);
     }
 
     /// Clips the spans of the solid to the limits of the ray.
@@ -216,8 +216,8 @@ class PointLocator {
         const Surface surface = surface_at(solids_.aggregate(), ray, hit);
         // Intersections with the line lie up to twice as far away as the surface, along the line's
         // own direction: the bounds of the three components add up.
-        const Vec3 room = surface.error + 0x1p-52 * abs(point_);
-        return length_squared(surface.point - point_) <= 4.0 * length_squared(room);
+        const Vec3 margin = surface.error + 0x1p-52 * abs(point_);
+        return length_squared(surface.point - point_) <= 4.0 * length_squared(margin);
     }
 
     const SolidList& solids_;

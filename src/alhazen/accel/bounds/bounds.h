@@ -109,10 +109,10 @@ struct SlabBound {
             for (const int k : order_) {
                 stats.slabs(1);
                 const Interval& d = bound.range[k];
-                const double room =
+                const double margin =
                     kBoundSlack * (reach_ + std::max(std::abs(d.lo), std::abs(d.hi)));
-                const double to_lo = d.lo - room - s_[k];
-                const double to_hi = d.hi + room - s_[k];
+                const double to_lo = d.lo - margin - s_[k];
+                const double to_hi = d.hi + margin - s_[k];
                 if (std::isinf(t_[k])) {
                     if (to_lo > 0.0 || to_hi < 0.0) return std::nullopt;
                     continue;
@@ -171,15 +171,15 @@ struct SphereBound {
         [[nodiscard]] std::optional<double> enter(const SphereBound& bound, double t_max,
                                                   Stats stats) const {
             stats.boxes(1);
-            const double room =
+            const double margin =
                 kBoundSlack * (reach_ + bound.radius + max_component(abs(bound.center)));
-            const double grown = bound.radius + room;
+            const double grown = bound.radius + margin;
             const Vec3 to_center = bound.center - ray_.origin;
             const double along = dot(to_center, unit_);
             // Measured perpendicular to the ray, to avoid cancellation for distant origins.
             const double across2 = length_squared(to_center - along * unit_);
             if (across2 > grown * grown) return std::nullopt;
-            const double half = std::sqrt(grown * grown - across2) + room;
+            const double half = std::sqrt(grown * grown - across2) + margin;
             const double near = std::max(ray_.t_min, (along - half) * per_length_);
             const double far = std::min(t_max, (along + half) * per_length_);
             if (near > far) return std::nullopt;
@@ -218,8 +218,8 @@ struct EllipsoidBound {
                                                   Stats stats) const {
             stats.boxes(1);
             Vec3 grown = bound.axes;
-            const double room = kBoundSlack * (reach_ + max_component(abs(bound.center)));
-            for (int k = 0; k < 3; ++k) grown[k] += room;
+            const double margin = kBoundSlack * (reach_ + max_component(abs(bound.center)));
+            for (int k = 0; k < 3; ++k) grown[k] += margin;
             const Vec3 direction{ray_.direction.x / grown.x, ray_.direction.y / grown.y,
                                  ray_.direction.z / grown.z};
             const Vec3 between = bound.center - ray_.origin;

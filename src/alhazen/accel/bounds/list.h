@@ -80,9 +80,9 @@ class List {
         [[nodiscard]] Interval range(const Box3& box, const Vec3& axis) const {
             const double middle = dot(axis, box.center() - origin);
             const double half = 0.5 * dot(abs(axis), box.size());
-            const double room =
+            const double margin =
                 kBoundSlack * (reach + max_component(abs(box.lo)) + max_component(abs(box.hi)));
-            return {middle - half - room, middle + half + room};
+            return {middle - half - margin, middle + half + margin};
         }
     };
 

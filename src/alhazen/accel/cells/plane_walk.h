@@ -32,7 +32,7 @@ struct RaySegment {
 /// `from_plane(node)` gives the ray relative to the node's plane; `test_leaf(number)` returns true
 /// to stop.
 template <class Node, class FromPlaneOf, class TestLeaf, class Visitor, class Stats>
-void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, double room,
+void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, double margin,
                          const FromPlaneOf& from_plane, const TestLeaf& test_leaf,
                          const Visitor& visitor, Stats stats) {
     ReentrantStack<RaySegment> stack;
@@ -49,10 +49,10 @@ void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, do
             const FromPlane from = from_plane(node);
             const std::uint32_t lower = at.node + 1, upper = node.index;
             if (std::isinf(from.inverse)) {
-                if (from.distance > room) {
+                if (from.distance > margin) {
                     at.node = upper;
                 } else {
-                    if (from.distance >= -room) stack.push({upper, at.begin, at.end});
+                    if (from.distance >= -margin) stack.push({upper, at.begin, at.end});
                     at.node = lower;
                 }
                 continue;
@@ -60,7 +60,7 @@ void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, do
             const bool up = from.inverse > 0.0;
             const std::uint32_t first = up ? lower : upper, second = up ? upper : lower;
             const double t = -from.distance * from.inverse;
-            const double slack = room * std::abs(from.inverse);
+            const double slack = margin * std::abs(from.inverse);
             if (t - slack > at.end) {
                 at.node = first;
             } else if (t + slack < at.begin) {

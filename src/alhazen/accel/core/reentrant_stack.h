@@ -12,28 +12,28 @@ namespace alhazen {
 template <class T>
 class ReentrantStack {
   public:
-    ReentrantStack() : base_(room().size()) {}
+    ReentrantStack() : base_(storage().size()) {}
     ReentrantStack(const ReentrantStack&) = delete;
     ReentrantStack& operator=(const ReentrantStack&) = delete;
-    ~ReentrantStack() { room().resize(base_); }
+    ~ReentrantStack() { storage().resize(base_); }
 
-    [[nodiscard]] bool empty() const { return room().size() == base_; }
-    [[nodiscard]] std::size_t size() const { return room().size() - base_; }
-    void push(const T& value) { room().push_back(value); }
+    [[nodiscard]] bool empty() const { return storage().size() == base_; }
+    [[nodiscard]] std::size_t size() const { return storage().size() - base_; }
+    void push(const T& value) { storage().push_back(value); }
     T pop() {
-        const T value = room().back();
-        room().pop_back();
+        const T value = storage().back();
+        storage().pop_back();
         return value;
     }
-    [[nodiscard]] const T& top() const { return room().back(); }
+    [[nodiscard]] const T& top() const { return storage().back(); }
     /// Valid until the next push, here or in a nested traversal.
-    [[nodiscard]] T* begin() { return room().data() + base_; }
-    [[nodiscard]] T* end() { return room().data() + room().size(); }
+    [[nodiscard]] T* begin() { return storage().data() + base_; }
+    [[nodiscard]] T* end() { return storage().data() + storage().size(); }
 
   private:
-    static std::vector<T>& room() {
-        static thread_local std::vector<T> room;
-        return room;
+    static std::vector<T>& storage() {
+        static thread_local std::vector<T> storage;
+        return storage;
     }
     std::size_t base_;
 };

@@ -32,11 +32,11 @@ int resolution_for(std::size_t primitives, int given) {
         std::clamp(std::sqrt(static_cast<double>(primitives) / 3.0), 4.0, 64.0));
 }
 
-bool touches(const BoundingSphere& sphere, double room, const Box3& box) {
+bool touches(const BoundingSphere& sphere, double margin, const Box3& box) {
     double square = 0;
     for (int k = 0; k < 3; ++k) {
         const double beside = std::max(
-            0.0, std::max(box.lo[k] - sphere.center[k], sphere.center[k] - box.hi[k]) - room);
+            0.0, std::max(box.lo[k] - sphere.center[k], sphere.center[k] - box.hi[k]) - margin);
         square += beside * beside;
     }
     return !(square > sphere.radius * sphere.radius);
@@ -45,9 +45,9 @@ bool touches(const BoundingSphere& sphere, double room, const Box3& box) {
 }  // namespace
 
 CoherenceLists::CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights,
-                               double room, int resolution, std::size_t most_bytes)
+                               double margin, int resolution, std::size_t most_bytes)
     : primitives_(source.size()),
-      room_(room),
+      margin_(margin),
       cube_(resolution_for(source.size(), resolution)),
       light_cube_(4 * cube_.resolution()),
       most_bytes_(most_bytes),
@@ -79,7 +79,7 @@ void CoherenceLists::sort_into_cells() {
         for (int z = first[2]; z <= last[2]; ++z) {
             for (int y = first[1]; y <= last[1]; ++y) {
                 for (int x = first[0]; x <= last[0]; ++x) {
-                    if (touches(s, room_, grid_.cell_box({x, y, z}))) {
+                    if (touches(s, margin_, grid_.cell_box({x, y, z}))) {
                         lists[grid_.number({x, y, z})].push_back(i);
                     }
                 }
@@ -101,7 +101,7 @@ CoherenceLists::Origin CoherenceLists::origin_at(const Vec3& point) const {
     for (std::uint32_t e = starts_[cell]; e < starts_[cell + 1]; ++e) {
         const BoundingSphere& s = spheres_[entries_[e]];
         ++found.tested;
-        const double reach = s.radius + 0.5 * room_;
+        const double reach = s.radius + 0.5 * margin_;
         if (length_squared(point - s.center) <= reach * reach) {
             found.primitive = entries_[e];
             return found;
@@ -166,7 +166,7 @@ CoherenceLists::List CoherenceLists::make(std::uint32_t origin, std::size_t cell
     for (std::uint32_t i = 0; i < primitives_; ++i) {
         const Vec3 between = spheres_[i].center - from.center;
         const double distance = length(between);
-        const double radii = from.radius + spheres_[i].radius + 2 * room_;
+        const double radii = from.radius + spheres_[i].radius + 2 * margin_;
         double begin = 0;
         if (distance > radii) {
             // The cosine of the sum of the angles of both cones, minus its rounding error.

@@ -35,9 +35,9 @@ class CoherenceLists {
     using List = std::vector<Candidate>;
 
     /// A cube of directions has `resolution` cells along an edge, 0: about two cells per primitive.
-    /// Lights have four times as many: they are points, so their cones are thin. `room`: how far
+    /// Lights have four times as many: they are points, so their cones are thin. `margin`: how far
     /// rays may deviate; `most_bytes`: the memory limit of the lists.
-    CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights, double room,
+    CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights, double margin,
                    int resolution, std::size_t most_bytes);
     CoherenceLists(const CoherenceLists&) = delete;
     CoherenceLists& operator=(const CoherenceLists&) = delete;
@@ -78,7 +78,7 @@ class CoherenceLists {
 
     std::vector<BoundingSphere> spheres_;  ///< [origin]
     std::size_t primitives_ = 0;
-    double room_;
+    double margin_;
     DirectionCube cube_, light_cube_;
     std::size_t most_bytes_;
     /// The spheres that may contain a point, by radius.

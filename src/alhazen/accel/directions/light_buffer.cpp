@@ -30,7 +30,7 @@ std::uint64_t LastOccluders::new_number() {
 class LightBufferBuilder {
   public:
     LightBufferBuilder(const BoundsSource& source, LightBuffer& made)
-        : source_(source), made_(made), bodies_(source), room_(4 * made.ends_.room()) {}
+        : source_(source), made_(made), bodies_(source), margin_(4 * made.ends_.margin()) {}
 
     void run() {
         for (const Vec3& light : made_.ends_.places()) add_light(light);
@@ -97,8 +97,8 @@ class LightBufferBuilder {
     /// A box relative to the light, extended by the deviation of rays.
     [[nodiscard]] Box3 box_from_light(std::uint32_t i) const {
         const Box3& b = bodies_.box(i);
-        const Vec3 room{room_, room_, room_};
-        return {b.lo - light_ - room, b.hi - light_ + room};
+        const Vec3 margin{margin_, margin_, margin_};
+        return {b.lo - light_ - margin, b.hi - light_ + margin};
     }
 
     /// Lower bound of the distance of a primitive from the light.
@@ -110,7 +110,7 @@ class LightBufferBuilder {
         }
         const BoundingSphere& sphere = bodies_.sphere(i);
         const double to_sphere = length(sphere.center - light_) - sphere.radius;
-        return std::max(0.0, std::max(std::sqrt(square), to_sphere) - room_);
+        return std::max(0.0, std::max(std::sqrt(square), to_sphere) - margin_);
     }
 
     /// Range of normal . (p - light) over the points of a primitive.
@@ -132,7 +132,7 @@ class LightBufferBuilder {
         normal[(face / 2 + 2) % 3] = b;
         const double steepness = length(normal);
         const Interval e = extent(i, normal, steepness);
-        return {e.hi >= -room_ * steepness, e.lo <= room_ * steepness};
+        return {e.hi >= -margin_ * steepness, e.lo <= margin_ * steepness};
     }
     /// Removes columns (side 0) or rows (side 1) at both ends that the primitive does not reach.
     void trim(std::uint32_t i, std::size_t side, DirectionWindows::Cells& cells) const {
@@ -184,7 +184,7 @@ class LightBufferBuilder {
             const double least = std::max(0.0, std::max(s.lo, -s.hi));
             square += least * least;
         }
-        return std::max(0.0, (1.0 - 1e-12) * part * std::sqrt(square) - room_);
+        return std::max(0.0, (1.0 - 1e-12) * part * std::sqrt(square) - margin_);
     }
 
     /// True if a primitive is separated from a cell along one of its diagonals.
@@ -234,8 +234,8 @@ class LightBufferBuilder {
                 least = std::min(least, beside);
                 most = std::max(most, beside);
             }
-            if (most * depth < -room_) return Cover::None;
-            full = full && least * depth > 64 * room_;
+            if (most * depth < -margin_) return Cover::None;
+            full = full && least * depth > 64 * margin_;
         }
         return full && is_steep(corners) ? Cover::Full : Cover::Part;
     }
@@ -266,7 +266,7 @@ class LightBufferBuilder {
         }
         // The margin allows for the additional distance at which a deviating ray reaches an oblique
         // polygon.
-        const double filled_to = (1.0 + 1e-9) * end + 16 * room_;
+        const double filled_to = (1.0 + 1e-9) * end + 16 * margin_;
         if (!(filled_to < cell.filled_to)) return;
         cell.filled_to = filled_to;
         cell.filled_from = begin;
@@ -281,7 +281,7 @@ class LightBufferBuilder {
     const BoundsSource& source_;
     LightBuffer& made_;
     BoundingProxies bodies_;
-    double room_;  ///< how far rays may deviate at the light
+    double margin_;  ///< how far rays may deviate at the light
     Vec3 light_;
     DirectionWindows windows_;
     std::vector<Entry> entries_;

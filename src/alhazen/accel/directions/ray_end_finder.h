@@ -1,8 +1,8 @@
 #pragma once
 /// Finds the known end (light) at which a ray ends.
 ///
-/// Conventions: a ray ends at a light if its line passes within `room` of the light and it extends
-/// behind it by at most that distance. Lights at infinity are ignored.
+/// Conventions: a ray ends at a light if its line passes within `margin` of the light and it
+/// extends behind it by at most that distance. Lights at infinity are ignored.
 
 #include <cmath>
 #include <optional>
@@ -18,7 +18,7 @@ class RayEndFinder {
     RayEndFinder() = default;
     /// Uses the first `most` ends that are near enough to the primitives for double precision.
     RayEndFinder(const BoundsSource& source, const PaddedBox& space, std::size_t most)
-        : room_(space.pad) {
+        : margin_(space.pad) {
         for (const RayEnd& end : source.ray_ends()) {
             const bool near = max_component(abs(end.place)) <= 0x1p40 * space.pad;
             if (!end.at_infinity && near && places_.size() < most) places_.push_back(end.place);
@@ -27,7 +27,7 @@ class RayEndFinder {
 
     [[nodiscard]] const std::vector<Vec3>& places() const { return places_; }
     /// Maximum distance of a ray from its end.
-    [[nodiscard]] double room() const { return room_; }
+    [[nodiscard]] double margin() const { return margin_; }
 
     struct Found {
         std::size_t end;
@@ -41,11 +41,11 @@ class RayEndFinder {
         for (std::size_t i = 0; i < places_.size(); ++i) {
             const Vec3 to_end = places_[i] - ray.origin;
             const double t = dot(to_end, d) / length2;
-            if (!(max_component(abs(to_end - t * d)) <= 0.5 * room_)) continue;
+            if (!(max_component(abs(to_end - t * d)) <= 0.5 * margin_)) continue;
             const double length = std::sqrt(length2);
             const double start = (t - ray.t_min * scale) * length;
             const double stop = (t - ray.t_max * scale) * length;
-            if (start > 4 * room_ && stop >= -room_) return Found{i, start, stop};
+            if (start > 4 * margin_ && stop >= -margin_) return Found{i, start, stop};
         }
         return std::nullopt;
     }
@@ -59,7 +59,7 @@ class RayEndFinder {
 
   private:
     std::vector<Vec3> places_;
-    double room_ = 0;
+    double margin_ = 0;
 };
 
 }  // namespace alhazen

@@ -155,7 +155,7 @@ void check(const WideBvhLayout& layout, const PrimitiveTable& moved,
     }
     if (!known) {
         throw Error(ErrorKind::Usage,
-                    "the tree was built over other primitives than are to be hit now");
+                    "the set of bounded primitives has changed; build the tree anew");
     }
 }
 

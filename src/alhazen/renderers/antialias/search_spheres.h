@@ -53,7 +53,7 @@ class SearchSpheres final : public ObjectWatch {
     /// `farthest`.
     [[nodiscard]] double reach(double farthest) const { return behind_all_ ? kInfinity : farthest; }
     /// r_k at the farthest point of an object.
-    [[nodiscard]] double room(const SceneObject& object, int level) const;
+    [[nodiscard]] double margin(const SceneObject& object, int level) const;
 
     const std::vector<SceneObject>& objects_;
     const std::vector<std::uint8_t>& met_;

@@ -50,8 +50,8 @@ ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hi
     if (steepness > 0.0) {
         // One step to the surface, at most the rounding of the ray.
         const double off = (shape.threshold - there.value) / steepness;
-        const double room = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
-        surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
+        const double margin = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
+        surface.point += (std::clamp(off, -margin, margin) / steepness) * there.gradient;
         // A component that becomes active within so short a step adds nothing yet.
         there = density_at(shape, near, surface.point);
         steepness = length(there.gradient);
