@@ -4,6 +4,8 @@
 
 #include <bit>
 #include <charconv>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 
