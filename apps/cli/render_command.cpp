@@ -251,8 +251,8 @@ int run(const RenderArguments& args) {
     if (!args.quiet) print_warnings(loaded.diagnostics);
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
-    ViewWishes wishes{.environment = args.environment,
-                      .image_limits = load_options.import.image_limits};
+    ViewRequest wishes{.environment = args.environment,
+                       .image_limits = load_options.import.image_limits};
     if (!args.view.empty()) wishes.view = parse_view(args.view);
     wishes.projection = args.projection;
     for (const std::string& note : prepare_view(loaded, options, wishes)) {

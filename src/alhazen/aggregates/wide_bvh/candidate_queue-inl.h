@@ -75,12 +75,12 @@ class PacketCandidates {
                           ((lo > load_lanes<kGroupRays>(group.s_max)) | (lo >= none));
         const std::uint32_t rest = bits_of(candidates) & ~bits_of(keep) & group.used;
         if (HWY_UNLIKELY(rest != 0)) {
-            if (beside_count_ == kMaxBeside) return false;
-            Beside& beside = beside_[beside_count_++];
-            store_lanes(begin, beside.lo);
-            beside.group = static_cast<std::uint32_t>(g);
-            beside.lanes = rest;
-            beside.place = place;
+            if (overflow_count_ == kMaxOverflow) return false;
+            Overflow& overflow = overflow_[overflow_count_++];
+            store_lanes(begin, overflow.lo);
+            overflow.group = static_cast<std::uint32_t>(g);
+            overflow.lanes = rest;
+            overflow.place = place;
         }
         store_lanes(select_lanes(keep, begin, lo), kept.lo);
         store_lanes(select_lanes(keep, GroupFloats(std::bit_cast<float>(place)),
@@ -105,40 +105,40 @@ class PacketCandidates {
             resolve(g, lanes, places);
             store_lanes(GroupFloats(kNone), kept_[g].lo);
         }
-        take_beside(resolve);
+        take_overflow(resolve);
     }
     template <class Resolve>
-    HWY_INLINE void take_beside(Resolve&& resolve) {
-        for (std::size_t n = 0; n < beside_count_; ++n) {
-            const Beside& b = beside_[n];
+    HWY_INLINE void take_overflow(Resolve&& resolve) {
+        for (std::size_t n = 0; n < overflow_count_; ++n) {
+            const Overflow& b = overflow_[n];
             const RayGroup& group = packet_.groups[b.group];
             // Written so that a NaN is not passed over.
-            const std::uint32_t beyond = bits_of(load_lanes<kGroupRays>(b.lo) >
-                                                 load_lanes<kGroupRays>(group.s_max));
+            const std::uint32_t beyond =
+                bits_of(load_lanes<kGroupRays>(b.lo) > load_lanes<kGroupRays>(group.s_max));
             const std::uint32_t lanes = b.lanes & group.used & ~beyond;
             if (lanes == 0) continue;
             TrianglePlace places[kGroupRays];
             for (TrianglePlace& place : places) place = b.place;
             resolve(b.group, lanes, places);
         }
-        beside_count_ = 0;
+        overflow_count_ = 0;
     }
 
   private:
-    static constexpr std::size_t kMaxBeside = 16;
+    static constexpr std::size_t kMaxOverflow = 16;
     struct alignas(64) Kept {
         GroupRow lo;     ///< kNone: none
         GroupRow place;  ///< bits of a TrianglePlace
     };
-    struct alignas(64) Beside {
+    struct alignas(64) Overflow {
         GroupRow lo;
         std::uint32_t group, lanes;
         TrianglePlace place;
     };
     const RayPacket& packet_;
     Kept kept_[kPacketGroups];
-    std::size_t beside_count_ = 0;
-    Beside beside_[kMaxBeside];
+    std::size_t overflow_count_ = 0;
+    Overflow overflow_[kMaxOverflow];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -41,13 +41,13 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The triangles of a block as the rays of a packet see them.
-struct SeenBlock {
+struct ShearedBlock {
     /// [1 2, 2 0, 0 1][constant, times the slopes beside the middle in x, in y][lane]
     HWY_ALIGN float edge[3][3][kBlockWidth];
     HWY_ALIGN float error[kBlockWidth];  ///< of an edge function
     HWY_ALIGN float z[3][kBlockWidth];   ///< from the point
 
-    HWY_INLINE SeenBlock(const TriangleBlock& block, const RayPacket& packet) {
+    HWY_INLINE ShearedBlock(const TriangleBlock& block, const RayPacket& packet) {
         const std::uint32_t axes[3] = {packet.kx, packet.ky, packet.kz};
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -69,7 +69,7 @@ struct SeenBlock {
         }
         return kAllLanes & ~bits_of(missed);
     }
-    /// Call before a SeenTriangle is made.
+    /// Call before a ShearedTriangle is made.
     HWY_INLINE void find_edges(const RayPacket& packet) {
         struct {
             Floats x, y, z;
@@ -131,15 +131,15 @@ struct SeenBlock {
 };
 
 /// A triangle of a block in every lane.
-struct SeenTriangle {
+struct ShearedTriangle {
     Floats edge[3][3], error, z[3];
     Floats first, last;  ///< of z
     Floats spread;       ///< by how much the weights' errors move a place, times their sum
     Floats place_error;  ///< beside that
     TrianglePlace place;
 
-    HWY_INLINE SeenTriangle(const SeenBlock& block, const RayPacket& packet, std::size_t lane,
-                            TrianglePlace at)
+    HWY_INLINE ShearedTriangle(const ShearedBlock& block, const RayPacket& packet, std::size_t lane,
+                               TrianglePlace at)
         : error(block.error[lane]), place_error(packet.s_error), place(at) {
         HWY_UNROLL(3)
         for (std::size_t e = 0; e < 3; ++e) {
@@ -162,7 +162,8 @@ struct FilteredGroup {
 };
 
 /// As `filter_triangles`; false when no ray hits the triangle for all one knows.
-HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, FilteredGroup& out) {
+HWY_INLINE bool filter_group(const ShearedTriangle& seen, const RayGroup& group,
+                             FilteredGroup& out) {
     using F = GroupFloats;
     const auto row = [](const GroupRow& r) HWY_ATTR { return load_lanes<kGroupRays>(r); };
     const F a = row(group.aside[0]), b = row(group.aside[1]);

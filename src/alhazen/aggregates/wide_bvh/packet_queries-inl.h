@@ -68,7 +68,7 @@ class PacketLeaves {
     template <class Stats>
     HWY_INLINE void visit_triangles(std::uint32_t number, std::uint32_t groups, Stats stats) {
         const TriangleBlock& block = scene_.layout->triangles[number];
-        SeenBlock seen(block, packet_);
+        ShearedBlock seen(block, packet_);
         work += 4;
         // Byte g: the triangles that group g may hit.
         std::uint64_t pairs = 0;
@@ -85,8 +85,8 @@ class PacketLeaves {
             const auto lane = static_cast<std::size_t>(std::countr_zero(any));
             if (!block.ids[lane].used()) return;
             if (!scene_.sees(block.ids[lane].id())) continue;
-            const SeenTriangle triangle(seen, packet_, lane,
-                                        static_cast<TrianglePlace>(number * kBlockWidth + lane));
+            const ShearedTriangle triangle(seen, packet_, lane,
+                                           static_cast<TrianglePlace>(number * kBlockWidth + lane));
             std::uint64_t rest = pairs >> lane & 0x0101010101010101u;
             work += static_cast<std::uint32_t>(std::popcount(rest));
             for (; rest != 0; rest &= rest - 1) {

@@ -15,7 +15,7 @@ std::atomic<int> stream_overrides{0};
 struct ScheduledTree {
     std::size_t bytes;
     bool treeless;       ///< TreelessPackets takes all primitives
-    bool suits_packets;  ///< packets are faster than single rays, on some road and target
+    bool suits_packets;  ///< packets are faster than single rays, in some query and on some target
     bool has_packets;    ///< the kernels trace packets
 };
 

@@ -137,7 +137,7 @@ const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& tabl
 
 }  // namespace
 
-const char* find_unsound(const WideBvhLayout& layout, const PrimitiveTable& table) {
+const char* first_violation(const WideBvhLayout& layout, const PrimitiveTable& table) {
     if (!is_sound(layout.frame)) return "its frame is none";
     if (const char* message = check_nodes(layout)) return message;
     return check_leaves(layout, table);

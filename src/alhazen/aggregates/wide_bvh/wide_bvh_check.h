@@ -13,6 +13,6 @@ namespace alhazen {
 /// Null when the frame is one, every node has one parent that comes before it, nodes lie at most
 /// `kMaxWideDepth` deep, every reference lies within the arrays and every id within its kind in the
 /// table; else what is wrong, in some words.
-[[nodiscard]] const char* find_unsound(const WideBvhLayout& layout, const PrimitiveTable& table);
+[[nodiscard]] const char* first_violation(const WideBvhLayout& layout, const PrimitiveTable& table);
 
 }  // namespace alhazen

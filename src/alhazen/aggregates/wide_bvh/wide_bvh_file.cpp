@@ -233,7 +233,7 @@ StoredWideBvh load_wide_bvh(const std::filesystem::path& path, const PrimitiveTa
     });
     const std::span<const PrimitiveId> unbounded = arrays.next<PrimitiveId>();
     tree.unbounded.assign(unbounded.begin(), unbounded.end());
-    const char* wrong = find_unsound(tree.layout, table);
+    const char* wrong = first_violation(tree.layout, table);
     for (const PrimitiveId id : tree.unbounded) {
         if (static_cast<std::uint32_t>(id) >= table.size())
             wrong = "an unbounded primitive is not there";

@@ -141,7 +141,7 @@ struct Emitted {
 };
 
 /// Visiting priority of a child, larger first: the probability of a hit over the cost.
-float promise_of(const Emitted& child, const FloatBox& box) {
+float visit_priority(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
 }
 
@@ -375,7 +375,7 @@ class WideCollapse {
             const FloatBox& box = binary_.nodes[all.node[i]].box;
             sum.surface += emitted[i].surface;
             sum.cost += emitted[i].cost * box.weight();
-            promise[i] = promise_of(emitted[i], box);
+            promise[i] = visit_priority(emitted[i], box);
             // Insertion sort, stable.
             std::uint32_t place = i;
             for (; place > 0 && promise[order[place - 1]] < promise[i]; --place) {

@@ -1,4 +1,4 @@
-#include "alhazen/renderers/antialias/sought_spheres.h"
+#include "alhazen/renderers/antialias/search_spheres.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ bool meets_bounds(const SceneObject& object, double room, const Ray& ray, double
 
 }  // namespace
 
-SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
+SearchSpheres::SearchSpheres(const std::vector<SceneObject>& objects,
                              const std::vector<std::uint8_t>& met, const PictureGrid& picture,
                              bool behind_all)
     : objects_(objects), met_(met), picture_(picture), behind_all_(behind_all) {
@@ -71,12 +71,12 @@ SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
     if (!sought_.empty()) tree_ = make_aggregate(kDefaultAccelerator, std::move(table));
 }
 
-double SoughtSpheres::room(const SceneObject& object, int level) const {
+double SearchSpheres::room(const SceneObject& object, int level) const {
     const double nearest = picture_.distance(object.sphere.center);
     return picture_.least_radius(level, nearest + object.sphere.radius);
 }
 
-bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
+bool SearchSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
                              double farthest) const {
     const SceneObject& o = objects_[object];
     const Ray ray = picture_.ray(level + 1, {2 * cell.x + 1, 2 * cell.y + 1});
@@ -90,7 +90,7 @@ bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
     return meets_bounds(o, around, ray, reach(farthest));
 }
 
-std::vector<WatchedObject> SoughtSpheres::around(const AdaptiveGrid& grid) const {
+std::vector<WatchedObject> SearchSpheres::around(const AdaptiveGrid& grid) const {
     const std::uint32_t width = grid.width(), height = grid.height();
     std::vector<std::vector<WatchedObject>> found((height + kRowsOfATask - 1) / kRowsOfATask);
     parallel_for(height, kRowsOfATask, [&](std::size_t begin, std::size_t end) {

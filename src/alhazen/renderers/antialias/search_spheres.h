@@ -27,12 +27,12 @@
 
 namespace alhazen {
 
-class SoughtSpheres final : public ObjectWatch {
+class SearchSpheres final : public ObjectWatch {
   public:
     /// [object] `met`: 1 for objects that shaded rays have hit, updated by the caller. The
     /// arguments must outlive the object. The tree contains the objects that are not hit at
     /// construction.
-    SoughtSpheres(const std::vector<SceneObject>& objects, const std::vector<std::uint8_t>& met,
+    SearchSpheres(const std::vector<SceneObject>& objects, const std::vector<std::uint8_t>& met,
                   const PictureGrid& picture, bool behind_all);
 
     [[nodiscard]] bool empty() const { return sought_.empty(); }
