@@ -17,6 +17,9 @@ foreach(folder ${alhazen_installed})
             FILES_MATCHING PATTERN "*.h")
 endforeach()
 
+set_target_properties(alhazen_exr PROPERTIES EXPORT_NAME exr)
+install(TARGETS alhazen_exr EXPORT alhazenTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+
 # Inline functions of the headers must compute the same in other programs: the linker keeps one copy of each, whoever
 # compiled it.
 target_compile_options(alhazen_base INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)

@@ -58,6 +58,13 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
+# A program with the property ALHAZEN_ARCHIVES links archives instead of shared libraries and loads OpenEXR with the
+# first EXR picture: each shared library takes time at every start. Here they are allowed.
+set(ALHAZEN_ARCHIVES_OF_PROGRAM OFF)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT ALHAZEN_SANITIZE AND NOT ALHAZEN_FUZZ)
+    set(ALHAZEN_ARCHIVES_OF_PROGRAM ON)
+endif()
+
 # NARROW_COPIES: modules whose structs are written number by number and copied soon after. Copies of two numbers in one
 # register wait until both have left the store buffer, some 15 cycles each (docs/design/build.md).
 set(ALHAZEN_NARROW_OPTIONS)

@@ -36,6 +36,24 @@ def check_picture(picture, expected):
     assert picture == expected, f"{picture}differs from that of the build:\n{expected}"
 
 
+def check_exr(installed, folder):
+    """The installed program finds its module of OpenEXR, which it loads with the first EXR picture."""
+    module = next(installed.rglob("libalhazen_exr.so"), None)
+    if module is None:  # linked to the program
+        return
+    program = installed / "bin" / "alhazen"
+    scene, picture = folder / "ball.alhazen", folder / "ball.exr"
+    scene.write_text("alhazen 1\nsphere { center = (0, 0, 0); radius = 1 }\n", encoding="ascii")
+    command = ("render", scene, "-o", picture, "--size", "8x8", "-q")
+    run(program, *command)
+    assert picture.read_bytes().startswith(b"\x76\x2f\x31\x01")
+    away = folder / "away.so"
+    module.rename(away)
+    lost = subprocess.run([program, *map(str, command)], capture_output=True, text=True)
+    assert lost.returncode == 5 and "needs the module libalhazen_exr.so" in lost.stderr, lost
+    away.rename(module)
+
+
 def check_c(installed, source, folder):
     """A program in C99 by pkg-config."""
     packages = next(installed.rglob("alhazen.pc"), None)
@@ -77,6 +95,7 @@ def main():
         run("cmake", "--build", example, "--config", config)
         check_picture(run(example / "trace_rays"), run(trace_rays))
         run(folder / "moved" / "bin" / "alhazen", "--version")
+        check_exr(folder / "moved", folder)
         check_c(folder / "moved", pathlib.Path(source), folder)
         check_python(folder / "moved")
         for name in folder.rglob("alhazen*.cmake"):

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -124,6 +126,35 @@ TEST(Encoding, PicturesHaveTheCodesOfTheCurveToTheLastBit) {
             ASSERT_EQ(bytes[4 * i + 3], 255);
         }
         EXPECT_EQ(bytes.back(), 7);
+    }
+}
+
+TEST(Encoding, RowsHaveTheCodesOfTheirValues) {
+    std::vector<double> values{-1.0, -0.0, 0.0, 1e-300, 1.0, 2.0, std::nan(""), -std::nan("")};
+    for (const double most : {255.0, 65535.0}) {  // where codes change, and next to it
+        for (int code = 0; code < 256; ++code) {
+            for (const double edge : {code / most, (code + 0.5) / most}) {
+                values.insert(values.end(),
+                              {std::nextafter(edge, -1.0), edge, std::nextafter(edge, 2.0)});
+            }
+        }
+    }
+    values.push_back(std::nextafter(1.0, 0.0));
+    while (values.size() % 3 != 0) values.push_back(0.5);
+    for (const Encoding encoding :
+         {Encoding::LinearTruncated, Encoding::LinearRounded, Encoding::Srgb}) {
+        for (const int bits : {8, 16}) {
+            // Rows that do not fill their last lanes, too.
+            for (std::size_t count = 3; count <= values.size();
+                 count = count < 30 || count == values.size() ? count + 3 : values.size()) {
+                std::vector<std::uint16_t> codes(count + 1, 7);
+                encode(values.data(), encoding, bits, std::span(codes).first(count));
+                for (std::size_t i = 0; i < count; ++i) {
+                    ASSERT_EQ(codes[i], encode_channel(values[i], encoding, bits)) << values[i];
+                }
+                EXPECT_EQ(codes.back(), 7);
+            }
+        }
     }
 }
 

@@ -152,5 +152,14 @@ TEST(PngFilter, FilesAreThoseThatLibpngWritesWithItsOwnChoice) {
     }
 }
 
+TEST(PngFilter, CodesThatDoNotFitAreRefused) {
+    for (int place = 0; place < 75; ++place) {  // in full lanes and behind them
+        EncodedImage image{25, 1, 3, 8, std::vector<std::uint16_t>(75, 255)};
+        EXPECT_FALSE(encode_png(image, {}).empty());
+        image.samples[std::size_t(place)] = 256;
+        EXPECT_THROW((void)encode_png(image, {}), Error) << place;
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

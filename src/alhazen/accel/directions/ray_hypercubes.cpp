@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <span>
 
@@ -80,8 +81,9 @@ struct RayHypercubes::Recent {
     std::array<std::size_t, 6> last{};
 
     static Recent& of_thread(bool any_hit) {
-        static thread_local std::array<Recent, 2> recent;
-        return recent[any_hit ? 1 : 0];
+        // Made at first use: as a thread-local value it would be cleared for every thread.
+        static thread_local const auto recent = std::make_unique<std::array<Recent, 2>>();
+        return (*recent)[any_hit ? 1 : 0];
     }
     /// Searches the most recent entries first.
     [[nodiscard]] const List* find(std::uint64_t id, const ClassifiedRay& ray) const {

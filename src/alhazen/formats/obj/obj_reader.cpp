@@ -60,6 +60,11 @@ class PartMaker {
     void check_indices() {
         drop_indices_of_nothing(in_.corners.uv, in_.uvs.size(), "vt");
         drop_indices_of_nothing(in_.corners.normal, in_.normals.size(), "vn");
+        if (all_below(in_.corners.position, in_.positions.size()) &&
+            all_below(in_.corners.uv, in_.uvs.size()) &&
+            all_below(in_.corners.normal, in_.normals.size())) {
+            return;
+        }
         in_.for_each_face(
             [&](const ObjRun&, std::uint32_t begin, std::uint32_t end, std::uint32_t line) {
                 for (std::uint32_t c = begin; c < end; ++c) {
@@ -69,6 +74,11 @@ class PartMaker {
                     check(corner.normal, in_.normals.size(), "vn", line);
                 }
             });
+    }
+    static bool all_below(const std::vector<std::int32_t>& indices, std::size_t count) {
+        std::int32_t most = -1;
+        for (const std::int32_t index : indices) most = std::max(most, index);
+        return most < 0 || std::size_t(most) < count;
     }
     void check(std::int32_t index, std::size_t count, const char* what, std::uint32_t line) {
         if (index < 0 || std::size_t(index) < count) return;
@@ -104,6 +114,7 @@ class PartMaker {
     /// Finds the attributes of each part. A part has normals if any corner has one; its flat faces
     /// then need normals too.
     void find_attributes(std::vector<RunsOfPart>& groups) {
+        if (in_.corners.uv.empty() && in_.corners.normal.empty()) return;
         std::vector<bool> wanted(in_.runs.size());
         for (RunsOfPart& group : groups) {
             for (const std::uint32_t r : group.runs) {
@@ -169,13 +180,16 @@ class PartMaker {
         std::vector<std::uint32_t> polygon;
         std::vector<PolygonTriangles> polygons;
         for_each_face(group, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
-            polygon.clear();
-            for (std::uint32_t c = begin; c < end; ++c) {
-                polygon.push_back(std::uint32_t(in_.corners.position[c]));
+            const std::int32_t* const corner = in_.corners.position.data() + begin;
+            if (end - begin == 3) {
+                mesh.triangles.push_back(
+                    {std::uint32_t(corner[0]), std::uint32_t(corner[1]), std::uint32_t(corner[2])});
+                return;
             }
+            polygon.assign(corner, corner + (end - begin));
             const std::size_t first = mesh.triangles.size();
             triangulate(mesh.positions, polygon, mesh.triangles);
-            if (polygon.size() > 3) polygons.push_back({first, mesh.triangles.size()});
+            polygons.push_back({first, mesh.triangles.size()});
         });
         free_diagonals(mesh.positions, polygons, mesh.triangles);
     }

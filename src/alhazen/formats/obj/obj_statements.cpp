@@ -331,17 +331,6 @@ class StatementReader {
 
 }  // namespace
 
-void ObjCorners::push_back(const ObjCorner& corner) {
-    const auto push = [&](std::vector<std::int32_t>& list, std::int32_t index) {
-        if (index < 0 && list.empty()) return;
-        list.resize(position.size(), -1);
-        list.push_back(index);
-    };
-    push(uv, corner.uv);
-    push(normal, corner.normal);
-    position.push_back(corner.position);
-}
-
 void ObjCorners::resize(std::size_t size) {
     position.resize(size);
     if (uv.size() > size) uv.resize(size);

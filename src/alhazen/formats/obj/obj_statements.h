@@ -28,7 +28,11 @@ class ObjCorners {
     [[nodiscard]] ObjCorner operator[](std::size_t i) const {
         return {position[i], uv.empty() ? -1 : uv[i], normal.empty() ? -1 : normal[i]};
     }
-    void push_back(const ObjCorner& corner);
+    void push_back(const ObjCorner& corner) {
+        push(uv, corner.uv);
+        push(normal, corner.normal);
+        position.push_back(corner.position);
+    }
     void resize(std::size_t size);
     /// Allocates a normal index for every corner.
     void need_normals();
@@ -36,6 +40,13 @@ class ObjCorners {
     std::vector<std::int32_t> position;  ///< [corner]
     std::vector<std::int32_t> uv;        ///< [corner], or empty
     std::vector<std::int32_t> normal;    ///< [corner], or empty
+
+  private:
+    void push(std::vector<std::int32_t>& list, std::int32_t index) const {
+        if (index < 0 && list.empty()) return;
+        list.resize(position.size(), -1);
+        list.push_back(index);
+    }
 };
 
 struct ObjFace {

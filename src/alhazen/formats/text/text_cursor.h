@@ -3,6 +3,9 @@
 ///
 /// For formats with large files (NFF, PLY, OBJ): copies nothing; reads numbers with
 /// std::from_chars, independent of the locale.
+///
+/// Source: Clinger, "How to Read Floating Point Numbers Accurately", 1990, for short decimals: the
+/// quotient of two exact doubles is the correctly rounded number.
 /// Conventions: a number may start with `+` and ends at white space or at the end of the text.
 /// Lines end at \n, \r\n or \r. Lines and columns count from 1. NaN and infinities are not numbers.
 
@@ -96,6 +99,7 @@ class TextCursor {
 
     /// Reads a finite number. On failure the cursor does not move.
     bool number(double& value) {
+        if (short_decimal(value)) return true;
         const char* const begin = next_ != end_ && *next_ == '+' ? next_ + 1 : next_;
         if (begin != next_ && begin != end_ && *begin == '-') return false;
         const auto [stop, error] = std::from_chars(begin, end_, value);
@@ -120,6 +124,7 @@ class TextCursor {
     }
     /// Reads an integer regardless of the character after it.
     bool leading_integer(std::int64_t& value) {
+        if (short_integer(value)) return true;
         const char* const begin = next_ != end_ && *next_ == '+' ? next_ + 1 : next_;
         if (begin != next_ && begin != end_ && *begin == '-') return false;
         const auto [stop, error] = std::from_chars(begin, end_, value);
@@ -141,6 +146,45 @@ class TextCursor {
     [[nodiscard]] static bool is_space(char c) { return is_blank(c) || is_newline(c); }
 
   private:
+    [[nodiscard]] static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+    /// Moves `at` past digits and appends them to `value`, which wraps around after nineteen.
+    void take_digits(const char*& at, std::uint64_t& value) const {
+        for (; at != end_ && is_digit(*at); ++at) value = 10 * value + std::uint64_t(*at - '0');
+    }
+    /// Reads a number without sign of at most eighteen digits; false, not moved, at any other.
+    bool short_integer(std::int64_t& value) {
+        const char* at = next_;
+        std::uint64_t digits = 0;
+        take_digits(at, digits);
+        if (at == next_ || at - next_ > 18) return false;
+        value = std::int64_t(digits);
+        next_ = at;
+        return true;
+    }
+    /// Reads a number as 12 or -0.125, of at most fifteen digits; false, not moved, at any other.
+    bool short_decimal(double& value) {
+        static constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                             1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+        const bool negative = next_ != end_ && *next_ == '-';
+        const char* const begin = next_ + negative;
+        const char* at = begin;
+        std::uint64_t digits = 0;
+        take_digits(at, digits);
+        std::ptrdiff_t count = at - begin, decimals = 0;
+        if (count == 0) return false;
+        if (at != end_ && *at == '.') {
+            const char* const point = at++;
+            take_digits(at, digits);
+            decimals = at - point - 1;
+            if (decimals == 0) return false;
+            count += decimals;
+        }
+        if (count > 15 || (at != end_ && !is_space(*at))) return false;
+        const double size = double(std::int64_t(digits)) / kPowers[decimals];
+        value = negative ? -size : size;
+        next_ = at;
+        return true;
+    }
     void step_over_newline() {
         if (next_ == end_) return;
         if (*next_ == '\r' && next_ + 1 != end_ && next_[1] == '\n') ++next_;

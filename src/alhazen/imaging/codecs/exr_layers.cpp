@@ -11,7 +11,6 @@
 #include <new>
 
 #include "alhazen/base/error.h"
-#include "alhazen/base/file.h"
 #include "alhazen/imaging/codecs/exr_memory.h"
 
 namespace alhazen {
@@ -125,11 +124,6 @@ std::vector<std::byte> encode_exr_layers(const Film& film, const FilmLayers& lay
         refuse(error.what());
     }
     return stream.take();
-}
-
-void write_exr_layers(const std::filesystem::path& path, const Film& film, const FilmLayers& layers,
-                      const ExrLayersOptions& options) {
-    write_file_atomically(path, encode_exr_layers(film, layers, options));
 }
 
 }  // namespace alhazen

@@ -8,6 +8,7 @@
 #include "alhazen/base/lower_case.h"
 #include "alhazen/imaging/codecs/bmp.h"
 #include "alhazen/imaging/codecs/exr.h"
+#include "alhazen/imaging/codecs/exr_layers.h"
 #include "alhazen/imaging/codecs/hdr.h"
 #include "alhazen/imaging/codecs/image_size.h"
 #include "alhazen/imaging/codecs/jpeg.h"
@@ -183,6 +184,11 @@ void write_png(const std::filesystem::path& path, const EncodedImage& image,
 void write_png(const std::filesystem::path& path, const CodeRows& rows,
                const ImageMetadata& metadata) {
     write_file_atomically(path, encode_png(rows, metadata));
+}
+
+void write_exr_layers(const std::filesystem::path& path, const Film& film, const FilmLayers& layers,
+                      const ExrLayersOptions& options) {
+    write_file_atomically(path, encode_exr_layers(film, layers, options));
 }
 
 void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality) {

@@ -11,6 +11,7 @@
 
 #include "alhazen/imaging/codecs/image_size.h"
 #include "alhazen/imaging/codecs/png_filter.h"
+#include "alhazen/imaging/image/code_lanes.h"
 
 namespace alhazen {
 
@@ -261,12 +262,7 @@ void set_bytes(std::span<const std::uint16_t> codes, int bits, png_byte* bytes) 
         }
         return;
     }
-    std::uint16_t all = 0;
-    for (const std::uint16_t code : codes) {
-        all |= code;
-        *bytes++ = png_byte(code);
-    }
-    if (all > 255) cannot_write("a code does not fit 8 bits");
+    if (!narrow_codes(codes, bytes)) cannot_write("a code does not fit 8 bits");
 }
 
 /// A row of bytes below a margin of zeros.

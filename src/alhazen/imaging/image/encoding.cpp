@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "alhazen/base/error.h"
+#include "alhazen/imaging/image/code_lanes.h"
 #include "alhazen/imaging/image/image.h"
 
 namespace alhazen {
@@ -110,7 +111,11 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
 }
 
 void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint16_t> codes) {
-    if (encoding == Encoding::Srgb && bits == 8) {
+    if (encoding != Encoding::Srgb) {
+        const double most = double((std::uint32_t{1} << bits) - 1);
+        return linear_codes(rgb, most, encoding == Encoding::LinearRounded ? 0.5 : 0.0, codes);
+    }
+    if (bits == 8) {
         static const SrgbCodes kCodes;
         for (std::size_t i = 0; i < codes.size(); ++i) {
             // Backgrounds repeat pixels.

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <memory>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/sampling/random.h"
@@ -26,8 +27,9 @@ struct AlphaSlice {
 
 AlphaSlice& slice_of(std::uint64_t table, double alpha) {
     constexpr std::size_t kSlices = 16;
-    thread_local std::array<AlphaSlice, kSlices> slices;
-    return slices[mix64(std::bit_cast<std::uint64_t>(alpha) ^ table) % kSlices];
+    // Made at first use: as a thread-local value it would be cleared for every thread.
+    thread_local const auto slices = std::make_unique<std::array<AlphaSlice, kSlices>>();
+    return (*slices)[mix64(std::bit_cast<std::uint64_t>(alpha) ^ table) % kSlices];
 }
 
 std::uint64_t new_id() {

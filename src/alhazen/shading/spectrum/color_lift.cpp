@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -337,14 +338,16 @@ SmoothReflectance lift(const Rgb& color) {
 
 }  // namespace
 
+// The caches are made at first use: as thread-local values every thread would begin by copying
+// 24 kB.
 SmoothReflectance lifted(const Rgb& color) {
-    constinit thread_local LiftCache cache;
-    return cache.of(color, lift);
+    thread_local const auto cache = std::make_unique<LiftCache>();
+    return cache->of(color, lift);
 }
 
 SmoothReflectance lifted_half(const Rgb& color) {
-    constinit thread_local LiftCache cache;
-    return cache.of(color, [](const Rgb& c) {
+    thread_local const auto cache = std::make_unique<LiftCache>();
+    return cache->of(color, [](const Rgb& c) {
         static HalfTable table;
         return table.of(c);
     });
