@@ -49,8 +49,14 @@ def check_exr(installed, folder):
     assert picture.read_bytes().startswith(b"\x76\x2f\x31\x01")
     away = folder / "away.so"
     module.rename(away)
-    lost = subprocess.run([program, *map(str, command)], capture_output=True, text=True)
+    # Reported before the work: this picture would take hours.
+    command = ("render", scene, "-o", picture, "--size", "8192x8192", "--spp", "4096", "-q")
+    lost = subprocess.run([program, *map(str, command)], capture_output=True, text=True, timeout=60)
     assert lost.returncode == 5 and "needs the module libalhazen_exr.so" in lost.stderr, lost
+    module.write_bytes(b"no library")
+    spoiled = subprocess.run([program, *map(str, command)], capture_output=True, text=True, timeout=60)
+    assert spoiled.returncode == 5 and ("too short" in spoiled.stderr or "ELF" in spoiled.stderr), spoiled
+    module.unlink()
     away.rename(module)
 
 

@@ -16,6 +16,10 @@
 
 namespace alhazen {
 
+/// For callers with long work before the write. Throws Error (Resource) if the codec is a module
+/// (exr_functions.h) that cannot be loaded.
+void require_exr();
+
 /// Throws Error: Scene if malformed or not supported, Resource beyond the limits.
 [[nodiscard]] Image decode_exr(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);

@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/exr_functions.h"
@@ -12,40 +14,70 @@ namespace alhazen {
 
 namespace {
 
-/// Opens the module beside the program, as it is built; where it is installed; or on the loader's
-/// search path.
-void* open_module() {
-    constexpr const char* kFile = "libalhazen_exr.so";
-    std::error_code unknown;
-    const auto folder = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
-    for (const auto& path : {folder / kFile, folder / ALHAZEN_EXR_FOLDER / kFile}) {
-        void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (module != nullptr) return module;
-    }
-    return dlopen(kFile, RTLD_NOW | RTLD_LOCAL);
-}
+namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& why) {
     throw Error(ErrorKind::Resource, "an EXR picture needs the module libalhazen_exr.so: " + why);
 }
 
+/// The folder of the program; empty if unknown.
+fs::path program_folder() {
+    // An object of the program itself, in case that the loader was started with it as argument.
+    Dl_info self{};
+    static const char here = 0;
+    std::error_code unknown;
+    if (dladdr(&here, &self) != 0 && self.dli_fname != nullptr) {
+        const fs::path file = fs::canonical(self.dli_fname, unknown);
+        if (!unknown) return file.parent_path();
+    }
+    const fs::path file = fs::read_symlink("/proc/self/exe", unknown);
+    return unknown ? fs::path() : file.parent_path();
+}
+
+/// Opens the module beside the program, as it is built; where it is installed; or on the loader's
+/// search path.
+void* open_module() {
+    constexpr const char* kFile = "libalhazen_exr.so";
+    if (const fs::path folder = program_folder(); !folder.empty()) {
+        for (const auto& path : {folder / kFile, folder / ALHAZEN_EXR_FOLDER / kFile}) {
+            std::error_code unknown;
+            if (!fs::exists(path, unknown)) continue;
+            void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+            if (module != nullptr) return module;
+            const char* const why = dlerror();
+            fail(why != nullptr ? why : path.string());
+        }
+    }
+    void* const module = dlopen(kFile, RTLD_NOW | RTLD_LOCAL);
+    if (module != nullptr) return module;
+    const char* const why = dlerror();
+    fail(why != nullptr ? why : "it is not found");
+}
+
 /// Throws Error (Resource) if the module cannot be loaded.
 const ExrFunctions& exr() {
     static const ExrFunctions& functions = [&]() -> const ExrFunctions& {
-        void* const module = open_module();
-        void* const table = module == nullptr ? nullptr : dlsym(module, kExrFunctionsName);
+        void* const table = dlsym(open_module(), kExrFunctionsName);
         if (table == nullptr) {
             const char* const why = dlerror();
             fail(why != nullptr ? why : "it has no table");
         }
         const auto& found = *static_cast<const ExrFunctions*>(table);
-        if (found.type_sizes != kExrTypeSizes) fail("it belongs to another build");
+        constexpr std::string_view kHeaders = ALHAZEN_EXR_HEADERS;
+        if (std::string_view(found.headers, kHeaders.size()) != kHeaders ||
+            found.type_sizes != kExrTypeSizes) {
+            fail("it belongs to another build");
+        }
         return found;
     }();
     return functions;
 }
 
 }  // namespace
+
+void require_exr() {
+    static_cast<void>(exr());
+}
 
 Image decode_exr(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     return exr().decode(bytes, name, limits);

@@ -149,6 +149,7 @@ void check_image_suffix(const std::filesystem::path& path) {
     if (std::find(known.begin(), known.end(), suffix) == known.end()) {
         unknown_suffix(suffix, {path.string(), 0, 0});
     }
+    if (suffix == "exr") require_exr();
 }
 
 std::vector<std::byte> encode_image(const std::string& suffix, const Image& image,

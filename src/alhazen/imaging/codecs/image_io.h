@@ -67,8 +67,8 @@ struct ImageWriteOptions {
 /// Suffixes that `write_image` accepts: png, jpg, jpeg, exr, hdr, pfm.
 [[nodiscard]] const std::vector<std::string>& image_suffixes();
 
-/// Throws Error (Usage), listing the known suffixes, if the suffix of `path` is not one of them.
-/// For callers with long work before the write.
+/// For callers with long work before the write. Throws Error: Usage, listing the known suffixes, if
+/// the suffix of `path` is not one of them; Resource if its codec cannot be loaded.
 void check_image_suffix(const std::filesystem::path& path);
 
 /// Writes in the format of the suffix of `path`, in one step (see write_file_atomically). EXR, HDR
