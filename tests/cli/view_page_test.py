@@ -14,7 +14,7 @@ import tempfile
 import time
 import unittest
 
-from browser_session import SLOWDOWN, BrowserSession, browser
+from browser_session import SLOWDOWN, Browser, browser
 from view_server import LIGHTS, SCENE, Server
 
 ALHAZEN = sys.argv[1]
@@ -27,8 +27,13 @@ MESSAGE = "(document.getElementById('message')?.textContent ?? '')"
 
 @unittest.skipIf(browser() is None, "no chromium here: scripts/setup --browser installs it")
 class ViewPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
+
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.temporary = tempfile.TemporaryDirectory()
         self.folder = pathlib.Path(self.temporary.name)
         self.scene = self.folder / "scene.alhazen"
         self.scene.write_text(SCENE, encoding="utf-8")
@@ -39,8 +44,8 @@ class ViewPage(unittest.TestCase):
         self.server.close()
         self.temporary.cleanup()
 
-    def open(self, window):
-        self.page = BrowserSession(self.folder / "profile", window)
+    def open(self, width, height):
+        self.page = self.browser.open(width, height)
         self.page.call("Page.navigate", url=self.server.url)
         self.page.wait(READY)
         self.page.wait(FINE)
@@ -86,7 +91,7 @@ class ViewPage(unittest.TestCase):
 
     def test_it_moves_explains_switches_and_follows_the_file(self):
         page = None
-        self.open("1300,900")
+        self.open(1300, 900)
         page = self.page
         self.assertEqual(page.value("location.hash"), "")
         self.shoot("view")
@@ -153,7 +158,7 @@ class ViewPage(unittest.TestCase):
         self.shoot("view_lost")
 
     def test_a_depth_is_sent_where_one_is_chosen(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         depth = "viewer.controls.number('depth')"
 
@@ -177,7 +182,7 @@ class ViewPage(unittest.TestCase):
 
     def test_lights_are_turned_off_and_undo_takes_back_what_was_chosen(self):
         self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("1300,900")
+        self.open(1300, 900)
         page = self.page
         first = self.picture()
         summary = "document.querySelector('#lights summary')"
@@ -222,7 +227,7 @@ class ViewPage(unittest.TestCase):
 
     def test_undo_keeps_a_light_dark_that_was_missing_from_the_file_for_a_while(self):
         self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         dark = "viewer.controls.lights.off().join()"
         page.value("document.getElementById('lights').open = true")
@@ -240,7 +245,7 @@ class ViewPage(unittest.TestCase):
 
     def test_the_focus_stays_in_the_lights_where_the_file_changes(self):
         self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         page.value("document.getElementById('lights').open = true")
         page.value("document.querySelector('#lights [aria-label=\"Change key\"]').click()")
@@ -257,7 +262,7 @@ class ViewPage(unittest.TestCase):
 
     def test_lights_are_moved_and_coloured_and_written_as_blocks(self):
         self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("1300,900")
+        self.open(1300, 900)
         page = self.page
         first = self.picture()
         page.value("document.getElementById('lights').open = true")
@@ -344,7 +349,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
 
         def begin_long():
@@ -375,7 +380,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_it_waits_for_a_server_that_is_away_and_goes_on(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         shown = self.picture()
         # The open connection delivers nothing.
@@ -399,7 +404,7 @@ class ViewPage(unittest.TestCase):
         page.wait(MESSAGE + ".startsWith('The server was replaced') && " + MESSAGE + ".includes('no key')")
 
     def test_the_policy_allows_this_server_alone(self):
-        self.open("900,700")
+        self.open(900, 700)
         other = Server(ALHAZEN, self.scene)
         self.addCleanup(other.close)
         blocked = self.page.value("""(async () => {
@@ -419,7 +424,7 @@ class ViewPage(unittest.TestCase):
         self.server.close()
         self.scene.write_text(SCENE + many, encoding="utf-8")
         self.server = Server(ALHAZEN, self.scene)
-        self.page = page = BrowserSession(self.folder / "profile", "900,700")
+        self.page = page = self.browser.open(900, 700)
         stop = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Stop').click()"
         page.call("Page.navigate", url=self.server.url)
         page.wait("globalThis.viewer && document.getElementById('work')?.textContent.startsWith('reading scene.alhazen')")
@@ -439,7 +444,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_rays_that_are_not_those_of_the_picture_are_said_to_be(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         for renderer, said in (("whitted", None), ("path_tracing", "draws rays at random"), ("distributed", "at random"),
                                ("ray_casting", "by ray_casting; the tree of rays is that of whitted")):
@@ -468,7 +473,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_samples_of_the_pixel_are_shown_and_explained_one_by_one(self):
-        self.open("1300,1000")
+        self.open(1300, 1000)
         page = self.page
         radiance = "[...document.querySelectorAll('.samples tbody tr')].map(r => [1, 2, 3].map(i => Number(r.cells[i].textContent)))"
         # A pixel where the ball hides the floor.
@@ -493,7 +498,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_the_picture_is_saved(self):
-        self.open("900,700")
+        self.open(900, 700)
         self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
         self.page.value("[...document.querySelectorAll('button')].find(b => b.textContent === 'Save picture').click()")
         saved = self.folder / "view.png"
@@ -508,7 +513,7 @@ class ViewPage(unittest.TestCase):
         self.scene.write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith(("sphere", "plane"))) +
                               'rectangle { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "mirror" }\n',
                               encoding="utf-8")
-        self.open("1300,1000")
+        self.open(1300, 1000)
         page = self.page
         for renderer, place in (("cone_tracing", "#cones .cone"), ("beam_tracing", "#beams tbody tr")):
             self.choose("renderer", renderer)
@@ -526,7 +531,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_it_fits_a_phone_and_is_named_for_readers(self):
-        self.open("480,1000")
+        self.open(480, 1000)
         self.shoot("view_phone")
         self.page.value("document.getElementById('lights').open = true")
         self.shoot("view_phone_lights")
@@ -544,7 +549,7 @@ class ViewPage(unittest.TestCase):
 
     def test_the_picture_stays_in_sight_of_a_phone_while_a_light_is_changed(self):
         self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("600,900")
+        self.open(600, 900)
         page = self.page
         # Portrait, with an on-screen keyboard, and landscape.
         for width, height in ((390, 844), (390, 500), (844, 390)):
@@ -572,7 +577,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_without_its_key_the_page_shows_nothing(self):
-        self.page = BrowserSession(self.folder / "profile", "800,600")
+        self.page = self.browser.open(800, 600)
         self.page.call("Page.navigate", url=f"http://{self.server.host}/")
         self.page.wait(MESSAGE + ".includes('no key')")
         self.assertFalse(self.page.value("viewer.frames > 0"))
