@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Scenes of a few megabytes whose textures would fill the memory: generated, then rendered with the default limits.
 
-Each must end within 10 seconds and 1 GiB, with a picture if it fits, otherwise with a message that names the limit and
-the option to raise it.
+Each must end within 10 seconds of processor time and 1 GiB, with a picture if it fits, otherwise with a message that
+names the limit and the option to raise it.
 
 Usage: hostile_textures_test.py ALHAZEN
 """
