@@ -75,12 +75,12 @@ class Connection:
 class Browser(Connection):
     """A process for the pages of all tests of a program: starting one takes more processor time than most of these tests."""
 
-    def __init__(self):
+    def __init__(self, *options):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
             [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
              "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions",
-             "--remote-debugging-port=0", f"--user-data-dir={self.folder.name}", "about:blank"],
+             "--remote-debugging-port=0", f"--user-data-dir={self.folder.name}", *options, "about:blank"],
             stderr=subprocess.PIPE, text=True)
         for line in self.process.stderr:
             if match := re.search(r"ws://127\.0\.0\.1:(\d+)(/\S*)", line):
@@ -119,6 +119,8 @@ class Page(Connection):
             self.requests.append(parameters["request"]["url"])
         elif message.get("method") == "Log.entryAdded":
             self.console.append(parameters["entry"]["text"])
+        elif message.get("method") == "Runtime.consoleAPICalled":
+            self.console.append(json.dumps(parameters["args"])[:500])
         elif message.get("method") == "Runtime.exceptionThrown":
             self.console.append(json.dumps(parameters["exceptionDetails"])[:500])
 
@@ -153,3 +155,33 @@ class Page(Connection):
     def close(self):
         super().close()
         self.owner.call("Target.closeTarget", targetId=self.target)
+
+
+class FilePages:
+    """For tests of files that are pages: a browser without any host."""
+
+    @classmethod
+    def open_browser(cls):
+        cls.browser = Browser("--host-resolver-rules=MAP * ~NOTFOUND") if browser() else None
+        if cls.browser:
+            cls.addClassCleanup(cls.browser.close)
+
+    def used(self, path, width, height, dark=False, screenshots=()):
+        """Opens a page whose own script uses it and leaves what it saw, as JSON, in the element `seen`. Returns that, the
+        console's messages, and the addresses that it requested beside its own. `screenshots`: of which pages, and where."""
+        if self.browser is None:
+            self.skipTest("no chromium here: scripts/setup --browser installs it")
+        page = self.browser.open(width, height)
+        self.addCleanup(page.close)
+        if dark:
+            page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        page.call("Page.navigate", url=path.as_uri())
+        page.wait("document.getElementById('seen') !== null", 60)
+        seen = json.loads(page.value("document.getElementById('seen').textContent"))
+        requests = [url for url in page.requests if url != path.as_uri() and not url.startswith(("data:", "blob:"))]
+        found = seen, list(page.console), requests
+        for shown, picture in screenshots:
+            page.call("Page.navigate", url=shown.as_uri())
+            page.wait("document.readyState === 'complete'")
+            page.screenshot(picture)
+        return found
