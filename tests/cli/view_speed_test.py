@@ -10,7 +10,6 @@ best of three; and what it chooses for times that are known. --measure tests not
 import os
 import pathlib
 import sys
-import tempfile
 import time
 
 from browser_session import Browser, browser
