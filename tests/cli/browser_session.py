@@ -77,16 +77,24 @@ class Browser(Connection):
 
     def __init__(self, *options):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        # A file, since nobody reads what the browser says later.
+        self.said = open(os.path.join(self.folder.name, "stderr"), "w+", encoding="utf-8", errors="replace")
         self.process = subprocess.Popen(
             [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
              "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions",
              "--remote-debugging-port=0", f"--user-data-dir={self.folder.name}", *options, "about:blank"],
-            stderr=subprocess.PIPE, text=True)
-        for line in self.process.stderr:
-            if match := re.search(r"ws://127\.0\.0\.1:(\d+)(/\S*)", line):
-                break
+            stderr=self.said)
+        begin = time.monotonic()
+        while not (match := re.search(r"ws://127\.0\.0\.1:(\d+)(/\S+)\n", self.text())):
+            assert self.process.poll() is None and time.monotonic() - begin < 60 * SLOWDOWN, self.text()
+            time.sleep(0.02)
         self.port = int(match.group(1))
         super().__init__(self.port, match.group(2))
+
+    def text(self):
+        """What the browser has said."""
+        with open(self.said.name, encoding="utf-8", errors="replace") as file:
+            return file.read()
 
     def open(self, width, height):
         return Page(self, width, height)
@@ -95,7 +103,7 @@ class Browser(Connection):
         super().close()
         self.process.terminate()
         self.process.wait(20)
-        self.process.stderr.close()
+        self.said.close()
         self.folder.cleanup()
 
 
@@ -117,6 +125,8 @@ class Page(Connection):
         parameters = message.get("params", {})
         if message.get("method") == "Network.requestWillBeSent":
             self.requests.append(parameters["request"]["url"])
+        elif message.get("method") == "Network.webSocketCreated":
+            self.requests.append(parameters["url"])
         elif message.get("method") == "Log.entryAdded":
             self.console.append(parameters["entry"]["text"])
         elif message.get("method") == "Runtime.consoleAPICalled":
@@ -178,6 +188,8 @@ class FilePages:
         page.call("Page.navigate", url=path.as_uri())
         page.wait("document.getElementById('seen') !== null", 60)
         seen = json.loads(page.value("document.getElementById('seen').textContent"))
+        time.sleep(0.2)  # for requests made last
+        page.value("0")  # takes the messages that have come
         requests = [url for url in page.requests if url != path.as_uri() and not url.startswith(("data:", "blob:"))]
         found = seen, list(page.console), requests
         for shown, picture in screenshots:
