@@ -299,6 +299,22 @@ TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
     }
 }
 
+TEST(CoherentBatch, RaysBesideThoseFromOnePointAreTheirOwn) {
+    // All rays of a packet but one begin in the eye, that one beside it by a little or by much.
+    const Vec3 eye{0.1, 0.2, 3};
+    for (const auto& [name, table] : tables(1, 31)) {
+        for (const double aside : {1e-6, 1e-3, 0.3}) {
+            for (const std::size_t place : {0u, 5u, 13u}) {
+                Rays rays = eye_rays(eye, {0, 0, -1}, 0.7, 24);
+                for (std::size_t i = place; i < rays.size(); i += 16) {
+                    rays[i].origin += Vec3{aside, -0.5 * aside, 0.25 * aside};
+                }
+                compare("rays beside the eye at " + name, table, rays);
+            }
+        }
+    }
+}
+
 TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
     for (const double size : {1e-100, 1e-30, 1e-6, 1e6, 1e30, 1e100}) {
         std::ostringstream name;

@@ -45,16 +45,18 @@ namespace HWY_NAMESPACE {
 /// The rays of a packet and the pyramid around them. What makes it: make_packet-inl.h.
 class RayPacket {
   public:
+    static constexpr std::size_t kResolvedGroups = 1;  ///< together
+
     RayGroup groups[kPacketGroups];
     RayLanes rays[kPacketGroups];  ///< as given
     std::size_t group_count = 0;
     std::uint32_t kx = 0, ky = 0, kz = 0;
-    float error = 0;    ///< of a sheared coordinate, as in triangle_filter.h, of any ray
+    float error = 0;       ///< of a sheared coordinate, as in triangle_filter.h, of any ray
     float near_error = 0;  ///< as in TriangleFilterRay, of any ray
     float s_error = 0;     ///< of a local parameter, for a slope of 1
-    float point[3];     ///< P, along kx, ky, kz
-    float away[2];      ///< how far the rays pass it by, in x and in y, at most
-    float k_max = 0;    ///< the largest of the groups
+    float point[3];        ///< P, along kx, ky, kz
+    float away[2];         ///< how far the rays pass it by, in x and in y, at most
+    float k_max = 0;       ///< the largest of the groups
     /// [x, y][group] the slopes of their rays; those of no group are never met
     HWY_ALIGN float slope_lo[2][kPacketGroups];
     HWY_ALIGN float slope_hi[2][kPacketGroups];
@@ -121,12 +123,10 @@ class RayPacket {
         for (std::size_t i = 0; i < 2; ++i) {
             const Floats lo(box[lateral_row_[i] * stride] - point_hi_[i]);
             const Floats hi(box[(lateral_row_[i] + 3) * stride] - point_lo_[i]);
-            const Floats above =
-                neg_mul_add(load_lanes(group_hi_up_[i]), h1,
-                            neg_mul_add(load_lanes(group_hi_down_[i]), h0, lo));
-            const Floats below =
-                neg_mul_add(load_lanes(group_lo_up_[i]), h0,
-                            neg_mul_add(load_lanes(group_lo_down_[i]), h1, hi));
+            const Floats above = neg_mul_add(load_lanes(group_hi_up_[i]), h1,
+                                             neg_mul_add(load_lanes(group_hi_down_[i]), h0, lo));
+            const Floats below = neg_mul_add(load_lanes(group_lo_up_[i]), h0,
+                                             neg_mul_add(load_lanes(group_lo_down_[i]), h1, hi));
             missed = missed | (above > zero) | (below < zero);
         }
         return all_groups() & ~bits_of(missed);
