@@ -49,11 +49,11 @@ class LaneCandidates {
                                 ((lo > s_max) | (lo >= none));
         const std::uint32_t rest = candidates & ~bits_of(keep);
         if (HWY_UNLIKELY(rest != 0)) {
-            if (beside_count_ == kMaxBeside) return false;
-            Beside& beside = beside_[beside_count_++];
-            store_lanes(begin, beside.lo);
-            beside.lanes = rest;
-            beside.place = place;
+            if (overflow_count_ == kMaxOverflow) return false;
+            Overflow& overflow = overflow_[overflow_count_++];
+            store_lanes(begin, overflow.lo);
+            overflow.lanes = rest;
+            overflow.place = place;
         }
         store_lanes(select_lanes(keep, begin, lo), lo_);
         store_lanes(select_lanes(keep, PacketFloats(std::bit_cast<float>(place)), load_row(place_)),
@@ -73,12 +73,12 @@ class LaneCandidates {
             resolve(lanes, places);
         }
         store_lanes(PacketFloats(kNone), lo_);
-        take_beside(s_max, resolve);
+        take_overflow(s_max, resolve);
     }
     template <class Resolve>
-    HWY_INLINE void take_beside(const PacketRow& s_max, Resolve&& resolve) {
-        for (std::size_t n = 0; n < beside_count_; ++n) {
-            const Beside& b = beside_[n];
+    HWY_INLINE void take_overflow(const PacketRow& s_max, Resolve&& resolve) {
+        for (std::size_t n = 0; n < overflow_count_; ++n) {
+            const Overflow& b = overflow_[n];
             // Written so that a NaN is not passed over.
             const std::uint32_t lanes = b.lanes & ~bits_of(load_row(b.lo) > load_row(s_max));
             if (lanes == 0) continue;
@@ -86,21 +86,21 @@ class LaneCandidates {
             for (TrianglePlace& place : places) place = b.place;
             resolve(lanes, places);
         }
-        beside_count_ = 0;
+        overflow_count_ = 0;
     }
 
   private:
     static constexpr float kNone = std::numeric_limits<float>::infinity();
-    static constexpr std::size_t kMaxBeside = 16;
-    struct alignas(64) Beside {
+    static constexpr std::size_t kMaxOverflow = 16;
+    struct alignas(64) Overflow {
         PacketRow lo;
         std::uint32_t lanes;
         TrianglePlace place;
     };
     alignas(64) PacketRow lo_;     ///< kNone: none
     alignas(64) PacketRow place_;  ///< bits of a TrianglePlace
-    std::size_t beside_count_ = 0;
-    Beside beside_[kMaxBeside];
+    std::size_t overflow_count_ = 0;
+    Overflow overflow_[kMaxOverflow];
 };
 
 /// The leaves of a packet in lanes. `Derived` offers `found(place, result, stats)` for a triangle
@@ -355,9 +355,9 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     HWY_INLINE void add(TrianglePlace place, std::uint32_t candidates, const PacketFloats& begin,
                         const PacketFloats& s_max, Stats stats) {
         while (HWY_UNLIKELY(!candidates_.add(place, candidates, begin, s_max))) {
-            candidates_.take_beside(packet_.s_max,
-                                    [&](std::uint32_t lanes, const TrianglePlace* places)
-                                        HWY_ATTR { decide(lanes, places, stats); });
+            candidates_.take_overflow(packet_.s_max,
+                                      [&](std::uint32_t lanes, const TrianglePlace* places)
+                                          HWY_ATTR { decide(lanes, places, stats); });
         }
     }
     template <class Stats>
