@@ -133,19 +133,20 @@ HWY_INLINE Doubles importances_of(const Node* const (&nodes)[kLaneCount], std::u
 inline void choose(const LightTree& tree, std::span<const LitPoint> points,
                    std::span<const double> choices, ChosenLight* chosen) {
     const Node* const nodes = tree.nodes().data();
-    // Lanes without a point, and those that are done, stay at the root.
+    // Lanes without a point repeat the first one; those that are done stay at the root.
     const Node* node[kLaneCount];
-    HWY_ALIGN double place[6][kLaneCount] = {}, luck[kLaneCount] = {}, share[kLaneCount];
+    HWY_ALIGN double place[6][kLaneCount], luck[kLaneCount], share[kLaneCount];
     std::uint32_t both_sides = 0, in_volume = 0;
     for (std::size_t i = 0; i < kLaneCount; ++i) node[i] = nodes;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < kLaneCount; ++i) {
+        const std::size_t from = i < points.size() ? i : 0;
         for (int k = 0; k < 3; ++k) {
-            place[k][i] = points[i].point[k];
-            place[3 + k][i] = points[i].normal[k];
+            place[k][i] = points[from].point[k];
+            place[3 + k][i] = points[from].normal[k];
         }
-        luck[i] = choices[i];
-        both_sides |= std::uint32_t{points[i].both_sides} << i;
-        in_volume |= std::uint32_t{points[i].in_volume} << i;
+        luck[i] = choices[from];
+        both_sides |= std::uint32_t{points[from].both_sides} << i;
+        in_volume |= std::uint32_t{points[from].in_volume} << i;
     }
     const LitPoints at{load_lanes(place[0]),
                        load_lanes(place[1]),
@@ -168,8 +169,11 @@ inline void choose(const LightTree& tree, std::span<const LitPoint> points,
         }
         const Doubles one_importance = importances_of(first, first_two_sided, at);
         const Doubles other = importances_of(second, second_two_sided, at);
-        const Doubles sum = one_importance + other, part = one_importance / sum;
-        const std::uint32_t lit = bits_of(sum > Doubles(0.0));
+        const Doubles both = one_importance + other;
+        const LaneMask<double> is_lit_lane = both > Doubles(0.0);
+        const std::uint32_t lit = bits_of(is_lit_lane);
+        // No division of 0 by 0.
+        const Doubles sum = select_lanes(is_lit_lane, both, one), part = one_importance / sum;
         const LaneMask<double> takes_first = choice < part;
         choice = select_lanes(takes_first, choice, choice - part) /
                  select_lanes(takes_first, part, one - part);

@@ -105,13 +105,16 @@ HWY_INLINE double set(const TriangleMesh& mesh, std::size_t triangle, const Shap
         const Vec2 &t0 = mesh.uvs[i0], &t1 = mesh.uvs[i1], &t2 = mesh.uvs[i2];
         surface.uv = w * t0 + hit.u * t1 + hit.v * t2;
         const Vec2 a = t1 - t0, b = t2 - t0;
-        const Coordinates area =
-            hn::Set(Tag(), alhazen::difference_of_products(a.x, b.y, a.y, b.x));
-        store(hn::Div(hn::Sub(times(b.y, e1), times(a.y, e2)), area), surface.dpdu);
-        store(hn::Div(hn::Sub(times(a.x, e2), times(b.x, e1)), area), surface.dpdv);
-        if (!is_finite(surface.dpdu) || !is_finite(surface.dpdv)) {
-            surface.dpdu = surface.dpdv = {};
+        const double area = alhazen::difference_of_products(a.x, b.y, a.y, b.x);
+        // By an area of 0 no quotient is finite, and the fourth lane would be 0 / 0.
+        bool known = area != 0.0;
+        if (known) {
+            const Coordinates by = hn::Set(Tag(), area);
+            store(hn::Div(hn::Sub(times(b.y, e1), times(a.y, e2)), by), surface.dpdu);
+            store(hn::Div(hn::Sub(times(a.x, e2), times(b.x, e1)), by), surface.dpdv);
+            known = is_finite(surface.dpdu) && is_finite(surface.dpdv);
         }
+        if (!known) surface.dpdu = surface.dpdv = {};
     }
     const Coordinates far =
         farther(farther(farther(hn::Zero(Tag()), point, p0), point, p1), point, p2);
