@@ -44,8 +44,8 @@ def native_head(eye, lit, colors):
         head += f"point_light {{ position = {vector(light_of(eye))}; color = (1, 1, 1) }}\n"
     for name in colors:
         color = COLORS[name]
-        looks = f"emission = {vector(color, GLOW)}; diffuse = {vector(color, 1 - GLOW)}" if lit else f"emission = {vector(color)}"
-        head += f'material "{name}" {{ {looks} }}\n'
+        shading = f"emission = {vector(color, GLOW)}; diffuse = {vector(color, 1 - GLOW)}" if lit else f"emission = {vector(color)}"
+        head += f'material "{name}" {{ {shading} }}\n'
     return head
 
 

@@ -251,8 +251,8 @@ int run(const RenderArguments& args) {
     if (!args.quiet) print_warnings(loaded.diagnostics);
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
-    ViewWishes wishes{.environment = args.environment,
-                      .image_limits = load_options.import.image_limits};
+    ViewRequest wishes{.environment = args.environment,
+                       .image_limits = load_options.import.image_limits};
     if (!args.view.empty()) wishes.view = parse_view(args.view);
     wishes.projection = args.projection;
     for (const std::string& note : prepare_view(loaded, options, wishes)) {
@@ -384,9 +384,10 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Frame the whole scene from this side instead, degrees; 0,0 is the front")
         ->type_name("AZIMUTH,ELEVATION");
     command
-        ->add_option("--projection", args->projection,
-                     "How the camera sees, from where it is: fisheye, equisolid (180 degrees high "
-                     "unless given), panorama (all around), perspective (45)")
+        ->add_option(
+            "--projection", args->projection,
+            "Projection of the camera, with its position and direction: fisheye, "
+            "equisolid (180 degrees high unless given), panorama (all around), perspective (45)")
         ->type_name("NAME[:DEGREES]");
     // CLI11 reads "-1" into an unsigned number as a huge one.
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")

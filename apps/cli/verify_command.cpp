@@ -35,16 +35,16 @@ json to_json(const std::vector<Disagreement>& reported) {
                {"found", d.found},
                {"expected", d.expected}};
         if (std::isfinite(r.t_max)) one["t_max"] = r.t_max;
-        if (!d.road.empty()) one["road"] = d.road;
+        if (!d.query_path.empty()) one["query_path"] = d.query_path;
     }
     return disagreements;
 }
 
-json to_json(const std::array<RoadCounts, kRoadCount>& roads) {
+json to_json(const std::array<QueryPathCounts, kQueryPathCount>& query_paths) {
     json by_name;
-    for (std::size_t i = 0; i < kRoadCount; ++i) {
-        by_name[kRoadNames[i]] = {{"rays", roads[i].rays},
-                                  {"disagreements", roads[i].disagreements}};
+    for (std::size_t i = 0; i < kQueryPathCount; ++i) {
+        by_name[kQueryPathNames[i]] = {{"rays", query_paths[i].rays},
+                                       {"disagreements", query_paths[i].disagreements}};
     }
     return by_name;
 }
@@ -56,7 +56,7 @@ json to_json(const VerifyReport& report) {
             {"believed_boxes", report.believed_boxes},
             {"hits", report.hits},
             {"disagreements", report.disagreements},
-            {"roads", to_json(report.roads)},
+            {"query_paths", to_json(report.query_paths)},
             {"closed_surfaces", report.closed_surfaces},
             {"open_meshes", report.open_meshes},
             {"shapes_left_out", report.shapes_left_out},
@@ -91,21 +91,22 @@ void print_disagreements(const std::vector<Disagreement>& reported) {
     for (const Disagreement& d : reported) {
         const Vec3& o = d.ray.origin;
         const Vec3& v = d.ray.direction;
-        const std::string road = d.road.empty() ? "" : fmt::format(" ({})", d.road);
+        const std::string path = d.query_path.empty() ? "" : fmt::format(" ({})", d.query_path);
         const std::string end =
             std::isfinite(d.ray.t_max) ? fmt::format(" t_max {:.17g}", d.ray.t_max) : "";
         print("  {} {}{}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}{}\n",
-              d.kind, d.query, road, o.x, o.y, o.z, v.x, v.y, v.z, end);
+              d.kind, d.query, path, o.x, o.y, o.z, v.x, v.y, v.z, end);
         print("    found {}\n    expected {}\n", d.found, d.expected);
     }
 }
 
 /// "single 20000, stream 20000, coherent 4992", with the number of disagreements if not 0.
-std::string text_of(const std::array<RoadCounts, kRoadCount>& roads) {
+std::string text_of(const std::array<QueryPathCounts, kQueryPathCount>& query_paths) {
     std::string text;
-    for (std::size_t i = 0; i < kRoadCount; ++i) {
-        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", kRoadNames[i], roads[i].rays);
-        if (roads[i].disagreements > 0) text += fmt::format(" ({} differ)", roads[i].disagreements);
+    for (std::size_t i = 0; i < kQueryPathCount; ++i) {
+        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", kQueryPathNames[i], query_paths[i].rays);
+        if (query_paths[i].disagreements > 0)
+            text += fmt::format(" ({} differ)", query_paths[i].disagreements);
     }
     return text;
 }
@@ -135,8 +136,8 @@ void print_report(const VerifyReport& report) {
         "{}: {} rays ({}), {} hits, {} disagreements with brute force; {} closed surfaces, {} "
         "lines, {} "
         "with an odd number of crossings\n",
-        report.accelerator, report.rays, text_of(report.roads), report.hits, report.disagreements,
-        report.closed_surfaces, report.parity_lines, report.odd_crossings);
+        report.accelerator, report.rays, text_of(report.query_paths), report.hits,
+        report.disagreements, report.closed_surfaces, report.parity_lines, report.odd_crossings);
     print_left_out(report);
     print_disagreements(report.reported);
 }
@@ -188,7 +189,7 @@ void add_verify(CLI::App& app, int& exit_status) {
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_flag("--exact,!--no-exact", args->exact,
-                      "Shoot the exact solids again in numbers of 113 bits (the default)");
+                      "Trace the exact solids again in numbers of 113 bits (the default)");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");

@@ -406,8 +406,8 @@ class CommandLine(CommandLineCase):
         self.assertEqual(result.returncode, 0)
         reports = json.loads(result.stdout)
         self.assertTrue(all(report["holds"] for report in reports))
-        roads = {name: road["rays"] for name, road in reports[0]["roads"].items()}
-        self.assertEqual(roads, {"single": 500, "stream": 500, "coherent": 128})
+        query_paths = {name: path["rays"] for name, path in reports[0]["query_paths"].items()}
+        self.assertEqual(query_paths, {"single": 500, "stream": 500, "coherent": 128})
         result = run("verify", self.solids(), "--exact", "--rays", "300", "--json", "-", "-q")
         exact = [report for report in json.loads(result.stdout) if report.get("exact")]
         self.assertEqual([(report["solids"], report["unchecked"]) for report in exact], [(2, 0)])

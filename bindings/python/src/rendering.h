@@ -15,7 +15,7 @@ namespace alhazen::python {
 struct PictureWishes {
     RenderOptions render;  ///< without `stop` and `progress`
     std::string layers;    ///< as for `--aov`; empty: none
-    ViewWishes view;
+    ViewRequest view;
     std::string antialias;  ///< as for `--antialias`; empty: none
     SamplingTexts sampling;
     std::optional<int> spp;

@@ -85,11 +85,11 @@ bool trace_tree(RenderJob job, std::span<const Ray> ray, std::size_t most, RayNo
     const StopFlag* const stop = std::exchange(job.control.stop, &enough);
     RayCounters counters;
     RecursiveEstimator<RayTreeRecorder> estimator(job, 1, counters);
-    estimator.chance().limit(most, enough, stop);
+    estimator.randomness().limit(most, enough, stop);
     Rgb radiance;
     estimator.trace(ray, {&radiance, 1});
     if (enough.requested()) return false;
-    std::vector<RayNode> trees = estimator.chance().take();
+    std::vector<RayNode> trees = estimator.randomness().take();
     tree = std::move(trees.front());
     return true;
 }
@@ -128,7 +128,7 @@ void trace_samples(const RenderJob& job, const PixelSamples& samples, const Expl
     trace_deepest(job, samples.rays().subspan(chosen, 1), options, depth, e);
     e.max_depth = depth;
     RayCounters counters;
-    RecursiveEstimator<NoChance> estimator(job, 1, counters);
+    RecursiveEstimator<NoRandomness> estimator(job, 1, counters);
     BoxFilter filter;
     for (std::size_t i = 0; i < samples.rays().size() && !job.stop_requested(); ++i) {
         Rgb radiance = e.tree.radiance;

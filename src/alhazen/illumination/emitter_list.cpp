@@ -34,7 +34,7 @@ EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
                              [&](const Material& m) { return emits(m); });
     if (!may_shine_) return;
     emitters_.reserve(count(*scene.aggregate).count());
-    leaves_some_ |= emitters_.capacity() >= kMostEmitters;
+    has_unsampled_ |= emitters_.capacity() >= kMostEmitters;
     expand(*scene.aggregate, {});
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         if (!make_ready(emitters_[i])) {
@@ -55,18 +55,18 @@ bool EmitterList::varies(const Material& m) const {
     return m.emission.texture != kNoTexture || m.alpha_mode != AlphaMode::Opaque;
 }
 
-bool EmitterList::shines(const PrimitiveTable& table, PrimitiveId id) const {
-    const auto shines = [&](MaterialId m) {
+bool EmitterList::emits(const PrimitiveTable& table, PrimitiveId id) const {
+    const auto material_emits = [&](MaterialId m) {
         return emits(scene_.materials[static_cast<std::size_t>(m)]);
     };
-    if (table.kind(id) != kTriangleKind) return shines(table.shape_material(id));
+    if (table.kind(id) != kTriangleKind) return material_emits(table.shape_material(id));
     const std::uint32_t i = table.index(id);
     const PlacedMesh& placed = table.mesh_of(i);
     const auto& of_vertices = placed.mesh->vertex_materials;
-    if (of_vertices.empty()) return shines(placed.material);
+    if (of_vertices.empty()) return material_emits(placed.material);
     const auto& corners = *table.triangle_corners(i);
     return std::any_of(corners.begin(), corners.end(),
-                       [&](std::uint32_t v) { return shines(MaterialId{of_vertices[v]}); });
+                       [&](std::uint32_t v) { return material_emits(MaterialId{of_vertices[v]}); });
 }
 
 std::uint32_t EmitterList::emitters_of(const PrimitiveTable& table, PrimitiveId id) {
@@ -76,10 +76,10 @@ std::uint32_t EmitterList::emitters_of(const PrimitiveTable& table, PrimitiveId 
         const Instance& instance = table.instances[i];
         const std::uint32_t inside = count(*instance.aggregate).count();
         if (!instance.motion) return inside;
-        leaves_some_ |= inside > 0;
+        has_unsampled_ |= inside > 0;
         return 0;
     }
-    return shines(table, id) ? emitters_of_shape(table, id) : 0;
+    return emits(table, id) ? emitters_of_shape(table, id) : 0;
 }
 
 bool EmitterList::may_be_half(const PrimitiveTable& table, PrimitiveId id) const {
@@ -103,7 +103,7 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
         const bool follows = std::exchange(follows_half, false);
         const std::uint32_t found = is_solid ? 0 : emitters_of(table, id);
         if (found == 0) {
-            leaves_some_ |= table.kind(id) != kInstanceKind && shines(table, id);
+            has_unsampled_ |= table.kind(id) != kInstanceKind && emits(table, id);
             continue;
         }
         result.primitives.push_back(i);

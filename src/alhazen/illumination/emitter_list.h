@@ -34,7 +34,7 @@ class EmitterList {
     /// True if a material of the scene emits, whether or not its surfaces can be sampled.
     [[nodiscard]] bool may_shine() const { return may_shine_; }
     /// True if some emitting surface is not included.
-    [[nodiscard]] bool leaves_some_to_chance() const { return leaves_some_; }
+    [[nodiscard]] bool has_unsampled_emitters() const { return has_unsampled_; }
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
     /// The emitter of a hit; none if it is not included.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
@@ -60,7 +60,7 @@ class EmitterList {
     void join_half(const PrimitiveTable& table, PrimitiveId first, PrimitiveId second);
     [[nodiscard]] bool emits(const Material& material) const;
     [[nodiscard]] bool varies(const Material& material) const;
-    [[nodiscard]] bool shines(const PrimitiveTable& table, PrimitiveId id) const;
+    [[nodiscard]] bool emits(const PrimitiveTable& table, PrimitiveId id) const;
     /// True if the triangle may be half of a rectangle: its radiance is constant.
     [[nodiscard]] bool may_be_half(const PrimitiveTable& table, PrimitiveId id) const;
     [[nodiscard]] std::uint32_t emitters_of(const PrimitiveTable& table, PrimitiveId id);
@@ -70,7 +70,7 @@ class EmitterList {
 
     const Scene& scene_;
     std::map<const Aggregate*, Table> tables_;
-    bool may_shine_ = false, leaves_some_ = false;
+    bool may_shine_ = false, has_unsampled_ = false;
     std::vector<Emitter> emitters_;
     std::vector<bool> varying_;  ///< [emitter] its radiance is not constant
 };

@@ -61,7 +61,7 @@ Illumination::Data::Data(const Scene& of, const IlluminationOptions& how)
         environment = std::make_shared<const Environment>(
             EnvironmentSettings{.color = of.background}, Vec3{0, 1, 0});
     }
-    if (environment && !environment->shines()) environment = nullptr;
+    if (environment && !environment->emits()) environment = nullptr;
     sort_lights();
     set_choices();
     set_sources();
@@ -140,12 +140,12 @@ Illumination::~Illumination() = default;
 Illumination::Illumination(Illumination&&) noexcept = default;
 Illumination& Illumination::operator=(Illumination&&) noexcept = default;
 
-bool Illumination::shines() const {
+bool Illumination::emits() const {
     return data_->near.total() > 0.0 || data_->far.total() > 0.0 || data_->emitters.may_shine();
 }
 
-bool Illumination::leaves_some_to_chance() const {
-    return data_->emitters.leaves_some_to_chance();
+bool Illumination::has_unsampled_emitters() const {
+    return data_->emitters.has_unsampled_emitters();
 }
 
 namespace {

@@ -77,9 +77,9 @@ class Illumination {
     Illumination& operator=(Illumination&&) noexcept;
 
     /// True if the scene has light.
-    [[nodiscard]] bool shines() const;
+    [[nodiscard]] bool emits() const;
     /// True if some emitting surface is never sampled by `draw` and `emit`.
-    [[nodiscard]] bool leaves_some_to_chance() const;
+    [[nodiscard]] bool has_unsampled_emitters() const;
 
     /// True if `draw` uses `choice`: there is more than one light.
     [[nodiscard]] bool chooses() const;

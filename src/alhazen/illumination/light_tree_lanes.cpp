@@ -156,7 +156,7 @@ inline void choose(const LightTree& tree, std::span<const LitPoint> points,
                        load_lanes(place[5]),
                        lanes_of_bits<double>(both_sides),
                        lanes_of_bits<double>(in_volume)};
-    Doubles choice = load_lanes(luck), probability(1.0);
+    Doubles choice = load_lanes(draws), probability(1.0);
     const Doubles one(1.0), most(0x1.fffffffffffffp-1);
     for (std::uint32_t left = (1u << points.size()) - 1;;) {
         const Node *first[kLaneCount], *second[kLaneCount];

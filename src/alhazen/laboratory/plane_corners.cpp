@@ -7,7 +7,7 @@ namespace alhazen {
 namespace {
 
 /// Relative tolerance for rounding; far below what a drawing shows.
-constexpr double kRoom = 1e-9;
+constexpr double kTolerance = 1e-9;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::vector<Vec3> plane_corners(std::span<const HalfSpaceOfPoints> sides) {
                                volume;
                 const bool inside =
                     std::all_of(sides.begin(), sides.end(), [&](const HalfSpaceOfPoints& side) {
-                        return dot(side.normal, p) <= side.offset + kRoom * (1 + reach);
+                        return dot(side.normal, p) <= side.offset + kTolerance * (1 + reach);
                     });
                 if (inside) corners.push_back(p);
             }

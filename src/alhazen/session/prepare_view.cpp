@@ -23,7 +23,7 @@ void project(LoadedScene& loaded, const RenderOptions& options, const Projection
 }  // namespace
 
 std::vector<std::string> prepare_view(LoadedScene& loaded, const RenderOptions& options,
-                                      const ViewWishes& wishes) {
+                                      const ViewRequest& wishes) {
     std::vector<std::string> notes =
         set_environment(loaded, wishes.environment, options.renderer, wishes.image_limits);
     const auto append = [&](std::vector<std::string> more) {

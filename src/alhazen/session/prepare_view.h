@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-struct ViewWishes {
+struct ViewRequest {
     std::optional<ViewAngles> view;  ///< of a framing camera, instead of the file's cameras
     std::string projection;          ///< of the camera, "NAME" or "NAME:DEGREES"; empty: unchanged
     std::string environment;         ///< text for `set_environment`
@@ -23,6 +23,6 @@ struct ViewWishes {
 /// camera must have its aggregate. A panorama is twice as wide as high unless `options` give both
 /// sides. Throws Error as these functions.
 std::vector<std::string> prepare_view(LoadedScene& loaded, const RenderOptions& options,
-                                      const ViewWishes& wishes);
+                                      const ViewRequest& wishes);
 
 }  // namespace alhazen

@@ -81,7 +81,7 @@ HWY_INLINE Pairs odd_function(const Pairs& y, const Pairs& first, const Pairs& s
 
 /// Sets the lanes of `value` that are not in `known` to f of the lanes of `x`.
 template <class F>
-HWY_INLINE void ask_library(std::uint32_t known, const Doubles& x, Doubles& value, F&& f) {
+HWY_INLINE void call_libm(std::uint32_t known, const Doubles& x, Doubles& value, F&& f) {
     if (known == kAllLanes) return;
     HWY_ALIGN double in[kLaneCount], out[kLaneCount];
     store_lanes(x, in);
@@ -203,9 +203,9 @@ HWY_INLINE SineCosine sine_cosine_of_lanes(const Doubles& x) {
         sine_known = (others & c_known) | (~others & s_known);
         cosine_known = (others & s_known) | (~others & c_known);
     }
-    ask_library(sine_known & kAllLanes, x, value.sine, [](double lane) { return std::sin(lane); });
-    ask_library(cosine_known & kAllLanes, x, value.cosine,
-                [](double lane) { return std::cos(lane); });
+    call_libm(sine_known & kAllLanes, x, value.sine, [](double lane) { return std::sin(lane); });
+    call_libm(cosine_known & kAllLanes, x, value.cosine,
+              [](double lane) { return std::cos(lane); });
     return value;
 }
 

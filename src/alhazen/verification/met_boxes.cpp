@@ -83,7 +83,7 @@ void BoxList::add(const Box3& box) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int axis = static_cast<int>(k);
         center[k].push_back(static_cast<float>(middle[axis]));
-        half[k].push_back(static_cast<float>(0.5 * size[axis]) + kRoom);
+        half[k].push_back(static_cast<float>(0.5 * size[axis]) + kMargin);
     }
 }
 

@@ -7,7 +7,7 @@
 /// separating axes: lines that pass beside an edge may be reported too.) Coordinates are relative
 /// to the middle of the list and in units of its size; lines near the list start at most 4 away.
 /// All numbers are then at most 5, and the rounding of positions, slopes and sums together is below
-/// 2^-19: boxes are enlarged by `kRoom`, four times that. The rounding of the exact tests of the
+/// 2^-19: boxes are enlarged by `kMargin`, four times that. The rounding of the exact tests of the
 /// contents of the boxes, in double from origins of at most 2^28, is far smaller.
 
 #include <array>
@@ -21,7 +21,7 @@ namespace alhazen {
 /// Boxes by coordinate, padded to whole groups of kGroup with boxes that no line meets.
 struct BoxList {
     static constexpr std::size_t kGroup = 64;
-    static constexpr float kRoom = 0x1p-17f;
+    static constexpr float kMargin = 0x1p-17f;
 
     std::array<std::vector<float>, 3> center, half;
 

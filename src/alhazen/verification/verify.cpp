@@ -9,8 +9,8 @@
 #include "alhazen/scene/scene.h"
 #include "alhazen/verification/brute_force.h"
 #include "alhazen/verification/shared_progress.h"
+#include "alhazen/verification/verify_query_paths.h"
 #include "alhazen/verification/verify_rays.h"
-#include "alhazen/verification/verify_roads.h"
 
 namespace alhazen {
 
@@ -194,7 +194,7 @@ VerifyReport verify(const SceneDescription& description, const VerifyOptions& op
     VerifyOptions affordable = options;
     affordable.rays = affordable_rays(options.rays, fast.census.effective_primitives, options);
     report.rays_left_out = options.rays - affordable.rays;
-    RoadComparison(*fast.aggregate, brute, affordable, report).run(rays, fast.has_masks);
+    QueryPathComparison(*fast.aggregate, brute, affordable, report).run(rays, fast.has_masks);
     count_all_crossings(description, fast, options, report);
     return report;
 }

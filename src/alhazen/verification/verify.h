@@ -27,15 +27,16 @@ struct VerifyOptions {
 };
 
 /// The calls that trace a ray. The accelerator chooses the schedule.
-enum class Road : std::uint8_t {
+enum class QueryPath : std::uint8_t {
     Single,    ///< `closest`, `occluded`, `all_hits`, `shadowed`
     Stream,    ///< batches with Coherence::Any
     Coherent,  ///< batches with Coherence::Coherent
 };
-inline constexpr std::size_t kRoadCount = 3;
-inline constexpr std::array<const char*, kRoadCount> kRoadNames{"single", "stream", "coherent"};
+inline constexpr std::size_t kQueryPathCount = 3;
+inline constexpr std::array<const char*, kQueryPathCount> kQueryPathNames{"single", "stream",
+                                                                          "coherent"};
 
-struct RoadCounts {
+struct QueryPathCounts {
     std::uint64_t rays = 0;           ///< traced, per query
     std::uint64_t disagreements = 0;  ///< number of its queries that disagree
 };
@@ -49,7 +50,7 @@ struct Disagreement {
     std::string query;  ///< "closest", "occluded", "all_hits", "shadowed", "parity"
     Ray ray;
     std::string found, expected;
-    std::string road{};  ///< one of kRoadNames; empty if no aggregates are compared
+    std::string query_path{};  ///< one of kQueryPathNames; empty if no aggregates are compared
 };
 
 struct VerifyReport {
@@ -59,8 +60,8 @@ struct VerifyReport {
     /// Shapes and CSG solids that brute force tested only with rays that meet their boxes.
     std::uint64_t believed_boxes = 0;
     std::uint64_t hits = 0;           ///< of the closest-hit query
-    std::uint64_t disagreements = 0;  ///< over all roads
-    std::array<RoadCounts, kRoadCount> roads{};
+    std::uint64_t disagreements = 0;  ///< over all query_paths
+    std::array<QueryPathCounts, kQueryPathCount> query_paths{};
     std::uint64_t closed_surfaces = 0;   ///< meshes and shapes whose crossings were counted
     std::uint64_t open_meshes = 0;       ///< meshes that bound no volume; not checked
     std::uint64_t shapes_left_out = 0;   ///< shapes whose crossings were not counted

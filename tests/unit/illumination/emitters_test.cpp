@@ -98,7 +98,7 @@ TEST(Emitters, ARayAlongADrawFindsItsDensity) {
     for (const Scene& scene : lamps()) {
         SCOPED_TRACE(index++);
         const Illumination lights(scene);
-        ASSERT_TRUE(lights.shines());
+        ASSERT_TRUE(lights.emits());
         expect_equal_densities(scene, lights, kAt, 1e-5);
     }
 }
@@ -340,7 +340,7 @@ TEST(Emitters, SolidsOfConstructiveGeometryAreLeftToChance) {
     maker.add(cut);
     const Scene scene = maker.compile();
     const Illumination lights(scene);
-    EXPECT_TRUE(lights.shines());
+    EXPECT_TRUE(lights.emits());
     EXPECT_EQ(density_along(scene, lights, kAt, {0, 0, 1}), 0.0);
     EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}, kColorChannels).density, 0.0);
 }

@@ -149,7 +149,7 @@ TEST(Environments, TexelsThatAreNoRadiancesAreBlackAndCounted) {
     settings.picture = std::make_shared<const Image>(image);
     const Environment black(settings, kUp);
     EXPECT_EQ(black.bad_texels(), 32u);
-    EXPECT_FALSE(black.shines());
+    EXPECT_FALSE(black.emits());
     EXPECT_TRUE(black.radiance({0, 0, 1}).is_black());
 }
 

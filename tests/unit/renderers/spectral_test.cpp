@@ -43,7 +43,7 @@ class Walker {
     /// random, so the walk is repeated until it takes them.
     Vec3 leaves(const Ray& ray, double nm, const std::vector<bool>& transmitted) {
         const Wavelengths waves = Wavelengths::single(nm);
-        const PathChance chance(job_);
+        const PathRandomness chance(job_);
         for (std::uint32_t i = 0; i < 1 << 14; ++i) {
             const SampleId id{{3, 5}, i};
             WalkStart start{.ray = ray, .waves = &waves};

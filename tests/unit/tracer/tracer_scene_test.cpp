@@ -49,11 +49,11 @@ TEST(TracerScene, RefusesMeshesThatAreNone) {
     EXPECT_TRUE(holds(refusal([&] { scene.add_mesh(seven, three); }), "7 coordinates"));
     EXPECT_TRUE(holds(refusal([&] { scene.add_mesh(six, four); }), "4 indices"));
     EXPECT_TRUE(holds(refusal([&] { scene.add_mesh(std::shared_ptr<TriangleMesh>{}); }), "null"));
-    auto looks = std::make_shared<TriangleMesh>();
-    looks->positions = kCorners;
-    looks->triangles = kTriangle;
-    looks->vertex_materials = {0, 1, 4000000000u};
-    EXPECT_TRUE(holds(refusal([&] { scene.add_mesh(looks); }), "materials"));
+    auto mesh = std::make_shared<TriangleMesh>();
+    mesh->positions = kCorners;
+    mesh->triangles = kTriangle;
+    mesh->vertex_materials = {0, 1, 4000000000u};
+    EXPECT_TRUE(holds(refusal([&] { scene.add_mesh(mesh); }), "materials"));
     EXPECT_EQ(scene.geometry_count(), 1u) << "what is refused is not counted";
     EXPECT_EQ(scene.add_sphere({}, 1), GeometryId{1});
 }

@@ -1,6 +1,6 @@
 /// Candidate queues: triangles that pass the filter wait for exact resolution until their ray is
-/// done. Most lie behind a sure hit by then. `add` is false when the queue is full, `take_all`
-/// gives the candidates that still begin before the end of their ray to exact resolution.
+/// done; by then, a sure hit usually hides them. `add` returns false if the queue is full;
+/// `take_all` passes the candidates that begin before the end of their ray to exact resolution.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -34,7 +34,7 @@ class RayCandidates {
     template <class Resolve>
     HWY_INLINE void take_all(const float& s_max, Resolve&& resolve) {
         for (std::uint32_t i = 0; i < count_; ++i) {
-            // Written so that a NaN is not passed over.
+            // Written so that NaN is resolved.
             if (candidates_[i].lo > s_max) continue;
             resolve(*candidates_[i].block, candidates_[i].lane);
         }
@@ -51,8 +51,7 @@ class RayCandidates {
     } candidates_[kMaxCount];
 };
 
-/// The candidates of the rays of a packet. Most rays have one: it is kept in lanes, further ones in
-/// a list.
+/// The candidates of the rays of a packet: one per ray in lanes, further ones in a list.
 class PacketCandidates {
   public:
     static constexpr float kNone = std::numeric_limits<float>::infinity();
@@ -62,25 +61,25 @@ class PacketCandidates {
         for (std::size_t g = 0; g < packet.group_count; ++g) store_lanes(none, kept_[g].lo);
     }
 
-    /// Adds a triangle for the rays of `candidates`; a kept one beyond the s_max of its ray is
-    /// replaced. False when the list is full: then nothing is done.
+    /// Adds a triangle for the rays of `candidates`; replaces a kept one beyond the s_max of its
+    /// ray. False, without effect, if the list is full.
     [[nodiscard]] HWY_INLINE bool add(std::size_t g, TrianglePlace place,
                                       const LaneMask<float, kGroupRays>& candidates,
                                       const GroupFloats& begin) {
         const RayGroup& group = packet_.groups[g];
         Kept& kept = kept_[g];
         const GroupFloats lo = load_lanes<kGroupRays>(kept.lo), none(kNone);
-        // A NaN goes to the list, where it is never replaced.
+        // A NaN goes to the list, which never replaces it.
         const auto keep = candidates & (begin < none) &
                           ((lo > load_lanes<kGroupRays>(group.s_max)) | (lo >= none));
         const std::uint32_t rest = bits_of(candidates) & ~bits_of(keep) & group.used;
         if (HWY_UNLIKELY(rest != 0)) {
-            if (beside_count_ == kMaxBeside) return false;
-            Beside& beside = beside_[beside_count_++];
-            store_lanes(begin, beside.lo);
-            beside.group = static_cast<std::uint32_t>(g);
-            beside.lanes = rest;
-            beside.place = place;
+            if (overflow_count_ == kMaxOverflow) return false;
+            Overflow& overflow = overflow_[overflow_count_++];
+            store_lanes(begin, overflow.lo);
+            overflow.group = static_cast<std::uint32_t>(g);
+            overflow.lanes = rest;
+            overflow.place = place;
         }
         store_lanes(select_lanes(keep, begin, lo), kept.lo);
         store_lanes(select_lanes(keep, GroupFloats(std::bit_cast<float>(place)),
@@ -89,8 +88,8 @@ class PacketCandidates {
         return true;
     }
 
-    /// Calls `resolve(g, lanes, places)` for all candidates, or only those of the list, and drops
-    /// them.
+    /// Calls `resolve(g, lanes, places)` for all candidates (take_overflow: only those of the list)
+    /// and removes them.
     template <class Resolve>
     HWY_INLINE void take_all(Resolve&& resolve) {
         for (std::size_t g = 0; g < packet_.group_count; ++g) {
@@ -105,40 +104,40 @@ class PacketCandidates {
             resolve(g, lanes, places);
             store_lanes(GroupFloats(kNone), kept_[g].lo);
         }
-        take_beside(resolve);
+        take_overflow(resolve);
     }
     template <class Resolve>
-    HWY_INLINE void take_beside(Resolve&& resolve) {
-        for (std::size_t n = 0; n < beside_count_; ++n) {
-            const Beside& b = beside_[n];
+    HWY_INLINE void take_overflow(Resolve&& resolve) {
+        for (std::size_t n = 0; n < overflow_count_; ++n) {
+            const Overflow& b = overflow_[n];
             const RayGroup& group = packet_.groups[b.group];
-            // Written so that a NaN is not passed over.
-            const std::uint32_t beyond = bits_of(load_lanes<kGroupRays>(b.lo) >
-                                                 load_lanes<kGroupRays>(group.s_max));
+            // Written so that NaN is resolved.
+            const std::uint32_t beyond =
+                bits_of(load_lanes<kGroupRays>(b.lo) > load_lanes<kGroupRays>(group.s_max));
             const std::uint32_t lanes = b.lanes & group.used & ~beyond;
             if (lanes == 0) continue;
             TrianglePlace places[kGroupRays];
             for (TrianglePlace& place : places) place = b.place;
             resolve(b.group, lanes, places);
         }
-        beside_count_ = 0;
+        overflow_count_ = 0;
     }
 
   private:
-    static constexpr std::size_t kMaxBeside = 16;
+    static constexpr std::size_t kMaxOverflow = 16;
     struct alignas(64) Kept {
-        GroupRow lo;     ///< kNone: none
+        GroupRow lo;     ///< kNone for no candidate
         GroupRow place;  ///< bits of a TrianglePlace
     };
-    struct alignas(64) Beside {
+    struct alignas(64) Overflow {
         GroupRow lo;
         std::uint32_t group, lanes;
         TrianglePlace place;
     };
     const RayPacket& packet_;
     Kept kept_[kPacketGroups];
-    std::size_t beside_count_ = 0;
-    Beside beside_[kMaxBeside];
+    std::size_t overflow_count_ = 0;
+    Overflow overflow_[kMaxOverflow];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -1,21 +1,21 @@
-/// The triangle filter of packets: of a block, those triangles that groups of rays may hit, each
-/// against eight rays.
+/// The triangle filter of frustum packets: the triangles of a block that groups of rays may hit,
+/// each tested against eight rays.
 ///
-/// Source: triangle_filter.h, with rays in the lanes; that of rays with a common point an edge
-/// function is linear in the slopes: Amanatides and Choi, "Ray Tracing Triangular Meshes", Western
-/// Computer Graphics Symposium 1997, among others.
-/// Differs: slopes are taken from the middle one of the packet, which keeps the rounding as small
-/// as that of one ray; of a block only those triangles are tested whose slopes, seen from the
-/// point, meet those of a group.
-/// With e, R, E and L as there, S the slope of a ray, m the middle one, w the largest |S - m| and P
-/// the point of the packet:
-/// - a corner (v - P) - S (v - P)_z is off by E as there, by e w R for S - m, and by as much as the
-///   ray passes P by: E' = 1.1 E + |away|
-/// - so an edge function is off by 4 E' L + 2 E'^2, where L is the largest |x|, |y| of a corner
-///   sheared along m and w |z| more; its three parts and their sum round 9.1 e L^2 where nothing is
-///   fused, less than 1.5 E' L: 5.6 E' L + 2.2 E'^2 are taken
-/// - the place of the hit has one sum more: 1.1 times the bound there.
-/// Where a ray begins near a triangle, the finer bound of triangle_filter.h tells them apart:
+/// Source: triangle_filter.h, with rays in the lanes. For rays with a common point an edge function
+/// is linear in the slopes: Amanatides and Choi, "Ray Tracing Triangular Meshes", Western Computer
+/// Graphics Symposium 1997, among others.
+/// Differs: slopes are relative to the middle one of the packet, which keeps the rounding error as
+/// small as that of one ray; only those triangles of a block are tested whose slopes, seen from the
+/// point, overlap those of a group.
+/// With e, R, E and L as in triangle_filter.h, S the slope of a ray, m the middle one, w the
+/// largest |S - m| and P the point of the packet:
+/// - the error of a corner (v - P) - S (v - P)_z is E, plus e w R for S - m, plus the distance at
+///   which the ray passes P: E' = 1.1 E + |away|
+/// - so the error of an edge function is 4 E' L + 2 E'^2, where L is the largest |x|, |y| of a
+///   corner sheared along m, plus w |z|; its three parts and their sum round 9.1 e L^2 where
+///   nothing is fused, less than 1.5 E' L: the bound is 5.6 E' L + 2.2 E'^2
+/// - the position of the hit has one sum more: 1.1 times the bound there.
+/// Where a ray begins near a triangle, the finer bound of triangle_filter.h applies:
 /// `refine_group`, the filter of one ray with rays in the lanes.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -40,14 +40,14 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The triangles of a block as the rays of a packet see them.
-struct SeenBlock {
-    /// [1 2, 2 0, 0 1][constant, times the slopes beside the middle in x, in y][lane]
+/// The triangles of a block, sheared for the rays of a packet.
+struct ShearedBlock {
+    /// [edges 1 2, 2 0, 0 1][constant, factor of the relative slope in x, in y][lane]
     HWY_ALIGN float edge[3][3][kBlockWidth];
     HWY_ALIGN float error[kBlockWidth];  ///< of an edge function
-    HWY_ALIGN float z[3][kBlockWidth];   ///< from the point
+    HWY_ALIGN float z[3][kBlockWidth];   ///< relative to the point
 
-    HWY_INLINE SeenBlock(const TriangleBlock& block, const RayPacket& packet) {
+    HWY_INLINE ShearedBlock(const TriangleBlock& block, const RayPacket& packet) {
         const std::uint32_t axes[3] = {packet.kx, packet.ky, packet.kz};
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -69,7 +69,7 @@ struct SeenBlock {
         }
         return kAllLanes & ~bits_of(missed);
     }
-    /// Call before a SeenTriangle is made.
+    /// Must be called before a ShearedTriangle is constructed.
     HWY_INLINE void find_edges(const RayPacket& packet) {
         struct {
             Floats x, y, z;
@@ -84,8 +84,8 @@ struct SeenBlock {
             far = max_lanes(far, max_lanes(abs(p[i].x), abs(p[i].y)));
             deep = max_lanes(deep, abs(p[i].z));
         }
-        // Sheared along the middle slope m a corner is at (x, y) and at (x - a z, y - b z) along
-        // the slope m + (a, b); of its edge functions the terms in a b cancel.
+        // Sheared along the middle slope m a corner is at (x, y), and at (x - a z, y - b z) along
+        // the slope m + (a, b); the terms in a b of its edge functions cancel.
         HWY_UNROLL(3)
         for (std::size_t e = 0; e < 3; ++e) {
             const auto &a = p[(e + 1) % 3], &b = p[(e + 2) % 3];
@@ -99,8 +99,9 @@ struct SeenBlock {
     }
 
   private:
-    /// A ray that hits a triangle in front of the point, or behind it, has a slope between those of
-    /// its corners, give and take what the ray and they are off over the depth.
+    /// Sets the ranges of slopes and depths. A ray that hits a triangle entirely in front of the
+    /// point, or behind it, has a slope between those of its corners, within the errors of both
+    /// over the depth.
     HWY_INLINE void find_slopes(const RayPacket& packet) {
         const auto least = [](const Floats& a, const Floats& b, const Floats& c)
                                HWY_ATTR { return min_lanes(min_lanes(a, b), c); };
@@ -109,7 +110,7 @@ struct SeenBlock {
         const Floats tiny(0x1p-60f), infinite(std::numeric_limits<float>::infinity());
         const Floats lowest = least(v_[0][2], v_[1][2], v_[2][2]);
         const Floats highest = most(v_[0][2], v_[1][2], v_[2][2]);
-        // Of the others the slopes say nothing.
+        // The slopes of other triangles are unbounded.
         const LaneMask<float> aside = (lowest > tiny) | (highest < -tiny);
         Floats q[3];
         HWY_UNROLL(3)
@@ -126,20 +127,20 @@ struct SeenBlock {
         farthest_ = packet.sign() > 0 ? highest : -lowest;
     }
 
-    Floats v_[3][3];  ///< [corner][axis] from the point
+    Floats v_[3][3];  ///< [corner][axis] relative to the point
     Floats slope_lo_[2], slope_hi_[2], nearest_, farthest_;
 };
 
-/// A triangle of a block in every lane.
-struct SeenTriangle {
+/// A triangle of a block, repeated in every lane.
+struct ShearedTriangle {
     Floats edge[3][3], error, z[3];
     Floats first, last;  ///< of z
-    Floats spread;       ///< by how much the weights' errors move a place, times their sum
-    Floats place_error;  ///< beside that
+    Floats spread;       ///< error of a position by those of the weights, times their sum
+    Floats place_error;  ///< the remaining error of a position
     TrianglePlace place;
 
-    HWY_INLINE SeenTriangle(const SeenBlock& block, const RayPacket& packet, std::size_t lane,
-                            TrianglePlace at)
+    HWY_INLINE ShearedTriangle(const ShearedBlock& block, const RayPacket& packet, std::size_t lane,
+                               TrianglePlace at)
         : error(block.error[lane]), place_error(packet.s_error), place(at) {
         HWY_UNROLL(3)
         for (std::size_t e = 0; e < 3; ++e) {
@@ -152,17 +153,18 @@ struct SeenTriangle {
     }
 };
 
-/// Which rays of a group a triangle is hit by, and where.
+/// The rays of a group that a triangle may hit, and their parameters.
 struct FilteredGroup {
     LaneMask<float, kGroupRays> candidates, sure;
     GroupFloats lo, hi;
 
-    // As that of LaneMask: not defaulted, for the sake of the target.
+    // Not defaulted, as for LaneMask.
     HWY_INLINE FilteredGroup() {}
 };
 
-/// As `filter_triangles`; false when no ray hits the triangle for all one knows.
-HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, FilteredGroup& out) {
+/// As `filter_triangles`; false if certainly no ray hits the triangle.
+HWY_INLINE bool filter_group(const ShearedTriangle& seen, const RayGroup& group,
+                             FilteredGroup& out) {
     using F = GroupFloats;
     const auto row = [](const GroupRow& r) HWY_ATTR { return load_lanes<kGroupRays>(r); };
     const F a = row(group.aside[0]), b = row(group.aside[1]);
@@ -183,7 +185,7 @@ HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, Fi
     const F slack = abs(reciprocal) * mul_add(seen.spread, abs(inverse), seen.place_error);
     out.lo = s - slack;
     out.hi = s + slack;
-    // Written so that a NaN is a candidate and not sure.
+    // Written so that NaN is a candidate and not sure.
     const auto outside = missed | (out.lo > row(group.s_max)) | (out.hi < row(group.s_min));
     const auto inside = ((least > error) | (most < minus_error)) & (out.lo >= row(group.sure_min)) &
                         (out.hi <= row(group.sure_max));
@@ -194,8 +196,8 @@ HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, Fi
     return (bits_of(out.candidates) & group.used) != 0;
 }
 
-/// The same by the bound of triangle_filter.h that is finer where a ray begins. `lane` of the
-/// block.
+/// As `filter_group`, by the bound of triangle_filter.h that is finer where a ray begins. `lane`:
+/// of the block.
 HWY_NOINLINE inline bool refine_group(const TriangleBlock& block, std::size_t lane,
                                       const RayPacket& packet, const RayGroup& group,
                                       FilteredGroup& out) {

@@ -1,5 +1,5 @@
-/// The queries of the wide BVH aggregate on the leaves, for packets: each triangle and each shape
-/// against eight rays.
+/// The queries of the wide BVH aggregate on the leaves, for frustum packets: each triangle and each
+/// shape against eight rays.
 ///
 /// Source: packet_filter-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
@@ -28,17 +28,17 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The leaves of a packet. `Derived` offers `found(group number, block, lane, place, result,
-/// stats)` for triangles and `meet(id, group number, stats)` for shapes, and `left(groups, stats)`,
-/// called with the groups that changed when a leaf has been visited: true to stop. Shapes are
-/// tested eight rays at a time too, by the groups that intersect their box.
+/// The leaves of a packet. `Derived` has `found(group number, block, lane, place, result, stats)`
+/// for triangles, `meet(id, group number, stats)` for shapes, and `left(groups)`, which is called
+/// after a leaf with the groups that it changed and returns true to stop. Shapes are tested eight
+/// rays at a time too, against the groups that intersect their box.
 template <class Derived>
 class PacketLeaves {
   public:
     HWY_INLINE PacketLeaves(const WideBvhScene& scene, std::span<const Ray> rays, RayPacket& packet)
         : scene_(scene), packet_(packet), resolution_(scene, packet, rays) {}
 
-    std::uint32_t work = 0;  ///< so far: see traverse_packet
+    std::uint32_t work = 0;  ///< see traverse_packet
 
     template <class Stats>
     HWY_INLINE bool visit(NodeRef ref, std::uint32_t groups, Stats stats) {
@@ -68,7 +68,7 @@ class PacketLeaves {
     template <class Stats>
     HWY_INLINE void visit_triangles(std::uint32_t number, std::uint32_t groups, Stats stats) {
         const TriangleBlock& block = scene_.layout->triangles[number];
-        SeenBlock seen(block, packet_);
+        ShearedBlock seen(block, packet_);
         work += 4;
         // Byte g: the triangles that group g may hit.
         std::uint64_t pairs = 0;
@@ -85,8 +85,8 @@ class PacketLeaves {
             const auto lane = static_cast<std::size_t>(std::countr_zero(any));
             if (!block.ids[lane].used()) return;
             if (!scene_.sees(block.ids[lane].id())) continue;
-            const SeenTriangle triangle(seen, packet_, lane,
-                                        static_cast<TrianglePlace>(number * kBlockWidth + lane));
+            const ShearedTriangle triangle(seen, packet_, lane,
+                                           static_cast<TrianglePlace>(number * kBlockWidth + lane));
             std::uint64_t rest = pairs >> lane & 0x0101010101010101u;
             work += static_cast<std::uint32_t>(std::popcount(rest));
             for (; rest != 0; rest &= rest - 1) {
@@ -102,7 +102,8 @@ class PacketLeaves {
         }
     }
 
-    /// Shapes and instances, the nearest first, each by the groups of rays that may meet it.
+    /// Tests shapes and instances, the nearest first, each against the groups of rays that may meet
+    /// it.
     template <class Block, class Stats>
     HWY_NOINLINE void visit_shapes(const Block* blocks, std::uint32_t count, std::uint32_t among,
                                    Stats stats) {
@@ -134,10 +135,10 @@ class PacketLeaves {
     const WideBvhScene& scene_;
     RayPacket& packet_;
     PacketResolution<RayPacket> resolution_;
-    std::uint32_t changed_ = 0;  ///< groups that the leaf in hand has changed
+    std::uint32_t changed_ = 0;  ///< groups that the current leaf has changed
 
   private:
-    /// The groups that it changed.
+    /// Returns the groups that it changed.
     template <class Stats>
     HWY_INLINE std::uint32_t visit_shape(PrimitiveId id, std::uint32_t groups, Stats stats) {
         std::uint32_t changed = 0;
@@ -145,7 +146,7 @@ class PacketLeaves {
             const auto g = static_cast<std::size_t>(std::countr_zero(groups));
             if (derived().meet(id, g, stats)) changed |= 1u << g;
         }
-        // What is nearer hides what follows.
+        // Hits hide primitives behind them.
         if (changed != 0) (void)derived().left(changed);
         return changed;
     }
@@ -175,7 +176,7 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
     HWY_INLINE bool found(std::size_t g, const TriangleBlock& block, std::size_t lane,
                           TrianglePlace place, FilteredGroup& found, Stats stats) {
         RayGroup& group = packet_.groups[g];
-        // A finer bound takes less time than the test in double of the rays near an edge.
+        // The finer bound takes less time than the exact test of the rays near an edge.
         if ((bits_of(found.candidates) & ~bits_of(found.sure) & group.used) != 0) {
             work += 3;
             if (!refine_group(block, lane, packet_, group, found)) return false;
@@ -183,7 +184,7 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
         const GroupFloats s_max = load_lanes<kGroupRays>(group.s_max);
         store_lanes(select_lanes(found.sure, min_lanes(found.hi, s_max), s_max), group.s_max);
         while (HWY_UNLIKELY(!candidates_.add(g, place, found.candidates, found.lo))) {
-            candidates_.take_beside(
+            candidates_.take_overflow(
                 [&](std::size_t group_number, std::uint32_t lanes, const TrianglePlace* places)
                     HWY_ATTR { resolve(group_number, lanes, places, stats); });
         }
@@ -221,7 +222,7 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
     PacketCandidates candidates_;
 };
 
-/// Which rays hit anything. A ray that does is not used any more.
+/// The occlusion of rays. An occluded ray becomes unused.
 class OccludedPacket : public PacketLeaves<OccludedPacket> {
   public:
     static constexpr bool kOrdered = false;
@@ -273,7 +274,7 @@ class OccludedPacket : public PacketLeaves<OccludedPacket> {
         }
         return any;
     }
-    /// True when no ray is left.
+    /// True if no ray is left.
     HWY_INLINE bool left(std::uint32_t changed) {
         for (; changed != 0; changed &= changed - 1) {
             const auto g = static_cast<std::size_t>(std::countr_zero(changed));

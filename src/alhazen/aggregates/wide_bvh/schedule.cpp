@@ -14,8 +14,8 @@ std::atomic<int> stream_overrides{0};
 
 struct ScheduledTree {
     std::size_t bytes;
-    bool treeless;       ///< TreelessPackets takes all primitives
-    bool suits_packets;  ///< packets are faster than single rays, on some road and target
+    bool treeless;       ///< TreelessPackets traces all primitives
+    bool suits_packets;  ///< packets are faster than single rays for some query and target
     bool has_packets;    ///< the kernels trace packets
 };
 

@@ -32,7 +32,7 @@ bool is_free(const WideNodeOf<W>& node, std::size_t slot) {
     return node.box(slot) == FloatBox{};
 }
 
-/// Every octant's order names every slot once.
+/// True if every octant's order names every slot once.
 template <std::size_t W>
 bool is_ordered(const WideNodeOf<W>& node) {
     constexpr std::uint32_t kBits = WideNodeOf<W>::kSlotBits;
@@ -45,7 +45,7 @@ bool is_ordered(const WideNodeOf<W>& node) {
     return true;
 }
 
-/// A frame as one is made for some box: rays in it are then what the kernels expect.
+/// True if the frame could have been made for some box, as the kernels require.
 bool is_sound(const LocalFrame& frame) {
     const double reach = max_component(abs(frame.center));
     return is_finite(frame.center) && reach <= 2e150 && frame.scale >= 0x1p-502 &&
@@ -55,8 +55,8 @@ bool is_sound(const LocalFrame& frame) {
            frame.slack == FrameSlack(frame.offset, frame.usual);
 }
 
-/// What is wrong with the children of a node, the `index`-th of `count`; the depth of inner ones is
-/// set (0: not met so far).
+/// What is wrong with the children of the node with index `index` of `count`. Sets the depth of
+/// inner ones (0: not reached so far).
 template <std::size_t W>
 const char* check_children(const WideBvhLayout& layout, const WideNodeOf<W>& node,
                            std::size_t index, std::vector<std::uint8_t>& depth) {
@@ -67,7 +67,7 @@ const char* check_children(const WideBvhLayout& layout, const WideNodeOf<W>& nod
             ended = true;
             continue;
         }
-        // Who counts the slots takes the first ones.
+        // Traversal takes the first slots as those in use.
         if (ended) return "a node has a free slot before one in use";
         if (child.is_leaf()) {
             if (!leads_to_leaf(layout, child)) return "a node leads out of the leaves";
@@ -101,7 +101,7 @@ const char* check_nodes(const WideBvhLayout& layout) {
     });
 }
 
-/// The lanes in use are the first, and hold primitives of the kind.
+/// True if the used lanes are the first and hold primitives of the kind.
 bool names_kind(const PrimitiveTable& table, const BlockId (&ids)[kBlockWidth], LeafType kind) {
     bool ended = false;
     for (const BlockId id : ids) {
@@ -137,7 +137,7 @@ const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& tabl
 
 }  // namespace
 
-const char* find_unsound(const WideBvhLayout& layout, const PrimitiveTable& table) {
+const char* first_violation(const WideBvhLayout& layout, const PrimitiveTable& table) {
     if (!is_sound(layout.frame)) return "its frame is none";
     if (const char* message = check_nodes(layout)) return message;
     return check_leaves(layout, table);

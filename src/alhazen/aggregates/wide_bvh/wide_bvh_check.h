@@ -1,8 +1,7 @@
 #pragma once
-/// Whether a tree that came from outside can be traversed at all: kernels follow its references
-/// without a look at where they lead.
+/// Checks that a tree from a file can be traversed: kernels follow its references unchecked.
 ///
-/// Conventions: what is checked is what memory safety needs. A tree with wrong boxes passes, and
+/// Conventions: checks the conditions of memory safety only. A tree with wrong boxes passes, and
 /// gives wrong hits.
 /// Complexity: O(nodes + blocks).
 
@@ -10,9 +9,9 @@
 
 namespace alhazen {
 
-/// Null when the frame is one, every node has one parent that comes before it, nodes lie at most
+/// Null if the frame is valid, every node has one parent that precedes it, nodes are at most
 /// `kMaxWideDepth` deep, every reference lies within the arrays and every id within its kind in the
-/// table; else what is wrong, in some words.
-[[nodiscard]] const char* find_unsound(const WideBvhLayout& layout, const PrimitiveTable& table);
+/// table; else a short description of the first violation.
+[[nodiscard]] const char* first_violation(const WideBvhLayout& layout, const PrimitiveTable& table);
 
 }  // namespace alhazen

@@ -26,15 +26,16 @@ static_assert(alignof(WideNode) <= kAlignment && alignof(TriangleBlock) <= kAlig
               alignof(SphereBlock) <= kAlignment && alignof(FrustumBlock) <= kAlignment &&
               alignof(BoxBlock) <= kAlignment);
 
-/// What a file begins with; the rest of its 512 bytes is zero but for the checksum at their end.
+/// The beginning of a file. The rest of its 512 bytes is zero, except for the checksum at their
+/// end.
 struct Header {
     char magic[8];
     std::uint32_t byte_order;
     std::uint32_t version;
     std::uint64_t file_bytes;
     std::uint64_t fingerprint;
-    std::uint64_t count[kMaxArrays];          ///< [array] of its elements
-    std::uint32_t element_bytes[kMaxArrays];  ///< [array] of one; 0: no such array
+    std::uint64_t count[kMaxArrays];          ///< [array] number of elements
+    std::uint32_t element_bytes[kMaxArrays];  ///< [array] size of an element; 0: no such array
     std::uint32_t frame_bytes;
     std::uint32_t node_width, block_width;
     NodeRef root;
@@ -55,7 +56,7 @@ std::size_t aligned(std::size_t bytes) {
     throw Error(ErrorKind::File, why, {path.string(), 0, 0});
 }
 
-/// The parts of a header that tell which build wrote it, for arrays of no elements.
+/// The parts of a header that identify the build, for empty arrays.
 Header header_of_this_build() {
     Header header;
     std::memset(static_cast<void*>(&header), 0, sizeof(header));
@@ -75,13 +76,13 @@ Header header_of_this_build() {
     return header;
 }
 
-/// Of the nodes that a build knows.
+/// True for a width in kNodeWidths.
 bool is_node_width(std::uint32_t width) {
     return std::find(std::begin(kNodeWidths), std::end(kNodeWidths), width) !=
            std::end(kNodeWidths);
 }
 
-/// Throws unless the header is one of this build, and the file as long as it says.
+/// Throws Error (File) unless the header is of this build and the file has the size that it states.
 void check_header(const std::filesystem::path& path, const Header& header, std::size_t file_bytes) {
     const Header own = header_of_this_build();
     if (std::memcmp(header.magic, own.magic, sizeof(own.magic)) != 0) {
@@ -106,7 +107,7 @@ void check_header(const std::filesystem::path& path, const Header& header, std::
     std::size_t expected = kHeaderBytes;
     for (std::size_t i = 0; i < kMaxArrays; ++i) {
         const std::size_t room = file_bytes - expected;
-        // A product of what fits cannot overflow.
+        // A product that fits cannot overflow.
         if (header.count[i] != 0 &&
             (header.element_bytes[i] == 0 || header.count[i] > room / header.element_bytes[i])) {
             refuse(path, "the arrays of the tree are longer than its file");
@@ -118,7 +119,7 @@ void check_header(const std::filesystem::path& path, const Header& header, std::
     if (expected != file_bytes) refuse(path, "the file is longer than the tree in it");
 }
 
-/// Hands out the arrays of a mapped file one after another.
+/// Returns the arrays of a mapped file one after another.
 class ArrayReader {
   public:
     ArrayReader(std::shared_ptr<const MappedFile> file, const Header& header)
@@ -138,7 +139,7 @@ class ArrayReader {
     std::size_t array_ = 0, at_ = kHeaderBytes;
 };
 
-/// The checksum of a file: of the header but for its last word, which holds it, and of all
+/// The checksum of a file: of the header except its last word, which holds it, and of all
 /// `kMaxArrays` arrays.
 std::uint64_t file_checksum(const HeaderBytes& header,
                             std::span<const std::span<const std::byte>> arrays) {
@@ -148,7 +149,7 @@ std::uint64_t file_checksum(const HeaderBytes& header,
     return sum.value();
 }
 
-/// Throws unless every byte of the file is as it was written.
+/// Throws Error (File) unless every byte of the file is as written.
 void check_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes,
                  const Header& header) {
     std::vector<std::span<const std::byte>> arrays;
@@ -181,7 +182,7 @@ void save_wide_bvh(const std::filesystem::path& path, const WideBvhLayout& layou
     header.empty = layout.tree.empty;
     header.depth = layout.tree.depth;
     header.frame = layout.frame;
-    // The gap behind the flag was copied with whatever it held.
+    // The padding after the flag was copied with undefined content.
     constexpr std::size_t kGap = offsetof(LocalFrame, usual) + sizeof(LocalFrame::usual);
     std::memset(reinterpret_cast<std::byte*>(&header.frame) + kGap, 0,
                 offsetof(LocalFrame, slack) - kGap);
@@ -233,7 +234,7 @@ StoredWideBvh load_wide_bvh(const std::filesystem::path& path, const PrimitiveTa
     });
     const std::span<const PrimitiveId> unbounded = arrays.next<PrimitiveId>();
     tree.unbounded.assign(unbounded.begin(), unbounded.end());
-    const char* wrong = find_unsound(tree.layout, table);
+    const char* wrong = first_violation(tree.layout, table);
     for (const PrimitiveId id : tree.unbounded) {
         if (static_cast<std::uint32_t>(id) >= table.size())
             wrong = "an unbounded primitive is not there";

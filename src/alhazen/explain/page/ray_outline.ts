@@ -132,7 +132,7 @@ export class RayOutline {
   }
   private lightText(light: LightTerm) {
     const names = light.crossings.map(c => `\u2018${c.object}\u2019`);
-    if (light.intensity.every(c => c === 0)) return `shines elsewhere: I (0, 0, 0), N\u00b7L = ${number(light.cosine)}`;
+    if (light.intensity.every(c => c === 0)) return `emits nothing towards this point: I (0, 0, 0), N\u00b7L = ${number(light.cosine)}`;
     const through = !light.cast ? "no shadow rays are cast"
       : isShadow(light) && light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}`
       : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";

@@ -6,7 +6,7 @@
 namespace alhazen {
 
 RayTreeRecorder::RayTreeRecorder(const RenderJob& job)
-    : NoChance(job),
+    : NoRandomness(job),
       scene_(job.scene),
       conventions_(job.scene.conventions.shading),
       shadows_(job.scene, counters_, nullptr),

@@ -1,7 +1,7 @@
 #pragma once
 /// Records the tree of rays while the estimator of Whitted ray tracing computes it.
 ///
-/// Conventions: a `Chance` of RecursiveEstimator (renderers/whitted/recursive_estimator.h) that
+/// Conventions: a `Randomness` of RecursiveEstimator (renderers/whitted/recursive_estimator.h) that
 /// draws nothing and only observes: rays and surfaces are those of the renderer `whitted`. The
 /// transmittance of each shadow ray, of which the renderer keeps only sums, is computed again by
 /// the same ShadowBatch, one ray at a time. A tree of too many rays, or a stop by the user, ends
@@ -17,7 +17,7 @@
 
 namespace alhazen {
 
-class RayTreeRecorder : public NoChance {
+class RayTreeRecorder : public NoRandomness {
   public:
     explicit RayTreeRecorder(const RenderJob& job);
 

@@ -14,8 +14,8 @@ void tell_about_matrices(const BrlcadObject& object, BrlcadDatabase& database,
                            "the matrix of member '" + node.member + "' of '" + object.name +
                                "' is not an affine transform; the member is left out",
                            diagnostics);
-        } else if (node.last_row == LastRow::Rounded && !database.told_rounding) {
-            database.told_rounding = true;
+        } else if (node.last_row == LastRow::Rounded && !database.reported_rounding) {
+            database.reported_rounding = true;
             diagnostics.warning(database.at(node.place),
                                 "the last row of the matrix of member '" + node.member +
                                     "' is rounded; it and others are taken as 0 0 0 1 after "

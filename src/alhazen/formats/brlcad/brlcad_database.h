@@ -48,8 +48,8 @@ struct BrlcadDatabase {
     std::vector<BrlcadObject> objects;
     std::unordered_map<std::string, std::size_t> by_name;
     std::vector<BrlcadRegionColor> region_colors;
-    std::size_t faults = 0;      ///< number of items that could not be read
-    bool told_rounding = false;  ///< a warning about a rounded matrix was given
+    std::size_t faults = 0;          ///< number of items that could not be read
+    bool reported_rounding = false;  ///< a warning about a rounded matrix was given
 
     [[nodiscard]] FileLocation at(const BrlcadPlace& place) const {
         return {file, place.line, place.column};

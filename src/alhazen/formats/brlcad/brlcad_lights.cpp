@@ -164,10 +164,10 @@ void add_brlcad_lights(SceneDescription& scene, const BrlcadMaterials& materials
         // Half of its brightness depends on the view direction, as the ambient light does.
         Material& material = scene.materials[static_cast<std::size_t>(id)].material;
         const Rgb brightness = fractions.of(light) * light.color;
-        const bool shines =
+        const bool emits =
             std::any_of(found.begin(), found.end(),
                         [seen = &light](const auto& one) { return one.light == seen; });
-        if (!light.shown || !shines) continue;
+        if (!light.shown || !emits) continue;
         material.transmissive.color = {0, 0, 0};
         material.emission.color = 0.5 * brightness;
         material.ambient.color = (0.5 / kAmbient) * brightness;

@@ -111,7 +111,7 @@ Material phong_material(const Phong& phong, const Base& base) {
 }  // namespace
 
 void BrlcadMaterials::tell_once(const std::string& message, const BrlcadPlace& place) {
-    if (told_.insert(message).second) diagnostics_.warning(database_.at(place), message);
+    if (reported_.insert(message).second) diagnostics_.warning(database_.at(place), message);
 }
 
 void BrlcadMaterials::tell_unknown(const BrlcadShader& shader,

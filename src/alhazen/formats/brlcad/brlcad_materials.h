@@ -82,7 +82,7 @@ class BrlcadMaterials {
     Diagnostics& diagnostics_;
     std::map<std::tuple<double, double, double, std::string, double, double>, MaterialId> known_;
     std::map<MaterialId, BrlcadLight> lights_;
-    std::set<std::string> told_;  ///< warnings already given
+    std::set<std::string> reported_;  ///< warnings already given
     bool has_environment_ = false;
 };
 

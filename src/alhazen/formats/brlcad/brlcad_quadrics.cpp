@@ -107,9 +107,9 @@ std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid) {
     made.shape.expression = "(" + digits(a) + "*(x^2 + y^2)" + term(d, "*z^2") +
                             term(-2.0 * b, "*z") + term(a - 1.0, "") + ")^2 - (x^2 + y^2)*(" +
                             digits(2.0 * a) + term(-2.0 * b, "*z") + ")^2";
-    constexpr double kRoom = 1.0 + 1e-6;  // margin: the box is tangent to the solid
-    const double side = kRoom * (1.0 + reach);
-    made.shape.clip_box = {{-side, -side, -kRoom * height}, {side, side, kRoom * height}};
+    constexpr double kMargin = 1.0 + 1e-6;  // margin: the box is tangent to the solid
+    const double side = kMargin * (1.0 + reach);
+    made.shape.clip_box = {{-side, -side, -kMargin * height}, {side, side, kMargin * height}};
     const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 x = across(axis, other, solid.major);
     made.solid_from_shape = {{x, cross(axis, x), solid.major * axis}, solid.center};

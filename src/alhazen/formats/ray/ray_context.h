@@ -13,8 +13,8 @@ struct RayContext {
     Diagnostics& diagnostics;
     const ImportOptions& options;
     RayFamily family;
-    std::uint64_t elements = 0;  ///< vertices, triangles and parts so far
-    bool told_rounding = false;  ///< a warning about a rounded matrix was given
+    std::uint64_t elements = 0;      ///< vertices, triangles and parts so far
+    bool reported_rounding = false;  ///< a warning about a rounded matrix was given
 
     /// Throws Error (Resource) beyond options.max_elements.
     void count_elements(std::uint64_t more, const FileLocation& where) {

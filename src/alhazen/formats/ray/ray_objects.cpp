@@ -80,8 +80,8 @@ std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& valu
                                  "transform: the last row must be (0, 0, 0, 1)");
         return std::nullopt;
     }
-    if (matrix.last_row == LastRow::Rounded && !context.told_rounding) {
-        context.told_rounding = true;
+    if (matrix.last_row == LastRow::Rounded && !context.reported_rounding) {
+        context.reported_rounding = true;
         values.diagnostics.warning(rows[3].location(),
                                    "transform: the last row is rounded; it and others are taken as "
                                    "(0, 0, 0, 1) after division by the last number");

@@ -97,16 +97,16 @@ std::string drawing_svg(const Drawing& drawing) {
                      {"width", width},
                      {"height", height},
                      {"viewBox", "0 0 " + width + " " + height}});
-    std::string looks =
+    std::string rules =
         ".f{stroke:none;fill-rule:evenodd;shape-rendering:crispEdges}"
         "path{fill:none;stroke:#000;stroke-linejoin:round;stroke-linecap:round}";
     for (const LineLook& look : kLineLooks) {
-        looks += fmt::format(".{}{{stroke-width:{}", look.name, look.width);
+        rules += fmt::format(".{}{{stroke-width:{}", look.name, look.width);
         if (look.dash[0] > 0)
-            looks += fmt::format(";stroke-dasharray:{} {}", look.dash[0], look.dash[1]);
-        looks += '}';
+            rules += fmt::format(";stroke-dasharray:{} {}", look.dash[0], look.dash[1]);
+        rules += '}';
     }
-    out.text("style", {}, looks);
+    out.text("style", {}, rules);
     out.open("defs");
     std::size_t gradients = 0;
     for (const DrawingGroup& group : drawing.groups) {

@@ -10,7 +10,7 @@
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/shading_frame.h"
 
 namespace alhazen {
@@ -44,7 +44,7 @@ class OcclusionEstimator {
           settings_(settings),
           reach_(reach_of(settings, job.scene)),
           counters_(counters),
-          chance_(job),
+          random_(job),
           camera_(job),
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr),
           shadows_(job.scene, counters, job.count_tests ? &counters.tests : nullptr) {}
@@ -56,9 +56,9 @@ class OcclusionEstimator {
         light_.assign(rays.size(), {});
         for (std::size_t i = 0; i < rays.size(); ++i) {
             Path& path = paths_.emplace_back();
-            path.time = camera_.time(chance_, ids[i]);
+            path.time = camera_.time(random_, ids[i]);
             path.cone = job_.cone;
-            rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
+            rays_.push_back(camera_.through_lens(random_, ids[i], rays[i], path.time));
         }
         counters_[RayKind::Eye].cast += rays.size();
         visible_.find(
@@ -80,7 +80,7 @@ class OcclusionEstimator {
     void look_around(const ShadingPoint& point, const SampleId& id, float time, Spectrum& sum) {
         const ShadingFrame frame = ShadingFrame::of(point.normal, {});
         const Vec3 direction =
-            frame.to_world(on_hemisphere(chance_.draw(id, 0, PathChance::kDirection)));
+            frame.to_world(on_hemisphere(random_.draw(id, 0, PathRandomness::kDirection)));
         if (!(dot(direction, point.geometric) > 0.0)) return;
         const Rgb color = settings_.albedo ? point.material->albedo : Rgb{1, 1, 1};
         shadows_.add(leaving_ray(point.surface, direction, reach_), time, {}, kColorChannels,
@@ -91,10 +91,10 @@ class OcclusionEstimator {
     OcclusionSettings settings_;
     double reach_;
     RayCounters& counters_;
-    PathChance chance_;
+    PathRandomness random_;
     CameraRays camera_;
     VisibleBatch visible_;
-    LightBatch shadows_;
+    ConnectionBatch shadows_;
     std::vector<Path> paths_;
     std::vector<Ray> rays_;
     std::vector<Spectrum> light_;  ///< [ray]

@@ -15,7 +15,7 @@
 #include "alhazen/renderers/antialias/picture_grid.h"
 #include "alhazen/renderers/antialias/pixel_selection.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
-#include "alhazen/renderers/antialias/sought_spheres.h"
+#include "alhazen/renderers/antialias/search_spheres.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/reports/antialias_report.h"
 
@@ -275,7 +275,7 @@ class AdaptiveRender {
     std::optional<SceneObjects> objects_;    ///< only with the guarantee
     std::vector<std::uint8_t> met_;          ///< [object] 1 if a shaded ray hit it
     std::vector<std::uint32_t> looked_for_;  ///< objects, each once
-    std::optional<SoughtSpheres> spheres_;   ///< only if some object was not hit at first
+    std::optional<SearchSpheres> spheres_;   ///< only if some object was not hit at first
     std::optional<ObjectSearch> search_;     ///< likewise
     std::vector<WatchedObject> below_depth_;
 };

@@ -3,7 +3,7 @@
 /// that are intersected but not shaded.
 ///
 /// A cell is divided, down to the depth, if an object that no ray has hit may hide in it
-/// (sought_spheres.h). Cells are processed level by level.
+/// (search_spheres.h). Cells are processed level by level.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980, section
 /// "Treatment of Aliasing".
@@ -22,7 +22,7 @@
 #include "alhazen/renderers/antialias/number_table.h"
 #include "alhazen/renderers/antialias/picture_grid.h"
 #include "alhazen/renderers/antialias/scene_objects.h"
-#include "alhazen/renderers/antialias/sought_spheres.h"
+#include "alhazen/renderers/antialias/search_spheres.h"
 
 namespace alhazen {
 
@@ -32,11 +32,11 @@ class ObjectSearch {
 
     struct Where {
         const SceneObjects& objects;
-        const SoughtSpheres& spheres;
+        const SearchSpheres& spheres;
         const PictureGrid& picture;
         AdaptiveGrid& grid;  ///< in its first round, with the distances of all corners
     };
-    /// `met`: [object] 1 if a corner ray hit it. `sought`: from SoughtSpheres::around.
+    /// `met`: [object] 1 if a corner ray hit it. `sought`: from SearchSpheres::around.
     ObjectSearch(const Where& where, std::vector<std::uint8_t> met,
                  std::span<const WatchedObject> sought);
 

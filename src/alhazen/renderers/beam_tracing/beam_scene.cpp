@@ -8,7 +8,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/renderers/beam_tracing/mended_polygon.h"
+#include "alhazen/renderers/beam_tracing/repaired_polygon.h"
 
 namespace alhazen {
 
@@ -258,7 +258,7 @@ class BeamGatherer {
             pieces_.push_back(pool_.add(number, corners));
             return;
         }
-        const MendedPolygon polygon = mended_polygon(corners, ends, pool_.planes.back());
+        const RepairedPolygon polygon = repaired_polygon(corners, ends, pool_.planes.back());
         for (const std::vector<Vec3>& part : polygon.parts) {
             pieces_.push_back(pool_.add(number, part));
         }

@@ -4,8 +4,8 @@
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984.
 /// Conventions: supports polygons with holes, rectangles, boxes, polyhedra and triangle meshes, in
 /// any number of instances. All other parts are refused by name, in one message. Polygons with
-/// corners off their plane or with crossing edges are repaired (mended_polygon.h). Indices of parts
-/// and instances are those of Surface. Corners of facets are counter-clockwise from outside.
+/// corners off their plane or with crossing edges are repaired (repaired_polygon.h). Indices of
+/// parts and instances are those of Surface. Corners of facets are counter-clockwise from outside.
 
 #include <memory>
 #include <string>

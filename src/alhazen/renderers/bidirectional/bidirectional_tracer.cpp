@@ -35,7 +35,7 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
       settings_(settings),
       counters_(counters),
       stats_(job.count_tests ? &counters.tests : nullptr),
-      chance_(job),
+      random_(job),
       camera_(job),
       lens_(job),
       starts_(job.scene),
@@ -45,10 +45,10 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
 
 void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                         std::span<Rgb> radiance) {
-    chance_.begin(ids);
+    random_.begin(ids);
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         if (job_.stop_requested()) return;
-        waves_ = all_waves_ != nullptr ? *all_waves_ : chance_.waves(i);
+        waves_ = all_waves_ != nullptr ? *all_waves_ : random_.waves(i);
         const Spectrum light = trace(ids[i], rays[i]);
         radiance[i] = waves_.color(light);
     }
@@ -57,8 +57,8 @@ void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span
 
 Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     Spectrum sum;
-    const float time = camera_.time(chance_, id);
-    const Ray ray = camera_.through_lens(chance_, id, central, time);
+    const float time = camera_.time(random_, id);
+    const Ray ray = camera_.through_lens(random_, id, central, time);
     WalkStart start{.ray = ray, .time = time, .media = camera_.media(ray, time)};
     start.waves = &waves_;
     start.parallel = lens_.is_parallel();
@@ -66,20 +66,20 @@ Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
         start.parallel ? lens_.parallel_density() : lens_.direction_density(ray.direction, time);
     // One vertex more than scatterings: the last may be on a light.
     walk_.walk(Transport::Radiance, start,
-               {chance_, id, PathChance::kFirstBounce, settings_.depth + 1, settings_.roulette},
+               {random_, id, PathRandomness::kFirstBounce, settings_.depth + 1, settings_.roulette},
                eye_);
     escape_ = walk_.escape();
 
     light_.clear();
     const LightRay light =
-        lights_.emit(chance_.draw(id, kLightPairs).x, chance_.draw(id, kLightPairs + 1),
-                     chance_.draw(id, kLightPairs + 2), waves_);
+        lights_.emit(random_.draw(id, kLightPairs).x, random_.draw(id, kLightPairs + 1),
+                     random_.draw(id, kLightPairs + 2), waves_);
     const WalkStart from_light = starts_.of(light, time, waves_);
     if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
         begin_.place = lights_.point_of_light(light.place, light.ray.origin);
         begin_.emit = {light.place_density, light.direction_density};
         walk_.walk(Transport::Importance, from_light,
-                   {chance_, id, kLightWalk, settings_.depth, settings_.roulette}, light_);
+                   {random_, id, kLightWalk, settings_.depth, settings_.roulette}, light_);
         set_falloff(lights_, light, waves_, light_);
     }
 
@@ -192,7 +192,7 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     if (!v.connects()) return;
     const auto pair = kDrawPairs + 2 * static_cast<std::uint32_t>(b);
     const LightDraw drawn =
-        lights_.draw(v.lit(), chance_.draw(id, pair).x, chance_.draw(id, pair + 1), waves_);
+        lights_.draw(v.lit(), random_.draw(id, pair).x, random_.draw(id, pair + 1), waves_);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     Spectrum light = v.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
@@ -252,7 +252,7 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     const PathVertex& y = light_[a - 1];
     if (!y.connects()) return;
     const auto joined = lens_.connect(
-        y.point(), chance_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
+        y.point(), random_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
     if (!joined || !y.is_seen_from(joined->to_lens)) return;
     const Spectrum value = y.value(joined->to_lens, Transport::Importance);
     if (value.is_black()) return;

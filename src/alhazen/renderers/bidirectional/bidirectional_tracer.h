@@ -11,7 +11,7 @@
 #include "alhazen/renderers/bidirectional/path_weight.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
@@ -94,12 +94,12 @@ class BidirectionalTracer {
     PathSettings settings_;
     RayCounters& counters_;
     TraversalStats* stats_;
-    PathChance chance_;
+    PathRandomness random_;
     CameraRays camera_;
     CameraLens lens_;
     LightStarts starts_;
     RandomWalk walk_;
-    LightBatch joins_;
+    ConnectionBatch joins_;
     LensLight& lens_light_;
     std::vector<PathVertex> eye_, light_;
     MediumStack behind_;  ///< at the current surface

@@ -24,9 +24,9 @@ std::optional<Rgb> unlit_color_of(const Scene& scene, const Material& material,
     }
     ShadingConventions conventions = scene.conventions.shading;
     if (conventions.ambient_from_eye) {
-        const auto shines = [](const Rgb& light) { return !light.is_black(); };
+        const auto emits = [](const Rgb& light) { return !light.is_black(); };
         const bool ambient_seen =
-            !sample.ambient.is_black() && std::any_of(ambient.begin(), ambient.end(), shines);
+            !sample.ambient.is_black() && std::any_of(ambient.begin(), ambient.end(), emits);
         if (ambient_seen) return std::nullopt;
         conventions.ambient_from_eye = false;
     }

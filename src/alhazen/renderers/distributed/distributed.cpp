@@ -21,9 +21,9 @@ enum Pair : std::uint32_t { kLensPair = 1, kTimePair = 2, kFirstBouncePair = 3 }
 enum BouncePair : std::uint32_t { kReflectedLobe = 0, kRefractedLobe = 1, kFirstLight = 2 };
 
 /// Random choices of the recursion, from the sampler of the round.
-class SamplerChance {
+class SamplerRandomness {
   public:
-    explicit SamplerChance(const RenderJob& job)
+    explicit SamplerRandomness(const RenderJob& job)
         : moves_(job.scene.has_motion || job.camera_motion != nullptr),
           bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight),
           draws_(job.round->sampler, std::min(kFirstBouncePair + bounce_, kMostTogether)) {}
@@ -89,13 +89,13 @@ class DistributedEstimator {
 
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                        std::span<Rgb> radiance) {
-        tree_.chance().begin(ids);
+        tree_.randomness().begin(ids);
         if (!lens_.open() && motion_ == nullptr) return tree_.trace(rays, radiance);
         drawn_.clear();
         for (std::uint32_t i = 0; const Ray& ray : rays) {
-            drawn_.push_back(lens_.open() ? lens_.through(ray, tree_.chance().draw(i, kLensPair))
-                                          : ray);
-            if (motion_ != nullptr) carry(tree_.chance().time(i), drawn_.back());
+            drawn_.push_back(
+                lens_.open() ? lens_.through(ray, tree_.randomness().draw(i, kLensPair)) : ray);
+            if (motion_ != nullptr) carry(tree_.randomness().time(i), drawn_.back());
             ++i;
         }
         tree_.trace(drawn_, radiance);
@@ -109,7 +109,7 @@ class DistributedEstimator {
         ray.direction = normalize(ray.direction);
     }
 
-    RecursiveEstimator<SamplerChance> tree_;
+    RecursiveEstimator<SamplerRandomness> tree_;
     LensRays lens_;
     const TransformMotion* motion_;
     Affine camera_from_world_;  ///< at shutter open

@@ -12,8 +12,8 @@
 #include "alhazen/renderers/core/tiles.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/lens_ray.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/light_starts.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/light_transport/splat_film.h"
@@ -34,7 +34,7 @@ class LightTiles final : public TileRenderer {
         : job_(job),
           lights_(lights),
           settings_(settings),
-          chance_(job),
+          random_(job),
           camera_(job),
           lens_(job),
           starts_(job.scene),
@@ -49,10 +49,10 @@ class LightTiles final : public TileRenderer {
                 for (std::uint32_t s = 0; s < job_.round->count; ++s) {
                     ids_.push_back({{x, y}, job_.round->first + s});
                 }
-                chance_.begin(ids_);
+                random_.begin(ids_);
                 for (std::uint32_t s = 0; s < job_.round->count; ++s) {
                     if (job_.stop_requested()) return;
-                    trace(ids_[s], chance_.waves(s));
+                    trace(ids_[s], random_.waves(s));
                 }
             }
         }
@@ -62,14 +62,14 @@ class LightTiles final : public TileRenderer {
 
   private:
     void trace(const SampleId& id, const Wavelengths& waves) {
-        const float time = camera_.time(chance_, id);
-        const Vec2 choice = chance_.draw(id, kEmissionPairs);
-        const LightRay light = lights_.emit(choice.x, chance_.draw(id, kEmissionPairs + 1),
-                                            chance_.draw(id, kEmissionPairs + 2), waves);
+        const float time = camera_.time(random_, id);
+        const Vec2 choice = random_.draw(id, kEmissionPairs);
+        const LightRay light = lights_.emit(choice.x, random_.draw(id, kEmissionPairs + 1),
+                                            random_.draw(id, kEmissionPairs + 2), waves);
         const WalkStart start = starts_.of(light, time, waves);
         if (start.throughput.is_black() || !start.throughput.is_finite()) return;
         walk_.walk(Transport::Importance, start,
-                   {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
+                   {random_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
         set_falloff(lights_, light, waves, vertices_);
         for (std::uint32_t i = 0; const PathVertex& v : vertices_) {
             join(v, id, kSplatPairs + i++, time, waves);
@@ -79,7 +79,7 @@ class LightTiles final : public TileRenderer {
     void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time,
               const Wavelengths& waves) {
         if (!v.connects()) return;
-        const auto joined = lens_.connect(v.point(), chance_.draw(id, pair), time);
+        const auto joined = lens_.connect(v.point(), random_.draw(id, pair), time);
         if (!joined || !v.is_seen_from(joined->to_lens)) return;
         const Spectrum value = v.value(joined->to_lens, Transport::Importance);
         if (value.is_black()) return;
@@ -97,12 +97,12 @@ class LightTiles final : public TileRenderer {
     const Illumination& lights_;
     const PathSettings settings_;
     RayCounters counters_;
-    PathChance chance_;
+    PathRandomness random_;
     CameraRays camera_;
     CameraLens lens_;
     LightStarts starts_;
     RandomWalk walk_;
-    LightBatch joins_;
+    ConnectionBatch joins_;
     SplatFilm& splats_;
     std::vector<SampleId> ids_;  ///< samples of the current pixel
     std::vector<PathVertex> vertices_;
@@ -121,13 +121,13 @@ RenderReport LightTracing::render(const RenderJob& job, Film& film) const {
     const Illumination lights(job.scene);
     // Adds the directly visible lights.
     RenderReport report = trace_paths(job, lights, {.depth = 0}, film);
-    if (lights.leaves_some_to_chance()) {
+    if (lights.has_unsampled_emitters()) {
         report.notes.push_back(
             "light_tracing: some emitting surfaces emit no light paths because they cannot be "
             "sampled; "
             "path_tracing finds their light");
     }
-    if (!report.complete() || !lights.shines()) return report;
+    if (!report.complete() || !lights.emits()) return report;
     const auto count = static_cast<std::uint32_t>(job.samples_per_pixel);
     const std::unique_ptr<Sampler> sampler = plan.sampler->make(job.seed, count);
     const FilterKernel filter(*plan.filter, plan.radius);

@@ -3,7 +3,7 @@
 
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
-#include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 
 namespace alhazen {
@@ -33,8 +33,8 @@ class CameraRays {
     }
 
     /// The time of a sample.
-    [[nodiscard]] float time(const PathChance& chance, const SampleId& id) const {
-        return moves_ ? chance.time(id) : 0.0f;
+    [[nodiscard]] float time(const PathRandomness& random, const SampleId& id) const {
+        return moves_ ? random.time(id) : 0.0f;
     }
     /// The up direction of the picture at a time.
     [[nodiscard]] Vec3 up(float time) const {
@@ -44,9 +44,9 @@ class CameraRays {
     /// True if left and right are exchanged in the picture.
     [[nodiscard]] bool is_mirrored() const { return mirrored_; }
     /// The ray of a sample; `ray`: that through the centre of the lens.
-    [[nodiscard]] Ray through_lens(const PathChance& chance, const SampleId& id, const Ray& ray,
+    [[nodiscard]] Ray through_lens(const PathRandomness& random, const SampleId& id, const Ray& ray,
                                    float time) const {
-        Ray drawn = lens_.open() ? lens_.through(ray, chance.draw(id, PathChance::kLens)) : ray;
+        Ray drawn = lens_.open() ? lens_.through(ray, random.draw(id, PathRandomness::kLens)) : ray;
         if (motion_ == nullptr) return drawn;
         drawn = transformed(motion_->at(time).outer_from_inner * camera_from_world_, drawn);
         drawn.direction = normalize(drawn.direction);

@@ -13,18 +13,18 @@ namespace {
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Number of an event, distinct for the two walks of a sample.
-std::uint32_t of_walk(const WalkLuck& luck, std::uint32_t event) {
-    return luck.first_pair << 16 | event;
+std::uint32_t of_walk(const WalkRandomness& draws, std::uint32_t event) {
+    return draws.first_pair << 16 | event;
 }
 
 }  // namespace
 
 bool RandomWalk::scatters_within(Front& front, const Medium& medium,
                                  const VolumeScattering& scattering, double length,
-                                 const WalkLuck& luck, const WalkStart& start) {
+                                 const WalkRandomness& draws, const WalkStart& start) {
     const VolumeStep step = step_in_volume(
         front.waves.absorption(medium.absorption), front.waves.absorption(scattering.coefficient),
-        front.throughput, length, luck.chance.in_volume(luck.id, of_walk(luck, stretch_++)));
+        front.throughput, length, draws.random.in_volume(draws.id, of_walk(draws, stretch_++)));
     front.throughput = front.throughput * step.weight;
     flight_.add(scattering_.extinction(&medium).of(*start.waves), step.distance);
     if (!step.scatters) return false;
@@ -50,7 +50,8 @@ void RandomWalk::pass_opening(Front& front) {
     opening_.cross(front.media);
 }
 
-RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const WalkStart& start) {
+RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
+                                   const WalkStart& start) {
     segment_ = 0.0;
     Ray& ray = front.ray;
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
@@ -62,7 +63,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const Wal
         const bool found =
             scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), start.time});
         if (scattering != nullptr &&
-            scatters_within(front, *medium, *scattering, found ? hit_.t : kEndless, luck, start)) {
+            scatters_within(front, *medium, *scattering, found ? hit_.t : kEndless, draws, start)) {
             return Meets::Volume;
         }
         if (!found) return Meets::Nothing;
@@ -71,7 +72,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkLuck& luck, const Wal
         set_shading_point(scene_, ray, hit_, arrival, {.constant = &constant_}, point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
-        if (luck.chance.stops(luck.id, of_walk(luck, met_++), point_.material->coverage)) {
+        if (draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage)) {
             faces_.find(point_, ray.direction, arrival, mask_of(kind_));
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
@@ -128,7 +129,7 @@ void RandomWalk::set_emission(const Front& front, const Ends& ends) const {
 }
 
 RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& front,
-                                                const WalkLuck& luck, std::uint32_t pair,
+                                                const WalkRandomness& draws, std::uint32_t pair,
                                                 const Ends& ends) {
     PathVertex& v = ends.v;
     const bool from_eye = transport == Transport::Radiance;
@@ -140,8 +141,8 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     }
     v.hero_only = front.waves.hero_only();
     if (point_.material->unlit || (ends.last && !v.scatter.is_null_boundary())) return Step::Ends;
-    const Vec2 u = luck.chance.draw(luck.id, pair);
-    const Vec2 choices = luck.chance.draw(luck.id, pair + 1);
+    const Vec2 u = draws.random.draw(draws.id, pair);
+    const Vec2 choices = draws.random.draw(draws.id, pair + 1);
     const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
     // A thin sheet that is passed straight, by chance, is no vertex.
     const double straight = v.scatter.straight_probability();
@@ -165,21 +166,21 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     return Step::Scattered;
 }
 
-RandomWalk::Step RandomWalk::scatter_in_volume(Front& front, const WalkLuck& luck,
+RandomWalk::Step RandomWalk::scatter_in_volume(Front& front, const WalkRandomness& draws,
                                                std::uint32_t pair, const Ends& ends) {
     PathVertex& v = ends.v;
     v.hero_only = front.waves.hero_only();
     if (ends.last || !(front.throughput.max() > 0.0)) return Step::Ends;
     const InsideVolume& volume = v.volume.value;
-    const Vec3 direction =
-        sample_henyey_greenstein(volume.along, volume.anisotropy, luck.chance.draw(luck.id, pair));
+    const Vec3 direction = sample_henyey_greenstein(volume.along, volume.anisotropy,
+                                                    draws.random.draw(draws.id, pair));
     kind_ = RayKind::Refraction;
     front.ray.direction = direction;
     front.density = v.back = v.density_along(direction);
     return Step::Scattered;
 }
 
-void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuck& luck,
+void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRandomness& draws,
                       std::vector<PathVertex>& vertices) {
     vertices.clear();
     escape_ = {};
@@ -192,8 +193,8 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
     Front front{start.ray,     *start.waves,   start.throughput,
                 start.density, start.parallel, start.media};
     int count = 0;
-    for (std::uint32_t pair = luck.first_pair; count < luck.most; pair += kWalkPairs) {
-        const Meets meets = find(front, luck, start);
+    for (std::uint32_t pair = draws.first_pair; count < draws.most; pair += kWalkPairs) {
+        const Meets meets = find(front, draws, start);
         absorb(front, meets == Meets::Nothing ? kEndless : segment_);
         if (meets == Meets::Nothing) {
             escape_ = {true, front.ray.direction, front.throughput,
@@ -202,11 +203,11 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             return;
         }
         PathVertex& v = vertices.emplace_back();
-        const Ends ends{v, count > 0 ? &v - 1 : nullptr, ++count == luck.most};
+        const Ends ends{v, count > 0 ? &v - 1 : nullptr, ++count == draws.most};
         set_vertex(front, start, meets, ends);
         const Step step = meets == Meets::Volume
-                              ? scatter_in_volume(front, luck, pair, ends)
-                              : scatter_at_surface(transport, front, luck, pair, ends);
+                              ? scatter_in_volume(front, draws, pair, ends)
+                              : scatter_at_surface(transport, front, draws, pair, ends);
         if (step == Step::Ends) return;
         if (step == Step::Straight) {
             vertices.pop_back();
@@ -221,12 +222,12 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
                 v.back * ends.before->facing(v.view()) / (v.distance * v.distance) * v.backward;
         }
         if (!front.throughput.is_finite()) return;
-        if (count >= luck.roulette) {
+        if (count >= draws.roulette) {
             constexpr double kMost = 0.95;
             // Light paths have power of any scale: relative to that at the start.
             const double begun = from_eye ? 1.0 : start.throughput.max();
             const double share = std::min(kMost, eta_scale_ * front.throughput.max() / begun);
-            if (!(luck.chance.draw(luck.id, pair + 2).x < share)) return;
+            if (!(draws.random.draw(draws.id, pair + 2).x < share)) return;
             front.throughput = (1.0 / share) * front.throughput;
         }
         front.ray = v.leaving(front.ray.direction, kEndless);

@@ -12,7 +12,7 @@
 
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/ray_counters.h"
-#include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_vertex.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 
@@ -31,8 +31,8 @@ struct WalkStart {
 };
 
 /// Random numbers and limits of a walk.
-struct WalkLuck {
-    const PathChance& chance;
+struct WalkRandomness {
+    const PathRandomness& random;
     const SampleId& id;
     std::uint32_t first_pair;  ///< of the first bounce; kWalkPairs for each
     int most;                  ///< largest number of vertices
@@ -55,7 +55,7 @@ class RandomWalk {
 
     /// Sets `vertices`. If a path from the eye leaves the scene, sets `escape()` to direction and
     /// density by solid angle of its last ray.
-    void walk(Transport transport, const WalkStart& start, const WalkLuck& luck,
+    void walk(Transport transport, const WalkStart& start, const WalkRandomness& draws,
               std::vector<PathVertex>& vertices);
 
     struct Escape {
@@ -81,7 +81,7 @@ class RandomWalk {
     enum class Step : std::uint8_t { Ends, Straight, Scattered };
 
     /// Finds the next stop: a surface, or a point in a volume, which becomes the origin of the ray.
-    [[nodiscard]] Meets find(Front& front, const WalkLuck& luck, const WalkStart& start);
+    [[nodiscard]] Meets find(Front& front, const WalkRandomness& draws, const WalkStart& start);
     /// Applies the absorption of a medium that does not scatter.
     void absorb(Front& front, double length) const;
     /// Enters or leaves a volume through an uncovered part of its boundary.
@@ -89,7 +89,7 @@ class RandomWalk {
     /// Samples a segment of that length in a scattering medium. True if the path scatters in it.
     [[nodiscard]] bool scatters_within(Front& front, const Medium& medium,
                                        const VolumeScattering& scattering, double length,
-                                       const WalkLuck& luck, const WalkStart& start);
+                                       const WalkRandomness& draws, const WalkStart& start);
     /// The last vertex and the one before; null for the first vertex.
     struct Ends {
         PathVertex& v;
@@ -104,11 +104,11 @@ class RandomWalk {
     /// Sets emission and scattering of a vertex on a surface and continues the walk.
     [[nodiscard, gnu::always_inline]] inline Step scatter_at_surface(Transport transport,
                                                                      Front& front,
-                                                                     const WalkLuck& luck,
+                                                                     const WalkRandomness& draws,
                                                                      std::uint32_t pair,
                                                                      const Ends& ends);
-    [[nodiscard]] Step scatter_in_volume(Front& front, const WalkLuck& luck, std::uint32_t pair,
-                                         const Ends& ends);
+    [[nodiscard]] Step scatter_in_volume(Front& front, const WalkRandomness& draws,
+                                         std::uint32_t pair, const Ends& ends);
 
     const Scene& scene_;
     const Illumination& lights_;

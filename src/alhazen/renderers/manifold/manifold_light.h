@@ -20,8 +20,8 @@
 #include <optional>
 
 #include "alhazen/illumination/illumination.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
-#include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
+#include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/manifold/specular_parts.h"
 #include "alhazen/renderers/manifold/sphere_chains.h"
@@ -65,7 +65,7 @@ inline constexpr std::uint32_t kMostTrials = 4096;
 class ManifoldLight {
   public:
     ManifoldLight(const Scene& scene, const ManifoldScene& manifold, RayCounters& counters,
-                  LightBatch& shadows)
+                  ConnectionBatch& shadows)
         : scene_(scene), manifold_(manifold), tracer_(scene, counters), shadows_(shadows) {}
 
     /// The point at which light arrives.
@@ -76,7 +76,7 @@ class ManifoldLight {
         float time;
         const Wavelengths& waves;
         int most_bends;  ///< longest chain to be found
-        const PathChance& chance;
+        const PathRandomness& random;
         const SampleId& id;
         std::uint32_t place;  ///< dimension of its random numbers
     };
@@ -104,7 +104,7 @@ class ManifoldLight {
     };
     /// Samples a light; false if there is none.
     [[nodiscard]] bool begin(const Receiver& at);
-    [[nodiscard]] double next_number() { return at_->chance.extra(at_->id, at_->place, number_++); }
+    [[nodiscard]] double next_number() { return at_->random.extra(at_->id, at_->place, number_++); }
     void find_by(const Choice& part);
     [[nodiscard]] Choice choose_part(double choice) const;
     [[nodiscard]] bool may_be(ChainKind kind) const;
@@ -135,7 +135,7 @@ class ManifoldLight {
     const Scene& scene_;
     const ManifoldScene& manifold_;
     ChainTracer tracer_;
-    LightBatch& shadows_;
+    ConnectionBatch& shadows_;
 
     const Receiver* at_ = nullptr;
     std::uint32_t number_ = 0;

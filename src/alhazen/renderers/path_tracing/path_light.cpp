@@ -141,7 +141,7 @@ void PathTracer::add_chains(const Vertex& vertex, Spectrum& sum) {
                                      path.time,
                                      waves(path),
                                      settings_.depth - path.scatterings - 1,
-                                     chance_,
+                                     random_,
                                      ids_[path.sample],
                                      static_cast<std::uint32_t>(path.drawn)};
     chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {

@@ -18,7 +18,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       chooses_light_(lights.chooses()),
       settings_(settings),
       counters_(counters),
-      chance_(job),
+      random_(job),
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
@@ -43,19 +43,19 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     // After an exception in a bounce they still refer to the paths of the last batch.
     waiting_ = 0;
     draws_.clear();
-    chance_.begin(ids);
+    random_.begin(ids);
     paths_.resize(rays.size());
     alive_.clear();
     rays_.clear();
-    if (chance_.is_spectral()) waves_.assign(rays.size(), {});
+    if (random_.is_spectral()) waves_.assign(rays.size(), {});
     polarized_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         EyePath& path = paths_[i] = EyePath();
         path.sample = i;
         alive_.push_back(i);
-        path.time = camera_.time(chance_, ids[i]);
+        path.time = camera_.time(random_, ids[i]);
         path.cone = job_.cone;
-        rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
+        rays_.push_back(camera_.through_lens(random_, ids[i], rays[i], path.time));
         path.media = camera_.media(rays_.back(), path.time);
         path.inside = !path.media.empty();
         if (settings_.polarization) {
@@ -109,7 +109,7 @@ void PathTracer::bounce(bool first) {
     if (joins_apart()) add_joined();
     alive_.swap(next_alive_);
     rays_.swap(next_rays_);
-    chance_.keep(alive_);
+    random_.keep(alive_);
 }
 
 void PathTracer::pass(EyePath& path, const Ray& ray, const ShadingPoint& point) {
@@ -130,7 +130,7 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     }
     path.travelled += t;
     path.cone = path.cone.from(t);
-    if (!chance_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
+    if (!random_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
         return pass(path, ray, point);
     }
     if (scene_.all_opaque) return stop(path, ray, hit, point, sum);
@@ -169,7 +169,7 @@ void PathTracer::scatter_all() {
     for (const Vertex& vertex : vertices) {
         if (!vertex.scatter.has_density()) continue;
         const EyePath& path = *vertex.path;
-        const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
+        const Vec2 place = random_.draw(path.sample, path.drawn, PathRandomness::kLight);
         const double choice = choices(path, chooses_light_).y;
         draws_.add({vertex.place, vertex.scatter.normal(), vertex.scatter.transmits()}, choice,
                    place, waves(path));
@@ -197,7 +197,7 @@ void PathTracer::draw_directions(std::span<const Vertex> vertices) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const EyePath& path = *vertices[i].path;
         const ScatterPoint& scatter = vertices[i].scatter;
-        const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
+        const Vec2 u = random_.draw(path.sample, path.drawn, PathRandomness::kDirection);
         if (scatter.is_matt()) {
             places[count] = i;
             matt[count++] = u;
@@ -225,7 +225,7 @@ bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ra
     }
     const VolumeStep step =
         step_in_volume(absorption, waves(path).absorption(scattering->coefficient), path.throughput,
-                       t, chance_.in_volume(ids_[path.sample], path.stretch++));
+                       t, random_.in_volume(ids_[path.sample], path.stretch++));
     path.throughput = path.throughput * step.weight;
     if (!step.scatters) return false;
     path.cone = path.cone.from(step.distance);
@@ -246,7 +246,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     const double g = media_.in(medium)->anisotropy;
     const LitPoint at = LitPoint::inside_volume(ray.origin);
     if (path.scatterings == 0) path.first = {.transmitted = true};
-    const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
+    const Vec2 place = random_.draw(path.sample, path.drawn, PathRandomness::kLight);
     const double choice = choices(path, chooses_light_).y;
     const LightDraw drawn = lights_.draw(at, choice, place, waves(path));
     if (drawn.density > 0.0 && !drawn.radiance.is_black()) {
@@ -261,7 +261,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
             waiting != nullptr ? *waiting : place_of_joined(path, path.first, nullptr, {}, sum);
         shadows_.add(to_light, path.time, path.media, waves(path), shown, to);
     }
-    const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
+    const Vec2 u = random_.draw(path.sample, path.drawn, PathRandomness::kDirection);
     const Vec3 direction = sample_henyey_greenstein(ray.direction, g, u);
     if (settings_.polarization) polarized_[path.sample].depolarize();
     ++path.drawn;
@@ -273,7 +273,7 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     path.travelled = 0.0;
     path.kind = RayKind::Refraction;
     record_step(path, PathStep::Scattered);
-    if (survives(path)) go_on(path, {ray.origin, direction});
+    if (survives_roulette(path)) go_on(path, {ray.origin, direction});
 }
 
 void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& drawn) {
@@ -321,16 +321,16 @@ void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& d
         scatter.cross(path.media);
         path.inside = !path.media.empty();
     }
-    if (!survives(path)) return;
+    if (!survives_roulette(path)) return;
     go_on(path, vertex.leaving->along(drawn->direction));
 }
 
-bool PathTracer::survives(EyePath& path) {
+bool PathTracer::survives_roulette(EyePath& path) {
     if (!path.throughput.is_finite()) return false;
     if (path.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, path.eta_scale * path.throughput.max());
-    const double luck = chance_.draw(path.sample, path.drawn - 1, PathChance::kLuck).x;
+    const double luck = random_.draw(path.sample, path.drawn - 1, PathRandomness::kRoulette).x;
     if (!(luck < share)) {
         record_step(path, PathStep::Roulette);
         return false;

@@ -10,9 +10,9 @@
 #include "alhazen/renderers/core/path_record.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/light_layers.h"
-#include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
@@ -127,7 +127,7 @@ class PathTracer {
                       const ShadingPoint& point, Spectrum& sum);
     /// The random numbers of the choices at the next scattering (lobe, light); 0 unless `needed`.
     [[nodiscard]] Vec2 choices(const EyePath& path, bool needed) {
-        return needed ? chance_.draw(path.sample, path.drawn, PathChance::kChoices) : Vec2{};
+        return needed ? random_.draw(path.sample, path.drawn, PathRandomness::kChoices) : Vec2{};
     }
     void add_direct_light(const Vertex& vertex, const LightDraw& drawn, Spectrum& sum);
     /// Adds light by way of mirrors and glass, found by manifold search.
@@ -138,22 +138,22 @@ class PathTracer {
     void draw_directions(std::span<const Vertex> vertices);
     /// The kind of the first scattering, if the path is scattered along `direction` next.
     [[nodiscard]] FirstScattering first_along(const Vertex& vertex, const Vec3& direction) const;
-    [[nodiscard]] bool survives(EyePath& path);
+    [[nodiscard]] bool survives_roulette(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
         next_alive_.push_back(path.sample);
         next_rays_.push_back(ray);
     }
     /// The wavelengths of a sample; drawn on first use.
     [[nodiscard]] const Wavelengths& waves_of(std::uint32_t sample) {
-        if (!chance_.is_spectral()) return kColorChannels;
+        if (!random_.is_spectral()) return kColorChannels;
         Wavelengths& waves = waves_[sample];
-        if (!waves.is_spectral()) waves = chance_.waves(sample);
+        if (!waves.is_spectral()) waves = random_.waves(sample);
         return waves;
     }
     [[nodiscard]] const Wavelengths& waves(const EyePath& path) { return waves_of(path.sample); }
     /// Continues the path with the hero wavelength.
     void keep_hero(EyePath& path) {
-        if (!chance_.is_spectral()) return;
+        if (!random_.is_spectral()) return;
         static_cast<void>(waves(path));
         waves_[path.sample].keep_hero(path.throughput);
     }
@@ -170,10 +170,10 @@ class PathTracer {
     bool chooses_light_;  ///< Illumination::chooses
     PathSettings settings_;
     RayCounters& counters_;
-    PathChance chance_;
+    PathRandomness random_;
     CameraRays camera_;
     VisibleBatch visible_;
-    LightBatch shadows_;
+    ConnectionBatch shadows_;
     BsdfCache bsdfs_;
     ScatterPoint passed_;
     /// Vertices that wait for each other: their lights are sampled together.

@@ -8,8 +8,8 @@
 /// (Russian roulette); Laine, Karras and Aila, "Megakernels Considered Harmful", HPG 2013
 /// (wavefronts).
 /// Differs: ambient lights of Whitted's equation are not used, since indirect light is computed.
-/// Conventions: pairs of dimensions as in light_transport/path_chance.h. Pixels depend neither on
-/// the threads nor on tiles.
+/// Conventions: pairs of dimensions as in light_transport/path_randomness.h. Pixels depend neither
+/// on the threads nor on tiles.
 
 #include "alhazen/renderers/light_transport/light_transport_renderer.h"
 #include "alhazen/renderers/light_transport/path_settings.h"

@@ -79,7 +79,7 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
         });
         const RenderJob planned = with_plan(job);
         std::optional<IrradianceCache> cache;
-        if (settings_.cache > 0.0 && settings_.gather > 0 && lights.shines()) {
+        if (settings_.cache > 0.0 && settings_.gather > 0 && lights.emits()) {
             cache = filled_cache(planned, film, lights, maps, settings_, report.counters);
         }
         const RayCounters filling = report.counters;

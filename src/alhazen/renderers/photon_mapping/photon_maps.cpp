@@ -100,7 +100,7 @@ PhotonMaps make_photon_maps(const RenderJob& job, const Illumination& lights,
     const std::uint32_t sets = job.spectral ? kWaveSets : 1;
     for (std::uint32_t k = 0; k < sets; ++k) maps.waves.push_back(waves_of_pass(job, k));
     maps.pairs.resize(sets);
-    if (!lights.shines()) return maps;
+    if (!lights.emits()) return maps;
     std::uint64_t seed = job.seed;
     std::optional<ProjectionMap> projection;
     for (std::size_t k = 0; k < sets; ++k) {

@@ -48,7 +48,7 @@ PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumina
       settings_(settings),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       lights_(lights),
-      chance_(job),
+      random_(job),
       camera_(job),
       next_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
       given_(waves.begin(), waves.end()) {}
@@ -76,9 +76,9 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, const Wavelengths& wav
     Branch first;
     PathEnd& path = first.path;
     first.waves = waves;
-    path.time = camera_.time(chance_, id);
+    path.time = camera_.time(random_, id);
     path.cone = job_.cone;
-    path.ray = camera_.through_lens(chance_, id, ray, path.time);
+    path.ray = camera_.through_lens(random_, id, ray, path.time);
     path.media = camera_.media(path.ray, path.time);
     first.way = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kWays));
     waiting_.assign(1, first);
@@ -87,7 +87,7 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, const Wavelengths& wav
         Branch at = waiting_.back();
         waiting_.pop_back();
         // Stratified numbers are uniform over successive samples only.
-        if (at.stride > 1) event = std::max(event, PathChance::kStratified);
+        if (at.stride > 1) event = std::max(event, PathRandomness::kStratified);
         follow(id, at, event, waves, sum, direct);
     }
 }
@@ -120,7 +120,7 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
         if (scatter_.has_density()) {
             ++event;
             add_direct_light(id, here, at, waves, direct);
-            const double times = at.straight ? looks(id) : 1.0;
+            const double times = at.straight ? photon_lookups(id) : 1.0;
             const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(here) + 1, numbers.path,
                                   numbers.part};
             if (times > 0.0) {
@@ -134,9 +134,9 @@ void PhotonEye::follow(const SampleId& id, Branch& at, int& event, const Wavelen
             if (!goes_on) return;
             continue;
         }
-        const auto drawn =
-            scatter_.sample(chance_.draw(id, here, PathChance::kChoices).x,
-                            chance_.draw(id, here, PathChance::kDirection), Transport::Radiance);
+        const auto drawn = scatter_.sample(random_.draw(id, here, PathRandomness::kChoices).x,
+                                           random_.draw(id, here, PathRandomness::kDirection),
+                                           Transport::Radiance);
         if (!drawn || drawn->weight.is_black()) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
         // Mirrors and total reflection use no random numbers.
@@ -184,7 +184,7 @@ std::uint32_t PhotonEye::turns(const Branch& at, double share) const {
     return 0;
 }
 
-double PhotonEye::looks(const SampleId& id) const {
+double PhotonEye::photon_lookups(const SampleId& id) const {
     if (settings_.every <= 1) return 1.0;
     const std::uint64_t key = mix64(job_.round->seed ^ mix64(id.pixel.id() ^ kLooks));
     return is_turn(key, id.number, settings_.every) ? settings_.every : 0.0;
@@ -204,7 +204,7 @@ bool PhotonEye::leave(const SampleId& id, int& event, const Scattered& drawn, Br
     }
     NextSurface::go_on(at.path, point.surface, scatter_, drawn);
     if (drawn.dispersed) at.waves.keep_hero(at.path.throughput);
-    return survives(at.path, at.last, id, event);
+    return survives_roulette(at.path, at.last, id, event);
 }
 
 Spectrum PhotonEye::escaped(const PathEnd& path, const Last& last) const {
@@ -236,10 +236,10 @@ Spectrum PhotonEye::emitted(const Branch& at) const {
 }
 
 Vec2 PhotonEye::draw_for_light(const SampleId& id, int event, const Branch& at,
-                               PathChance::BouncePair pair) const {
-    if (at.stride == 1) return chance_.draw(id, event, pair);
+                               PathRandomness::BouncePair pair) const {
+    if (at.stride == 1) return random_.draw(id, event, pair);
     // The branches of a pixel use the same points, randomly shifted.
-    const Vec2 u = chance_.draw({id.pixel, id.number / at.stride}, 0, pair);
+    const Vec2 u = random_.draw({id.pixel, id.number / at.stride}, 0, pair);
     const std::uint64_t key =
         mix64(at.way ^ mix64(kShift + pair) ^ static_cast<std::uint64_t>(at.last.scatterings));
     return {shifted(u.x + random_at(key, 0)), shifted(u.y + random_at(key, 1))};
@@ -247,8 +247,8 @@ Vec2 PhotonEye::draw_for_light(const SampleId& id, int event, const Branch& at,
 
 void PhotonEye::add_direct_light(const SampleId& id, int event, const Branch& branch,
                                  const Wavelengths& waves, Spectrum& direct) {
-    const double choice = draw_for_light(id, event, branch, PathChance::kChoices).y;
-    const Vec2 place = draw_for_light(id, event, branch, PathChance::kLight);
+    const double choice = draw_for_light(id, event, branch, PathRandomness::kChoices).y;
+    const Vec2 place = draw_for_light(id, event, branch, PathRandomness::kLight);
     constexpr double kGolden = 0.6180339887498949;
     // Stratified over the choice of the light, and over the points of each chosen light.
     const double share = 1.0 / settings_.shadows;
@@ -292,14 +292,15 @@ void PhotonEye::look_into_volume(const SampleId& id, int event, const PathEnd& p
     const VolumePoint& at = next_.volume();
     sum += path.throughput * photon_light(SeenVolume{at, path, id.number % given_.size()});
     const DirectLight straight =
-        direct_light(at, chance_.draw(id, event, PathChance::kChoices).y,
-                     chance_.draw(id, event, PathChance::kLight), *path.waves);
+        direct_light(at, random_.draw(id, event, PathRandomness::kChoices).y,
+                     random_.draw(id, event, PathRandomness::kLight), *path.waves);
     if (straight.light.is_black()) return;
     shadows_.add(straight.ray, path.time, path.media, waves, path.throughput * straight.light,
                  direct);
 }
 
-bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int& event) const {
+bool PhotonEye::survives_roulette(PathEnd& path, const Last& last, const SampleId& id,
+                                  int& event) const {
     if (!path.throughput.is_finite()) return false;
     if (last.scatterings <= settings_.roulette) return true;
     // Branches that are followed with certainty are already dim. Bright paths continue: russian
@@ -307,7 +308,7 @@ bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, in
     const double light = last.eta_scale * path.throughput.max();
     if (!(light < settings_.split)) return true;
     const double share = light / settings_.split;
-    if (!(chance_.draw(id, event++, PathChance::kLuck).x < share)) return false;
+    if (!(random_.draw(id, event++, PathRandomness::kRoulette).x < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;
 }

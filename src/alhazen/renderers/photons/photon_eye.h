@@ -8,16 +8,16 @@
 /// Differs: glossy is a property of a direction, not of a surface: the BSDF samples it with more
 /// than kGlossyDensity. Direct light in such directions is weighted by the power heuristic, as both
 /// strategies find it.
-/// Conventions: pairs of dimensions as in light_transport/path_chance.h. A pixel is independent of
-/// threads and tiles. Emitters left to chance (illumination.h) are visible but do not illuminate.
-/// Threads: used by one thread.
+/// Conventions: pairs of dimensions as in light_transport/path_randomness.h. A pixel is independent
+/// of threads and tiles. Emitters left to chance (illumination.h) are visible but do not
+/// illuminate. Threads: used by one thread.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "alhazen/renderers/light_transport/camera_rays.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/photons/next_surface.h"
 
@@ -72,7 +72,7 @@ class PhotonEye {
     const Scene& scene_;
     RayCounters& counters_;
     const PathSettings settings_;
-    LightBatch shadows_;
+    ConnectionBatch shadows_;
 
   private:
     /// The state of a path in addition to its end.
@@ -100,7 +100,7 @@ class PhotonEye {
     void follow(const SampleId& id, Branch& at, int& event, const Wavelengths& waves, Spectrum& sum,
                 Spectrum& direct);
     /// Weight of the photons at the directly visible point of the sample: 0, 1 or `every`.
-    [[nodiscard]] double looks(const SampleId& id) const;
+    [[nodiscard]] double photon_lookups(const SampleId& id) const;
     /// Splits at smooth glass: `at` continues by the brighter branch; the other is stored, or taken
     /// by other samples. False if one must be chosen at random. `goes_on`: whether `at` continues.
     [[nodiscard]] bool follow_both(const SampleId& id, int& event, Branch& at, bool& goes_on);
@@ -117,17 +117,17 @@ class PhotonEye {
     /// Random numbers for a light, stratified also over the samples of a branch that is taken in
     /// turn.
     [[nodiscard]] Vec2 draw_for_light(const SampleId& id, int event, const Branch& at,
-                                      PathChance::BouncePair pair) const;
+                                      PathRandomness::BouncePair pair) const;
     /// Adds a shadow ray to the light selected by the numbers, for `share` of the direct light.
     void add_shadow_ray(const Branch& branch, double choice, const Vec2& place, double share,
                         const Wavelengths& waves, Spectrum& direct);
     void look_into_volume(const SampleId& id, int event, const PathEnd& path,
                           const Wavelengths& waves, Spectrum& sum, Spectrum& direct);
-    [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
-                                int& event) const;
+    [[nodiscard]] bool survives_roulette(PathEnd& path, const Last& last, const SampleId& id,
+                                         int& event) const;
 
     const Illumination& lights_;
-    PathChance chance_;
+    PathRandomness random_;
     CameraRays camera_;
     NextSurface next_;
     ScatterPoint scatter_;

@@ -19,7 +19,7 @@ void refuse_photons(const char* renderer, std::uint64_t shot, std::uint64_t coun
 }
 
 void note_silent_lights(const Illumination& lights, const char* renderer, RenderReport& report) {
-    if (!lights.leaves_some_to_chance()) return;
+    if (!lights.has_unsampled_emitters()) return;
     report.notes.push_back(
         fmt::format("{}: some emitting surfaces emit no photons because they cannot be sampled; "
                     "path_tracing finds their light",

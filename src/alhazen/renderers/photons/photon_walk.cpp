@@ -73,8 +73,8 @@ void PhotonWalk::store_in_volume(PhotonKind kind, const Spectrum& fluence, const
                       OctahedralVector::none()});
 }
 
-bool PhotonWalk::survives(PathEnd& path, double begun, const PathNumbers& numbers,
-                          std::uint64_t dimension) const {
+bool PhotonWalk::survives_roulette(PathEnd& path, double begun, const PathNumbers& numbers,
+                                   std::uint64_t dimension) const {
     const double share = path.throughput.max() / begun;
     if (!(share < 1.0)) return path.throughput.is_finite();
     if (!(numbers.at(dimension) < share)) return false;
@@ -114,7 +114,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
             scattered = true;
             fall = Spectrum::all(1);
             next_.go_on_in_volume(path, {numbers.at(first + 1), numbers.at(first + 2)});
-            if (!survives(path, begun, numbers, first + 3)) return true;
+            if (!survives_roulette(path, begun, numbers, first + 3)) return true;
             continue;
         }
         const ShadingPoint& point = next_.point();
@@ -150,7 +150,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         NextSurface::go_on(path, point.surface, scatter_, *drawn);
         if (drawn->dispersed) waves.keep_hero(path.throughput);
         path.throughput = turned * path.throughput;
-        if (!survives(path, begun, numbers, first + 3)) return true;
+        if (!survives_roulette(path, begun, numbers, first + 3)) return true;
     }
     return true;
 }

@@ -86,7 +86,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         shot.waves = &waves;
         shot.shutter = shutter_of_pass(passes.job(), pass);
         ShotPhotons photons;
-        if (lights.shines()) photons = shoot_photons(passes.job(), lights, shot, most, "sppm");
+        if (lights.emits()) photons = shoot_photons(passes.job(), lights, shot, most, "sppm");
         passes.report().counters += photons.counters;
         if (!photons.complete) return passes.stopped();
         if (pass == 0) {

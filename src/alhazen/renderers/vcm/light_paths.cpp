@@ -10,7 +10,7 @@ namespace alhazen {
 namespace {
 
 /// Pairs of dimensions of the start of a light path: place, direction; time and choice.
-enum StartPair : std::uint32_t { kPlace = 0, kAlong = 1, kChoice = PathChance::kTime };
+enum StartPair : std::uint32_t { kPlace = 0, kAlong = 1, kChoice = PathRandomness::kTime };
 
 std::array<float, 3> as_floats(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
@@ -44,7 +44,7 @@ LightPathWalk::LightPathWalk(const LightPathNumbers& numbers, const Illumination
     : job_(numbers.job()),
       lights_(lights),
       shot_(shot),
-      chance_(job_),
+      random_(job_),
       starts_(job_.scene),
       walk_(job_.scene, lights, counters, stats) {}
 
@@ -79,15 +79,15 @@ void LightPathWalk::keep(const PathVertex& v, const SideSums& sums, double facin
 
 bool LightPathWalk::shoot(std::uint64_t number, std::vector<LightVertex>& kept) {
     const SampleId id = LightPathNumbers::id(shot_.first + number);
-    const LightRay light = lights_.emit(chance_.draw(id, kChoice).y, chance_.draw(id, kPlace),
-                                        chance_.draw(id, kAlong), *shot_.waves);
+    const LightRay light = lights_.emit(random_.draw(id, kChoice).y, random_.draw(id, kPlace),
+                                        random_.draw(id, kAlong), *shot_.waves);
     const float time =
-        job_.scene.has_motion ? shot_.shutter.at(chance_.draw(id, PathChance::kTime).x) : 0.0f;
+        job_.scene.has_motion ? shot_.shutter.at(random_.draw(id, PathRandomness::kTime).x) : 0.0f;
     const WalkStart start = starts_.of(light, time, *shot_.waves);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     walk_.walk(
         Transport::Importance, start,
-        {chance_, id, PathChance::kFirstBounce, shot_.settings.depth, shot_.settings.roulette},
+        {random_, id, PathRandomness::kFirstBounce, shot_.settings.depth, shot_.settings.roulette},
         path_);
     set_falloff(lights_, light, *shot_.waves, path_);
     if (path_.size() < 2) return true;

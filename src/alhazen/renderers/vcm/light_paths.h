@@ -50,7 +50,7 @@ struct LightPathShot {
 class LightPathNumbers {
   public:
     LightPathNumbers(const RenderJob& job, std::uint64_t seed);
-    /// The job, with a `RenderJob::round` for PathChance.
+    /// The job, with a `RenderJob::round` for PathRandomness.
     [[nodiscard]] const RenderJob& job() const { return job_; }
     [[nodiscard]] static SampleId id(std::uint64_t number);
 
@@ -79,7 +79,7 @@ class LightPathWalk {
     const RenderJob& job_;
     const Illumination& lights_;
     LightPathShot shot_;
-    PathChance chance_;
+    PathRandomness random_;
     LightStarts starts_;
     RandomWalk walk_;
     std::vector<PathVertex> path_;

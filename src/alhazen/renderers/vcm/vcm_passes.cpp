@@ -61,7 +61,7 @@ RenderReport render_merging(const RenderJob& job, Film& film, const VcmSettings&
         std::min(settings.memory * 1e6 / LightVertexGrid::kBytesOfPhoton, 0x1p31));
     LightPathShot shot{.count = settings.photons, .settings = settings.paths};
     double radius = settings.radius;
-    bool merges = lights.shines(), complete = true;
+    bool merges = lights.emits(), complete = true;
     for (std::uint32_t pass = 0; pass < passes.count() && complete; ++pass) {
         const Wavelengths waves = waves_of_pass(job, pass);
         shot.waves = &waves;

@@ -1,9 +1,9 @@
 #pragma once
-/// The estimator of recursive ray tracing, a generation at a time; `Chance` provides what is drawn
-/// at random.
+/// The estimator of recursive ray tracing, a generation at a time; `Randomness` provides what is
+/// drawn at random.
 ///
 /// Source: Whitted 1980 (whitted.h); Cook, Porter and Carpenter 1984 (distributed.h).
-/// Conventions: those of RadianceEstimator. NoChance draws nothing: Whitted's picture.
+/// Conventions: those of RadianceEstimator. NoRandomness draws nothing: Whitted's picture.
 
 #include <algorithm>
 #include <deque>
@@ -23,8 +23,8 @@
 namespace alhazen {
 
 /// Nothing is random: lights by `sample`, exact mirrored and refracted directions, time 0.
-struct NoChance {
-    explicit NoChance(const RenderJob&) {}
+struct NoRandomness {
+    explicit NoRandomness(const RenderJob&) {}
     [[nodiscard]] LightSample light_from(const Light& light, std::size_t /*number*/,
                                          const Vec3& point, bool clamp, const Path&,
                                          int /*depth*/) const {
@@ -35,24 +35,24 @@ struct NoChance {
     [[nodiscard]] static float time(std::uint32_t /*sample*/) { return 0.0f; }
 };
 
-/// A chance that observes the tree of rays. `use` is called once, with exact optics only. For some
-/// rays of a generation the calls are, in order: `begin_rays`; for each surface `see_light` for the
-/// lights it faces, then `meet`; `miss` for rays that hit nothing; `gather`, after the next
+/// A `Randomness` that observes the tree of rays. `use` is called once, with exact optics only. For
+/// some rays of a generation the calls are, in order: `begin_rays`; for each surface `see_light`
+/// for the lights it faces, then `meet`; `miss` for rays that hit nothing; `gather`, after the next
 /// generation, with the surfaces in the order of `meet`; `give_up` if rays have passed
 /// kMaxPassedSurfaces; `end_rays`, when the radiance is known.
-template <class Chance>
-concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
+template <class Randomness>
+concept TreeWatcher = requires(Randomness& random, const GenerationPart& part,
                                const ShadingPoint& point, const Path& path, const MetSurface& met,
                                const Wavefront& front, const LightSample& light, const Rgb& left,
                                ExactOptics& optics, std::uint32_t ray, double t, int depth) {
-    chance.use(optics);
-    chance.begin_rays(part, depth);
-    chance.see_light(std::size_t{}, light, t);
-    chance.meet(point, t, path, depth, met);
-    chance.miss(ray, left, depth);
-    chance.gather(front, depth);
-    chance.give_up(front, depth);
-    chance.end_rays(part, depth);
+    random.use(optics);
+    random.begin_rays(part, depth);
+    random.see_light(std::size_t{}, light, t);
+    random.meet(point, t, path, depth, met);
+    random.miss(ray, left, depth);
+    random.gather(front, depth);
+    random.give_up(front, depth);
+    random.end_rays(part, depth);
 };
 
 /// Generations of at least this depth trace fewer rays at a time, which bounds the memory of
@@ -61,7 +61,7 @@ inline constexpr int kDeepGeneration = 16;
 inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
 /// Traces batches of eye rays; memory is reused from batch to batch.
-template <class Chance>
+template <class Randomness>
 class RecursiveEstimator {
   public:
     /// `split`: wavelengths of rays that dispersing surfaces refract; null: no dispersion.
@@ -75,16 +75,16 @@ class RecursiveEstimator {
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-          chance_(job),
+          random_(job),
           split_(split) {
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-            if (illuminates(scene_.lights[i])) lamps_.push_back(i);
+            if (illuminates(scene_.lights[i])) shadow_lights_.push_back(i);
         }
         if (!conventions_.optics.any()) return;
         optics_.emplace(scene_, conventions_.optics);
         visible_.use(*optics_);
         shadows_.use(*optics_);
-        if constexpr (TreeWatcher<Chance>) chance_.use(*optics_);
+        if constexpr (TreeWatcher<Randomness>) random_.use(*optics_);
     }
 
     /// Writes the radiance along eye rays of unit direction.
@@ -93,14 +93,14 @@ class RecursiveEstimator {
         eye_.begin(rays, path);
         for (Path& p : eye_.paths()) {
             p.sample = path.sample++;
-            p.time = chance_.time(p.sample);
+            p.time = random_.time(p.sample);
         }
         trace_all(eye_, 0);
         const std::span<const Rgb> found = eye_.part(0, rays.size()).radiance;
         std::copy(found.begin(), found.end(), radiance.begin());
     }
 
-    [[nodiscard]] Chance& chance() { return chance_; }
+    [[nodiscard]] Randomness& randomness() { return random_; }
 
     /// Sets where `trace` stores the first hit of each eye ray; empty: nowhere.
     void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
@@ -124,7 +124,7 @@ class RecursiveEstimator {
         Wavefront& front = front_at(depth);
         front.begin(part.size());
         for (const Path& path : part.paths) ++counters_[path.kind].cast;
-        if constexpr (TreeWatcher<Chance>) chance_.begin_rays(part, depth);
+        if constexpr (TreeWatcher<Randomness>) random_.begin_rays(part, depth);
         for (int met = 0; met < kMaxPassedSurfaces && !front.active.empty(); ++met) {
             // One eye ray may cause millions of rays. Its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
@@ -134,14 +134,14 @@ class RecursiveEstimator {
             meet_surfaces(part, depth, met == 0, front);
             shadows_.finish();
             trace_all(front.next, depth + 1);
-            if constexpr (TreeWatcher<Chance>) chance_.gather(front, depth);
+            if constexpr (TreeWatcher<Randomness>) random_.gather(front, depth);
             gather(front, part.radiance);
             if (optics_) optics_->release(media);
             front.go_on();
         }
-        if constexpr (TreeWatcher<Chance>) {
-            if (!front.active.empty()) chance_.give_up(front, depth);
-            chance_.end_rays(part, depth);
+        if constexpr (TreeWatcher<Randomness>) {
+            if (!front.active.empty()) random_.give_up(front, depth);
+            random_.end_rays(part, depth);
         }
     }
 
@@ -162,7 +162,7 @@ class RecursiveEstimator {
             const std::uint32_t i = front.active[k];
             Rgb& left = front.left[i];
             if (point == nullptr) {
-                if constexpr (TreeWatcher<Chance>) chance_.miss(i, left, depth);
+                if constexpr (TreeWatcher<Randomness>) random_.miss(i, left, depth);
                 part.radiance[i] = part.radiance[i] + left * scene_.background;
                 return;
             }
@@ -174,7 +174,7 @@ class RecursiveEstimator {
             met.ray = i;
             met.share = coverage * left;
             shade({*point, rays[k], t, path, depth}, met, front);
-            if constexpr (TreeWatcher<Chance>) chance_.meet(*point, t, path, depth, met);
+            if constexpr (TreeWatcher<Randomness>) random_.meet(*point, t, path, depth, met);
             left = (1.0 - coverage) * left;
             if (!(left.max() >= kLeastTransmittance)) return;
             front.next_active.push_back(i);
@@ -249,13 +249,13 @@ class RecursiveEstimator {
 
     void add_direct_light(const Seen& seen, const LeavingRays& from, Rgb& sum) {
         const ShadingPoint& point = seen.point;
-        for (const std::size_t here : lamps_) {
+        for (const std::size_t here : shadow_lights_) {
             const LightSample l =
-                chance_.light_from(scene_.lights[here], here, point.surface.point,
+                random_.light_from(scene_.lights[here], here, point.surface.point,
                                    conventions_.clamp_attenuation, seen.path, seen.depth);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
-            if constexpr (TreeWatcher<Chance>) chance_.see_light(here, l, cosine);
+            if constexpr (TreeWatcher<Randomness>) random_.see_light(here, l, cosine);
             if (l.intensity.is_black()) continue;  // beyond the cone of a spot
             if (shadows_.casts_at_once()) {
                 const Rgb through = shadows_.arriving(from, l, seen.path);
@@ -291,7 +291,7 @@ class RecursiveEstimator {
         if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) < 0.0) {
             direction = mirror(seen.ray.direction, point.geometric);
         }
-        chance_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
+        random_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
         met.kr = kr;
         met.reflected = next.add(onward_ray(conventions_, from, direction),
                                  onward_path(seen, RayKind::Reflection, contribution));
@@ -346,7 +346,7 @@ class RecursiveEstimator {
             ++counters_.total_internal;
             return MetSurface::kNotSent;
         }
-        chance_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
+        random_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
         return next.add(onward_ray(conventions_, from, direction), onward);
     }
 
@@ -381,12 +381,12 @@ class RecursiveEstimator {
     RayCounters& counters_;
     std::size_t rays_at_once_;
     const std::vector<Rgb> ambient_;
-    std::vector<std::size_t> lamps_;   ///< numbers of the lights with shadow rays
-    std::span<Hit> eye_hits_;          ///< see keep_hits
-    std::span<const Hit> known_hits_;  ///< see start_from
+    std::vector<std::size_t> shadow_lights_;  ///< numbers of the lights with shadow rays
+    std::span<Hit> eye_hits_;                 ///< see keep_hits
+    std::span<const Hit> known_hits_;         ///< see start_from
     VisibleBatch visible_;
     ShadowBatch shadows_;
-    Chance chance_;
+    Randomness random_;
     const WaveSplit* split_;
     std::optional<ExactOptics> optics_;  ///< if the scene has exact optics
     Generation eye_;

@@ -32,7 +32,7 @@ class Environment {
 
     [[nodiscard]] Rgb radiance(const Vec3& direction) const;
     /// Samples a direction with `u` in [0, 1)^2 for a surface with `normal` towards the viewer;
-    /// `both_sides`: light from behind counts as well. Precondition: `shines`.
+    /// `both_sides`: light from behind counts as well. Precondition: `emits`.
     [[nodiscard]] Vec3 sample(const Vec3& normal, bool both_sides, const Vec2& u) const;
     /// Density of that `sample` by solid angle.
     [[nodiscard]] double density(const Vec3& normal, bool both_sides, const Vec3& direction) const;
@@ -60,7 +60,7 @@ class Environment {
 
     /// Mean radiance over all directions.
     [[nodiscard]] Rgb mean() const;
-    [[nodiscard]] bool shines() const { return mean().max() > 0.0; }
+    [[nodiscard]] bool emits() const { return mean().max() > 0.0; }
     /// Number of texels that are no valid radiance and were set to black.
     [[nodiscard]] std::size_t bad_texels() const { return bad_texels_; }
     [[nodiscard]] const std::optional<SunDisc>& sun() const { return sun_; }

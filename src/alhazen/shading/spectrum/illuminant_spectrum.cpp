@@ -50,15 +50,15 @@ Value integral(const Illuminant& illuminant, Value (*seen)(double)) {
 
 double luminance_of(const Illuminant& illuminant) {
     // Caches the last illuminant, which is often requested repeatedly.
-    struct Late {
+    struct Cached {
         IlluminantKind kind = IlluminantKind::E;
         double kelvin = -1, luminance = 1;
     };
-    thread_local Late late;
-    if (late.kind != illuminant.kind || late.kelvin != illuminant.kelvin) {
-        late = {illuminant.kind, illuminant.kelvin, integral(illuminant, luminance_response)};
+    thread_local Cached cached;
+    if (cached.kind != illuminant.kind || cached.kelvin != illuminant.kelvin) {
+        cached = {illuminant.kind, illuminant.kelvin, integral(illuminant, luminance_response)};
     }
-    return late.luminance;
+    return cached.luminance;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace alhazen {
 namespace {
 
 /// Scale of the clip, beyond which the line is certainly outside.
-constexpr double kRoom = 1.0 + 1.0 / 64;
+constexpr double kBoxMargin = 1.0 + 1.0 / 64;
 /// Roundings of a sum of powers per unit of the exponents, in half ulps.
 constexpr double kRoundings = 32.0;
 /// The error of a sum of powers in double-double, relative.
@@ -260,7 +260,8 @@ Box3 Superellipsoid::box() const {
 
 int Superellipsoid::intersect(const Ray& ray, ShapeHit* hits) const {
     ClipSegment segment;
-    const Box3 around{{-kRoom, -kRoom, -kRoom}, {kRoom, kRoom, kRoom}};
+    const Box3 around{{-kBoxMargin, -kBoxMargin, -kBoxMargin},
+                      {kBoxMargin, kBoxMargin, kBoxMargin}};
     if (!clip_segment(frame, ray, around, 1.0, segment)) return 0;
     const Vec3 &o = segment.o, &d = segment.d;
     const double entry = segment.range.entry - segment.shift;

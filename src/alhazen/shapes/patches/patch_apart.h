@@ -35,13 +35,13 @@ class PatchLinesApart {
   private:
     /// A pair of a line and a leaf that may contain a root.
     struct Task {
-        PatchWay* way;
+        LineTraversal* way;
         const PatchLeaf* leaf;
         LeafAnswer answer;
         double a, b, bend;  ///< as in LeafStart
     };
 
-    void walk_on(PatchWay& way) { walking_[walking_count_++] = &way; }
+    void walk_on(LineTraversal& way) { walking_[walking_count_++] = &way; }
 
     void set_out() {
         const LineFrame frame{index_.frame_, index_.far_, index_.reach_, index_.most_weight_};
@@ -53,7 +53,7 @@ class PatchLinesApart {
             }
             const LinesSetOut done = kernels_.set_out_lines(rays, frame, &ways_[first]);
             for (std::size_t i = 0; i < count; ++i) {
-                PatchWay& way = ways_[first + i];
+                LineTraversal& way = ways_[first + i];
                 if ((done.usual >> i & 1) != 0) {
                     if ((done.near >> i & 1) != 0) walk_on(way);
                     continue;
@@ -82,7 +82,7 @@ class PatchLinesApart {
 
     /// Tests the current leaves of the lines; those that may contain a root become tasks.
     void test() {
-        PatchWay* at[kMostPatchRays];
+        LineTraversal* at[kMostPatchRays];
         std::uint32_t leaves[kMostPatchRays];
         std::size_t count = 0;
         for (std::size_t k = 0; k < walking_count_; ++k) {
@@ -103,7 +103,7 @@ class PatchLinesApart {
             LeafAnswers answers;
             kernels_.test_leaves(pairs, answers);
             for (std::size_t i = 0; i < kPatchPairs && first + i < count; ++i) {
-                PatchWay& way = *at[first + i];
+                LineTraversal& way = *at[first + i];
                 if ((answers.met >> i & 1) == 0) {
                     walk_on(way);
                     continue;
@@ -121,7 +121,7 @@ class PatchLinesApart {
 
     /// Searches one pair without lanes.
     void visit(const Task& task) {
-        PatchWay& way = *task.way;
+        LineTraversal& way = *task.way;
         const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
             take(way, piece, root);
         };
@@ -130,7 +130,7 @@ class PatchLinesApart {
         walk_on(way);
     }
 
-    void take(PatchWay& way, std::uint32_t piece, const PatchRoot& root) {
+    void take(LineTraversal& way, std::uint32_t piece, const PatchRoot& root) {
         const double t = found_(static_cast<std::size_t>(&way - ways_), piece, root);
         const float most = index_.place(way.line, t, 1.0);
         if (most < way.walk.most) way.walk.most = most;
@@ -145,7 +145,7 @@ class PatchLinesApart {
             pairs.converges = pairs.ranged = 0;
             for (std::size_t i = 0; i < kPatchPairs; ++i) {
                 const Task& task = tasks_[first + (i < count ? i : 0)];
-                const PatchWay& way = *task.way;
+                const LineTraversal& way = *task.way;
                 const PatchCell cell = task.leaf->cell();
                 pairs.u0[i] = cell.u0;
                 pairs.u1[i] = cell.u1;
@@ -166,7 +166,7 @@ class PatchLinesApart {
             kernels_.cubic_newtons(pairs, roots);
             for (std::size_t i = 0; i < count; ++i) {
                 Task& task = tasks_[first + i];
-                PatchWay& way = *task.way;
+                LineTraversal& way = *task.way;
                 PatchRoot root;
                 if ((roots.met >> i & 1) != 0 && is_root(pieces_.net(task.leaf->piece), way.line,
                                                          task.leaf->cell(), roots.root(i), root)) {
@@ -188,12 +188,12 @@ class PatchLinesApart {
     F& found_;
     const PatchKernels& kernels_ = patch_kernels();
     std::size_t walking_count_ = 0, task_count_ = 0;
-    PatchWay* walking_[kMostPatchRays];
+    LineTraversal* walking_[kMostPatchRays];
     std::uint32_t leaves_[kMostPatchRays];  ///< current leaf of each line
     Task tasks_[kMostPatchRays];
     // Uninitialised: most of it is unused stack space.
-    alignas(PatchWay) std::byte room_[kMostPatchRays * sizeof(PatchWay)];
-    PatchWay* const ways_ = reinterpret_cast<PatchWay*>(room_);
+    alignas(LineTraversal) std::byte room_[kMostPatchRays * sizeof(LineTraversal)];
+    LineTraversal* const ways_ = reinterpret_cast<LineTraversal*>(room_);
 };
 
 }  // namespace alhazen

@@ -67,8 +67,8 @@ float PatchIndex::place(const PatchLine& line, double t, double side) const {
     return static_cast<float>(std::clamp(x + side * (1e-5 + 1e-6 * std::abs(x)), -1e30, 1e30));
 }
 
-PatchWalk PatchIndex::walk_of(const PatchLine& line, double t_min, double limit) const {
-    PatchWalk walk;
+PatchTraversal PatchIndex::walk_of(const PatchLine& line, double t_min, double limit) const {
+    PatchTraversal walk;
     const Vec3 origin = in_frame(line.origin);
     for (int axis = 0; axis < 3; ++axis) {
         const double d = line.direction[axis];
@@ -80,7 +80,7 @@ PatchWalk PatchIndex::walk_of(const PatchLine& line, double t_min, double limit)
     walk.most = place(line, limit, 1.0);
     walk.set_planes();
     walk.size = 1;
-    walk.stack[0] = PatchWalk::Waiting::of(walk.least, 0);
+    walk.stack[0] = PatchTraversal::Waiting::of(walk.least, 0);
     return walk;
 }
 

@@ -49,7 +49,7 @@ class PatchIndex {
     /// Converts t to the frame of `line` and rounds it to float, with a margin to the given side.
     [[nodiscard]] float place(const PatchLine& line, double t, double side) const;
     [[nodiscard]] static bool side_by_side(std::span<const Ray* const> rays);
-    [[nodiscard]] PatchWalk walk_of(const PatchLine& line, double t_min, double limit) const;
+    [[nodiscard]] PatchTraversal walk_of(const PatchLine& line, double t_min, double limit) const;
     [[nodiscard]] Vec3 in_frame(const Vec3& p) const { return frame_.scale * (p - frame_.center); }
 
     /// `least` and `most`: the range along the line, in the frame.
@@ -128,7 +128,7 @@ template <class F>
 void PatchIndex::search(const PatchPieces& pieces, PatchLine line, double t_min, double limit,
                         F&& found) const {
     if (!is_near(line)) return;
-    PatchWalk walk = walk_of(line, t_min, limit);
+    PatchTraversal walk = walk_of(line, t_min, limit);
     const LeafLine seen_by = leaf_line(line);
     const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
         const double t = found(piece, root);

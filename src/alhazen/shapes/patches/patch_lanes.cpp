@@ -24,7 +24,7 @@ class SortedChildren {
     SortedChildren(const PatchBoxes& node, const float* nears) : node_(node), nears_(nears) {}
 
     /// Sorts two to four by a branchless network, as branches would be mispredicted.
-    HWY_INLINE void put_few(std::uint32_t met, PatchWalk::Waiting* to) const {
+    HWY_INLINE void put_few(std::uint32_t met, PatchTraversal::Waiting* to) const {
         std::int64_t keys[4];
         ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i, met &= met - 1) {
@@ -41,14 +41,14 @@ class SortedChildren {
         ALHAZEN_UNROLL
         for (std::size_t i = 0; i < 4; ++i) to[i] = waiting_of(keys[i]);
     }
-    HWY_INLINE PatchWalk::Waiting one(std::uint32_t k) const {
-        return PatchWalk::Waiting::of(nears_[k], node_.child[k]);
+    HWY_INLINE PatchTraversal::Waiting one(std::uint32_t k) const {
+        return PatchTraversal::Waiting::of(nears_[k], node_.child[k]);
     }
     /// Sorts any number.
-    HWY_INLINE void put(std::uint32_t met, PatchWalk::Waiting* const begin) const {
-        for (PatchWalk::Waiting* end = begin; met != 0; met &= met - 1) {
+    HWY_INLINE void put(std::uint32_t met, PatchTraversal::Waiting* const begin) const {
+        for (PatchTraversal::Waiting* end = begin; met != 0; met &= met - 1) {
             const auto k = static_cast<std::uint32_t>(__builtin_ctz(met));
-            PatchWalk::Waiting* place = end++;
+            PatchTraversal::Waiting* place = end++;
             for (; place > begin && place[-1].near() < nears_[k]; --place) place[0] = place[-1];
             *place = one(k);
         }
@@ -63,7 +63,7 @@ class SortedChildren {
         const std::int64_t near = ordered(std::bit_cast<std::int32_t>(nears_[k]));
         return static_cast<std::int64_t>(static_cast<std::uint64_t>(near) << 32 | node_.child[k]);
     }
-    static HWY_INLINE PatchWalk::Waiting waiting_of(std::int64_t key) {
+    static HWY_INLINE PatchTraversal::Waiting waiting_of(std::int64_t key) {
         const auto near = static_cast<std::uint32_t>(ordered(static_cast<std::int32_t>(key >> 32)));
         return {std::uint64_t{near} << 32 | static_cast<std::uint32_t>(key)};
     }
@@ -79,8 +79,8 @@ class SortedChildren {
 
 /// Pushes children onto the stack, the nearest on top.
 HWY_INLINE void push_children(const PatchBoxes& node, const float* nears, std::uint32_t met,
-                              PatchWalk& walk) {
-    PatchWalk::Waiting* const top = walk.stack + walk.size;
+                              PatchTraversal& walk) {
+    PatchTraversal::Waiting* const top = walk.stack + walk.size;
     const SortedChildren children(node, nears);
     const int count = std::popcount(met);
     walk.size += count;
@@ -105,10 +105,11 @@ HWY_INLINE Floats floats_of(const std::uint8_t* bytes) {
 }
 
 /// The set of children that the line meets; writes their distances to nears[child].
-HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk, float* nears) {
+HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchTraversal& walk,
+                                   float* nears) {
     static_assert(offsetof(PatchBoxes, step) == offsetof(PatchBoxes, from) + 12 &&
-                  offsetof(PatchWalk, inverse) == offsetof(PatchWalk, from) + 12 &&
-                  offsetof(PatchWalk, least) == offsetof(PatchWalk, inverse) + 12);
+                  offsetof(PatchTraversal, inverse) == offsetof(PatchTraversal, from) + 12 &&
+                  offsetof(PatchTraversal, least) == offsetof(PatchTraversal, inverse) + 12);
     // Computes three axes at once; a fourth number is ignored, the last of `begins` and the first
     // of `steps`.
     HWY_ALIGN float begins[4], steps[4];
@@ -136,14 +137,14 @@ HWY_INLINE std::uint32_t test_node(const PatchBoxes& node, const PatchWalk& walk
 }
 
 /// Pushes the children that the line meets onto the stack.
-HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
+HWY_INLINE void open_node(const PatchBoxes& node, PatchTraversal& walk) {
     HWY_ALIGN float nears[kBoxChildren];
     push_children(node, nears, test_node(node, walk, nears), walk);
 }
 
 /// Pushes the children that a line of a packet may meet.
 HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
-    PatchWalk& walk = packet.walk;
+    PatchTraversal& walk = packet.walk;
     HWY_ALIGN float nears[kBoxChildren];
     std::uint32_t met = 0;
     ALHAZEN_UNROLL
@@ -170,9 +171,9 @@ HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
 
 bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint32_t& leaf,
                          float& near) {
-    PatchWalk& walk = packet.walk;
+    PatchTraversal& walk = packet.walk;
     while (walk.size > 0) {
-        const PatchWalk::Waiting next = walk.stack[--walk.size];
+        const PatchTraversal::Waiting next = walk.stack[--walk.size];
         if (next.near() > walk.most) continue;
         if ((next.child() & kLeafChild) != 0) {
             leaf = next.child() & ~kLeafChild;
@@ -184,9 +185,9 @@ bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint
     return false;
 }
 
-bool next_leaf(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf) {
+bool next_leaf(const PatchBoxes* nodes, PatchTraversal& walk, std::uint32_t& leaf) {
     while (walk.size > 0) {
-        const PatchWalk::Waiting next = walk.stack[--walk.size];
+        const PatchTraversal::Waiting next = walk.stack[--walk.size];
         if (next.near() > walk.most) continue;
         if ((next.child() & kLeafChild) != 0) {
             leaf = next.child() & ~kLeafChild;
@@ -198,7 +199,7 @@ bool next_leaf(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf) {
 }
 
 /// Advances the traversals by one node in turn, to hide latencies.
-void next_leaves(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t count,
+void next_leaves(const PatchBoxes* nodes, LineTraversal* const* ways, std::size_t count,
                  std::uint32_t* leaves) {
     constexpr std::size_t kTogether = 16;
     for (; count > kTogether; count -= kTogether, ways += kTogether, leaves += kTogether) {
@@ -211,8 +212,8 @@ void next_leaves(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t cou
         std::size_t opened = 0;
         for (std::size_t k = 0; k < left; ++k) {
             const std::uint32_t i = walking[k];
-            PatchWalk& walk = ways[i]->walk;
-            PatchWalk::Waiting next = walk.stack[--walk.size];
+            PatchTraversal& walk = ways[i]->walk;
+            PatchTraversal::Waiting next = walk.stack[--walk.size];
             while (next.near() > walk.most) next = walk.stack[--walk.size];
             // A leaf, or a node to open.
             leaves[i] = next.child() & ~kLeafChild;
@@ -328,13 +329,13 @@ bool begin_packet(const RayLanes& rays, const PatchFrame& frame, double far, Pat
     const Doubles per_t = scale / per_length, shift = ahead * scale;
     const Doubles begin = places(load_lanes(rays.t_min) * per_t - shift, -1.0);
     const Doubles end = places(load_lanes(rays.t_max) * per_t - shift, 1.0);
-    PatchWalk& walk = packet.walk;
+    PatchTraversal& walk = packet.walk;
     float ignored = 0.0f;
     range_of(begin, walk.least, ignored);
     range_of(end, ignored, walk.most);
     store_lanes(as_floats(end), packet.most_of);
     walk.size = 1;
-    walk.stack[0] = PatchWalk::Waiting::of(walk.least, 0);
+    walk.stack[0] = PatchTraversal::Waiting::of(walk.least, 0);
     return together;
 }
 

@@ -20,7 +20,7 @@ namespace alhazen {
 inline constexpr std::uint32_t kNoLeaf = ~0u;  ///< the leaf child that does not exist
 
 /// The traversal state of one line, nearest boxes first.
-struct PatchWalk {
+struct PatchTraversal {
     /// Distance and child packed into one number: loading what two stores wrote would stall.
     struct Waiting {
         std::uint64_t near_and_child;
@@ -71,8 +71,8 @@ struct PatchWalk {
 struct alignas(64) PatchPacket {
     double origin[3][kRayLanes], direction[3][kRayLanes];  ///< in the frame
     float most_of[kRayLanes];                              ///< end of the range along each line
-    float from[2][3], inverse[2][3];  ///< minimum and maximum of PatchWalk's values
-    PatchWalk walk;                   ///< range of the whole packet; the origin is unused
+    float from[2][3], inverse[2][3];  ///< minimum and maximum of PatchTraversal's values
+    PatchTraversal walk;              ///< range of the whole packet; the origin is unused
 };
 
 /// Bounds of a cell from its control points.
@@ -122,10 +122,10 @@ struct LineFrame {
     double far, reach, most_weight;  ///< see PatchIndex
 };
 /// A line and its own traversal.
-struct PatchWay {
+struct LineTraversal {
     PatchLine line;
     LeafLine seen_by;
-    PatchWalk walk;
+    PatchTraversal walk;
 };
 /// Sets of lines, bit i for line i: the squared direction is a normal number (else nothing is set);
 /// the line is near (PatchIndex::is_near).
@@ -167,10 +167,10 @@ struct alignas(32) CubicRoots {
 
 struct PatchKernels {
     /// Advances to the next leaf whose box the line passes through; false at the end.
-    bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
+    bool (*next_leaf)(const PatchBoxes* nodes, PatchTraversal& walk, std::uint32_t& leaf);
     /// The same for several lines set up by `begin_above_end`: at the end of a line its leaf is
     /// kNoLeaf without kLeafChild, after which it must not be continued.
-    void (*next_leaves)(const PatchBoxes* nodes, PatchWay* const* ways, std::size_t count,
+    void (*next_leaves)(const PatchBoxes* nodes, LineTraversal* const* ways, std::size_t count,
                         std::uint32_t* leaves);
     /// Sets up eight rays; false if the signs of their directions differ. A line whose origin is
     /// farther than `far` from the centre starts at the point nearest to it.
@@ -182,7 +182,8 @@ struct PatchKernels {
     LeafAnswer (*test_leaf)(const PatchLeaf& leaf, const LeafLine& line, double least, double most,
                             LeafStart& start);
     /// Sets up four lines, with the axes of their planes.
-    LinesSetOut (*set_out_lines)(const Ray* const* rays, const LineFrame& frame, PatchWay* ways);
+    LinesSetOut (*set_out_lines)(const Ray* const* rays, const LineFrame& frame,
+                                 LineTraversal* ways);
     void (*test_leaves)(const LeafPairs& pairs, LeafAnswers& answers);
     /// The lines for which `test_leaf` may have an answer other than None, and few others.
     std::uint32_t (*lines_near)(const PatchLeaf& leaf, const PatchPacket& packet);

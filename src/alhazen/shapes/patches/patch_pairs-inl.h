@@ -182,7 +182,7 @@ HWY_INLINE void store_vectors(const PairVectors& p, const Point& fourth, double*
 }
 
 /// Combines PatchIndex::line_of, add_axes, walk_of and leaf_line.
-LinesSetOut set_out_lines(const Ray* const* rays, const LineFrame& in, PatchWay* ways) {
+LinesSetOut set_out_lines(const Ray* const* rays, const LineFrame& in, LineTraversal* ways) {
     static_assert(offsetof(Ray, direction) == 24 && offsetof(Ray, t_min) == 48);
     Point rows[4], low[4], high[4];
     ALHAZEN_UNROLL
@@ -253,7 +253,7 @@ LinesSetOut set_out_lines(const Ray* const* rays, const LineFrame& in, PatchWay*
     for (std::size_t k = 0; k < 8; ++k) store_lanes(as_floats(each[k]), numbers[k]);
     ALHAZEN_UNROLL
     for (std::size_t i = 0; i < 4; ++i) {
-        PatchWalk& walk = ways[i].walk;
+        PatchTraversal& walk = ways[i].walk;
         ALHAZEN_UNROLL
         for (std::size_t k = 0; k < 3; ++k) {
             walk.from[k] = numbers[k][i];

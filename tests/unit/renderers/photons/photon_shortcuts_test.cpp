@@ -54,11 +54,11 @@ TEST(PhotonLooks, OfNeighbouringPixelsAreAsMany) {
             double sum = 0.0;
             const int fewest = samples / every, most = (samples + every - 1) / every;
             for (int i = 0; i < kSide * kSide; ++i) {
-                const double looks =
+                const double lookups =
                     (film.at(i % kSide, i / kSide).g - without) / by_photons * samples / every;
-                EXPECT_GT(looks, fewest - 0.01) << every << ", " << samples << " samples";
-                EXPECT_LT(looks, most + 0.01) << every << ", " << samples << " samples";
-                sum += looks / (kSide * kSide);
+                EXPECT_GT(lookups, fewest - 0.01) << every << ", " << samples << " samples";
+                EXPECT_LT(lookups, most + 0.01) << every << ", " << samples << " samples";
+                sum += lookups / (kSide * kSide);
             }
             // Four standard errors of the random count of each pixel.
             const double share = double(samples) / every - fewest;

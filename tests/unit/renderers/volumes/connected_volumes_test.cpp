@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "alhazen/renderers/light_transport/coincident_faces.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
-#include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
@@ -36,7 +36,7 @@ struct Passed {
 /// The transmittance between two points, by all three queries.
 Passed pass(const Scene& scene, const Vec3& from, const Vec3& to) {
     RayCounters counters;
-    LightBatch batch(scene, counters, nullptr);
+    ConnectionBatch batch(scene, counters, nullptr);
     const MediaFinder finder(scene);
     Passed passed;
     const double distance = length(to - from);

@@ -22,7 +22,7 @@ struct Ball {
     static constexpr double kUlp = kPlain ? 0x1p-53 : kDoubleDoubleUlp;
     /// Bound of the loss by underflow of products.
     static constexpr double kTiny = 1e-280;
-    static constexpr double kRoom = 1.0 + 0x1p-48;
+    static constexpr double kMargin = 1.0 + 0x1p-48;
 
     Real center{};
     double radius = 0;
@@ -39,7 +39,7 @@ struct Ball {
         }
     }
     /// Upper bound of the magnitude of the centre.
-    [[nodiscard]] double magnitude() const { return std::abs(high()) * kRoom; }
+    [[nodiscard]] double magnitude() const { return std::abs(high()) * kMargin; }
 
     friend Ball operator-(const Ball& a) { return {Real(0.0) - a.center, a.radius}; }
     friend Ball operator+(const Ball& a, const Ball& b) {
@@ -53,12 +53,12 @@ struct Ball {
                                                 a.radius * b.radius + kTiny);
     }
     friend Ball operator/(const Ball& a, const Ball& b) {
-        const double least = std::abs(b.high()) / kRoom - b.radius;
+        const double least = std::abs(b.high()) / kMargin - b.radius;
         if (!(least > 0.0)) throw Uncertain{};
         Ball q(divided(a.center, b.center), 0.0);
         // |a / b - q| = |a - q b| / |b|
         const Ball rest = a - q * b;
-        q.radius = (rest.magnitude() + rest.radius) / least * kRoom + kTiny;
+        q.radius = (rest.magnitude() + rest.radius) / least * kMargin + kTiny;
         return q;
     }
     friend Ball square_root(const Ball& a) {
@@ -68,7 +68,7 @@ struct Ball {
         Ball s(rooted(a.center), 0.0);
         // |sqrt(a) - s| = |a - s s| / (sqrt(a) + s)
         const Ball rest = a - s * s;
-        s.radius = (rest.magnitude() + rest.radius) / std::abs(s.high()) * kRoom + kTiny;
+        s.radius = (rest.magnitude() + rest.radius) / std::abs(s.high()) * kMargin + kTiny;
         return s;
     }
     /// Zero only for an exact 0.
@@ -79,7 +79,7 @@ struct Ball {
     }
     /// Zero where the sign is unknown.
     friend int known_sign(const Ball& a) {
-        if (!(std::abs(a.high()) > a.radius * kRoom)) return 0;
+        if (!(std::abs(a.high()) > a.radius * kMargin)) return 0;
         return a.high() > 0.0 ? 1 : -1;
     }
     /// Multiplies by 2^n; exact except for underflow.
@@ -95,7 +95,7 @@ struct Ball {
   private:
     static Ball rounded(const Real& value, double radius) {
         Ball b(value, 0.0);
-        b.radius = (radius + kUlp * b.magnitude()) * kRoom;
+        b.radius = (radius + kUlp * b.magnitude()) * kMargin;
         if (!std::isfinite(b.radius)) throw Uncertain{};
         return b;
     }
@@ -112,7 +112,7 @@ using PreciseBall = Ball<DoubleDouble>;
 
 /// Rounds the centre to double.
 inline DoubleBall shortened(const PreciseBall& a) {
-    return {a.center.high, (a.radius + std::abs(a.center.low)) * PreciseBall::kRoom};
+    return {a.center.high, (a.radius + std::abs(a.center.low)) * PreciseBall::kMargin};
 }
 
 }  // namespace alhazen::testing

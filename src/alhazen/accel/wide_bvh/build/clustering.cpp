@@ -85,7 +85,7 @@ class Partners {
   private:
     static constexpr std::size_t kLanes = 4;
     static constexpr std::size_t kMargin = 2 * kRadius + 3 * kLanes;  // read beside a chunk
-    static constexpr std::size_t kRoom = kChunk + kMargin;
+    static constexpr std::size_t kCapacity = kChunk + kMargin;
 
     /// Loads clusters from kRadius before the chunk to kRadius behind it, one row for each value;
     /// missing ones have an infinite box. Returns whether kinds differ.
@@ -185,9 +185,9 @@ class Partners {
 
     const Cluster* clusters_;
     std::size_t count_;
-    float lo_[3][kRoom], hi_[3][kRoom];
-    std::uint32_t kind_[kRoom];
-    float weight_[kRadius][kRoom];
+    float lo_[3][kCapacity], hi_[3][kCapacity];
+    std::uint32_t kind_[kCapacity];
+    float weight_[kRadius][kCapacity];
 };
 
 class Clustering {

@@ -32,15 +32,15 @@ struct ChoiceOf {
     [[nodiscard]] std::uint32_t left(std::uint32_t i) const { return lefts[i - 1]; }
 };
 
-/// [j - 1] The least cost of a node's two children as at most j subtrees in all, and how many of
-/// these are the left child's; nothing for j = 1.
+/// [j - 1] The least cost of a node's two children as at most j subtrees in all, and the number of
+/// the left child's among these; an infinite cost for j = 1.
 template <std::uint32_t kWidth>
 struct SpreadOf {
     std::array<float, kWidth> cost;
     std::array<std::uint32_t, kWidth> left;
 };
 
-/// `l`, `r`: of the children.
+/// `l` and `r` are the costs of the children.
 template <std::uint32_t kWidth>
 SpreadOf<kWidth> spread_of(const CostsOf<kWidth>& l, const CostsOf<kWidth>& r) {
     SpreadOf<kWidth> spread;
@@ -141,7 +141,7 @@ struct Emitted {
 };
 
 /// Visiting priority of a child, larger first: the probability of a hit over the cost.
-float promise_of(const Emitted& child, const FloatBox& box) {
+float visit_priority(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
 }
 
@@ -375,7 +375,7 @@ class WideCollapse {
             const FloatBox& box = binary_.nodes[all.node[i]].box;
             sum.surface += emitted[i].surface;
             sum.cost += emitted[i].cost * box.weight();
-            promise[i] = promise_of(emitted[i], box);
+            promise[i] = visit_priority(emitted[i], box);
             // Insertion sort, stable.
             std::uint32_t place = i;
             for (; place > 0 && promise[order[place - 1]] < promise[i]; --place) {

@@ -92,16 +92,18 @@ void best_plane(const SpatialBin* bins, const BinPlanes& planes, const LeafKinds
 }
 
 /// A range of the references, followed by spare capacity.
-struct Room {
+struct ReferenceRange {
     std::uint32_t begin, end, limit;
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
     [[nodiscard]] std::uint32_t capacity() const { return limit - begin; }
 };
 
+using ReferencePair = std::pair<ReferenceRange, ReferenceRange>;
+
 /// Decides whether to search for a spatial split at a level. After several failures in a row it
 /// skips more and more levels, since a search reads all references.
-class Patience {
+class SplitSearchBackoff {
   public:
     /// Must be called once per level.
     [[nodiscard]] bool tries() {
@@ -140,19 +142,19 @@ class SpatialBuilder {
 
   private:
     /// Subtrees with capacity for n references use 2 n - 1 consecutive nodes.
-    void build(const Room& room, const RangeSummary& all, std::uint32_t index, int level,
-               Patience patience) {
-        nodes_[index] = {all.box.box(), room.begin, room.end, 0, all.kind()};
+    void build(const ReferenceRange& slots, const RangeSummary& all, std::uint32_t index, int level,
+               SplitSearchBackoff backoff) {
+        nodes_[index] = {all.box.box(), slots.begin, slots.end, 0, all.kind()};
         if (all.indivisible(kinds_)) return;
         RangeSummary left, right;
-        const auto rooms = divide_room(room, all, level, patience, left, right);
-        const std::uint32_t right_index = index + 2 * rooms.first.capacity();
+        const auto halves = divide_slots(slots, all, level, backoff, left, right);
+        const std::uint32_t right_index = index + 2 * halves.first.capacity();
         nodes_[index].right = right_index;
-        const auto build_left = [&] { build(rooms.first, left, index + 1, level + 1, patience); };
+        const auto build_left = [&] { build(halves.first, left, index + 1, level + 1, backoff); };
         const auto build_right = [&] {
-            build(rooms.second, right, right_index, level + 1, patience);
+            build(halves.second, right, right_index, level + 1, backoff);
         };
-        if (room.size() >= kParallelBuildSize) {
+        if (slots.size() >= kParallelBuildSize) {
             parallel_invoke(build_left, build_right);
         } else {
             build_left();
@@ -160,59 +162,62 @@ class SpatialBuilder {
         }
     }
 
-    std::pair<Room, Room> divide_room(const Room& room, const RangeSummary& all, int level,
-                                      Patience& patience, RangeSummary& left, RangeSummary& right) {
-        const std::span<BuildReference> range = span_of(room);
+    ReferencePair divide_slots(const ReferenceRange& slots, const RangeSummary& all, int level,
+                               SplitSearchBackoff& backoff, RangeSummary& left,
+                               RangeSummary& right) {
+        const std::span<BuildReference> range = span_of(slots);
         ObjectSplit object;
         if (level < kMaxSahLevel) {
             object = best_object_split(range, all, kinds_);
-            std::pair<Room, Room> rooms;
-            if (patience.tries() && is_worth_a_try(room, all, object)) {
-                const bool found = try_spatial(room, all, object, left, right, rooms);
-                patience.note(found);
-                if (found) return rooms;
+            ReferencePair halves;
+            if (backoff.tries() && is_worth_a_try(slots, all, object)) {
+                const bool found = try_spatial(slots, all, object, left, right, halves);
+                backoff.note(found);
+                if (found) return halves;
             }
         }
         const std::uint32_t middle = object.axis >= 0 ? divide(range, all, object, left, right)
                                                       : divide_evenly(range, all, left, right);
-        const std::uint32_t cut = room.begin + middle;
+        const std::uint32_t cut = slots.begin + middle;
         // A set that fits into one block stays together: it may become one.
-        if (fits_one_block(all)) return {{room.begin, cut, cut}, {cut, room.end, room.limit}};
-        const auto rooms = share(room, middle, room.size() - middle);
-        std::move_backward(references_.begin() + cut, references_.begin() + room.end,
-                           references_.begin() + rooms.second.end);
-        return rooms;
+        if (fits_one_block(all)) return {{slots.begin, cut, cut}, {cut, slots.end, slots.limit}};
+        const auto halves = share(slots, middle, slots.size() - middle);
+        std::move_backward(references_.begin() + cut, references_.begin() + slots.end,
+                           references_.begin() + halves.second.end);
+        return halves;
     }
 
-    [[nodiscard]] std::span<BuildReference> span_of(const Room& room) {
-        return std::span(references_).subspan(room.begin, room.size());
+    [[nodiscard]] std::span<BuildReference> span_of(const ReferenceRange& slots) {
+        return std::span(references_).subspan(slots.begin, slots.size());
     }
 
     /// Capacities of both sides, with the spare part in proportion to their sizes.
-    static std::pair<Room, Room> share(const Room& room, std::uint32_t left, std::uint32_t right) {
-        const std::uint64_t spare = room.capacity() - (left + right);
+    static ReferencePair share(const ReferenceRange& slots, std::uint32_t left,
+                               std::uint32_t right) {
+        const std::uint64_t spare = slots.capacity() - (left + right);
         const auto left_spare = static_cast<std::uint32_t>(spare * left / (left + right));
-        const std::uint32_t middle = room.begin + left + left_spare;
-        return {{room.begin, room.begin + left, middle}, {middle, middle + right, room.limit}};
+        const std::uint32_t middle = slots.begin + left + left_spare;
+        return {{slots.begin, slots.begin + left, middle}, {middle, middle + right, slots.limit}};
     }
 
-    [[nodiscard]] bool is_worth_a_try(const Room& room, const RangeSummary& all,
+    [[nodiscard]] bool is_worth_a_try(const ReferenceRange& slots, const RangeSummary& all,
                                       const ObjectSplit& object) const {
-        if (room.capacity() == room.size() || fits_one_block(all)) return false;
+        if (slots.capacity() == slots.size() || fits_one_block(all)) return false;
         return object.axis < 0 || overlap(object.left, object.right) > least_overlap_;
     }
 
-    bool try_spatial(const Room& room, const RangeSummary& all, const ObjectSplit& object,
-                     RangeSummary& left, RangeSummary& right, std::pair<Room, Room>& rooms) {
-        const SpatialSplit split = best_spatial_split(span_of(room), all);
+    bool try_spatial(const ReferenceRange& slots, const RangeSummary& all,
+                     const ObjectSplit& object, RangeSummary& left, RangeSummary& right,
+                     ReferencePair& halves) {
+        const SpatialSplit split = best_spatial_split(span_of(slots), all);
         if (!(split.cost < object.cost)) return false;
         std::vector<BuildReference> sides[2];
-        distribute(room, split, sides);
+        distribute(slots, split, sides);
         if (sides[0].empty() || sides[1].empty()) return false;
-        rooms = share(room, static_cast<std::uint32_t>(sides[0].size()),
+        halves = share(slots, static_cast<std::uint32_t>(sides[0].size()),
                       static_cast<std::uint32_t>(sides[1].size()));
-        std::copy(sides[0].begin(), sides[0].end(), references_.begin() + rooms.first.begin);
-        std::copy(sides[1].begin(), sides[1].end(), references_.begin() + rooms.second.begin);
+        std::copy(sides[0].begin(), sides[0].end(), references_.begin() + halves.first.begin);
+        std::copy(sides[1].begin(), sides[1].end(), references_.begin() + halves.second.begin);
         left = summarize(sides[0]);
         right = summarize(sides[1]);
         return true;
@@ -248,10 +253,10 @@ class SpatialBuilder {
     }
 
     /// Moves every reference to its side, or divides it while there is capacity.
-    void distribute(const Room& room, const SpatialSplit& split,
+    void distribute(const ReferenceRange& slots, const SpatialSplit& split,
                     std::vector<BuildReference> (&sides)[2]) {
-        std::uint32_t spare = room.capacity() - room.size();
-        for (const BuildReference& r : span_of(room)) {
+        std::uint32_t spare = slots.capacity() - slots.size();
+        for (const BuildReference& r : span_of(slots)) {
             if (r.hi[split.axis] <= split.plane) {
                 sides[0].push_back(r);
                 continue;

@@ -254,7 +254,7 @@ class DataChecker {
                 place, "the last row of matrix " + std::to_string(i / 16) + " is not 0, 0, 0, 1");
             return;
         }
-        if (rounded && !std::exchange(told_rounding_, true)) {
+        if (rounded && !std::exchange(reported_rounding_, true)) {
             loading_.warning(place, kRoundedMatrices);
         }
     }
@@ -321,7 +321,7 @@ class DataChecker {
     std::vector<Found> found_;
     // Accessors already checked.
     std::set<Index> checked_vectors_, checked_matrices_, checked_times_;
-    bool told_rounding_ = false;
+    bool reported_rounding_ = false;
     std::set<std::pair<Index, bool>> checked_quaternions_;
     std::set<std::pair<std::vector<Index>, std::vector<Index>>> checked_weights_;
     std::uint64_t weight_budget_ = std::uint64_t{1} << 30;  ///< values left to read

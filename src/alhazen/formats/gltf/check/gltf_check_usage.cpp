@@ -44,7 +44,7 @@ class UsageChecker {
           accessors_(document_.accessors.size(), Use::None),
           views_(document_.views.size(), Use::None),
           vertex_accessors_(document_.views.size(), kNobody),
-          told_(document_.views.size(), false) {
+          reported_(document_.views.size(), false) {
         for (std::size_t i = 0; i < views_.size(); ++i) {
             if (document_.views[i].target == kVertexTarget) views_[i] = Use::Vertices;
             if (document_.views[i].target == kIndexTarget) views_[i] = Use::Indices;
@@ -95,8 +95,8 @@ class UsageChecker {
         const auto view = document_.accessors[index].view;
         if (!view || document_.views[*view].stride != 0) return;
         Index& other = vertex_accessors_[*view];
-        if (other != kNobody && other != index && !told_[*view]) {
-            told_[*view] = true;
+        if (other != kNobody && other != index && !reported_[*view]) {
+            reported_[*view] = true;
             loading_.error(pointer_to("bufferViews", *view), "accessors " + std::to_string(other) +
                                                                  " and " + std::to_string(index) +
                                                                  " of vertices need a byteStride");
@@ -149,7 +149,7 @@ class UsageChecker {
     const Document& document_;
     std::vector<Use> accessors_, views_;
     std::vector<Index> vertex_accessors_;  ///< [view] the last accessor that uses the view
-    std::vector<bool> told_;               ///< [view] the missing stride has been reported
+    std::vector<bool> reported_;           ///< [view] the missing stride has been reported
 };
 
 }  // namespace

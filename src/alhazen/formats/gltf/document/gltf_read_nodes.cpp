@@ -23,7 +23,7 @@ bool is_trs(const std::array<double, 16>& m) {
 }
 
 /// Reads a matrix; warns of the first rounded matrix of a document.
-void read_matrix(const JsonObject& object, Node& node, bool& told_rounding) {
+void read_matrix(const JsonObject& object, Node& node, bool& reported_rounding) {
     std::array<double, 16> matrix{};
     if (!object.has("matrix")) return;
     object.numbers_into("matrix", matrix);
@@ -34,8 +34,8 @@ void read_matrix(const JsonObject& object, Node& node, bool& told_rounding) {
     const LastRow last_row = matrix_of(matrix.data()).last_row;
     if (last_row == LastRow::Perspective) {
         object.error("matrix", "the last row must be 0, 0, 0, 1");
-    } else if (last_row == LastRow::Rounded && !told_rounding) {
-        told_rounding = true;
+    } else if (last_row == LastRow::Rounded && !reported_rounding) {
+        reported_rounding = true;
         object.warning("matrix", kRoundedMatrices);
     }
     if (!is_trs(matrix)) {
@@ -73,7 +73,7 @@ void read_instances(const JsonObject& object, Node& node) {
     });
 }
 
-Node read_node(const JsonObject& object, bool& told_rounding) {
+Node read_node(const JsonObject& object, bool& reported_rounding) {
     Node node;
     node.name = object.text("name").value_or("");
     node.children = object.indices("children", Collection::Nodes);
@@ -91,7 +91,7 @@ Node read_node(const JsonObject& object, bool& told_rounding) {
     for (const char* key : {"skin", "weights"}) {
         if (object.has(key) && !object.has("mesh")) object.error(key, "not allowed without a mesh");
     }
-    read_matrix(object, node, told_rounding);
+    read_matrix(object, node, reported_rounding);
     object.numbers_into("translation", node.translation);
     object.numbers_into("scale", node.scale);
     read_rotation(object, node);
@@ -102,9 +102,9 @@ Node read_node(const JsonObject& object, bool& told_rounding) {
 }  // namespace
 
 void read_nodes(const JsonObject& root, Loading& loading) {
-    bool told_rounding = false;
+    bool reported_rounding = false;
     root.each_object("nodes", [&](const JsonObject& object, std::size_t) {
-        loading.document.nodes.push_back(read_node(object, told_rounding));
+        loading.document.nodes.push_back(read_node(object, reported_rounding));
     });
     root.each_object("scenes", [&](const JsonObject& object, std::size_t) {
         loading.document.scenes.push_back(

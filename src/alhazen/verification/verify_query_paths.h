@@ -24,11 +24,11 @@ namespace alhazen {
 /// The count and the first four hits.
 [[nodiscard]] std::string describe(const std::vector<Hit>& hits);
 
-class RoadComparison {
+class QueryPathComparison {
   public:
     /// The comparison adds to `report`. All arguments must outlive the object.
-    RoadComparison(const Aggregate& tested, const BruteForce& brute, const VerifyOptions& options,
-                   VerifyReport& report);
+    QueryPathComparison(const Aggregate& tested, const BruteForce& brute,
+                        const VerifyOptions& options, VerifyReport& report);
 
     /// Traces `options.rays` rays, several blocks at once. `masked`: rays have the mask of one
     /// RayKind, in turn; otherwise they see everything.

@@ -15,14 +15,14 @@
 
 namespace alhazen {
 
-struct MendedPolygon {
+struct RepairedPolygon {
     std::vector<std::vector<Vec3>> parts;  ///< counter-clockwise around the plane's normal
     std::string mended;                    ///< description of the repairs; empty: none
     std::string refused;                   ///< reason for refusal; empty: not refused
 };
 
-[[nodiscard]] MendedPolygon mended_polygon(std::span<const Vec3> corners,
-                                           std::span<const std::uint32_t> loop_ends,
-                                           const FacetPlane& plane);
+[[nodiscard]] RepairedPolygon repaired_polygon(std::span<const Vec3> corners,
+                                               std::span<const std::uint32_t> loop_ends,
+                                               const FacetPlane& plane);
 
 }  // namespace alhazen

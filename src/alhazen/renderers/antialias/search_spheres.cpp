@@ -1,4 +1,4 @@
-#include "alhazen/renderers/antialias/sought_spheres.h"
+#include "alhazen/renderers/antialias/search_spheres.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,16 +31,16 @@ struct Stretch {
     }
 };
 
-/// True if the ray meets the bounds of the object, enlarged by `room`, in [0, distance].
-bool meets_bounds(const SceneObject& object, double room, const Ray& ray, double distance) {
+/// True if the ray meets the bounds of the object, enlarged by `margin`, in [0, distance].
+bool meets_bounds(const SceneObject& object, double margin, const Ray& ray, double distance) {
     Stretch stretch{0.0, distance};
     for (int k = 0; k < 3; ++k) {
-        stretch.narrow(object.box.lo[k] - room, object.box.hi[k] + room, ray.origin[k],
+        stretch.narrow(object.box.lo[k] - margin, object.box.hi[k] + margin, ray.origin[k],
                        ray.direction[k]);
     }
     for (std::size_t k = 0; k < kDiagonals.size() && stretch.enter <= stretch.leave; ++k) {
         const Interval& extent = object.diagonals[k];
-        stretch.narrow(extent.lo - room, extent.hi + room, dot(kDiagonals[k], ray.origin),
+        stretch.narrow(extent.lo - margin, extent.hi + margin, dot(kDiagonals[k], ray.origin),
                        dot(kDiagonals[k], ray.direction));
     }
     return stretch.enter <= stretch.leave;
@@ -48,7 +48,7 @@ bool meets_bounds(const SceneObject& object, double room, const Ray& ray, double
 
 }  // namespace
 
-SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
+SearchSpheres::SearchSpheres(const std::vector<SceneObject>& objects,
                              const std::vector<std::uint8_t>& met, const PictureGrid& picture,
                              bool behind_all)
     : objects_(objects), met_(met), picture_(picture), behind_all_(behind_all) {
@@ -57,7 +57,7 @@ SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
         const SceneObject& object = objects[i];
         if (met[i] != 0 || !object.is_seen || !(object.sphere.radius < kInfinity)) continue;
-        const double r = (1.0 + 1e-9) * (object.sphere.radius + room(object, 0));
+        const double r = (1.0 + 1e-9) * (object.sphere.radius + margin(object, 0));
         sought_.push_back(i);
         column.shapes.push_back({object.sphere.center, r});
         column.placements.push_back(kNoPlacement);
@@ -71,18 +71,18 @@ SoughtSpheres::SoughtSpheres(const std::vector<SceneObject>& objects,
     if (!sought_.empty()) tree_ = make_aggregate(kDefaultAccelerator, std::move(table));
 }
 
-double SoughtSpheres::room(const SceneObject& object, int level) const {
+double SearchSpheres::margin(const SceneObject& object, int level) const {
     const double nearest = picture_.distance(object.sphere.center);
     return picture_.least_radius(level, nearest + object.sphere.radius);
 }
 
-bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
+bool SearchSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
                              double farthest) const {
     const SceneObject& o = objects_[object];
     const Ray ray = picture_.ray(level + 1, {2 * cell.x + 1, 2 * cell.y + 1});
     const Vec3 to_center = o.sphere.center - ray.origin;
     const Vec3 across = cross(to_center, ray.direction);
-    const double around = room(o, level), r = o.sphere.radius + around;
+    const double around = margin(o, level), r = o.sphere.radius + around;
     const double within = r * r - dot(across, across);
     if (!(within >= 0.0)) return false;
     const double middle = dot(to_center, ray.direction), half = std::sqrt(within);
@@ -90,7 +90,7 @@ bool SoughtSpheres::may_hide(std::uint32_t object, int level, GridPoint cell,
     return meets_bounds(o, around, ray, reach(farthest));
 }
 
-std::vector<WatchedObject> SoughtSpheres::around(const AdaptiveGrid& grid) const {
+std::vector<WatchedObject> SearchSpheres::around(const AdaptiveGrid& grid) const {
     const std::uint32_t width = grid.width(), height = grid.height();
     std::vector<std::vector<WatchedObject>> found((height + kRowsOfATask - 1) / kRowsOfATask);
     parallel_for(height, kRowsOfATask, [&](std::size_t begin, std::size_t end) {

@@ -27,12 +27,12 @@
 
 namespace alhazen {
 
-class SoughtSpheres final : public ObjectWatch {
+class SearchSpheres final : public ObjectWatch {
   public:
     /// [object] `met`: 1 for objects that shaded rays have hit, updated by the caller. The
     /// arguments must outlive the object. The tree contains the objects that are not hit at
     /// construction.
-    SoughtSpheres(const std::vector<SceneObject>& objects, const std::vector<std::uint8_t>& met,
+    SearchSpheres(const std::vector<SceneObject>& objects, const std::vector<std::uint8_t>& met,
                   const PictureGrid& picture, bool behind_all);
 
     [[nodiscard]] bool empty() const { return sought_.empty(); }
@@ -53,7 +53,7 @@ class SoughtSpheres final : public ObjectWatch {
     /// `farthest`.
     [[nodiscard]] double reach(double farthest) const { return behind_all_ ? kInfinity : farthest; }
     /// r_k at the farthest point of an object.
-    [[nodiscard]] double room(const SceneObject& object, int level) const;
+    [[nodiscard]] double margin(const SceneObject& object, int level) const;
 
     const std::vector<SceneObject>& objects_;
     const std::vector<std::uint8_t>& met_;

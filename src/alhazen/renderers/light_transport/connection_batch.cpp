@@ -1,4 +1,4 @@
-#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/connection_batch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ Spectrum left_by(const Medium* medium, double length, const Wavelengths& waves) 
 
 }  // namespace
 
-LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
+ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
@@ -34,8 +34,8 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
     waiting_.reserve(kMostLightRays);
 }
 
-void LightBatch::add(const Ray& ray, float time, const MediumStack& media, const Wavelengths& waves,
-                     const Spectrum& light, Spectrum& sum) {
+void ConnectionBatch::add(const Ray& ray, float time, const MediumStack& media,
+                          const Wavelengths& waves, const Spectrum& light, Spectrum& sum) {
     if (rays_.size() == kMostLightRays) finish();
     const Medium* const medium = media.here();
     // If volumes are followed, this one may end along the ray.
@@ -50,7 +50,7 @@ void LightBatch::add(const Ray& ray, float time, const MediumStack& media, const
     waiting_.push_back({left, &waves, &sum});
 }
 
-void LightBatch::finish() {
+void ConnectionBatch::finish() {
     if (rays_.empty()) return;
     const std::span<bool> met(met_.get(), rays_.size());
     find_met(met);
@@ -74,7 +74,7 @@ void LightBatch::finish() {
     waiting_.clear();
 }
 
-void LightBatch::find_met(std::span<bool> met) {
+void ConnectionBatch::find_met(std::span<bool> met) {
     if (scene_.has_motion) {
         scene_.aggregate->occluded_batch_at(rays_, times_, met, query(0.0f), Coherence::Any);
     } else {
@@ -82,18 +82,19 @@ void LightBatch::find_met(std::span<bool> met) {
     }
 }
 
-Spectrum LightBatch::passing(const Ray& ray, float time, const MediumStack& media,
-                             const Wavelengths& waves, FreeFlight* flight) {
+Spectrum ConnectionBatch::passing(const Ray& ray, float time, const MediumStack& media,
+                                  const Wavelengths& waves, FreeFlight* flight) {
     return passing(ray, time, RayKind::Shadow, media, waves, flight);
 }
 
-Spectrum LightBatch::seen(const Ray& from_eye, float time, const MediumStack& media,
-                          const Wavelengths& waves, FreeFlight* flight) {
+Spectrum ConnectionBatch::seen(const Ray& from_eye, float time, const MediumStack& media,
+                               const Wavelengths& waves, FreeFlight* flight) {
     return passing(from_eye, time, RayKind::Eye, media, waves, flight);
 }
 
-Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const MediumStack& media,
-                             const Wavelengths& waves, FreeFlight* flight) {
+Spectrum ConnectionBatch::passing(const Ray& ray, float time, RayKind kind,
+                                  const MediumStack& media, const Wavelengths& waves,
+                                  FreeFlight* flight) {
     ++count_.cast;
     const bool met = scene_.aggregate->occluded(ray, query(time, kind));
     count_.hit += met;
@@ -103,7 +104,7 @@ Spectrum LightBatch::passing(const Ray& ray, float time, RayKind kind, const Med
     return met ? left * through_surfaces(ray, time, kind, waves) : left;
 }
 
-bool LightBatch::find_crossings(const Ray& ray, float time, RayKind kind) {
+bool ConnectionBatch::find_crossings(const Ray& ray, float time, RayKind kind) {
     crossings_.clear();
     if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return false;
     if (has_single_sided_ && kind != RayKind::Eye) {
@@ -115,8 +116,8 @@ bool LightBatch::find_crossings(const Ray& ray, float time, RayKind kind) {
     return true;
 }
 
-Spectrum LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind,
-                                      const Wavelengths& waves) {
+Spectrum ConnectionBatch::through_surfaces(const Ray& ray, float time, RayKind kind,
+                                           const Wavelengths& waves) {
     if (!find_crossings(ray, time, kind)) return {};
     Spectrum share = Spectrum::all(1);
     for (const Hit& crossing : crossings_) {
@@ -126,9 +127,9 @@ Spectrum LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind,
     return share;
 }
 
-Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
-                                     const MediumStack& media, const Wavelengths& waves, bool met,
-                                     FreeFlight* flight) {
+Spectrum ConnectionBatch::through_volumes(const Ray& ray, float time, RayKind kind,
+                                          const MediumStack& media, const Wavelengths& waves,
+                                          bool met, FreeFlight* flight) {
     if (met && (scene_.all_opaque || !find_crossings(ray, time, kind))) return {};
     MediumStack around = media;
     const double scale = length(ray.direction);
@@ -159,7 +160,7 @@ Spectrum LightBatch::through_volumes(const Ray& ray, float time, RayKind kind,
     return share;
 }
 
-bool LightBatch::take_crossed(const Hit& hit) {
+bool ConnectionBatch::take_crossed(const Hit& hit) {
     if (crossed_.empty()) return false;
     const std::uint64_t part = part_number(parts_of(*scene_.aggregate, hit));
     for (OtherFace& face : crossed_) {
@@ -171,8 +172,8 @@ bool LightBatch::take_crossed(const Hit& hit) {
     return false;
 }
 
-Spectrum LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
-                             const Wavelengths& waves, MediumStack* media) {
+Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing,
+                                  const Wavelengths& waves, MediumStack* media) {
     ShadingPoint point;
     const bool inside = media != nullptr && !media->empty();
     const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};

@@ -1,4 +1,4 @@
-#include "alhazen/verification/verify_roads.h"
+#include "alhazen/verification/verify_query_paths.h"
 
 #include <fmt/format.h>
 
@@ -63,12 +63,12 @@ std::string describe(const std::vector<Hit>& hits) {
 }
 
 /// Traces the rays of one block by all calls.
-class RoadComparison::BlockComparison {
+class QueryPathComparison::BlockComparison {
   public:
     /// Units of progress per ray: single calls, and all others.
     static constexpr std::size_t kUnitsOfRay = 2;
 
-    BlockComparison(const RoadComparison& all, const Block& block)
+    BlockComparison(const QueryPathComparison& all, const Block& block)
         : tested_(all.tested_),
           brute_(all.brute_),
           masked_(all.masked_),
@@ -97,12 +97,12 @@ class RoadComparison::BlockComparison {
     void shoot_stream();
     void shoot_coherent();
     /// Traces the rays of `chosen_` by the batch calls, those of each mask together.
-    void shoot_by_mask(Road road);
-    void shoot_batch(Road road, std::span<const std::size_t> chosen, RayMask mask);
-    void disagree(std::size_t i, Road road, const char* query, std::string found,
+    void shoot_by_mask(QueryPath path);
+    void shoot_batch(QueryPath path, std::span<const std::size_t> chosen, RayMask mask);
+    void disagree(std::size_t i, QueryPath path, const char* query, std::string found,
                   std::string expected);
-    [[nodiscard]] RoadCounts& counts(Road road) {
-        return report_.roads[static_cast<std::size_t>(road)];
+    [[nodiscard]] QueryPathCounts& counts(QueryPath path) {
+        return report_.query_paths[static_cast<std::size_t>(path)];
     }
 
     const Aggregate& tested_;
@@ -126,11 +126,11 @@ class RoadComparison::BlockComparison {
     std::unique_ptr<bool[]> occluded_;
 };
 
-RoadComparison::RoadComparison(const Aggregate& tested, const BruteForce& brute,
-                               const VerifyOptions& options, VerifyReport& report)
+QueryPathComparison::QueryPathComparison(const Aggregate& tested, const BruteForce& brute,
+                                         const VerifyOptions& options, VerifyReport& report)
     : tested_(tested), brute_(brute), options_(options), report_(report) {}
 
-void RoadComparison::run(VerifyRays& rays, bool masked) {
+void QueryPathComparison::run(VerifyRays& rays, bool masked) {
     masked_ = masked;
     SharedProgress progress(options_.progress, "verify " + options_.accelerator,
                             BlockComparison::kUnitsOfRay * options_.rays);
@@ -152,13 +152,13 @@ void RoadComparison::run(VerifyRays& rays, bool masked) {
     }
 }
 
-void RoadComparison::add(VerifyReport block) {
+void QueryPathComparison::add(VerifyReport block) {
     report_.rays += block.rays;
     report_.hits += block.hits;
     report_.disagreements += block.disagreements;
-    for (std::size_t i = 0; i < kRoadCount; ++i) {
-        report_.roads[i].rays += block.roads[i].rays;
-        report_.roads[i].disagreements += block.roads[i].disagreements;
+    for (std::size_t i = 0; i < kQueryPathCount; ++i) {
+        report_.query_paths[i].rays += block.query_paths[i].rays;
+        report_.query_paths[i].disagreements += block.query_paths[i].disagreements;
     }
     for (Disagreement& one : block.reported) {
         if (report_.reported.size() < options_.max_reported) {
@@ -169,11 +169,11 @@ void RoadComparison::add(VerifyReport block) {
 
 // ---- Blocks.
 
-RayMask RoadComparison::next_mask(std::uint64_t number) const {
+RayMask QueryPathComparison::next_mask(std::uint64_t number) const {
     return masked_ ? mask_of(static_cast<RayKind>(number % kRayKindCount)) : kAllRays;
 }
 
-RoadComparison::Block RoadComparison::make_block(VerifyRays& rays, std::size_t count) {
+QueryPathComparison::Block QueryPathComparison::make_block(VerifyRays& rays, std::size_t count) {
     Block block;
     while (block.samples.size() < count) {
         // Three quarters of the rays are of mixed kinds.
@@ -194,7 +194,7 @@ RoadComparison::Block RoadComparison::make_block(VerifyRays& rays, std::size_t c
     return block;
 }
 
-void RoadComparison::add_mixed(VerifyRays& rays, Block& block) {
+void QueryPathComparison::add_mixed(VerifyRays& rays, Block& block) {
     constexpr std::size_t kMixedRays = 3 * VerifyRays::kTileRays;
     for (std::size_t i = 0; i < kMixedRays; ++i) {
         block.samples.push_back(rays.next());
@@ -203,14 +203,14 @@ void RoadComparison::add_mixed(VerifyRays& rays, Block& block) {
     }
 }
 
-void RoadComparison::end_set(RayMask mask, Block& block) {
+void QueryPathComparison::end_set(RayMask mask, Block& block) {
     block.sets.push_back({block.masks.size(), block.samples.size() - block.masks.size()});
     block.masks.resize(block.samples.size(), mask);
 }
 
 /// The points where the rays of the tile end; for a ray that hits nothing the point at t = 1.
-std::vector<Vec3> RoadComparison::origins_on(const RaySet& tile, RayMask mask,
-                                             const Block& block) const {
+std::vector<Vec3> QueryPathComparison::origins_on(const RaySet& tile, RayMask mask,
+                                                  const Block& block) const {
     std::vector<Vec3> origins;
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
         const Ray& ray = block.samples[i].ray;
@@ -223,7 +223,7 @@ std::vector<Vec3> RoadComparison::origins_on(const RaySet& tile, RayMask mask,
 
 // ---- Comparisons.
 
-void RoadComparison::BlockComparison::shoot_brute() {
+void QueryPathComparison::BlockComparison::shoot_brute() {
     all_.resize(samples_.size());
     std::vector<BruteForce::Shot> shots;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -235,14 +235,14 @@ void RoadComparison::BlockComparison::shoot_brute() {
     }
 }
 
-void RoadComparison::BlockComparison::compare_single(std::size_t i) {
+void QueryPathComparison::BlockComparison::compare_single(std::size_t i) {
     const Ray& ray = samples_[i].ray;
     const RayQuery query{nullptr, masks_[i]};
     const auto differ = [&](const char* name, std::string found, std::string expected) {
-        disagree(i, Road::Single, name, std::move(found), std::move(expected));
+        disagree(i, QueryPath::Single, name, std::move(found), std::move(expected));
     };
     ++report_.rays;
-    ++counts(Road::Single).rays;
+    ++counts(QueryPath::Single).rays;
     Hit found;
     const Hit& expected = expected_[i];
     (void)tested_.closest(ray, found, query);
@@ -267,40 +267,41 @@ void RoadComparison::BlockComparison::compare_single(std::size_t i) {
     }
 }
 
-void RoadComparison::BlockComparison::shoot_stream() {
-    counts(Road::Stream).rays += samples_.size();
+void QueryPathComparison::BlockComparison::shoot_stream() {
+    counts(QueryPath::Stream).rays += samples_.size();
     chosen_.resize(samples_.size());
     std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
-    shoot_by_mask(Road::Stream);
+    shoot_by_mask(QueryPath::Stream);
 }
 
-void RoadComparison::BlockComparison::shoot_coherent() {
+void QueryPathComparison::BlockComparison::shoot_coherent() {
     std::vector<std::size_t> all;
     for (const RaySet& set : sets_) {
-        counts(Road::Coherent).rays += set.count;
+        counts(QueryPath::Coherent).rays += set.count;
         chosen_.resize(set.count);
         std::iota(chosen_.begin(), chosen_.end(), set.first);
         all.insert(all.end(), chosen_.begin(), chosen_.end());
-        shoot_by_mask(Road::Coherent);
+        shoot_by_mask(QueryPath::Coherent);
     }
     chosen_.swap(all);
-    shoot_by_mask(Road::Coherent);
+    shoot_by_mask(QueryPath::Coherent);
 }
 
-void RoadComparison::BlockComparison::shoot_by_mask(Road road) {
-    if (!masked_) return shoot_batch(road, chosen_, kAllRays);
+void QueryPathComparison::BlockComparison::shoot_by_mask(QueryPath path) {
+    if (!masked_) return shoot_batch(path, chosen_, kAllRays);
     for (std::size_t k = 0; k < kRayKindCount; ++k) {
         const RayMask mask = mask_of(static_cast<RayKind>(k));
         of_mask_.clear();
         std::ranges::copy_if(chosen_, std::back_inserter(of_mask_),
                              [&](std::size_t i) { return masks_[i] == mask; });
-        if (!of_mask_.empty()) shoot_batch(road, of_mask_, mask);
+        if (!of_mask_.empty()) shoot_batch(path, of_mask_, mask);
     }
 }
 
-void RoadComparison::BlockComparison::shoot_batch(Road road, std::span<const std::size_t> chosen,
-                                                  RayMask mask) {
-    const Coherence coherence = road == Road::Coherent ? Coherence::Coherent : Coherence::Any;
+void QueryPathComparison::BlockComparison::shoot_batch(QueryPath path,
+                                                       std::span<const std::size_t> chosen,
+                                                       RayMask mask) {
+    const Coherence coherence = path == QueryPath::Coherent ? Coherence::Coherent : Coherence::Any;
     const RayQuery query{nullptr, mask};
     rays_.clear();
     hits_.assign(chosen.size(), wrong_hit());
@@ -314,25 +315,26 @@ void RoadComparison::BlockComparison::shoot_batch(Road road, std::span<const std
         const std::size_t i = chosen[n];
         const Hit& expected = expected_[i];
         if (!same_answer(hits_[n], expected)) {
-            disagree(i, road, "closest", describe(hits_[n]), describe(expected));
+            disagree(i, path, "closest", describe(hits_[n]), describe(expected));
         }
         if (occluded_[n] != expected.found()) {
-            disagree(i, road, "occluded", state_of(occluded_[n]), state_of(expected.found()));
+            disagree(i, path, "occluded", state_of(occluded_[n]), state_of(expected.found()));
         }
     }
 }
 
-void RoadComparison::BlockComparison::disagree(std::size_t i, Road road, const char* query,
-                                               std::string found, std::string expected) {
+void QueryPathComparison::BlockComparison::disagree(std::size_t i, QueryPath path,
+                                                    const char* query, std::string found,
+                                                    std::string expected) {
     ++report_.disagreements;
-    ++counts(road).disagreements;
+    ++counts(path).disagreements;
     if (report_.reported.size() >= most_reported_) return;
     const VerifyRays::Sample& sample = samples_[i];
     const std::string seen_by = name_of(masks_[i]);
     report_.reported.push_back(
         {seen_by.empty() ? sample.kind : fmt::format("{} for {}", sample.kind, seen_by), query,
          sample.ray, std::move(found), std::move(expected),
-         kRoadNames[static_cast<std::size_t>(road)]});
+         kQueryPathNames[static_cast<std::size_t>(path)]});
 }
 
 }  // namespace alhazen

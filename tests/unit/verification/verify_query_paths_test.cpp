@@ -1,6 +1,6 @@
 /// `verify` compares every traversal, and reports a wrong answer of any of them.
 
-#include "alhazen/verification/verify_roads.h"
+#include "alhazen/verification/verify_query_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ void add_everything(SceneMaker& maker) {
 std::string first_of(const VerifyReport& report) {
     if (report.reported.empty()) return "";
     const Disagreement& d = report.reported.front();
-    return d.road + " " + d.kind + " " + d.query + ": found " + d.found + ", expected " +
+    return d.query_path + " " + d.kind + " " + d.query + ": found " + d.found + ", expected " +
            d.expected;
 }
 
@@ -105,10 +105,10 @@ TEST(VerifyRoads, EveryRoadAgreesOnScenesOfEveryKind) {
         EXPECT_TRUE(report.holds()) << name << ": " << first_of(report);
         EXPECT_GT(report.hits, 600u) << name;
         EXPECT_EQ(report.rays, 2600u);
-        EXPECT_EQ(report.roads[0].rays, 2600u);
-        EXPECT_EQ(report.roads[1].rays, 2600u);
+        EXPECT_EQ(report.query_paths[0].rays, 2600u);
+        EXPECT_EQ(report.query_paths[1].rays, 2600u);
         // Two sets of 64 from each 512 rays; the last set is truncated.
-        EXPECT_EQ(report.roads[2].rays, 5 * 128u + 40u);
+        EXPECT_EQ(report.query_paths[2].rays, 5 * 128u + 40u);
     }
 }
 
@@ -216,7 +216,7 @@ VerifyReport compared(const Aggregate& tested, const Scene& brute, std::uint64_t
     VerifyReport report;
     VerifyRays source(tested.box(), &brute.cameras.front().camera, tested.primitives(), 1);
     const BruteForce force(*brute.aggregate);
-    RoadComparison(tested, force, options, report).run(source, false);
+    QueryPathComparison(tested, force, options, report).run(source, false);
     return report;
 }
 
@@ -241,13 +241,14 @@ TEST(VerifyRoads, AWrongAnswerOfABatchIsReportedWithItsRoad) {
             const Spoiled spoiled(*honest.aggregate, wrong, spoils[i]);
             const VerifyReport report = compared(spoiled, brute, 64);
             EXPECT_FALSE(report.holds()) << i;
-            const auto road = wrong == Coherence::Any ? Road::Stream : Road::Coherent;
+            const auto path = wrong == Coherence::Any ? QueryPath::Stream : QueryPath::Coherent;
             // A set is traced alone and with the others of its block.
             EXPECT_EQ(report.disagreements, wrong == Coherence::Any ? 1u : 2u) << i;
-            EXPECT_EQ(report.roads[static_cast<std::size_t>(road)].disagreements,
+            EXPECT_EQ(report.query_paths[static_cast<std::size_t>(path)].disagreements,
                       report.disagreements);
             ASSERT_EQ(report.reported.size(), report.disagreements);
-            EXPECT_EQ(report.reported.front().road, kRoadNames[static_cast<std::size_t>(road)]);
+            EXPECT_EQ(report.reported.front().query_path,
+                      kQueryPathNames[static_cast<std::size_t>(path)]);
             EXPECT_EQ(report.reported.front().query, i == 0 ? "occluded" : "closest");
             EXPECT_NE(report.reported.front().found, report.reported.front().expected);
         }
@@ -259,9 +260,9 @@ TEST(VerifyRoads, ABatchThatWritesNothingIsReportedForEveryRay) {
     maker.add(Sphere{});
     const Scene brute = maker.compile("list");
     const VerifyReport report = compared(Silent(*brute.aggregate), brute, 64);
-    EXPECT_EQ(report.roads[0].disagreements, 0u);
-    EXPECT_EQ(report.roads[1].disagreements, 2 * 64u);
-    EXPECT_EQ(report.roads[2].disagreements, 4 * 64u);
+    EXPECT_EQ(report.query_paths[0].disagreements, 0u);
+    EXPECT_EQ(report.query_paths[1].disagreements, 2 * 64u);
+    EXPECT_EQ(report.query_paths[2].disagreements, 4 * 64u);
 }
 
 TEST(VerifyRays, CoherentSetsAreTilesAndRaysTowardsAPoint) {

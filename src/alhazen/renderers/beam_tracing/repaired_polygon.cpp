@@ -1,4 +1,4 @@
-#include "alhazen/renderers/beam_tracing/mended_polygon.h"
+#include "alhazen/renderers/beam_tracing/repaired_polygon.h"
 
 #include <fmt/format.h>
 
@@ -82,9 +82,9 @@ double size_of(std::span<const Vec3> corners) {
 
 }  // namespace
 
-MendedPolygon mended_polygon(std::span<const Vec3> corners, std::span<const std::uint32_t> ends,
-                             const FacetPlane& plane) {
-    MendedPolygon result;
+RepairedPolygon repaired_polygon(std::span<const Vec3> corners, std::span<const std::uint32_t> ends,
+                                 const FacetPlane& plane) {
+    RepairedPolygon result;
     std::vector<Vec3> flat(corners.begin(), corners.end());
     const double off = flatten(flat, plane);
     const double size = size_of(corners);

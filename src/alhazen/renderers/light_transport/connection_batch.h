@@ -23,9 +23,9 @@ namespace alhazen {
 /// other point does not block it.
 inline constexpr double kBeforeEnd = 1.0 - 1e-7;
 
-class LightBatch {
+class ConnectionBatch {
   public:
-    LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
+    ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
     /// Adds `light` times the transmittance of `ray` up to its t_max to `sum`, in `finish` or
     /// before, in the order of the calls. `media`: around the origin of the ray. `waves` and `sum`

@@ -24,13 +24,13 @@
 
 namespace alhazen {
 
-class PathChance {
+class PathRandomness {
   public:
     enum Pair : std::uint32_t { kLens = 1, kTime = 2, kFirstBounce = 3 };
-    enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
+    enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kRoulette, kPairsOfBounce };
     static constexpr int kStratified = 3;  ///< bounces
 
-    explicit PathChance(const RenderJob& job)
+    explicit PathRandomness(const RenderJob& job)
         : sampler_(job.round->sampler),
           seed_(mix64(job.round->seed)),
           spectral_(job.spectral),
