@@ -177,13 +177,17 @@ double density_for(const Environment& environment, const LitPoint& at, const Vec
                         : environment.density(at.normal, at.both_sides, direction);
 }
 
+Vec3 sample_for(const Environment& environment, const LitPoint& at, const Vec2& u) {
+    return at.in_volume ? environment.sample(u) : environment.sample(at.normal, at.both_sides, u);
+}
+
+/// Draws the environment, sampled in `direction`.
 LightDraw draw_environment(const Environment& environment, const LitPoint& at, double probability,
-                           const Vec2& u, const Wavelengths& waves) {
+                           const Vec3& direction, const Wavelengths& waves) {
     LightDraw draw;
-    draw.to_light =
-        at.in_volume ? environment.sample(u) : environment.sample(at.normal, at.both_sides, u);
+    draw.to_light = direction;
     draw.distance = kInfinity;
-    const Environment::Sight sight = sight_for(environment, at, draw.to_light);
+    const Environment::Sight sight = sight_for(environment, at, direction);
     draw.radiance = waves.emission(sight.radiance);
     draw.density = probability * sight.density;
     draw.passes = mask_of(RayKind::Shadow);
@@ -198,15 +202,21 @@ bool Illumination::chooses() const {
     return !(one_near || (d.near_share == 0.0 && d.far.size() == 1));
 }
 
-LightDraw Illumination::Data::draw_far(const LitPoint& at, double choice, const Vec2& u,
+LightDraw Illumination::Data::draw_far(const ChosenLight& chosen, const LitPoint& at, const Vec2& u,
                                        const Wavelengths& waves) const {
-    const ChosenLight chosen = far.choose((choice - near_share) / (1.0 - near_share));
-    const double probability = (1.0 - near_share) * chosen.probability;
-    if (!(probability > 0.0)) return {};
+    if (!(chosen.probability > 0.0)) return {};
+    if (is_environment(chosen.light)) {
+        return draw_sky(chosen, at, sample_for(*environment, at, u), waves);
+    }
     LightDraw draw =
-        is_environment(chosen.light)
-            ? draw_environment(*environment, at, probability, u, waves)
-            : draw_singular(*scene, scene->lights[parallel[chosen.light]], at, probability, waves);
+        draw_singular(*scene, scene->lights[parallel[chosen.light]], at, chosen.probability, waves);
+    draw.place.source = near_count() + chosen.light;
+    return draw;
+}
+
+LightDraw Illumination::Data::draw_sky(const ChosenLight& chosen, const LitPoint& at,
+                                       const Vec3& direction, const Wavelengths& waves) const {
+    LightDraw draw = draw_environment(*environment, at, chosen.probability, direction, waves);
     draw.place.source = near_count() + chosen.light;
     return draw;
 }
@@ -248,7 +258,7 @@ LightDraw Illumination::Data::draw_of_emitter(std::size_t light, double probabil
 LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u,
                              const Wavelengths& waves) const {
     const Data& d = *data_;
-    if (choice >= d.near_share) return d.draw_far(at, choice, u, waves);
+    if (choice >= d.near_share) return d.draw_far(d.choose_far(choice), at, u, waves);
     const ChosenLight chosen = d.choose_near(at, choice / d.near_share);
     const double probability = d.near_share * chosen.probability;
     return probability > 0.0 ? d.draw_near(chosen.light, probability, at, u, waves) : LightDraw{};
@@ -279,18 +289,6 @@ Illumination::FarLight Illumination::far_light(const LitPoint& at, const Vec3& d
     if (!data_->environment) return {};
     const Environment::Sight sight = sight_for(*data_->environment, at, direction);
     return {waves.emission(sight.radiance), data_->probability_of_environment() * sight.density};
-}
-
-bool Illumination::looks_up() const {
-    return data_->environment && data_->environment->is_looked_up();
-}
-
-void Illumination::fetch_guide(const Vec2& u) const {
-    data_->environment->fetch_guide(u);
-}
-
-void Illumination::fetch_texels(const Vec2& u) const {
-    data_->environment->fetch_texels(u);
 }
 
 }  // namespace alhazen

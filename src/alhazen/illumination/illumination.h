@@ -104,11 +104,6 @@ class Illumination {
     };
     [[nodiscard]] FarLight far_light(const LitPoint& at, const Vec3& direction,
                                      const Wavelengths& waves) const;
-    /// True if `draw` reads an environment picture. Its data for `u` can then be prefetched into
-    /// the cache: first the guide table, a few draws later the texels.
-    [[nodiscard]] bool looks_up() const;
-    void fetch_guide(const Vec2& u) const;
-    void fetch_texels(const Vec2& u) const;
 
     /// Samples a ray from a light into the scene.
     [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction,

@@ -13,6 +13,7 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/illumination/light_chooser.h"
 #include "alhazen/illumination/light_tree.h"
+#include "alhazen/illumination/light_tree_lanes.h"
 #include "alhazen/shading/lights/environment.h"
 
 namespace alhazen {
@@ -74,9 +75,17 @@ struct Illumination::Data {
     [[nodiscard]] bool is_emitter(std::size_t near_light) const {
         return near_light < emitters.size() + hidden.size();
     }
-    /// `Illumination::draw` for a `choice` of a far light.
-    [[nodiscard]] LightDraw draw_far(const LitPoint& at, double choice, const Vec2& u,
+    /// The far light of a `choice` of `Illumination::draw`, with its whole probability.
+    [[nodiscard]] ChosenLight choose_far(double choice) const {
+        const ChosenLight chosen = far.choose((choice - near_share) / (1.0 - near_share));
+        return {chosen.light, (1.0 - near_share) * chosen.probability};
+    }
+    /// `Illumination::draw` of a far light.
+    [[nodiscard]] LightDraw draw_far(const ChosenLight& chosen, const LitPoint& at, const Vec2& u,
                                      const Wavelengths& waves) const;
+    /// `draw_far` of the environment, sampled in `direction`.
+    [[nodiscard]] LightDraw draw_sky(const ChosenLight& chosen, const LitPoint& at,
+                                     const Vec3& direction, const Wavelengths& waves) const;
     /// `Illumination::draw` of a near light, chosen with `probability`.
     [[nodiscard]] LightDraw draw_near(std::size_t light, double probability, const LitPoint& at,
                                       const Vec2& u, const Wavelengths& waves) const;
@@ -85,6 +94,12 @@ struct Illumination::Data {
                                             const EmitterSample& s, const Wavelengths& waves) const;
     [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const {
         return options.choice == LightChoice::Tree ? tree.choose(at, choice) : near.choose(choice);
+    }
+    /// `choose_near` for up to kMostLightChoices points.
+    void choose_near(std::span<const LitPoint> at, std::span<const double> choices,
+                     ChosenLight* chosen) const {
+        if (options.choice == LightChoice::Tree) return choose_lights(tree, at, choices, chosen);
+        for (std::size_t i = 0; i < at.size(); ++i) chosen[i] = near.choose(choices[i]);
     }
     [[nodiscard]] double probability_of_near(const LitPoint& at, std::size_t light) const {
         return options.choice == LightChoice::Tree ? tree.probability(at, light)

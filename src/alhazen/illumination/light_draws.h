@@ -1,17 +1,21 @@
 #pragma once
-/// `Illumination::draw` for eight points at once: rectangles in lanes, other lights one by one.
+/// `Illumination::draw` for eight points at once: choices in a light tree and rectangles in lanes,
+/// searches in a picture of the environment by turns, other lights one by one.
 
 #include <array>
 #include <cstddef>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/illumination/light_tree_lanes.h"
 #include "alhazen/illumination/rectangle_lanes.h"
+#include "alhazen/shading/lights/environment.h"
 
 namespace alhazen {
 
 class LightDraws {
   public:
     static constexpr std::size_t kMost = RectangleLanes::kMost;
+    static_assert(kMost == kMostLightChoices);
 
     /// `lights` must outlive the object, unchanged.
     explicit LightDraws(const Illumination& lights) : lights_(lights) {}
@@ -23,9 +27,23 @@ class LightDraws {
     void draw();
     /// The result of the i-th `add`; valid after `draw`.
     [[nodiscard]] const LightDraw& operator[](std::size_t i) const { return drawn_[i]; }
-    void clear() { size_ = in_lanes_ = 0; }
+    void clear() { size_ = near_ = sky_ = in_lanes_ = 0; }
 
   private:
+    /// A draw of a near light that is not yet chosen.
+    struct NearDraw {
+        std::size_t draw;
+        Vec2 u;
+        const Wavelengths* waves;
+    };
+    /// A draw in a picture of the environment.
+    struct SkyDraw {
+        std::size_t draw;
+        ChosenLight chosen;
+        LitPoint at;
+        const Wavelengths* waves;
+        Environment::Search search;
+    };
     /// A draw of a rectangle, waiting in its lane.
     struct Waiting {
         std::size_t draw, light;
@@ -34,11 +52,19 @@ class LightDraws {
         const Wavelengths* waves;
     };
 
+    /// Draws near lights; rectangles are put into their lanes.
+    void draw_near();
+    void draw_sky();
+
     const Illumination& lights_;
+    std::array<NearDraw, kMost> near_draws_;
+    std::array<LitPoint, kMost> near_points_;  ///< [near draw]
+    std::array<double, kMost> near_choices_;   ///< [near draw]
+    std::array<SkyDraw, kMost> sky_draws_;
     RectangleLanes rectangles_;
     std::array<Waiting, kMost> waiting_;  ///< [lane]
     std::array<LightDraw, kMost> drawn_;
-    std::size_t size_ = 0, in_lanes_ = 0;
+    std::size_t size_ = 0, near_ = 0, sky_ = 0, in_lanes_ = 0;
 };
 
 }  // namespace alhazen

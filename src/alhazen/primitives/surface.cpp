@@ -10,6 +10,7 @@
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/plain_surface.h"
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/meshes/triangle_surface.h"
 
 namespace alhazen {
 
@@ -180,19 +181,13 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
 void triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hit& hit,
                       Surface& surface) {
     const TriangleMesh& mesh = *placed.mesh;
-    set_shape_part(surface, [&] { return mesh.surface(triangle, hit); });
+    const double reach = set_triangle_surface(mesh, triangle, hit, surface);
     share_coordinates(surface);
     surface.is_of_mesh = true;
     const auto& corners = mesh.triangles[triangle];
     // The test of the next ray rounds relative to the size of the triangle, not to the position of
     // the point, and along any axis: in the plane z = 0 it does not compute a distance of exactly
     // 0.
-    double reach = 0.0;
-    for (const std::uint32_t corner : corners) {
-        // Comparisons instead of fmax, which is a function call.
-        const Vec3 away = abs(mesh.positions[corner] - surface.point);
-        for (int k = 0; k < 3; ++k) reach = away[k] > reach ? away[k] : reach;
-    }
     const double rounding = 12 * kEpsilon * reach;
     surface.error += Vec3{rounding, rounding, rounding};
     if (placed.mirrored) {

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <memory>
 
 #include "alhazen/sampling/random.h"
 #include "alhazen/simd/targets.h"
@@ -48,6 +49,13 @@ Scene lamps(bool one) {
     return maker.compile();
 }
 
+/// A picture of all directions, with the disc of the sun in front.
+std::shared_ptr<const Environment> clear_sky_with_sun() {
+    EnvironmentSettings settings;
+    settings.kind = EnvironmentKind::Sky;
+    return std::make_shared<const Environment>(settings, Vec3{0, 0, 1});
+}
+
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -69,38 +77,41 @@ TEST(LightDraws, EightAtOnceHaveTheBitsOfThoseOneByOne) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         for (const bool one : {true, false}) {
-            const Scene scene = lamps(one);
-            const Illumination lights(scene);
-            LightDraws draws(lights);
-            RandomStream random(31);
-            std::size_t shone = 0;
-            for (int batch = 0; batch < 4000; ++batch) {
-                draws.clear();
-                // Some lanes stay empty.
-                const std::size_t count = 1 + random.below(LightDraws::kMost);
-                std::vector<LightDraw> expected;
-                for (std::size_t i = 0; i < count; ++i) {
-                    LitPoint at{random_point(random, batch % 2 == 0), {0, 0, 1}, true};
-                    const double choice = random.uniform(0, 1);
-                    const Vec2 u{random.uniform(0, 1),
-                                 random.below(9) == 0 ? 0.0 : random.uniform(0, 1)};
-                    expected.push_back(lights.draw(at, choice, u, kColorChannels));
-                    draws.add(at, choice, u, kColorChannels);
+            for (const bool sky : {false, true}) {
+                Scene scene = lamps(one);
+                if (sky) scene.environment = clear_sky_with_sun();
+                const Illumination lights(scene);
+                LightDraws draws(lights);
+                RandomStream random(31);
+                std::size_t shone = 0;
+                for (int batch = 0; batch < 4000; ++batch) {
+                    draws.clear();
+                    // Some lanes stay empty.
+                    const std::size_t count = 1 + random.below(LightDraws::kMost);
+                    std::vector<LightDraw> expected;
+                    for (std::size_t i = 0; i < count; ++i) {
+                        LitPoint at{random_point(random, batch % 2 == 0), {0, 0, 1}, true};
+                        const double choice = random.uniform(0, 1);
+                        const Vec2 u{random.uniform(0, 1),
+                                     random.below(9) == 0 ? 0.0 : random.uniform(0, 1)};
+                        expected.push_back(lights.draw(at, choice, u, kColorChannels));
+                        draws.add(at, choice, u, kColorChannels);
+                    }
+                    draws.draw();
+                    ASSERT_EQ(draws.size(), count);
+                    for (std::size_t i = 0; i < count; ++i) {
+                        const LightDraw &a = draws[i], &b = expected[i];
+                        ASSERT_TRUE(same_bits(a.density, b.density)) << target << " " << batch;
+                        ASSERT_TRUE(same_bits(a.distance, b.distance)) << target << " " << batch;
+                        ASSERT_TRUE(same_bits(a.to_light, b.to_light)) << target << " " << batch;
+                        ASSERT_EQ(a.radiance, b.radiance);
+                        ASSERT_EQ(a.singular, b.singular);
+                        ASSERT_EQ(a.place.source, b.place.source);
+                        shone += a.density > 0.0;
+                    }
                 }
-                draws.draw();
-                ASSERT_EQ(draws.size(), count);
-                for (std::size_t i = 0; i < count; ++i) {
-                    const LightDraw &a = draws[i], &b = expected[i];
-                    ASSERT_TRUE(same_bits(a.density, b.density)) << target << " " << batch;
-                    ASSERT_TRUE(same_bits(a.distance, b.distance)) << target << " " << batch;
-                    ASSERT_TRUE(same_bits(a.to_light, b.to_light)) << target << " " << batch;
-                    ASSERT_EQ(a.radiance, b.radiance);
-                    ASSERT_EQ(a.singular, b.singular);
-                    ASSERT_EQ(a.place.source, b.place.source);
-                    shone += a.density > 0.0;
-                }
+                EXPECT_GT(shone, 3000u);
             }
-            EXPECT_GT(shone, 3000u);
         }
     }
 }

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <ctime>
 
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/illumination/light_importance.h"
+#include "alhazen/illumination/light_tree_lanes.h"
+#include "alhazen/simd/targets.h"
 #include "support/light_checks.h"
 #include "support/scene_maker.h"
 
@@ -79,6 +82,43 @@ TEST(LightTree, TwoNodesInLanesAreAsOneByOne) {
     }
     EXPECT_GT(reached, 50000);
     EXPECT_GT(dark, 50000);
+}
+
+TEST(LightTree, EightChoicesInLanesAreAsOneByOne) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        RandomStream random(5);
+        int lit = 0, dark = 0;
+        for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 300u}) {
+            std::vector<TreeLight> lights(count);
+            for (TreeLight& light : lights) light = random_light(random);
+            const LightTree tree(lights);
+            for (int i = 0; i < 500; ++i) {
+                std::array<LitPoint, kMostLightChoices> at;
+                std::array<double, kMostLightChoices> choices;
+                std::array<ChosenLight, kMostLightChoices> chosen;
+                const std::size_t used = 1 + random.below(kMostLightChoices);
+                for (std::size_t k = 0; k < used; ++k) {
+                    at[k] = random_point(random);
+                    if (random.below(5) == 0) at[k] = LitPoint::inside_volume(at[k].point);
+                    if (count > 0 && random.below(9) == 0) {
+                        at[k].point = lights[random.below(count)].bounds.box.lo;
+                    }
+                    choices[k] = random.below(9) == 0 ? 0.0 : random.uniform(0, 1);
+                }
+                choose_lights(tree, std::span(at).first(used), std::span(choices).first(used),
+                              chosen.data());
+                for (std::size_t k = 0; k < used; ++k) {
+                    const ChosenLight alone = tree.choose(at[k], choices[k]);
+                    ASSERT_EQ(chosen[k].probability, alone.probability) << target << " " << i;
+                    ASSERT_EQ(chosen[k].light, alone.light) << target << " " << i;
+                    ++(alone.probability > 0.0 ? lit : dark);
+                }
+            }
+        }
+        EXPECT_GT(lit, 5000);
+        EXPECT_GT(dark, 2000);
+    }
 }
 
 TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {

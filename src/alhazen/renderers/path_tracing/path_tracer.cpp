@@ -1,10 +1,8 @@
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "alhazen/renderers/light_transport/emission_of.h"
 #include "alhazen/renderers/light_transport/matt_directions.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
@@ -17,7 +15,6 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
     : job_(job),
       scene_(job.scene),
       lights_(lights),
-      fetches_(lights.looks_up()),
       chooses_light_(lights.chooses()),
       settings_(settings),
       counters_(counters),
@@ -82,51 +79,6 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     }
 }
 
-void PathTracer::begin_record() {
-    recorded_ = kNoSample;
-    // Paths with layers, polarisation or manifold search are not recorded.
-    if (job_.path == nullptr || joins_apart() || manifold_ != nullptr) return;
-    for (std::uint32_t i = 0; i < ids_.size(); ++i) {
-        if (ids_[i].number == job_.path->sample) recorded_ = i;
-    }
-    if (recorded_ != kNoSample) job_.path->vertices.clear();
-}
-
-void PathTracer::record_ray(const EyePath& path, const Ray& ray, const ShadingPoint* point,
-                            double t) {
-    RecordedVertex vertex;
-    vertex.kind = path.kind;
-    vertex.ray = ray;
-    vertex.throughput = waves(path).color(path.throughput);
-    if (point == nullptr) {
-        vertex.step = PathStep::Escaped;
-    } else {
-        vertex.t = t;
-        vertex.has_surface = true;
-        vertex.normal = point->surface.shading_normal;
-        vertex.part = point->surface.part;
-        vertex.material = static_cast<std::uint32_t>(point->surface.materials[0]);
-    }
-    job_.path->vertices.push_back(vertex);
-    recorded_arrival_ = {};
-}
-
-Spectrum* PathTracer::record_shadow(const EyePath& path, const Ray& shadow, const Spectrum& light) {
-    RecordedVertex* const vertex = recorded(path);
-    if (vertex == nullptr) return nullptr;
-    vertex->asked_light = true;
-    vertex->shadow = shadow;
-    vertex->offered = waves(path).color(light);
-    return &recorded_arrival_;
-}
-
-void PathTracer::record_arrival() {
-    const Wavelengths& waves = waves_of(recorded_);
-    light_[recorded_] += recorded_arrival_;
-    job_.path->vertices.back().arrived += waves.color(recorded_arrival_);
-    recorded_arrival_ = {};
-}
-
 void PathTracer::bounce(bool first) {
     next_alive_.clear();
     next_rays_.clear();
@@ -138,7 +90,6 @@ void PathTracer::bounce(bool first) {
         rays_, first ? Coherence::Coherent : Coherence::Any,
         [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },
         [&](std::size_t k, const ShadingPoint* point, double t) {
-            if (fetches_) fetch_ahead(k);
             EyePath& path = paths_[alive_[k]];
             Spectrum& sum = light_[path.sample];
             if (path.sample == recorded_) record_ray(path, rays_[k], point, t);
@@ -159,97 +110,6 @@ void PathTracer::bounce(bool first) {
     alive_.swap(next_alive_);
     rays_.swap(next_rays_);
     random_.keep(alive_);
-}
-
-void PathTracer::add(const EyePath& path, const Spectrum& light, Spectrum& sum) {
-    if (settings_.polarization) {
-        return add_polarized(path.sample, path.scatterings, path.first, light,
-                             polarized_[path.sample].arrived());
-    }
-    const Spectrum shown = limited(light, path.scatterings);
-    if (RecordedVertex* vertex = recorded(path)) vertex->found += waves(path).color(shown);
-    if (layers_ != nullptr) parts_[path.sample].add(shown, path.scatterings, path.first);
-    sum += shown;
-}
-
-void PathTracer::add_polarized(std::uint32_t sample, int scatterings, const FirstScattering& first,
-                               const Spectrum& light, const StokesLight& to_eye) {
-    StokesLight shown = to_eye * light;
-    if (const double limit = limit_of(shown.i, scatterings); limit < 1.0) shown = limit * shown;
-    if (layers_ != nullptr) {
-        parts_[sample].add(shown.i, scatterings, first);
-        if (camera_.is_mirrored()) shown.u = -1.0 * shown.u;
-        parts_[sample].polarized += shown;
-    }
-    light_[sample] += shown.i;
-}
-
-Spectrum& PathTracer::place_of_joined(const EyePath& path, const FirstScattering& first,
-                                      const ScatterPoint* scatter, const Vec3& direction,
-                                      Spectrum& sum) {
-    if (!joins_apart()) return sum;
-    if (settings_.polarization) {
-        const PolarizedPath& polarized = polarized_[path.sample];
-        joined_to_eye_.push_back(scatter == nullptr
-                                     ? polarized.arrived()
-                                     : polarized.arrived(scatter->view(), direction,
-                                                         scatter->polarization(direction, false)));
-    }
-    return joined_.emplace_back(JoinedLight{path.sample, path.scatterings + 1, first, Spectrum{}})
-        .light;
-}
-
-void PathTracer::add_joined() {
-    for (std::size_t i = 0; i < joined_to_eye_.size(); ++i) {
-        const JoinedLight& joined = joined_[i];
-        add_polarized(joined.sample, joined.scatterings, joined.first, joined.light,
-                      joined_to_eye_[i]);
-    }
-    if (settings_.polarization) return;
-    for (const JoinedLight& joined : joined_) {
-        parts_[joined.sample].add(joined.light, joined.scatterings, joined.first);
-        light_[joined.sample] += joined.light;
-    }
-}
-
-FirstScattering PathTracer::first_along(const Vertex& vertex, const Vec3& direction) const {
-    const ScatterPoint& scatter = vertex.scatter;
-    if (layers_ == nullptr || vertex.path->scatterings > 0) return vertex.path->first;
-    return {dot(direction, scatter.geometric()) < 0.0, scatter.diffuse_share(direction)};
-}
-
-double PathTracer::limit_of(const Spectrum& light, int scatterings) const {
-    if (!(settings_.clamp > 0.0) || scatterings < 2) return 1.0;
-    const double largest = light.max();
-    return largest > settings_.clamp ? settings_.clamp / largest : 1.0;
-}
-
-void PathTracer::fetch_ahead(std::size_t k) {
-    constexpr std::size_t kTexels = 4, kGuide = 8;
-    const auto place = [&](std::size_t later) {
-        const EyePath& path = paths_[alive_[later]];
-        return random_.draw(path.sample, path.drawn, PathRandomness::kLight);
-    };
-    if (k + kGuide < alive_.size()) lights_.fetch_guide(place(k + kGuide));
-    if (k + kTexels < alive_.size()) lights_.fetch_texels(place(k + kTexels));
-}
-
-void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
-    Illumination::FarLight far;
-    if (path.singular) {
-        far.radiance = lights_.environment(ray.direction, waves(path));
-    } else {
-        far = lights_.far_light(path.from, ray.direction, waves(path));
-    }
-    Spectrum light = path.throughput * far.radiance;
-    if (light.is_black()) return;
-    if (const Medium* medium = path.media.here();
-        medium != nullptr && media_.in(*medium) == nullptr) {
-        light = light * transmittance(waves(path).absorption(medium->absorption),
-                                      std::numeric_limits<double>::infinity());
-    }
-    if (!path.singular) light = power_heuristic(path.density, far.density) * light;
-    add(path, light, sum);
 }
 
 void PathTracer::pass(EyePath& path, const Ray& ray, const ShadingPoint& point) {
@@ -355,48 +215,6 @@ void PathTracer::draw_directions(std::span<const Vertex> vertices) {
     }
 }
 
-void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
-                              const ShadingPoint& point, Spectrum& sum) {
-    if (point.material->emission.is_black()) return;
-    if (manifold_ != nullptr && manifold_->finds(path.trail, hit, point.surface, ray.direction)) {
-        return;
-    }
-    Spectrum light = path.throughput * emission_of(scene_, point, waves(path));
-    if (!path.singular) {
-        // Unlit surfaces show their colour and emit no light.
-        if (point.material->unlit) return;
-        const double other = lights_.density(path.from, ray, hit, point.surface, path.travelled);
-        light = power_heuristic(path.density, other) * light;
-    }
-    add(path, light, sum);
-}
-
-void PathTracer::add_direct_light(const Vertex& vertex, const LightDraw& drawn, Spectrum& sum) {
-    const EyePath& path = *vertex.path;
-    const ScatterPoint& scatter = vertex.scatter;
-    if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
-    Spectrum light = scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
-    if (light.is_black()) return;
-    double weight = 1.0 / drawn.density;
-    if (!drawn.singular) {
-        weight *= power_heuristic(drawn.density, scatter.density(drawn.to_light));
-    }
-    light = path.throughput * (weight * light);
-    const bool goes_behind = dot(drawn.to_light, scatter.geometric()) < 0.0;
-    if (goes_behind) {
-        behind_ = path.media;
-        scatter.cross(behind_);
-    }
-    const Ray shadow = vertex.leaving->along(drawn.to_light, kBeforeEnd * drawn.distance);
-    const Spectrum shown = limited_joined(light, path.scatterings + 1);
-    Spectrum* const waiting = record_shadow(path, shadow, shown);
-    Spectrum& to = waiting != nullptr ? *waiting
-                   : !joins_apart()   ? sum
-                                      : place_of_joined(path, first_along(vertex, drawn.to_light),
-                                                        &scatter, drawn.to_light, sum);
-    shadows_.add(shadow, path.time, goes_behind ? behind_ : path.media, waves(path), shown, to);
-}
-
 bool PathTracer::cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
                               Spectrum& sum) {
     const Spectrum absorption = waves(path).absorption(medium.absorption);
@@ -456,27 +274,6 @@ void PathTracer::scatter_in_volume(EyePath& path, const Medium& medium, const Ra
     path.kind = RayKind::Refraction;
     record_step(path, PathStep::Scattered);
     if (survives_roulette(path)) go_on(path, {ray.origin, direction});
-}
-
-void PathTracer::add_chains(const Vertex& vertex, Spectrum& sum) {
-    const EyePath& path = *vertex.path;
-    const ManifoldLight::Receiver at{vertex.point->surface,
-                                     vertex.scatter,
-                                     path.media,
-                                     path.time,
-                                     waves(path),
-                                     settings_.depth - path.scatterings - 1,
-                                     random_,
-                                     ids_[path.sample],
-                                     static_cast<std::uint32_t>(path.drawn)};
-    chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {
-        const int scatterings = path.scatterings + 1 + arrived.bends;
-        const Spectrum light = limited(path.throughput * arrived.light, scatterings);
-        if (layers_ != nullptr) {
-            parts_[path.sample].add(light, scatterings, first_along(vertex, arrived.direction));
-        }
-        sum += light;
-    });
 }
 
 void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& drawn) {

@@ -115,8 +115,6 @@ class PathTracer {
     [[nodiscard]] bool cross_medium(EyePath& path, const Medium& medium, const Ray& ray, double t,
                                     Spectrum& sum);
     void scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray, Spectrum& sum);
-    /// Prefetches data that paths after the `k`-th read when they draw a light.
-    void fetch_ahead(std::size_t k);
     void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
     /// Continues straight through an uncovered part of the surface.
     void pass(EyePath& path, const Ray& ray, const ShadingPoint& point);
@@ -169,7 +167,6 @@ class PathTracer {
     const RenderJob& job_;
     const Scene& scene_;
     const Illumination& lights_;
-    bool fetches_;        ///< Illumination::looks_up
     bool chooses_light_;  ///< Illumination::chooses
     PathSettings settings_;
     RayCounters& counters_;

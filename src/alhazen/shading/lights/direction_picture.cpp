@@ -177,41 +177,51 @@ std::size_t DirectionPicture::row_for(double share) const {
     return pick(rows_, row_guide_[part], row_guide_[part + 1], share * rows_.back());
 }
 
-const std::uint32_t* DirectionPicture::guide_for(std::size_t row, double share) const {
-    return &column_guides_[row * (column_parts_ + 1) + part_of(share, column_parts_)];
+const std::uint32_t* DirectionPicture::guide_for(const Search& search) const {
+    const std::size_t part = part_of(static_cast<float>(search.u.x), column_parts_);
+    return &column_guides_[search.row * (column_parts_ + 1) + part];
 }
 
-void DirectionPicture::fetch_guide(const Vec2& u) const {
-    __builtin_prefetch(guide_for(row_for(u.y), static_cast<float>(u.x)));
+DirectionPicture::Search DirectionPicture::begin(const Vec2& u) const {
+    Search search{u};
+    search.row = row_for(u.y);
+    const double above = rows_[search.row], below = rows_[search.row + 1];
+    search.share_y = std::clamp((u.y * rows_.back() - above) / (below - above), 0.0, 1.0);
+    __builtin_prefetch(guide_for(search));
+    return search;
 }
 
-void DirectionPicture::fetch_texels(const Vec2& u) const {
-    const std::size_t y = row_for(u.y);
-    const std::size_t x = *guide_for(y, static_cast<float>(u.x));
-    __builtin_prefetch(&columns_[y * std::size_t(picture_.width + 1) + x]);
-    const int column = std::clamp(static_cast<int>(x) - 1, 0, picture_.width - 1);
-    const int row = static_cast<int>(y);
-    __builtin_prefetch(picture_.pixel(column, row));
+void DirectionPicture::approach(const Search& search) const {
+    __builtin_prefetch(shares_of(search.row).data() + *guide_for(search));
+}
+
+void DirectionPicture::find(Search& search) const {
+    const std::uint32_t* const guide = guide_for(search);
+    search.column = pick(shares_of(search.row), guide[0], guide[1], static_cast<float>(search.u.x));
+    // The rows between which radiance is interpolated.
+    const int row = static_cast<int>(search.row) - (search.share_y < 0.5 ? 1 : 0);
+    const int column = static_cast<int>(search.column);
+    __builtin_prefetch(picture_.pixel(column, std::max(row, 0)));
     __builtin_prefetch(picture_.pixel(column, std::min(row + 1, picture_.height - 1)));
 }
 
-Vec3 DirectionPicture::sample(const Vec2& u) const {
-    const double wanted_row = u.y * rows_.back();
-    const std::size_t y = row_for(u.y);
-    const std::size_t w = std::size_t(picture_.width);
-    const std::span<const float> row = std::span(columns_).subspan(y * (w + 1), w + 1);
-    const float wanted = static_cast<float>(u.x);
-    const std::uint32_t* const guide = guide_for(y, wanted);
-    const std::size_t x = pick(row, guide[0], guide[1], wanted);
-    const double share_y =
-        std::clamp((wanted_row - rows_[y]) / (rows_[y + 1] - rows_[y]), 0.0, 1.0);
-    const double from = row[x], to = row[x + 1];
-    const double share_x = std::clamp((u.x - from) / (to - from), 0.0, 1.0);
-    const double top = height(static_cast<int>(y)), bottom = height(static_cast<int>(y) + 1);
-    const double z = top + share_y * (bottom - top);
-    const double angle = 2.0 * kPi * ((static_cast<double>(x) + share_x) / picture_.width - 0.5);
+Vec3 DirectionPicture::direction(const Search& search) const {
+    const std::span<const float> shares = shares_of(search.row);
+    const double from = shares[search.column], to = shares[search.column + 1];
+    const double share_x = std::clamp((search.u.x - from) / (to - from), 0.0, 1.0);
+    const int row = static_cast<int>(search.row);
+    const double top = height(row), bottom = height(row + 1);
+    const double z = top + search.share_y * (bottom - top);
+    const double column = static_cast<double>(search.column) + share_x;
+    const double angle = 2.0 * kPi * (column / picture_.width - 0.5);
     const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
     return {across * std::sin(angle), across * std::cos(angle), z};
+}
+
+Vec3 DirectionPicture::sample(const Vec2& u) const {
+    Search search = begin(u);
+    find(search);
+    return direction(search);
 }
 
 double DirectionPicture::density_at(const Place& place) const {

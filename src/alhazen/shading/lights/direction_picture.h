@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "alhazen/imaging/image/image.h"
@@ -34,10 +35,18 @@ class DirectionPicture {
     [[nodiscard]] Rgb radiance(const Vec3& direction) const;
     /// Samples a unit direction; `u` in [0, 1)^2. Precondition: the picture is not black.
     [[nodiscard]] Vec3 sample(const Vec2& u) const;
-    /// Prefetches the beginning of the search of `sample(u)`; `fetch_texels`, called some time
-    /// later, prefetches the data that the search and the radiance lookup read.
-    void fetch_guide(const Vec2& u) const;
-    void fetch_texels(const Vec2& u) const;
+    /// `sample` in steps, each of which prefetches what the next one reads: `begin`, `approach`,
+    /// `find`, `direction`. Several samples that take turns do not wait for the memory.
+    struct Search {
+        Vec2 u;
+        std::size_t row = 0, column = 0;
+        double share_y = 0;  ///< of the row's height, above the direction
+    };
+    [[nodiscard]] Search begin(const Vec2& u) const;
+    void approach(const Search& search) const;
+    /// Finds the texel; prefetches what `sight` reads.
+    void find(Search& search) const;
+    [[nodiscard]] Vec3 direction(const Search& search) const;
     /// Density of `sample` by solid angle.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// Radiance and density of a direction.
@@ -60,7 +69,12 @@ class DirectionPicture {
     [[nodiscard]] static Place place_of(const Vec3& direction);
     /// The row of `share`, and the beginning of the search in that row.
     [[nodiscard]] std::size_t row_for(double share) const;
-    [[nodiscard]] const std::uint32_t* guide_for(std::size_t row, double share) const;
+    [[nodiscard]] const std::uint32_t* guide_for(const Search& search) const;
+    /// The cumulative shares of a row.
+    [[nodiscard]] std::span<const float> shares_of(std::size_t row) const {
+        const std::size_t count = std::size_t(picture_.width) + 1;
+        return std::span(columns_).subspan(row * count, count);
+    }
     [[nodiscard]] Rgb radiance_at(const Place& place) const;
     [[nodiscard]] double density_at(const Place& place) const;
     void blacken_bad_texels();

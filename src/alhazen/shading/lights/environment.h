@@ -45,14 +45,17 @@ class Environment {
     [[nodiscard]] Sight sight(const Vec3& normal, bool both_sides, const Vec3& direction) const;
     [[nodiscard]] Sight sight(const Vec3& direction) const;
 
-    /// True if there is a picture, in which `sample` searches; `fetch_guide` and `fetch_texels`
-    /// prefetch for `u` (see DirectionPicture).
-    [[nodiscard]] bool is_looked_up() const { return picture_.has_value(); }
-    void fetch_guide(const Vec2& u) const {
-        if (u.x >= sun_share_) picture_->fetch_guide(in_sky(u));
+    /// `sample(u)` in the picture, step by step (see DirectionPicture). Precondition of the steps:
+    /// `searches(u)`.
+    using Search = DirectionPicture::Search;
+    [[nodiscard]] bool searches(const Vec2& u) const {
+        return picture_.has_value() && u.x >= sun_share_;
     }
-    void fetch_texels(const Vec2& u) const {
-        if (u.x >= sun_share_) picture_->fetch_texels(in_sky(u));
+    [[nodiscard]] Search begin(const Vec2& u) const { return picture_->begin(in_sky(u)); }
+    void approach(const Search& search) const { picture_->approach(search); }
+    void find(Search& search) const { picture_->find(search); }
+    [[nodiscard]] Vec3 direction(const Search& search) const {
+        return world_from_picture_ * picture_->direction(search);
     }
 
     /// Mean radiance over all directions.
