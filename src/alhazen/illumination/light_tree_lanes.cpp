@@ -135,7 +135,7 @@ inline void choose(const LightTree& tree, std::span<const LitPoint> points,
     const Node* const nodes = tree.nodes().data();
     // Lanes without a point repeat the first one; those that are done stay at the root.
     const Node* node[kLaneCount];
-    HWY_ALIGN double place[6][kLaneCount], luck[kLaneCount], share[kLaneCount];
+    HWY_ALIGN double place[6][kLaneCount], choice_of[kLaneCount], share[kLaneCount];
     std::uint32_t both_sides = 0, in_volume = 0;
     for (std::size_t i = 0; i < kLaneCount; ++i) node[i] = nodes;
     for (std::size_t i = 0; i < kLaneCount; ++i) {
@@ -144,7 +144,7 @@ inline void choose(const LightTree& tree, std::span<const LitPoint> points,
             place[k][i] = points[from].point[k];
             place[3 + k][i] = points[from].normal[k];
         }
-        luck[i] = choices[from];
+        choice_of[i] = choices[from];
         both_sides |= std::uint32_t{points[from].both_sides} << i;
         in_volume |= std::uint32_t{points[from].in_volume} << i;
     }
@@ -156,7 +156,7 @@ inline void choose(const LightTree& tree, std::span<const LitPoint> points,
                        load_lanes(place[5]),
                        lanes_of_bits<double>(both_sides),
                        lanes_of_bits<double>(in_volume)};
-    Doubles choice = load_lanes(draws), probability(1.0);
+    Doubles choice = load_lanes(choice_of), probability(1.0);
     const Doubles one(1.0), most(0x1.fffffffffffffp-1);
     for (std::uint32_t left = (1u << points.size()) - 1;;) {
         const Node *first[kLaneCount], *second[kLaneCount];
