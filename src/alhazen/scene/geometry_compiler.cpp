@@ -20,9 +20,10 @@ std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
 }
 
 /// Masks with the bits of all kinds of rays become kAllRays, because queries of renderers have the
-/// bit of one kind.
-RayMask without_unused_bits(RayMask mask) {
-    return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
+/// bit of one kind. What casts shadows blocks connections.
+RayMask complete(RayMask mask) {
+    if ((mask & kRaysOfAllKinds) == kRaysOfAllKinds) return kAllRays;
+    return (mask & mask_of(RayKind::Shadow)) != 0 ? mask | kConnectingRays : mask;
 }
 
 /// The positions and directions of lights, as end points of shadow rays.
@@ -136,7 +137,7 @@ GeometryCompiler::PlacedPart GeometryCompiler::place(const Part& part,
                                                      const Affine& outer_from_object,
                                                      std::uint32_t number, RayMask visible_to) {
     const PlacedPart placed{part, outer_from_object * part.object_from_part, number,
-                            visible_to & without_unused_bits(part.visible_to)};
+                            visible_to & complete(part.visible_to)};
     has_masks_ = has_masks_ || placed.visible_to != kAllRays;
     return placed;
 }

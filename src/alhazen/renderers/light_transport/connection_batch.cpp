@@ -87,6 +87,11 @@ Spectrum ConnectionBatch::passing(const Ray& ray, float time, const MediumStack&
     return passing(ray, time, RayKind::Shadow, media, waves, flight);
 }
 
+Spectrum ConnectionBatch::between(const Ray& ray, float time, const MediumStack& media,
+                             const Wavelengths& waves, FreeFlight* flight) {
+    return passing(ray, time, RayKind::Reflection, media, waves, flight);
+}
+
 Spectrum ConnectionBatch::seen(const Ray& from_eye, float time, const MediumStack& media,
                                const Wavelengths& waves, FreeFlight* flight) {
     return passing(from_eye, time, RayKind::Eye, media, waves, flight);
@@ -179,7 +184,7 @@ Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, cons
     const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
-        faces_.find(point, ray.direction, arrival, mask_of(kind));
+        faces_.find(point, ray.direction, arrival, mask_for(kind));
         crossed_ = faces_.others();
     }
     const double coverage = point.material->coverage;

@@ -38,6 +38,9 @@ class ConnectionBatch {
     /// The transmittance of one ray. Adds the parts in scattering media to `flight`; may be null.
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, const MediumStack& media,
                                    const Wavelengths& waves, FreeFlight* flight = nullptr);
+    /// As `passing`, between two points that scatter: what paths meet on their way blocks it.
+    [[nodiscard]] Spectrum between(const Ray& ray, float time, const MediumStack& media,
+                                   const Wavelengths& waves, FreeFlight* flight);
     /// As `passing`, for an eye ray.
     [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const MediumStack& media,
                                 const Wavelengths& waves, FreeFlight* flight = nullptr);
@@ -50,7 +53,10 @@ class ConnectionBatch {
     };
 
     [[nodiscard]] RayQuery query(float time, RayKind kind = RayKind::Shadow) const {
-        return {stats_, mask_of(kind), time};
+        return {stats_, mask_for(kind), time};
+    }
+    [[nodiscard]] static RayMask mask_for(RayKind kind) {
+        return kind == RayKind::Shadow ? kConnectingRays : mask_of(kind);
     }
     void find_met(std::span<bool> met);
     /// Finds the surfaces that a ray passes. False if one blocks it.

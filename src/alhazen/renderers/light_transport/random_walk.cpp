@@ -60,8 +60,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
             medium != nullptr ? scattering_.in(*medium) : nullptr;
         ++counters_[kind_].cast;
         hit_ = Hit();
-        const bool found =
-            scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), start.time});
+        const bool found = scene_.aggregate->closest(ray, hit_, {stats_, mask(), start.time});
         if (scattering != nullptr &&
             scatters_within(front, *medium, *scattering, found ? hit_.t : kEndless, draws, start)) {
             return Meets::Volume;
@@ -73,7 +72,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage)) {
-            faces_.find(point_, ray.direction, arrival, mask_of(kind_));
+            faces_.find(point_, ray.direction, arrival, mask());
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
                 set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
@@ -190,6 +189,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
     eta_scale_ = 1.0;
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
+    connects_ = start.as_connection;
     Front front{start.ray,     *start.waves,   start.throughput,
                 start.density, start.parallel, start.media};
     int count = 0;
@@ -231,6 +231,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
             front.throughput = (1.0 / share) * front.throughput;
         }
         front.ray = v.leaving(front.ray.direction, kEndless);
+        connects_ = false;
         travelled_ = 0.0;
         flight_.begin();
     }

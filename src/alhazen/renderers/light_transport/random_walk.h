@@ -26,6 +26,9 @@ struct WalkStart {
     /// By solid angle; if `parallel`, by area perpendicular to the ray; 0: singular.
     double density = 0;
     bool parallel = false;
+    /// The first segment passes what connections to the light pass: no ray hits the light, so that
+    /// all other strategies connect to it.
+    bool as_connection = false;
     float time = 0;
     MediumStack media;  ///< around the origin
 };
@@ -80,6 +83,7 @@ class RandomWalk {
     enum class Meets : std::uint8_t { Nothing, Surface, Volume };
     enum class Step : std::uint8_t { Ends, Straight, Scattered };
 
+    [[nodiscard]] RayMask mask() const { return connects_ ? kConnectingRays : mask_of(kind_); }
     /// Finds the next stop: a surface, or a point in a volume, which becomes the origin of the ray.
     [[nodiscard]] Meets find(Front& front, const WalkRandomness& draws, const WalkStart& start);
     /// Applies the absorption of a medium that does not scatter.
@@ -128,6 +132,7 @@ class RandomWalk {
     FreeFlight flight_;          ///< since the last vertex
     double eta_scale_ = 1;
     RayKind kind_ = RayKind::Eye;
+    bool connects_ = false;  ///< the segment is that of WalkStart::as_connection
     Escape escape_;
 };
 

@@ -24,7 +24,7 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
         ++counters_[path.kind].cast;
         hit_ = Hit();
-        if (!scene_.aggregate->closest(path.ray, hit_, {stats_, mask_of(path.kind), path.time})) {
+        if (!scene_.aggregate->closest(path.ray, hit_, {stats_, path.mask(), path.time})) {
             const bool scattered =
                 cross_medium(path, std::numeric_limits<double>::infinity(), numbers);
             return scattered ? PathMeets::Volume : PathMeets::Nothing;
@@ -39,7 +39,7 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
         const double coverage = point_.material->coverage;
         const std::uint32_t number = path.met++;
         if (coverage >= 1.0 || numbers.at(kCoverage + number) < coverage) {
-            faces_.find(point_, path.ray.direction, arrival, mask_of(path.kind));
+            faces_.find(point_, path.ray.direction, arrival, path.mask());
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
                 set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
@@ -81,6 +81,7 @@ void NextSurface::go_on_in_volume(PathEnd& path, const Vec2& u) const {
     const Vec3 direction = sample_henyey_greenstein(volume_.along, volume_.anisotropy, u);
     path.ray = {volume_.point, direction};
     path.kind = RayKind::Refraction;
+    path.as_connection = false;
     path.travelled = 0.0;
 }
 
@@ -90,7 +91,9 @@ void NextSurface::go_on(PathEnd& path, const ShapeSurface& at, const ScatterPoin
     if (drawn.transmitted) scatter.cross(path.media);
     path.kind = drawn.transmitted ? RayKind::Refraction : RayKind::Reflection;
     path.ray = leaving_ray(at, drawn.direction);
-    if (!drawn.straight) path.travelled = 0.0;
+    if (drawn.straight) return;
+    path.as_connection = false;
+    path.travelled = 0.0;
 }
 
 }  // namespace alhazen

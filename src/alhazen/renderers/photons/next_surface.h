@@ -24,6 +24,7 @@ struct PathNumbers {
 struct PathEnd {
     Ray ray;
     RayKind kind = RayKind::Eye;
+    bool as_connection = false;  ///< see WalkStart
     float time = 0;
     RayCone cone;
     MediumStack media;
@@ -32,6 +33,8 @@ struct PathEnd {
     double travelled = 0;       ///< since the last scattering
     std::uint32_t met = 0;      ///< number of surfaces met
     std::uint32_t stretch = 0;  ///< number of segments in scattering media
+
+    [[nodiscard]] RayMask mask() const { return as_connection ? kConnectingRays : mask_of(kind); }
 };
 
 /// The next event of a path.

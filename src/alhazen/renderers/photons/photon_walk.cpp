@@ -92,6 +92,7 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
+    path.as_connection = start.as_connection;
     Wavelengths waves = *shot_.waves;
     path.waves = &waves;
     path.throughput = start.throughput;
