@@ -218,9 +218,8 @@ function(alhazen_library name)
     endif()
 endfunction()
 
-# Tests are built for compile time; their own speed hardly matters. -fpch-preprocess lets ccache see through the
-# precompiled header.
-set(ALHAZEN_TEST_OPTIONS -Og $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-shadow>)
+# Tests are built for compile time; their own speed hardly matters.
+set(ALHAZEN_TEST_OPTIONS -Og $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow>)
 
 # alhazen_test_entry(NAME PROGRAM [LABEL label] [TIMEOUT seconds] [COST seconds] [PARTS number] [FILTER pattern...]
 # [ENVIRONMENT variable...]) adds the CTest entry NAME: tests of a GoogleTest program, all or those of FILTER, as PARTS
@@ -278,7 +277,6 @@ function(alhazen_test_program name)
     add_executable(${target} ${ARG_SOURCES})
     target_link_libraries(${target} PRIVATE alhazen_flags alhazen_test_support ${ARG_DEPENDS} ${ARG_LIBRARIES}
                           GTest::gtest_main)
-    target_precompile_headers(${target} REUSE_FROM alhazen_test_headers)
     target_compile_options(${target} PRIVATE ${ALHAZEN_TEST_OPTIONS})
     # What the files of a unit instantiate alike is compiled once. Each has a namespace of its own: alhazen::ALHAZEN_TEST_FILE.
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32

@@ -23,6 +23,13 @@ def run(*arguments, **options):
     return subprocess.run([ALHAZEN, *arguments], capture_output=True, text=True, timeout=120, **options)
 
 
+def processor_seconds(pid):
+    """The processor time of a running program and its threads; how busy the machine is does not change it."""
+    with open(f"/proc/{pid}/stat", encoding="ascii", errors="replace") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 class CommandLineCase(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()

@@ -9,14 +9,14 @@ SCREENSHOT_FOLDER screenshots of the page are written there. `scripts/setup --br
 
 import html.parser
 import json
-import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+
+from browser_session import FilePages
 
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -71,13 +71,6 @@ addEventListener("load", report);
 </script>"""
 
 
-def browser():
-    for name in ("chromium", "chromium-browser", "google-chrome"):
-        if shutil.which(name):
-            return shutil.which(name)
-    return None
-
-
 class Elements(html.parser.HTMLParser):
     """Records unclosed elements, ids, and the attributes of all elements."""
 
@@ -97,9 +90,10 @@ class Elements(html.parser.HTMLParser):
             self.wrong.append((tag, self.getpos()))
 
 
-class ComparePage(unittest.TestCase):
+class ComparePage(FilePages, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        cls.open_browser()
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
         # A name that would end text and attributes if it were not escaped.
@@ -145,48 +139,24 @@ class ComparePage(unittest.TestCase):
         self.assertEqual(re.findall(r"(?:https?:)?//[a-z]", without_pictures), [])
         self.assertIn("default-src 'none'", self.text)
 
-    def in_browser(self, window, *options, change=lambda text: text):
+    def in_browser(self, width, height, dark=False, change=lambda text: text):
         """Uses the page; returns its results, the console output and its network requests."""
-        program = browser()
-        if program is None:
-            self.skipTest("no chromium here: scripts/setup --browser installs it")
         page = self.folder / "used.html"
         page.write_text(change(self.text).replace("<style>", BEFORE + "<style>", 1).replace("</body>", AFTER + "</body>"),
                         encoding="utf-8")
-        log = self.folder / "net.json"
-        common = [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
-                  "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                  "--disable-default-apps", "--disable-extensions", f"--user-data-dir={self.folder}/profile",
-                  "--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={window}", *options]
-        result = subprocess.run([*common, "--enable-logging=stderr", f"--log-net-log={log}", "--dump-dom",
-                                 page.as_uri()], capture_output=True, text=True, timeout=120)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        console = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
-        match = re.search(r'<pre id="seen">(.*?)</pre>', result.stdout, re.DOTALL)
-        self.assertIsNotNone(match, "the script did not run to its end")
-        # The browser's own requests have no page of origin.
-        requests = []
-        for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
-            initiator = re.search(r'"initiator":"([^"]*)"', line)
-            url = re.search(r'"url":"((?:https?|wss?|ftp):[^"]*)"', line)
-            if initiator and url and initiator.group(1) != "not an origin":
-                requests.append(url.group(1))
-        if SCREENSHOTS:
-            SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-            picture = SCREENSHOTS / f"page_{window.replace(',', 'x')}{'_dark' if options else ''}.png"
-            subprocess.run([*common, f"--screenshot={picture}", self.page.as_uri()], capture_output=True, timeout=120)
-        return json.loads(html.unescape(match.group(1))), console, requests
+        name = f"page_{width}x{height}{'_dark' if dark else ''}.png"
+        return self.used(page, width, height, dark, [(self.page, SCREENSHOTS / name)] if SCREENSHOTS else [])
 
     def test_the_test_would_notice_a_request(self):
         def with_request(text):
             text = text.replace("default-src 'none'; img-src data:;", "img-src http: data:;")
             return text.replace("</main>", '<img alt="" src="http://unknown.invalid/x.png"></main>')
 
-        _, _, requests = self.in_browser("1200,1400", change=with_request)
+        _, _, requests = self.in_browser(1200, 1400, change=with_request)
         self.assertIn("http://unknown.invalid/x.png", requests)
 
-    def check(self, window, *options):
-        seen, console, requests = self.in_browser(window, *options)
+    def check(self, width, height, dark=False):
+        seen, console, requests = self.in_browser(width, height, dark)
         self.assertEqual(seen["errors"], [])
         self.assertEqual(console, [])
         self.assertEqual(requests, [])
@@ -204,11 +174,11 @@ class ComparePage(unittest.TestCase):
         return seen
 
     def test_a_browser_shows_it_without_errors_and_without_the_network(self):
-        self.check("1200,1400")
+        self.check(1200, 1400)
 
     def test_it_fits_a_phone_and_a_dark_one(self):
-        light = self.check("500,1200")
-        dark = self.check("500,1200", "--blink-settings=preferredColorScheme=0")
+        light = self.check(500, 1200)
+        dark = self.check(500, 1200, dark=True)
         self.assertEqual(light["ground"][1], dark["ground"][0])
 
 

@@ -7,16 +7,16 @@ Without a browser (chromium, google-chrome) the tests of the page in a browser a
 run. With SCREENSHOT_FOLDER screenshots of the page are written there. `scripts/setup --browser` installs one.
 """
 
-import html
 import json
 import pathlib
 import re
-import shutil
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+
+from browser_session import FilePages
 
 ALHAZEN = sys.argv[1]
 SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -92,13 +92,6 @@ rectangle "floor" { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0)
 """
 
 
-def browser():
-    for name in ("chromium", "chromium-browser", "google-chrome"):
-        if shutil.which(name):
-            return shutil.which(name)
-    return None
-
-
 def times(a, b):
     return [x * y for x, y in zip(a, b)]
 
@@ -107,9 +100,10 @@ def plus(a, b):
     return [x + y for x, y in zip(a, b)]
 
 
-class ExplainPage(unittest.TestCase):
+class ExplainPage(FilePages, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        cls.open_browser()
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
         cls.scene = cls.folder / "scene.alhazen"
@@ -277,39 +271,16 @@ class ExplainPage(unittest.TestCase):
         self.assertIn("default-src 'none'", self.text)
         self.assertNotIn("<img src=x", self.text)
 
-    def in_browser(self, window, *options):
+    def in_browser(self, width, height, dark):
         """Uses the page; returns its results, the console output and its network requests."""
-        program = browser()
-        if program is None:
-            self.skipTest("no chromium here: scripts/setup --browser installs it")
         page = self.folder / "used.html"
         page.write_text(self.text.replace("<style>", BEFORE + "<style>", 1).replace("</body>", AFTER + "</body>"),
                         encoding="utf-8")
-        log = self.folder / "net.json"
-        common = [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
-                  "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                  "--disable-default-apps", "--disable-extensions", f"--user-data-dir={self.folder}/profile",
-                  "--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={window}", "--virtual-time-budget=3000", *options]
-        result = subprocess.run([*common, "--enable-logging=stderr", f"--log-net-log={log}", "--dump-dom",
-                                 page.as_uri()], capture_output=True, text=True, timeout=120)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        console = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
-        match = re.search(r'<pre id="seen">(.*?)</pre>', result.stdout, re.DOTALL)
-        self.assertIsNotNone(match, f"the script did not run to its end: {console}")
-        requests = []
-        for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
-            initiator = re.search(r'"initiator":"([^"]*)"', line)
-            url = re.search(r'"url":"((?:https?|wss?|ftp):[^"]*)"', line)
-            if initiator and url and initiator.group(1) != "not an origin":
-                requests.append(url.group(1))
-        if SCREENSHOTS:
-            SCREENSHOTS.mkdir(parents=True, exist_ok=True)
-            picture = SCREENSHOTS / f"explain_{window.replace(',', 'x')}{'_dark' if options else ''}.png"
-            subprocess.run([*common, f"--screenshot={picture}", self.page.as_uri()], capture_output=True, timeout=120)
-        return json.loads(html.unescape(match.group(1))), console, requests
+        name = f"explain_{width}x{height}{'_dark' if dark else ''}.png"
+        return self.used(page, width, height, dark, [(self.page, SCREENSHOTS / name)] if SCREENSHOTS else [])
 
-    def check(self, window, *options):
-        seen, console, requests = self.in_browser(window, *options)
+    def check(self, width, height, dark=False):
+        seen, console, requests = self.in_browser(width, height, dark)
         data = json.loads(re.search(r'id="data">(.*?)</script>', self.text, re.DOTALL).group(1))
         rays = data["rays"]
         self.assertEqual((seen["errors"], console, requests), ([], [], []))
@@ -327,10 +298,10 @@ class ExplainPage(unittest.TestCase):
         self.assertLessEqual(seen["overflow"], 0)
 
     def test_a_browser_shows_it_without_errors_and_without_the_network(self):
-        self.check("1400,1400")
+        self.check(1400, 1400)
 
     def test_it_fits_a_phone_in_the_dark(self):
-        self.check("500,1600", "--blink-settings=preferredColorScheme=0")
+        self.check(500, 1600, dark=True)
 
 
 if __name__ == "__main__":

@@ -62,11 +62,17 @@ class Reader:
         focusable = [n for n in self.nodes if n.properties.get("focusable") and n.role not in ("RootWebArea", "option")]
         return focusable + [n for n in self.nodes if n.role in CONTROLS and n not in focusable]
 
+    def without_role(self):
+        return [n for n in self.controls() if n.role in NO_ROLE]
+
+    def without_name(self):
+        """Controls without a name and figures without a text."""
+        return [n for n in self.controls() if n.role not in NO_ROLE and not any(map(str.isalnum, n.name))] + \
+            [n for n in self.nodes if n.role in FIGURES and not n.name]
+
     def faults(self):
         """Controls without a role or a name, figures without a text, names shared by several fields."""
-        found = [f"no role: {n}" for n in self.controls() if n.role in NO_ROLE]
-        found += [f"no name: {n}" for n in self.controls() if n.role not in NO_ROLE and not any(map(str.isalnum, n.name))]
-        found += [f"no words: {n}" for n in self.nodes if n.role in FIGURES and not n.name]
+        found = [f"no role: {n}" for n in self.without_role()] + [f"no name: {n}" for n in self.without_name()]
         count = collections.Counter((n.role, n.name) for n in self.nodes if n.role in FIELDS)
         return found + [f"{k} times: {key}" for key, k in count.items() if k > 1]
 

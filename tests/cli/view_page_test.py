@@ -6,87 +6,19 @@ Usage: view_page_test.py ALHAZEN [SCREENSHOT_FOLDER]
 Skipped, with a message, without a browser: `scripts/setup --browser` installs one.
 """
 
-import pathlib
 import signal
 import struct
-import sys
-import tempfile
 import time
-import unittest
 
-from browser_session import SLOWDOWN, BrowserSession, browser
-from view_server import LIGHTS, SCENE, Server
-
-ALHAZEN = sys.argv[1]
-SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
-READY = "globalThis.viewer?.frames > 0 && viewer.image.width > 0"
-# True if the last frame of the view is shown, after all levels.
-FINE = f"({READY}) && viewer.done() && viewer.shownGeneration === viewer.generation"
-MESSAGE = "(document.getElementById('message')?.textContent ?? '')"
+from browser_session import SLOWDOWN
+from view_server import SCENE, Server
+from viewer_page import ALHAZEN, FINE, MESSAGE, READY, ViewerPage, run_tests
 
 
-@unittest.skipIf(browser() is None, "no chromium here: scripts/setup --browser installs it")
-class ViewPage(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        self.folder = pathlib.Path(self.temporary.name)
-        self.scene = self.folder / "scene.alhazen"
-        self.scene.write_text(SCENE, encoding="utf-8")
-        self.server = Server(ALHAZEN, self.scene)
-
-    def tearDown(self):
-        self.page.close()
-        self.server.close()
-        self.temporary.cleanup()
-
-    def open(self, window):
-        self.page = BrowserSession(self.folder / "profile", window)
-        self.page.call("Page.navigate", url=self.server.url)
-        self.page.wait(READY)
-        self.page.wait(FINE)
-
-    def shoot(self, name):
-        if SCREENSHOTS:
-            self.page.screenshot(SCREENSHOTS / f"{name}.png")
-
-    def picture(self):
-        """The colours of the picture at a coarse resolution."""
-        return self.page.value("""(() => {
-            const c = document.createElement("canvas");
-            c.width = 16; c.height = 12;
-            const g = c.getContext("2d");
-            g.drawImage(viewer.image, 0, 0, 16, 12);
-            return [...g.getImageData(0, 0, 16, 12).data].join();
-        })()""")
-
-    def place(self, u, v):
-        box = self.page.value("(b => [b.left, b.top, b.width, b.height])(viewer.image.getBoundingClientRect())")
-        return box[0] + u * box[2], box[1] + v * box[3]
-
-    def changes(self, act):
-        """Expects that `act` changes the picture."""
-        before = self.picture()
-        act()
-        self.page.wait(FINE)
-        self.assertNotEqual(self.picture(), before)
-
-    def edit(self, text):
-        before = self.page.value("viewer.scene.version")
-        self.scene.write_text(text, encoding="utf-8")
-        self.page.wait(f"viewer.scene.version > {before}")
-
-    def choose(self, key, value):
-        self.page.value(f"viewer.controls.choose('{key}', '{value}')")
-
-    def check_quiet(self):
-        self.assertEqual(self.page.console, [])
-        own = (f"http://{self.server.host}/", f"ws://{self.server.host}/frames", "blob:", "data:", "about:")
-        for url in self.page.requests:
-            self.assertTrue(url.startswith(own), url)
-
+class ViewPage(ViewerPage):
     def test_it_moves_explains_switches_and_follows_the_file(self):
         page = None
-        self.open("1300,900")
+        self.open(1300, 900)
         page = self.page
         self.assertEqual(page.value("location.hash"), "")
         self.shoot("view")
@@ -153,7 +85,7 @@ class ViewPage(unittest.TestCase):
         self.shoot("view_lost")
 
     def test_a_depth_is_sent_where_one_is_chosen(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         depth = "viewer.controls.number('depth')"
 
@@ -175,176 +107,8 @@ class ViewPage(unittest.TestCase):
         self.assertEqual((page.value(depth), sent()), (0, None))
         self.check_quiet()
 
-    def test_lights_are_turned_off_and_undo_takes_back_what_was_chosen(self):
-        self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("1300,900")
-        page = self.page
-        first = self.picture()
-        summary = "document.querySelector('#lights summary')"
-        boxes = "[...document.querySelectorAll('#lights input')]"
-        self.assertEqual(page.value(f"{summary}.textContent"), "lights: all of 4 on")
-        # By keyboard alone.
-        page.value(f"{summary}.focus()")
-        page.key("Enter")
-        page.wait("document.getElementById('lights').open")
-        page.value(f"{boxes}.find(b => b.name === 'key').focus()")
-        self.changes(lambda: page.key(" "))
-        self.assertEqual(page.value(f"{summary}.textContent"), "lights: 3 of 4 on")
-        self.shoot("view_lights")
-        # Switched-off lights and the focus survive a change of the file.
-        self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
-        self.assertEqual(page.value("viewer.controls.lights.off().join()"), "key")
-        self.assertEqual(page.value("document.activeElement.name"), "key")
-        self.changes(lambda: self.edit(LIGHTS))
-        # Environments are offered for renderers of light transport.
-        menu = "document.querySelector('[name=environment]')"
-        why = f"document.getElementById({menu}.getAttribute('aria-describedby'))"
-        self.assertTrue(page.value(f"{menu}.disabled"))
-        self.assertIn("those that follow light", page.value(f"{why}.textContent"))
-        self.assertGreater(page.value(f"{why}.getBoundingClientRect().height"), 0)
-        self.changes(lambda: self.choose("renderer", "path_tracing"))
-        self.assertFalse(page.value(f"{menu}.disabled"))
-        self.assertFalse(page.value(f"{menu}.hasAttribute('aria-describedby') || document.querySelector('.why') !== null"))
-        self.changes(lambda: self.choose("environment", "studio"))
-        self.shoot("view_environment")
-        off = "[...document.querySelectorAll('#lights button')].find(b => b.textContent === 'All off').click()"
-        self.changes(lambda: page.value(off))
-        self.assertEqual(page.value(f"{summary}.textContent"), "lights: 0 of 4 on")
-        # Undo: lights, environment, renderer, light.
-        undo = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Undo').click()"
-        for state in ("studio,path_tracing,key", ",path_tracing,key", ",whitted,key", ",whitted,"):
-            self.changes(lambda: page.value(undo))
-            self.assertEqual(page.value("['environment', 'renderer'].map(k => viewer.controls.get(k)).join() + ',' + "
-                                        "viewer.controls.lights.off().join()"), state)
-        self.assertEqual(self.picture(), first)
-        self.assertEqual(page.value(f"{boxes}.filter(b => b.checked).length"), 4)
-        self.check_quiet()
-
-    def test_undo_keeps_a_light_dark_that_was_missing_from_the_file_for_a_while(self):
-        self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("900,700")
-        page = self.page
-        dark = "viewer.controls.lights.off().join()"
-        page.value("document.getElementById('lights').open = true")
-        self.changes(lambda: page.value("document.querySelector('#lights [name=key]').click()"))
-        without = LIGHTS.replace('point_light "key"', 'point_light "other"')
-        self.changes(lambda: self.edit(without))
-        self.assertEqual(page.value(dark), "")
-        self.changes(lambda: self.choose("exposure", "1"))
-        self.changes(lambda: page.value("viewer.undo()"))
-        self.changes(lambda: self.edit(LIGHTS))
-        self.assertEqual(page.value(dark), "key")
-        self.changes(lambda: page.value("viewer.undo()"))
-        self.assertEqual(page.value(dark), "")
-        self.check_quiet()
-
-    def test_the_focus_stays_in_the_lights_where_the_file_changes(self):
-        self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("900,700")
-        page = self.page
-        page.value("document.getElementById('lights').open = true")
-        page.value("document.querySelector('#lights [aria-label=\"Change key\"]').click()")
-        key = "document.activeElement.dataset.key"
-        for i, place in enumerate(("summary", "on key", "change key", "key position 1", "key times", "All off", "blocks")):
-            page.value(f"[...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{place}').focus()")
-            self.edit(LIGHTS.replace("radius = 1;", f"radius = 0.{i + 2};"))
-            self.assertEqual(page.value(key), place)
-        # After the removal of a light the focus moves to the list.
-        page.value("document.querySelector('#lights [name=key]').focus()")
-        self.edit(LIGHTS.replace('point_light "key"', 'point_light "other"'))
-        self.assertEqual(page.value(key), "summary")
-        self.check_quiet()
-
-    def test_lights_are_moved_and_coloured_and_written_as_blocks(self):
-        self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("1300,900")
-        page = self.page
-        first = self.picture()
-        page.value("document.getElementById('lights').open = true")
-
-        def field(name):
-            return f"[...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{name}')"
-
-        def type_in(name, text):
-            page.value(f"{field(name)}.focus()")
-            page.value(f"{field(name)}.select()")
-            page.call("Input.insertText", text=text)
-
-        def button(text):
-            return f"[...document.querySelectorAll('button')].find(b => b.textContent === '{text}').click()"
-
-        summary = "document.querySelector('#lights summary').textContent"
-        page.value(f"{field('change key')}.click()")
-        # Typed values take effect at once; leaving a field unchanged does not.
-        self.changes(lambda: type_in("key position 0", "-3"))
-        moved = self.picture()
-        self.assertEqual(page.value(summary), "lights: all of 4 on, 1 changed")
-        self.changes(lambda: type_in("key color 2", "0.25"))
-        self.changes(lambda: type_in("key times", "2.5"))
-        for text in ("", "-1"):
-            type_in("key times", text)
-            self.assertEqual(page.value(f"{field('key times')}.getAttribute('aria-invalid')"), "true")
-        page.value("document.activeElement.blur()")
-        self.assertEqual(page.value(f"{field('key times')}.value + {field('key times')}.getAttribute('aria-invalid')"), "2.5null")
-        # A spot light is rotated; a light and a material are dimmed.
-        for name in ("spot light 1", "lamp", "ember"):
-            page.value(f"{field(f'change {name}')}.click()")
-        self.assertIsNone(page.value(f"{field('ember position 0')}?.value ?? null"))
-        self.changes(lambda: type_in("spot light 1 direction 0", "1"))
-        # The light is a disc: its surface is rebuilt at its new position.
-        self.changes(lambda: type_in("lamp position 0", "-1.5"))
-        self.changes(lambda: type_in("lamp direction 0", "1"))
-        self.changes(lambda: type_in("lamp radius", "0.75"))
-        for name, text in (("radius", "0"), ("inner radius", "0.75")):
-            type_in(f"lamp {name}", text)
-            self.assertEqual(page.value(f"{field(f'lamp {name}')}.getAttribute('aria-invalid')"), "true")
-        self.changes(lambda: type_in("lamp times", "0.5"))
-        self.changes(lambda: type_in("ember color 0", "0.2"))
-        changed = self.picture()
-        self.shoot("view_lights_changed")
-        # The blocks for the file.
-        page.value(button("Light blocks"))
-        page.wait("document.getElementById('light-blocks').value.includes('ember')")
-        blocks = page.value("document.getElementById('light-blocks').value")
-        for part in ('point_light "key"', "position = (-3, 5, 4)", "color = (2.5, 2.5, 0.625)", "spot_light",
-                     'disc_light "lamp" { center = (-1.5, 2.4, 0); normal = (1, -1, 0); radius = 0.75; ', "radiance = (1, 1, 0.5)",
-                     '// material "ember": emission = (0.2, 0.3, 0.05)'):
-            self.assertIn(part, blocks)
-        # Edits survive a change of the file and are undone step by step; a field counts once.
-        self.changes(lambda: self.edit(LIGHTS.replace("radius = 1;", "radius = 0.6;")))
-        self.changes(lambda: self.edit(LIGHTS))
-        self.assertEqual(self.picture(), changed)
-        for i in range(8):
-            self.changes(lambda: page.value("viewer.undo()"))
-        self.assertEqual(self.picture(), moved)
-        self.changes(lambda: page.value("viewer.undo()"))
-        self.assertEqual(self.picture(), first)
-        self.assertEqual(page.value(summary), "lights: all of 4 on")
-        self.assertEqual(page.value("viewer.controls.lights.changes().length"), 0)
-        # A light of another kind with as many sizes has those of the file.
-        self.changes(lambda: type_in("lamp radius", "0.75"))
-        disc = next(line for line in LIGHTS.split("\n") if line.startswith("disc_light"))
-        rectangle = ('rectangle_light "lamp" { corner = (0.8, 2.4, -0.6); edge_u = (1.5, 0, 0); edge_v = (0, 0, 1.25); '
-                     'radiance = (2, 2, 1) }')
-        self.changes(lambda: self.edit(LIGHTS.replace(disc, rectangle)))
-        lamp = "viewer.controls.lights.changes().find(c => c.name === 'lamp')"
-        self.assertIsNone(page.value(f"{lamp}.sizes ?? null"))
-        self.assertEqual([page.value(f"{field(f'lamp {name}')}.value") for name in ("width", "height")], ["1.5", "1.25"])
-        self.changes(lambda: self.edit(LIGHTS))
-        self.assertEqual(page.value(f"{field('lamp radius')}.value"), "0.75")
-        self.changes(lambda: page.value("viewer.undo()"))
-        # The file with the blocks gives the same picture.
-        kept = [line for line in LIGHTS.split("\n") if not line.startswith(("spot_light", "disc_light", "point_light"))]
-        self.changes(lambda: self.edit("\n".join(kept).replace("emission = (0.9, 0.3, 0.05)", "emission = (0.2, 0.3, 0.05)") + blocks))
-        self.assertEqual(self.picture(), changed)
-        # As in the file.
-        self.changes(lambda: type_in("key times", "0"))
-        self.changes(lambda: page.value(f"{field('reset key')}.click()"))
-        self.assertEqual(self.picture(), changed)
-        self.check_quiet()
-
     def test_refinement_goes_on_after_an_explanation_and_after_a_frame_that_was_ended(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
 
         def begin_long():
@@ -375,7 +139,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_it_waits_for_a_server_that_is_away_and_goes_on(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         shown = self.picture()
         # The open connection delivers nothing.
@@ -399,7 +163,7 @@ class ViewPage(unittest.TestCase):
         page.wait(MESSAGE + ".startsWith('The server was replaced') && " + MESSAGE + ".includes('no key')")
 
     def test_the_policy_allows_this_server_alone(self):
-        self.open("900,700")
+        self.open(900, 700)
         other = Server(ALHAZEN, self.scene)
         self.addCleanup(other.close)
         blocked = self.page.value("""(async () => {
@@ -419,7 +183,7 @@ class ViewPage(unittest.TestCase):
         self.server.close()
         self.scene.write_text(SCENE + many, encoding="utf-8")
         self.server = Server(ALHAZEN, self.scene)
-        self.page = page = BrowserSession(self.folder / "profile", "900,700")
+        self.page = page = self.browser.open(900, 700)
         stop = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Stop').click()"
         page.call("Page.navigate", url=self.server.url)
         page.wait("globalThis.viewer && document.getElementById('work')?.textContent.startsWith('reading scene.alhazen')")
@@ -439,7 +203,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_rays_that_are_not_those_of_the_picture_are_said_to_be(self):
-        self.open("900,700")
+        self.open(900, 700)
         page = self.page
         for renderer, said in (("whitted", None), ("path_tracing", "draws rays at random"), ("distributed", "at random"),
                                ("ray_casting", "by ray_casting; the tree of rays is that of whitted")):
@@ -468,7 +232,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_samples_of_the_pixel_are_shown_and_explained_one_by_one(self):
-        self.open("1300,1000")
+        self.open(1300, 1000)
         page = self.page
         radiance = "[...document.querySelectorAll('.samples tbody tr')].map(r => [1, 2, 3].map(i => Number(r.cells[i].textContent)))"
         # A pixel where the ball hides the floor.
@@ -493,7 +257,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_the_picture_is_saved(self):
-        self.open("900,700")
+        self.open(900, 700)
         self.page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
         self.page.value("[...document.querySelectorAll('button')].find(b => b.textContent === 'Save picture').click()")
         saved = self.folder / "view.png"
@@ -508,7 +272,7 @@ class ViewPage(unittest.TestCase):
         self.scene.write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith(("sphere", "plane"))) +
                               'rectangle { corner = (-4, 0, -4); edge_u = (0, 0, 8); edge_v = (8, 0, 0); material = "mirror" }\n',
                               encoding="utf-8")
-        self.open("1300,1000")
+        self.open(1300, 1000)
         page = self.page
         for renderer, place in (("cone_tracing", "#cones .cone"), ("beam_tracing", "#beams tbody tr")):
             self.choose("renderer", renderer)
@@ -526,7 +290,7 @@ class ViewPage(unittest.TestCase):
         self.check_quiet()
 
     def test_it_fits_a_phone_and_is_named_for_readers(self):
-        self.open("480,1000")
+        self.open(480, 1000)
         self.shoot("view_phone")
         self.page.value("document.getElementById('lights').open = true")
         self.shoot("view_phone_lights")
@@ -542,37 +306,8 @@ class ViewPage(unittest.TestCase):
         self.shoot("view_phone_tree")
         self.check_quiet()
 
-    def test_the_picture_stays_in_sight_of_a_phone_while_a_light_is_changed(self):
-        self.scene.write_text(LIGHTS, encoding="utf-8")
-        self.open("600,900")
-        page = self.page
-        # Portrait, with an on-screen keyboard, and landscape.
-        for width, height in ((390, 844), (390, 500), (844, 390)):
-            page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2, mobile=True)
-            page.value("scrollTo(0, 0)")
-            page.value("document.getElementById('lights').open = true")
-            for name in ("key", "lamp", "ember"):
-                change = f"document.querySelector('#lights [aria-label=\"Change {name}\"]')"
-                if page.value(f"{change}.ariaExpanded") == "false":
-                    page.value(f"{change}.click()")
-            self.assertLessEqual(page.value("document.documentElement.scrollWidth - innerWidth"), 0)
-            for name in ("key position 0", "lamp position 2", "lamp radius", "ember times", "reset ember"):
-                picture, field = page.value(f"""(() => {{
-                    const field = [...document.querySelectorAll('#lights [data-key]')].find(e => e.dataset.key === '{name}');
-                    if (field.disabled) field.scrollIntoView({{block: "nearest"}});
-                    else field.focus();
-                    return [viewer.image, field].map(e => (b => [b.top, b.bottom, b.height])(e.getBoundingClientRect()));
-                }})()""")
-                where = (width, height, name, picture, field)
-                self.assertGreaterEqual(picture[0], 0, where)
-                self.assertGreater(picture[2], 0.3 * height, where)
-                self.assertGreaterEqual(field[0], picture[1], where)
-                self.assertLessEqual(field[1], height, where)
-            self.shoot(f"view_phone_edit_{width}x{height}")
-        self.check_quiet()
-
     def test_without_its_key_the_page_shows_nothing(self):
-        self.page = BrowserSession(self.folder / "profile", "800,600")
+        self.page = self.browser.open(800, 600)
         self.page.call("Page.navigate", url=f"http://{self.server.host}/")
         self.page.wait(MESSAGE + ".includes('no key')")
         self.assertFalse(self.page.value("viewer.frames > 0"))
@@ -580,7 +315,4 @@ class ViewPage(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    program = unittest.main(argv=sys.argv[:1], exit=False)
-    if not program.result.wasSuccessful():
-        sys.exit(1)
-    sys.exit(77 if program.result.skipped else 0)
+    run_tests()

@@ -10,10 +10,9 @@ best of three; and what it chooses for times that are known. --measure tests not
 import os
 import pathlib
 import sys
-import tempfile
 import time
 
-from browser_session import BrowserSession, browser
+from browser_session import Browser, browser
 from view_server import Server
 
 # Factor of time limits, for example under a sanitizer.
@@ -87,8 +86,8 @@ class Visit:
     """A new server and its page."""
 
     def __init__(self, alhazen, scene):
-        self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-        self.page = BrowserSession(pathlib.Path(self.folder.name) / "profile", "1300,900")
+        self.browser = Browser()
+        self.page = self.browser.open(1300, 900)
         # Otherwise the test receives each picture in base64: two thirds of the browser's processor time.
         self.page.call("Network.disable")
         begin = time.monotonic()
@@ -103,12 +102,12 @@ class Visit:
 
     def __exit__(self, *_):
         self.page.close()
+        self.browser.close()
         self.server.close()
-        self.folder.cleanup()
 
     def move(self, seconds=SECONDS, fixed="null"):
         """Pictures a second, mean width, ms of rendering, and processor time of browser and server for a picture."""
-        roots = {"browser": self.page.process.pid, "server": self.server.process.pid}
+        roots = {"browser": self.browser.process.pid, "server": self.server.process.pid}
         before = {name: processor_ms(pid) for name, pid in roots.items()}
         got = self.page.value(f"{MOVE}({seconds}, {fixed})")
         return got | {name: (processor_ms(pid) - before[name]) / got["count"] for name, pid in roots.items()}

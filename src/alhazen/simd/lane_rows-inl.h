@@ -42,6 +42,33 @@ HWY_INLINE void transpose(Lanes<float, 4> (&rows)[4]) {
     }
     for (std::size_t i = 0; i < 4; ++i) rows[i] = load_lanes<4>(columns[i]);
 }
+#if HWY_CAP_GE512
+/// Transposes two 8 x 8 matrices, whose rows are the halves of the registers: row k becomes column
+/// k.
+HWY_INLINE void transpose_blocks(hn::Vec<hn::CappedTag<float, 16>> (&rows)[8]) {
+    const hn::CappedTag<float, 16> d;
+    const hn::CappedTag<double, 8> pairs;
+    using Part = hn::Vec<hn::CappedTag<float, 16>>;
+    Part quads[2][4];  // of the first four rows and the others: columns k and k + 4
+    HWY_UNROLL(2)
+    for (std::size_t h = 0; h < 2; ++h) {
+        const Part* const r = rows + 4 * h;
+        const auto l01 = hn::BitCast(pairs, hn::InterleaveLower(d, r[0], r[1]));
+        const auto l23 = hn::BitCast(pairs, hn::InterleaveLower(d, r[2], r[3]));
+        const auto u01 = hn::BitCast(pairs, hn::InterleaveUpper(d, r[0], r[1]));
+        const auto u23 = hn::BitCast(pairs, hn::InterleaveUpper(d, r[2], r[3]));
+        quads[h][0] = hn::BitCast(d, hn::InterleaveLower(pairs, l01, l23));
+        quads[h][1] = hn::BitCast(d, hn::InterleaveUpper(pairs, l01, l23));
+        quads[h][2] = hn::BitCast(d, hn::InterleaveLower(pairs, u01, u23));
+        quads[h][3] = hn::BitCast(d, hn::InterleaveUpper(pairs, u01, u23));
+    }
+    HWY_UNROLL(4)
+    for (std::size_t k = 0; k < 4; ++k) {
+        rows[k] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(quads[1][k]), quads[0][k]);
+        rows[4 + k] = hn::OddEvenBlocks(quads[1][k], hn::SwapAdjacentBlocks(quads[0][k]));
+    }
+}
+#endif
 /// The lanes of a, b, c and e in this order.
 template <std::size_t N = 16>
 HWY_INLINE Lanes<float, N> joined(const Lanes<float, N / 4>& a, const Lanes<float, N / 4>& b,

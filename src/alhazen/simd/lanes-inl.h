@@ -38,10 +38,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr std::size_t kLaneCount = 8;
 inline constexpr std::uint32_t kAllLanes = (1u << kLaneCount) - 1;
 
-/// The registers of a block. Those of double have at most four lanes: occasional 512-bit
-/// instructions lower the clock of many processors by a sixth.
+/// The registers of a block. Those of double have at most four lanes in blocks of eight: occasional
+/// 512-bit instructions lower the clock of many processors by a sixth. Blocks of 16 are for code
+/// that uses such registers for floats.
 template <class T, std::size_t N = kLaneCount>
-using LaneTag = hn::CappedTag<T, (sizeof(T) == 8 && N > 4) ? 4 : N>;
+using LaneTag = hn::CappedTag<T, (sizeof(T) == 8 && N > 4) ? (N > 8 ? 8 : 4) : N>;
 
 /// Number of registers in a block.
 template <class T, std::size_t N = kLaneCount>

@@ -231,6 +231,43 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
     }
 }
 
+TEST(CoherentBatch, EdgesOfAnUnevenMeshAreDecidedAsByTheList) {
+    // Rays from one point at edges and vertices whose coordinates round: which of the triangles
+    // around an edge is hit depends on the last bits.
+    constexpr int kCells = 12;
+    RandomEngine random(47);
+    std::vector<Vec3> grid;
+    for (int i = 0; i <= kCells; ++i) {
+        for (int k = 0; k <= kCells; ++k) {
+            grid.push_back(Vec3{i / 12.0 - 0.5, k / 12.0 - 0.5, 0} + uniform_point(random, 0.02));
+        }
+    }
+    TableBuilder builder;
+    std::vector<Vec3> targets;
+    for (int i = 0; i < kCells; ++i) {
+        for (int k = 0; k < kCells; ++k) {
+            const auto at = [&](int di, int dk) {
+                return grid[static_cast<std::size_t>((i + di) * (kCells + 1) + k + dk)];
+            };
+            const Vec3 a = at(0, 0), b = at(1, 0), c = at(0, 1), d = at(1, 1);
+            builder.add_triangle(a, b, c);
+            builder.add_triangle(c, b, d);
+            targets.push_back(a);
+            for (const Vec3& end : {b, c}) {
+                for (int n = 0; n < 3; ++n)
+                    targets.push_back(a + uniform(random, 0, 1) * (end - a));
+            }
+            for (int n = 0; n < 9; ++n) targets.push_back(b + uniform(random, 0, 1) * (c - b));
+        }
+    }
+    const PrimitiveTable table = builder.finish();
+    for (const Vec3& eye : {Vec3{0.13, 0.21, 1.1}, Vec3{-0.3, 0.1, 3.3}, Vec3{2.1, -1.7, 6.9}}) {
+        Rays rays;
+        for (const Vec3& target : targets) rays.push_back({eye, target - eye, 0, kInf});
+        compare("edges of an uneven mesh", table, rays);
+    }
+}
+
 TEST(CoherentBatch, CornersThatFloatHoldsAndOthersAreDecidedAsByTheList) {
     // Blocks hold corners exactly where they are on the grid; the others come from the mesh.
     const auto on_grid = [](const Vec3& p) {
@@ -294,6 +331,22 @@ TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
                 Rays rays = eye_rays(eye, look, 0.1, 16);
                 for (Ray& ray : rays) ray.t_min = -1;
                 compare("and from behind it", table, rays, false);
+            }
+        }
+    }
+}
+
+TEST(CoherentBatch, RaysBesideThoseFromOnePointAreTheirOwn) {
+    // All rays of a packet but one begin in the eye, that one beside it by a little or by much.
+    const Vec3 eye{0.1, 0.2, 3};
+    for (const auto& [name, table] : tables(1, 31)) {
+        for (const double aside : {1e-6, 1e-3, 0.3}) {
+            for (const std::size_t place : {0u, 5u, 13u}) {
+                Rays rays = eye_rays(eye, {0, 0, -1}, 0.7, 24);
+                for (std::size_t i = place; i < rays.size(); i += 16) {
+                    rays[i].origin += Vec3{aside, -0.5 * aside, 0.25 * aside};
+                }
+                compare("rays beside the eye at " + name, table, rays);
             }
         }
     }

@@ -84,50 +84,41 @@ HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, SphereCr
     return met.count == 0 ? Verdict::Missed : Verdict::Hit;
 }
 
-/// Eight rays, each with its own triangle, as rows of eight numbers; axes as in RayShear.
-struct PairRows {
-    const double* vertex[3][3];  ///< [corner][axis]
-    const double *origin[3], *direction[3], *t_min, *t_max;
+/// N rays in lanes, each with a triangle of its own. Axes as in RayShear.
+template <std::size_t N>
+struct PairLanes {
+    using Reals = Lanes<double, N>;
+    Reals vertex[3][3];  ///< [corner][axis]
+    Reals origin[3], direction[3], t_min, t_max;
 };
-/// The corners of eight triangles: [corner][axis].
-using PairCorners = Doubles[3][3];
 
 /// The results of the test in double for them.
+template <std::size_t N>
 struct PairVerdicts {
     std::uint32_t hit, unsure;
-    alignas(64) double t[kLaneCount], u[kLaneCount], v[kLaneCount];
+    alignas(64) double t[N], u[N], v[N];
 
-    HWY_NOINLINE HWY_FLATTEN void test(const PairRows& rows) {
-        PairCorners corners;
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) corners[i][k] = load_lanes(rows.vertex[i][k]);
-        }
-        test(rows, corners);
-    }
-    /// With corners other than those of the rows.
-    HWY_INLINE void test(const PairRows& rows, const PairCorners& corners) {
-        using D = Doubles;
-        const D dz = load_lanes(rows.direction[2]);
-        const D sx = load_lanes(rows.direction[0]) / dz, sy = load_lanes(rows.direction[1]) / dz;
+    HWY_INLINE void test(const PairLanes<N>& pairs) {
+        using D = typename PairLanes<N>::Reals;
+        const D dz = pairs.direction[2];
+        const D sx = pairs.direction[0] / dz, sy = pairs.direction[1] / dz;
         const D sz = D(1.0) / dz;
         exact::ShearedVertex<D> p[3];
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
-            p[i] = exact::sheared(corners[i][0], corners[i][1], corners[i][2],
-                                  load_lanes(rows.origin[0]), load_lanes(rows.origin[1]),
-                                  load_lanes(rows.origin[2]), sx, sy);
+            p[i] = exact::sheared(pairs.vertex[i][0], pairs.vertex[i][1], pairs.vertex[i][2],
+                                  pairs.origin[0], pairs.origin[1], pairs.origin[2], sx, sy);
         }
         const exact::TriangleEdges<D> edges(p[0], p[1], p[2]);
         const std::uint32_t missed = bits_of(edges.missed());
         const std::uint32_t plain = bits_of(edges.nonzero() & edges.well_conditioned());
         const auto s = exact::solve_triangle(edges.u, edges.v, edges.w, p[0].z, p[1].z, p[2].z, sz);
-        const std::uint32_t covered =
-            bits_of((load_lanes(rows.t_min) <= s.t) & (s.t <= load_lanes(rows.t_max)));
+        const std::uint32_t covered = bits_of((pairs.t_min <= s.t) & (s.t <= pairs.t_max));
         store_lanes(s.t, t);
         store_lanes(s.u, u);
         store_lanes(s.v, v);
         hit = plain & covered & ~missed;
-        unsure = ~plain & ~missed & kAllLanes;
+        unsure = ~plain & ~missed & ((1u << N) - 1);
     }
 
     /// Calls `accept(lane, hit)` for the lanes of `used` that hit until it returns true; returns
@@ -169,15 +160,22 @@ struct TrianglePairs {
     /// Tests the lanes of `used`: see PairVerdicts::take.
     template <class Scalar, class Accept>
     HWY_INLINE bool resolve(std::uint32_t used, Scalar&& scalar, Accept&& accept) {
-        PairVerdicts verdicts;
-        verdicts.test({{{vertex[0][0], vertex[0][1], vertex[0][2]},
-                        {vertex[1][0], vertex[1][1], vertex[1][2]},
-                        {vertex[2][0], vertex[2][1], vertex[2][2]}},
-                       {origin[0], origin[1], origin[2]},
-                       {direction[0], direction[1], direction[2]},
-                       t_min,
-                       t_max});
+        PairVerdicts<kLaneCount> verdicts;
+        test(verdicts);
         return verdicts.take(used, kAllLanes, scalar, accept);
+    }
+
+  private:
+    HWY_NOINLINE HWY_FLATTEN void test(PairVerdicts<kLaneCount>& verdicts) const {
+        PairLanes<kLaneCount> pairs;
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t i = 0; i < 3; ++i) pairs.vertex[i][k] = load_lanes(vertex[i][k]);
+            pairs.origin[k] = load_lanes(origin[k]);
+            pairs.direction[k] = load_lanes(direction[k]);
+        }
+        pairs.t_min = load_lanes(t_min);
+        pairs.t_max = load_lanes(t_max);
+        verdicts.test(pairs);
     }
 };
 

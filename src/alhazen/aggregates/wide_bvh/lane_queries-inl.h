@@ -22,6 +22,7 @@
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_pinhole-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
@@ -41,11 +42,11 @@ class LaneCandidates {
     /// Adds a triangle for the rays of `candidates`; a kept one beyond the s_max of its ray is
     /// replaced. False when the list is full: then nothing is done.
     [[nodiscard]] HWY_INLINE bool add(TrianglePlace place, std::uint32_t candidates,
-                                      const PacketFloats& begin, const PacketRow& s_max) {
+                                      const PacketFloats& begin, const PacketFloats& s_max) {
         const PacketFloats lo = load_row(lo_), none(kNone);
         // A NaN goes to the list, where it is never replaced.
         const PacketMask keep = lanes_of_bits<float, kPacketLanes>(candidates) & (begin < none) &
-                                ((lo > load_row(s_max)) | (lo >= none));
+                                ((lo > s_max) | (lo >= none));
         const std::uint32_t rest = candidates & ~bits_of(keep);
         if (HWY_UNLIKELY(rest != 0)) {
             if (overflow_count_ == kMaxOverflow) return false;
@@ -145,8 +146,19 @@ class LaneLeaves {
     template <class Stats>
     HWY_INLINE bool visit_triangles(std::uint32_t number, std::uint32_t& lanes, Stats stats) {
         const TriangleBlock& block = scene_.layout->triangles[number];
-        bool changed = false;
-        std::uint32_t met = meet_triangles(block, packet_);
+        if constexpr (Derived::kOrdered) {
+            if (packet_.pinhole.used) {
+                const PinholeTriangles seen(block, packet_);
+                return visit_met(number, seen.met, seen, lanes, stats);
+            }
+        }
+        return visit_met(number, meet_triangles(block, packet_), block, lanes, stats);
+    }
+    /// Those of `met`, bits of the block; `Triangles` is what `filter_lanes` takes.
+    template <class Triangles, class Stats>
+    HWY_INLINE bool visit_met(std::uint32_t number, std::uint32_t met, const Triangles& triangles,
+                              std::uint32_t& lanes, Stats stats) {
+        const TriangleBlock& block = scene_.layout->triangles[number];
         if constexpr (Derived::kOrdered) {
             // Each against eight triangles takes less than each triangle against all rays.
             if (std::popcount(lanes) < std::popcount(met)) {
@@ -158,13 +170,14 @@ class LaneLeaves {
                 return true;
             }
         }
+        bool changed = false;
         for (; met != 0; met &= met - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(met));
             if (!block.ids[lane].used()) break;
             if (!scene_.sees(block.ids[lane].id())) continue;
             stats.primitives(static_cast<std::uint64_t>(std::popcount(lanes)));
             FilteredLanes found;
-            if (!filter_lanes(block, lane, packet_, lanes, found)) continue;
+            if (!filter_lanes(triangles, lane, packet_, lanes, found)) continue;
             lanes &= ~derived().found(static_cast<TrianglePlace>(number * kBlockWidth + lane),
                                       found, stats);
             changed = true;
@@ -213,11 +226,14 @@ class LaneLeaves {
     template <class Hits, class Stats>
     HWY_INLINE void resolve(std::uint32_t lanes, const TrianglePlace* places, Hits&& hits,
                             Stats stats) {
-        for (std::size_t group = 0; group < kLaneGroups; ++group) {
-            const std::uint32_t here = lanes >> (group * kRayLanes) & kAllLanes;
+        constexpr std::size_t kTogether = PacketResolution<LanePacket>::kRays;
+        for (std::size_t n = 0; n < kPacketLanes / kTogether; ++n) {
+            const std::uint32_t here = lanes >> (n * kTogether) & ((1u << kTogether) - 1);
             if (here == 0) continue;
-            packet_.lay_out(group, rays_);
-            resolution_.resolve(group, here, places + group * kRayLanes, hits, stats);
+            for (std::size_t g = 0; g < LanePacket::kResolvedGroups; ++g) {
+                packet_.lay_out(n * LanePacket::kResolvedGroups + g, rays_);
+            }
+            resolution_.resolve(n, here, places + n * kTogether, hits, stats);
         }
     }
 
@@ -253,9 +269,10 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     template <class Stats>
     HWY_INLINE std::uint32_t found(TrianglePlace place, const FilteredLanes& found, Stats stats) {
         const PacketMask sure = lanes_of_bits<float, kPacketLanes>(found.sure);
-        const PacketFloats s_max = load_row(packet_.s_max);
-        store_lanes(select_lanes(sure, min_lanes(found.hi, s_max), s_max), packet_.s_max);
-        add(place, found.candidates, found.lo, stats);
+        const PacketFloats before = load_row(packet_.s_max);
+        const PacketFloats s_max = select_lanes(sure, min_lanes(found.hi, before), before);
+        store_lanes(s_max, packet_.s_max);
+        add(place, found.candidates, found.lo, s_max, stats);
         return 0;
     }
     template <class Stats>
@@ -271,7 +288,7 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
                 limit(i, s_max = found.hi[lane]);
             }
             add(static_cast<TrianglePlace>(number * kBlockWidth + lane), 1u << i,
-                PacketFloats(found.lo[lane]), stats);
+                PacketFloats(found.lo[lane]), load_row(packet_.s_max), stats);
         }
         return false;
     }
@@ -336,8 +353,8 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
     template <class Stats>
     HWY_INLINE void add(TrianglePlace place, std::uint32_t candidates, const PacketFloats& begin,
-                        Stats stats) {
-        while (HWY_UNLIKELY(!candidates_.add(place, candidates, begin, packet_.s_max))) {
+                        const PacketFloats& s_max, Stats stats) {
+        while (HWY_UNLIKELY(!candidates_.add(place, candidates, begin, s_max))) {
             candidates_.take_overflow(packet_.s_max,
                                       [&](std::uint32_t lanes, const TrianglePlace* places)
                                           HWY_ATTR { decide(lanes, places, stats); });

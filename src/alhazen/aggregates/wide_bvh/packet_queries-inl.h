@@ -184,7 +184,7 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
         const GroupFloats s_max = load_lanes<kGroupRays>(group.s_max);
         store_lanes(select_lanes(found.sure, min_lanes(found.hi, s_max), s_max), group.s_max);
         while (HWY_UNLIKELY(!candidates_.add(g, place, found.candidates, found.lo))) {
-            candidates_.take_beside(
+            candidates_.take_overflow(
                 [&](std::size_t group_number, std::uint32_t lanes, const TrianglePlace* places)
                     HWY_ATTR { resolve(group_number, lanes, places, stats); });
         }

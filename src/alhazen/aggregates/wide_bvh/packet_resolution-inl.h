@@ -24,55 +24,75 @@ namespace HWY_NAMESPACE {
 /// Position of a triangle in the leaves: 8 times the number of its block, plus the lane.
 using TrianglePlace = std::uint32_t;
 
-/// `Packet` has rays in groups of eight, and the axes of its rays as in RayShear.
+/// `Packet` has rays in groups of eight, `kResolvedGroups` of which are resolved together, and the
+/// axes of its rays as in RayShear.
 template <class Packet>
 class PacketResolution {
   public:
+    static constexpr std::size_t kRays = Packet::kResolvedGroups * kGroupRays;  ///< together
+
     HWY_INLINE PacketResolution(const WideBvhScene& scene, const Packet& packet,
                                 std::span<const Ray> rays)
         : scene_(scene), packet_(packet), rays_(rays) {}
 
-    /// Tests rays of group `g`, each with the triangle at `places[lane]`; calls `hits(ray, id,
-    /// shape_hit)` for those that hit.
+    /// Tests rays of the `n`-th kRays, each with the triangle at `places[lane]`; calls `hits(ray,
+    /// id, shape_hit)` for those that hit.
     template <class Hits, class Stats>
-    HWY_NOINLINE HWY_FLATTEN void resolve(std::size_t g, std::uint32_t lanes,
+    HWY_NOINLINE HWY_FLATTEN void resolve(std::size_t n, std::uint32_t lanes,
                                           const TrianglePlace* places, Hits&& hits, Stats stats) {
-        PairCorners corners;
-        if (HWY_UNLIKELY(!take_corners_of_blocks(lanes, places, corners))) {
-            take_corners(lanes, places, corners);
+        PairLanes<kRays> pairs;
+        if (HWY_UNLIKELY(!take_corners_of_blocks(lanes, places, pairs.vertex))) {
+            take_corners(lanes, places, pairs.vertex);
         }
-        const RayLanes& rays = packet_.rays[g];
-        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        PairRows rows{};
-        HWY_UNROLL(3)
-        for (std::size_t k = 0; k < 3; ++k) {
-            rows.origin[k] = rays.origin[axes[k]];
-            rows.direction[k] = rays.direction[axes[k]];
-        }
-        rows.t_min = rays.t_min;
-        rows.t_max = rays.t_max;
-        const Doubles z = abs(load_lanes(rows.direction[2]));
-        const std::uint32_t set_up = bits_of((z > abs(load_lanes(rows.direction[0]))) &
-                                             (z > abs(load_lanes(rows.direction[1]))));
-        PairVerdicts verdicts;
-        verdicts.test(rows, corners);
+        take_rays(&packet_.rays[n * Packet::kResolvedGroups], pairs);
+        const Reals z = abs(pairs.direction[2]);
+        const std::uint32_t set_up =
+            bits_of((z > abs(pairs.direction[0])) & (z > abs(pairs.direction[1])));
+        PairVerdicts<kRays> verdicts;
+        verdicts.test(pairs);
         const std::uint32_t alone = (verdicts.unsure | ~set_up) & lanes;
         for (std::uint32_t rest = verdicts.hit & lanes & ~alone; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             stats.primitive_hits(1);
-            hits(g * kGroupRays + lane, id(places[lane]).id(),
+            hits(n * kRays + lane, id(places[lane]).id(),
                  ShapeHit{verdicts.t[lane], verdicts.u[lane], verdicts.v[lane], 0});
         }
         for (std::uint32_t rest = alone; HWY_UNLIKELY(rest != 0); rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             ShapeHit hit;
-            if (!resolve_scalar(g * kGroupRays + lane, places[lane], hit)) continue;
+            if (!resolve_scalar(n * kRays + lane, places[lane], hit)) continue;
             stats.primitive_hits(1);
-            hits(g * kGroupRays + lane, id(places[lane]).id(), hit);
+            hits(n * kRays + lane, id(places[lane]).id(), hit);
         }
     }
 
   private:
+    using Reals = Lanes<double, kRays>;
+    using Corners = Reals[3][3];
+
+    HWY_INLINE void take_rays(const RayLanes* groups, PairLanes<kRays>& pairs) const {
+        const auto row = [&](const auto& of) HWY_ATTR {
+            const LaneTag<double, kRays> d;
+            constexpr std::size_t kEach = kParts<double, kRays> / Packet::kResolvedGroups;
+            Reals r;
+            for (std::size_t g = 0; g < Packet::kResolvedGroups; ++g) {
+                const double* lanes = of(groups[g]);
+                for (std::size_t i = 0; i < kEach; ++i) {
+                    r.part[g * kEach + i] = hn::Load(d, lanes + i * hn::Lanes(d));
+                }
+            }
+            return r;
+        };
+        const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t axis = axes[k];
+            pairs.origin[k] = row([axis](const RayLanes& g) { return g.origin[axis]; });
+            pairs.direction[k] = row([axis](const RayLanes& g) { return g.direction[axis]; });
+        }
+        pairs.t_min = row([](const RayLanes& g) { return g.t_min; });
+        pairs.t_max = row([](const RayLanes& g) { return g.t_max; });
+    }
     [[nodiscard]] HWY_INLINE BlockId id(TrianglePlace place) const {
         return scene_.layout->triangles[place / kBlockWidth].ids[place % kBlockWidth];
     }
@@ -81,9 +101,9 @@ class PacketResolution {
     }
 
     static HWY_INLINE std::uint32_t lanes_with(const TrianglePlace* places, TrianglePlace place) {
-        const LaneTag<TrianglePlace> d;
-        LaneMask<TrianglePlace> same;
-        for (std::size_t i = 0; i < kParts<TrianglePlace>; ++i) {
+        const LaneTag<TrianglePlace, kRays> d;
+        LaneMask<TrianglePlace, kRays> same;
+        for (std::size_t i = 0; i < kParts<TrianglePlace, kRays>; ++i) {
             same.part[i] = hn::Eq(hn::LoadU(d, places + i * hn::Lanes(d)), hn::Set(d, place));
         }
         return bits_of(same);
@@ -94,7 +114,7 @@ class PacketResolution {
     template <class Take>
     static HWY_INLINE bool for_each_place(std::uint32_t lanes, const TrianglePlace* places,
                                           Take&& take) {
-        std::uint32_t others = kAllLanes & ~lanes;
+        std::uint32_t others = ((1u << kRays) - 1) & ~lanes;
         for (std::uint32_t rest = lanes; rest != 0;) {
             const TrianglePlace place = places[std::countr_zero(rest)];
             const std::uint32_t same = rest & lanes_with(places, place);
@@ -107,21 +127,22 @@ class PacketResolution {
     /// The corners of blocks that float holds exactly, as LocalFrame::world; false if one is not
     /// exact.
     HWY_INLINE bool take_corners_of_blocks(std::uint32_t lanes, const TrianglePlace* places,
-                                           PairCorners& corners) const {
+                                           Corners& corners) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        Floats local[3][3] = {};
+        using F = Lanes<float, kRays>;
+        F local[3][3] = {};
         const bool taken =
             for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
                 const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
                 const std::size_t lane = place % kBlockWidth;
                 if (!block.ids[lane].exact()) return false;
-                const auto mask = lanes_of_bits<float>(same);
+                const auto mask = lanes_of_bits<float, kRays>(same);
                 HWY_UNROLL(3)
                 for (std::size_t i = 0; i < 3; ++i) {
                     HWY_UNROLL(3)
                     for (std::size_t k = 0; k < 3; ++k) {
                         local[i][k] =
-                            select_lanes(mask, Floats(block.vertex[i][axes[k]][lane]), local[i][k]);
+                            select_lanes(mask, F(block.vertex[i][axes[k]][lane]), local[i][k]);
                     }
                 }
                 return true;
@@ -130,17 +151,17 @@ class PacketResolution {
         const LocalFrame& frame = scene_.layout->frame;
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
-            const Doubles center((&frame.center.x)[axes[k]]);
+            const Reals center((&frame.center.x)[axes[k]]);
             HWY_UNROLL(3)
             for (std::size_t i = 0; i < 3; ++i) {
-                corners[i][k] = Doubles(frame.inverse_scale) * as_doubles(local[i][k]) + center;
+                corners[i][k] = Reals(frame.inverse_scale) * as_doubles(local[i][k]) + center;
             }
         }
         return true;
     }
     /// Corners from the mesh where the block holds rounded ones.
     HWY_INLINE void take_corners(std::uint32_t lanes, const TrianglePlace* places,
-                                 PairCorners& corners) const {
+                                 Corners& corners) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
         (void)for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
             Vec3 exact[3];
@@ -153,13 +174,13 @@ class PacketResolution {
             } else {
                 from = scene_.table->corner_positions(triangle(place));
             }
-            const auto mask = lanes_of_bits<double>(same);
+            const auto mask = lanes_of_bits<double, kRays>(same);
             HWY_UNROLL(3)
             for (std::size_t i = 0; i < 3; ++i) {
                 HWY_UNROLL(3)
                 for (std::size_t k = 0; k < 3; ++k) {
                     corners[i][k] =
-                        select_lanes(mask, Doubles((&from[i]->x)[axes[k]]), corners[i][k]);
+                        select_lanes(mask, Reals((&from[i]->x)[axes[k]]), corners[i][k]);
                 }
             }
             return true;

@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -60,19 +61,22 @@ HWY_INLINE float most_of(const PacketFloats& a) {
     return -least_of(-a);
 }
 
-/// What brings rays into the local frame, made once for many packets: a ray is two rows of four
+/// What brings rays into the local frame, made once for many packets: a ray is a row of eight
 /// numbers. What is not scaled keeps its bits.
 struct LaneFrame {
     const LocalFrame& frame;
-    alignas(64) double from[4], by[2][4];
+    alignas(64) double from[8], by[8];
 
     explicit LaneFrame(const LocalFrame& f)
         : frame(f),
-          from{f.center.x, f.center.y, f.center.z, 0.0},
-          by{{f.scale, f.scale, f.scale, 1.0}, {1.0, 1.0, f.scale, f.scale}} {}
+          from{f.center.x, f.center.y, f.center.z, 0.0, 0.0, 0.0, 0.0, 0.0},
+          by{f.scale, f.scale, f.scale, 1.0, 1.0, 1.0, f.scale, f.scale} {}
 };
 
 struct alignas(64) LanePacket {
+    /// Groups of eight that are resolved together: two registers of double with AVX-512.
+    static constexpr std::size_t kResolvedGroups = kPacketLanes == 32 ? 2 : 1;
+
     PacketRow origin[3], direction[3];                                     ///< in the local frame
     PacketRow reciprocal[3], near_offset[3], far_offset[3], s_min, s_max;  ///< as in SlabRay
     PacketRow sure_min, sure_max;                  ///< as in TriangleFilterRay
@@ -82,6 +86,17 @@ struct alignas(64) LanePacket {
     std::size_t near_row[3];                       ///< of the set: of WideNodeOf::planes
     float near_error, edge_slack, edge_slack_min;  ///< as in TriangleFilterRay, of any ray
     float place_error;  ///< TriangleFilterRay::s_slack of a reciprocal of 1
+
+    /// Rays of a set that begin in one point. Axes and slopes as in TriangleFilterRay.
+    struct alignas(64) Pinhole {
+        PacketRow aside[2];  ///< slopes beside the middle one
+        bool used;           ///< else nothing more is set
+        float origin[3];
+        float middle[2], wide[2];  ///< a slope is the middle one and up to `wide` more or less
+        float least_step;          ///< the least reciprocal along the main axis, its magnitude
+        float most_off;            ///< what a sheared coordinate is off at most
+    };
+    Pinhole pinhole;
 
     /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes.
     [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, std::span<const Ray> given,
@@ -99,6 +114,8 @@ struct alignas(64) LanePacket {
         set_s_max_ = most_of(select_lanes(lanes_of_bits<float, kPacketLanes>(set_), load_row(s_max),
                                           PacketFloats(-std::numeric_limits<float>::infinity())));
     }
+    /// The largest s_max of the set.
+    [[nodiscard]] HWY_INLINE float deepest() const { return set_s_max_; }
     /// Bits of eight boxes [lower x, y, z, upper x, y, z][box] that the frustum meets, and where.
     HWY_INLINE std::uint32_t meet_boxes(const float (&planes)[6][kLaneCount], Floats& entry) const {
         Floats near[3], far[3];
@@ -134,6 +151,7 @@ struct alignas(64) LanePacket {
                                        std::span<const Ray, kLoadedRays> given, std::size_t at);
     void take_group(std::size_t group, std::span<const Ray> given);
     void make_frustum(std::uint32_t set, std::size_t first);
+    HWY_INLINE void make_pinhole(const PacketMask& in_set, std::size_t first);
 
     std::uint32_t set_ = 0;
     float slack_ = 0;  ///< of a box, in space
@@ -174,16 +192,31 @@ struct LaneSlabs {
     }
 };
 
-/// Fills sixteen lanes of the rows of origins, directions and ends; bits of the rays that can be
-/// traced.
-HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
-                                               std::span<const Ray, kLoadedRays> given,
-                                               std::size_t at) {
-    using F = Lanes<float, kLoadedRays>;
-    static_assert(offsetof(Ray, direction) == 3 * sizeof(double) &&
+/// The numbers of sixteen rays in the local frame, in lanes: origins, directions and ends.
+HWY_INLINE void load_local(const LaneFrame& frame, std::span<const Ray, 16> given,
+                           Lanes<float, 16> (&rows)[8]) {
+    static_assert(sizeof(Ray) == 8 * sizeof(double) &&
+                  offsetof(Ray, direction) == 3 * sizeof(double) &&
                   offsetof(Ray, t_min) == 6 * sizeof(double));
-    const auto from = load_lanes<4>(lane_frame.from);
-    const auto by0 = load_lanes<4>(lane_frame.by[0]), by1 = load_lanes<4>(lane_frame.by[1]);
+#if HWY_CAP_GE512
+    const hn::CappedTag<double, 8> d;
+    const hn::CappedTag<float, 8> half;
+    const hn::CappedTag<float, 16> whole;
+    const auto from = hn::Load(d, frame.from), by = hn::Load(d, frame.by);
+    const auto local = [&](const Ray& ray) HWY_ATTR {
+        return hn::DemoteTo(half, hn::Mul(hn::Sub(hn::Load(d, &ray.origin.x), from), by));
+    };
+    hn::Vec<hn::CappedTag<float, 16>> pairs[8];
+    HWY_UNROLL(8)
+    for (std::size_t i = 0; i < 8; ++i) {
+        pairs[i] = hn::Combine(whole, local(given[i + 8]), local(given[i]));
+    }
+    transpose_blocks(pairs);
+    HWY_UNROLL(8)
+    for (std::size_t k = 0; k < 8; ++k) rows[k].part[0] = pairs[k];
+#else
+    const auto from = load_lanes<4>(frame.from);
+    const auto by0 = load_lanes<4>(frame.by), by1 = load_lanes<4>(frame.by + 4);
     // Origin and x of the direction; the rest of the direction and the ends.
     Lanes<float, 4> first[4][4], second[4][4];
     HWY_UNROLL(4)
@@ -197,12 +230,24 @@ HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
         transpose(first[g]);
         transpose(second[g]);
     }
-    const auto row = [](const Lanes<float, 4>(&rows)[4][4], std::size_t k) HWY_ATTR {
-        return joined<kLoadedRays>(rows[0][k], rows[1][k], rows[2][k], rows[3][k]);
-    };
-    const F o[3] = {row(first, 0), row(first, 1), row(first, 2)};
-    const F d[3] = {row(first, 3), row(second, 0), row(second, 1)};
-    const F t_min = row(second, 2), t_max = row(second, 3);
+    HWY_UNROLL(4)
+    for (std::size_t k = 0; k < 4; ++k) {
+        rows[k] = joined<16>(first[0][k], first[1][k], first[2][k], first[3][k]);
+        rows[4 + k] = joined<16>(second[0][k], second[1][k], second[2][k], second[3][k]);
+    }
+#endif
+}
+
+/// Fills sixteen lanes of the rows of origins, directions and ends; bits of the rays that can be
+/// traced.
+HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
+                                               std::span<const Ray, kLoadedRays> given,
+                                               std::size_t at) {
+    using F = Lanes<float, kLoadedRays>;
+    F rows[8];
+    load_local(lane_frame, given, rows);
+    const F o[3] = {rows[0], rows[1], rows[2]}, d[3] = {rows[3], rows[4], rows[5]};
+    const F t_min = rows[6], t_max = rows[7];
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {
         store_lanes(o[k], origin[k] + at);
@@ -332,6 +377,32 @@ inline void LanePacket::make_frustum(std::uint32_t set, std::size_t first) {
     const PacketFloats sz = load_row(reciprocal[kz]);
     store_lanes(load_row(direction[kx]) * sz, slope[0]);
     store_lanes(load_row(direction[ky]) * sz, slope[1]);
+    pinhole.used = (bits_of(o.least >= o.most) & 7) == 7;
+    if (pinhole.used) make_pinhole(in_set, first);
+}
+
+HWY_INLINE void LanePacket::make_pinhole(const PacketMask& in_set, std::size_t first) {
+    const PacketFloats x = load_row(slope[0]), y = load_row(slope[1]);
+    const PacketFloats own_x = select_lanes(in_set, x, PacketFloats(slope[0][first]));
+    const PacketFloats own_y = select_lanes(in_set, y, PacketFloats(slope[1][first]));
+    const PacketFloats rows[4] = {own_x, own_y, own_x, own_y};
+    const LaneExtremes<kPacketLanes> s(rows);
+    HWY_ALIGN float least[4], most[4];
+    store_lanes(s.least, least);
+    store_lanes(s.most, most);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const float middle = 0.5f * (least[k] + most[k]);
+        pinhole.middle[k] = middle;
+        // Rounding keeps the order of the differences.
+        pinhole.wide[k] = std::max(middle - least[k], most[k] - middle);
+    }
+    store_lanes(x - PacketFloats(pinhole.middle[0]), pinhole.aside[0]);
+    store_lanes(y - PacketFloats(pinhole.middle[1]), pinhole.aside[1]);
+    pinhole.origin[0] = origin[kx][first];
+    pinhole.origin[1] = origin[ky][first];
+    pinhole.origin[2] = origin[kz][first];
+    pinhole.least_step = std::abs(set_near_[kz]);
+    pinhole.most_off = 1.1f / 5.12f * edge_slack;
 }
 
 }  // namespace HWY_NAMESPACE

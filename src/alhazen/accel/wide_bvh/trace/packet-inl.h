@@ -42,6 +42,8 @@ namespace HWY_NAMESPACE {
 /// The rays of a packet and the frustum around them. Constructed by make_packet-inl.h.
 class RayPacket {
   public:
+    static constexpr std::size_t kResolvedGroups = 1;  ///< together
+
     RayGroup groups[kPacketGroups];
     RayLanes rays[kPacketGroups];  ///< unmodified, except t_max
     std::size_t group_count = 0;

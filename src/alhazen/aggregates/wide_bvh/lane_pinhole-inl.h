@@ -1,0 +1,178 @@
+/// The filter of triangles for rays in lanes that begin in one point, as eye rays of a pinhole
+/// camera do: eight triangles of a block are made ready at once, and culled against all rays.
+///
+/// Source: packet_filter-inl.h (edge functions linear in the slopes, and their bound), with E of
+/// triangle_filter.h as it is near the triangle; Boulos, Wald and Shirley, "Geometric and
+/// Arithmetic Culling Methods for Entire Ray Packets", UUCS-06-010, 2006 (the interval of an edge
+/// function over the slopes of a packet).
+/// The slopes of the rays are the middle one and (a, b) more, |a| <= w_x, |b| <= w_y. With the
+/// corners from the origin of the rays at (x, y, z), sheared along the middle slope:
+/// - along (a, b) a corner is at x - a z, off by E' <= 1.1 (2.2 e R + 7.3 e (L + Z) + 4 delta), L
+///   the largest |x|, |y| and w |z| more: one rounding more than in triangle_filter.h, e w Z. If
+///   all are above E' or below -E' for all slopes, no ray hits.
+/// - an edge function is c_0 + a c_1 + b c_2; 10 e L^2 for its rounding are less than 1.3 E' L, so
+///   5.6 E' L + 2.2 E'^2 hold. Its interval over the slopes is c_0 -+ (w_x |c_1| + w_y |c_2|),
+///   which rounds no more; that of the sum of the three is off by less than four times as much. If
+///   an edge function is negative for all rays and the sum positive, or the other way round, signs
+///   are mixed and no ray hits.
+/// - a hit is within 1.6 E' of the depths of the corners.
+/// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes and is never sure.
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_PINHOLE_INL_H_
+#endif
+
+#include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The triangles of a block as the rays of a set see them.
+struct PinholeTriangles {
+    /// [1 2, 2 0, 0 1][constant, times a, times b][lane]
+    HWY_ALIGN float edge[3][3][kBlockWidth];
+    HWY_ALIGN float error[kBlockWidth];                     ///< of an edge function
+    HWY_ALIGN float z[3][kBlockWidth];                      ///< of the corners from the origin
+    HWY_ALIGN float first[kBlockWidth], last[kBlockWidth];  ///< of z
+    HWY_ALIGN float spread[kBlockWidth];  ///< by how much the weights' errors move a place, times
+                                          ///< their sum
+    HWY_ALIGN float place_error[kBlockWidth];  ///< beside that
+    std::uint32_t met;                         ///< bits of those that rays may hit
+
+    HWY_INLINE PinholeTriangles(const TriangleBlock& block, const LanePacket& packet) {
+        const LanePacket::Pinhole& pinhole = packet.pinhole;
+        const std::size_t axes[3] = {packet.kx, packet.ky, packet.kz};
+        const Floats wide[2] = {Floats(pinhole.wide[0]), Floats(pinhole.wide[1])};
+        Floats p[3][3];  // [corner][x, y, z]
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i][2] = load_lanes(block.vertex[i][axes[2]]) - Floats(pinhole.origin[2]);
+            store_lanes(p[i][2], z[i]);
+            HWY_UNROLL(2)
+            for (std::size_t k = 0; k < 2; ++k) {
+                p[i][k] =
+                    neg_mul_add(Floats(pinhole.middle[k]), p[i][2],
+                                load_lanes(block.vertex[i][axes[k]]) - Floats(pinhole.origin[k]));
+            }
+        }
+        const auto least = [](const Floats& a, const Floats& b, const Floats& c)
+                               HWY_ATTR { return min_lanes(min_lanes(a, b), c); };
+        const auto most = [](const Floats& a, const Floats& b, const Floats& c)
+                              HWY_ATTR { return max_lanes(max_lanes(a, b), c); };
+        const Floats lowest = least(p[0][2], p[1][2], p[2][2]);
+        const Floats highest = most(p[0][2], p[1][2], p[2][2]);
+        const Floats deep = max_lanes(highest, -lowest);
+        Floats across(0.0f), off;
+        LaneMask<float> missed;
+        {
+            Floats left[2], right[2];
+            HWY_UNROLL(2)
+            for (std::size_t k = 0; k < 2; ++k) {
+                Floats lo[3], hi[3];
+                HWY_UNROLL(3)
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const Floats room = wide[k] * abs(p[i][2]);
+                    lo[i] = p[i][k] - room;
+                    hi[i] = p[i][k] + room;
+                }
+                left[k] = least(lo[0], lo[1], lo[2]);
+                right[k] = most(hi[0], hi[1], hi[2]);
+                across = max_lanes(across, max_lanes(right[k], -left[k]));
+            }
+            off = Floats(1.1f) *
+                  mul_add(across + deep, Floats(7.3f * 0x1p-24f), Floats(packet.near_error));
+            const Floats most_off(pinhole.most_off);
+            missed = (max_lanes(left[0], left[1]) > most_off) |
+                     (min_lanes(right[0], right[1]) < -most_off);
+        }
+        const Floats slack = off * mul_add(across, Floats(5.6f), off * Floats(2.2f));
+        const Floats aside = off * Floats(1.6f);
+        store_lanes(slack, error);
+        store_lanes(aside, place_error);
+        store_lanes(lowest, first);
+        store_lanes(highest, last);
+        store_lanes(Floats(25.0f) * slack * (highest - lowest), spread);
+        const bool up = packet.near_row[packet.kz] == packet.kz;
+        const Floats beside(1.6f * pinhole.most_off);
+        const Floats front = (up ? lowest : -highest) - beside, back = (up ? highest : -lowest);
+        missed = missed | (back < -beside) |
+                 (front * Floats(pinhole.least_step) > Floats(packet.deepest()));
+        missed = missed | find_edges(p, wide, slack);
+        met = kAllLanes & ~bits_of(missed);
+    }
+
+  private:
+    /// The triangles that no ray hits, by their edges.
+    HWY_INLINE LaneMask<float> find_edges(const Floats (&p)[3][3], const Floats (&wide)[2],
+                                          const Floats& slack) {
+        Floats sum[3], lowest, highest;
+        HWY_UNROLL(3)
+        for (std::size_t e = 0; e < 3; ++e) {
+            const auto &a = p[(e + 1) % 3], &b = p[(e + 2) % 3];
+            Floats c[3];
+            // The terms in a b cancel.
+            c[0] = mul_sub(a[0], b[1], a[1] * b[0]);
+            c[1] = mul_sub(a[1], b[2], a[2] * b[1]);
+            c[2] = mul_sub(a[2], b[0], a[0] * b[2]);
+            HWY_UNROLL(3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                store_lanes(c[k], edge[e][k]);
+                sum[k] = e == 0 ? c[k] : sum[k] + c[k];
+            }
+            const Floats room = mul_add(wide[0], abs(c[1]), wide[1] * abs(c[2]));
+            const Floats lo = c[0] - room, hi = c[0] + room;
+            lowest = e == 0 ? hi : min_lanes(lowest, hi);
+            highest = e == 0 ? lo : max_lanes(highest, lo);
+        }
+        const Floats room = mul_add(wide[0], abs(sum[1]), wide[1] * abs(sum[2]));
+        const Floats four = Floats(4.0f) * slack;
+        return ((lowest < -slack) & (sum[0] - room > four)) |
+               ((highest > slack) & (sum[0] + room < -four));
+    }
+};
+
+/// As `filter_lanes` of a block.
+HWY_INLINE bool filter_lanes(const PinholeTriangles& seen, std::size_t lane,
+                             const LanePacket& packet, std::uint32_t lanes, FilteredLanes& out) {
+    using F = PacketFloats;
+    const F a = load_row(packet.pinhole.aside[0]), b = load_row(packet.pinhole.aside[1]);
+    const auto edge = [&](std::size_t e) HWY_ATTR {
+        return mul_add(b, F(seen.edge[e][2][lane]),
+                       mul_add(a, F(seen.edge[e][1][lane]), F(seen.edge[e][0][lane])));
+    };
+    const F eu = edge(0), ev = edge(1), ew = edge(2);
+    const F error(seen.error[lane]), minus_error = -error;
+    const F least = min_lanes(min_lanes(eu, ev), ew), most = max_lanes(max_lanes(eu, ev), ew);
+    const std::uint32_t passed = lanes & ~bits_of((least < minus_error) & (most > error));
+    if (passed == 0) return false;
+    const F sz = load_row(packet.reciprocal[packet.kz]);
+    const F inverse = F(1.0f) / (eu + ev + ew);
+    const F place =
+        mul_add(eu, F(seen.z[0][lane]), mul_add(ev, F(seen.z[1][lane]), ew * F(seen.z[2][lane]))) *
+        inverse;
+    const F s = min_lanes(max_lanes(place, F(seen.first[lane])), F(seen.last[lane])) * sz;
+    const F slack =
+        abs(sz) * mul_add(F(seen.spread[lane]), abs(inverse), F(seen.place_error[lane]));
+    out.lo = s - slack;
+    out.hi = s + slack;
+    // Written so that a NaN is a candidate and not sure.
+    out.candidates =
+        passed & ~bits_of((out.lo > load_row(packet.s_max)) | (out.hi < load_row(packet.s_min)));
+    if (out.candidates == 0) return false;
+    out.sure = out.candidates & bits_of(((least > error) | (most < minus_error)) &
+                                        (out.lo >= load_row(packet.sure_min)) &
+                                        (out.hi <= load_row(packet.sure_max)));
+    return true;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
