@@ -26,6 +26,12 @@ RayMask complete(RayMask mask) {
     return (mask & mask_of(RayKind::Shadow)) != 0 ? mask | kConnectingRays : mask;
 }
 
+/// True if rays of light transport see the part, but not all kinds of them.
+bool is_partial(RayMask mask) {
+    const RayMask own = mask & kLightSurfaceMask;
+    return own != 0 && own != kLightSurfaceMask;
+}
+
 /// The positions and directions of lights, as end points of shadow rays.
 std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
     std::vector<RayEnd> ends;
@@ -70,6 +76,7 @@ void GeometryCompiler::build(Scene& scene) {
     census_.instance_depth = root.instance_depth;
     scene.aggregate = root.aggregate;
     scene.has_masks = has_masks_;
+    scene.has_partial_masks = has_partial_masks_;
     scene.has_motion = census_.moving_things > 0;
     scene.census = census_;
     scene.accelerator = options_.accelerator;
@@ -139,6 +146,7 @@ GeometryCompiler::PlacedPart GeometryCompiler::place(const Part& part,
     const PlacedPart placed{part, outer_from_object * part.object_from_part, number,
                             visible_to & complete(part.visible_to)};
     has_masks_ = has_masks_ || placed.visible_to != kAllRays;
+    has_partial_masks_ = has_partial_masks_ || is_partial(placed.visible_to);
     return placed;
 }
 

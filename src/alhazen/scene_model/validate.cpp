@@ -217,12 +217,11 @@ class Validator {
     }
 
     void check_mask(const Part& part) {
-        if (part.visible_to == kAllRays) return;
-        constexpr RayMask kKnown = kRaysOfAllKinds | kConnectingRays;
-        if ((part.visible_to & ~kKnown) != 0) {
+        if (part.visible_to == kAllRays || part.visible_to == kLightSurfaceMask) return;
+        if ((part.visible_to & ~kRaysOfAllKinds) != 0) {
             error(part.location,
                   fmt::format("is visible to rays of mask {:#x}; known are bits of {:#x}",
-                              part.visible_to, kKnown));
+                              part.visible_to, kRaysOfAllKinds));
         } else if (part.visible_to == 0) {
             warning(part.location, "is visible to no ray");
         }

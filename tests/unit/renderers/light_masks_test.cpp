@@ -20,8 +20,6 @@ using testing::SceneMaker;
 using testing::shining;
 
 constexpr RayMask kNoShadow = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
-/// The mask of the surfaces of lights.
-constexpr RayMask kLamp = kNoShadow | kConnectingRays;
 
 void show_last_to(SceneMaker& maker, RayMask mask) {
     maker.description().objects[0].parts.back().visible_to = mask;
@@ -75,17 +73,62 @@ TEST(LightMasks, TheSurfaceOfALightIsInTheWayOfOtherLight) {
     SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.3});
     maker.add(rectangle({-0.8, -0.8, 0.9}, {0, 1.6, 0}, {1.6, 0, 0}),
               maker.material(shining({0.3, 0.2, 0.1})));
-    show_last_to(maker, kLamp);
+    show_last_to(maker, kLightSurfaceMask);
     maker.description().environment = EnvironmentDescription{};
     const Scene scene = maker.compile();
-    expect_same_light(scene, "lamp under a sky",
-                      {"path_tracing", "light_tracing", "bidirectional"}, 128, kMost);
+    expect_same_light(scene, "lamp under a sky", {"path_tracing", "light_tracing", "bidirectional"},
+                      128, kMost);
     const double light = mean_of(picture_of(scene, "path_tracing", 8, 256)).g;
     for (const std::string renderer :
          {"vcm:photons=500,radius=0.05,pilot=off", "sppm:photons=500,radius=0.1",
           "photon_mapping:photons=20000,nearest=50"}) {
         EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, 64)).g, light, 0.03 * light) << renderer;
     }
+}
+
+TEST(LightMasks, AllStrategiesAgreeForEveryMask) {
+    for (RayMask mask = 1; mask <= kRaysOfAllKinds; ++mask) {
+        // A slope over one half of the floor, lit from above and from the floor beside it.
+        SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.3});
+        maker.add(rectangle({-0.5, -0.5, 0.05}, {0.6, 0, 0.3}, {0, 1, 0}),
+                  maker.material(matt({0.4, 0.6, 0.9})));
+        show_last_to(maker, mask);
+        maker.light(
+            PointLight{.position = {0.5, 0, 2}, .color = {4, 4, 4}, .attenuation = {0, 0, 1}});
+        const Scene scene = maker.compile();
+        const std::string name = "mask " + std::to_string(mask);
+        expect_same_light(scene, name, {"path_tracing", "light_tracing", "bidirectional"}, 48,
+                          kMost);
+        const double light = mean_of(picture_of(scene, "path_tracing", 8, 256)).g;
+        for (const std::string renderer :
+             {"vcm:photons=500,radius=0.05,pilot=off", "sppm:photons=500,radius=0.05"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, 128)).g, light, 0.02 * light)
+                << name << " " << renderer;
+        }
+    }
+}
+
+TEST(LightMasks, AWallWithoutShadowIsLitByLightPaths) {
+    // The red light of the wall reaches the floor by light paths that land on the wall.
+    SceneMaker maker = floor_from_above(2, {0.8, 0.8, 0.8});
+    maker.add(rectangle({-1.5, 0.5, 0}, {3, 0, 0}, {0, 0, 2}),
+              maker.material(matt({0.95, 0.05, 0.05})));
+    show_last_to(maker, kNoShadow);
+    maker.light(PointLight{.position = {0, -1, 2}, .color = {9, 9, 9}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    expect_same_light(scene, "wall", {"path_tracing", "light_tracing", "bidirectional"}, 64, kMost);
+}
+
+TEST(LightMasks, TheSurfaceOfALightDoesNotOccludeAmbientLight) {
+    const auto seen = [](RayMask mask) {
+        SceneMaker maker = floor_from_above(1.2);
+        maker.add(rectangle({-1, -1, 0.9}, {0, 2, 0}, {2, 0, 0}),
+                  maker.material(shining({1, 1, 1})));
+        show_last_to(maker, mask);
+        return mean_of(picture_of(maker.compile(), "ambient_occlusion", 8, 16)).g;
+    };
+    EXPECT_EQ(seen(kLightSurfaceMask), seen(kNoShadow));
+    EXPECT_LT(seen(kRaysOfAllKinds), 0.9 * seen(kLightSurfaceMask));
 }
 
 }  // namespace

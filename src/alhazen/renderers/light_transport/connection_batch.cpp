@@ -21,10 +21,12 @@ Spectrum left_by(const Medium* medium, double length, const Wavelengths& waves) 
 
 }  // namespace
 
-ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
+ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
+                                 RayMask sees)
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
+      connecting_(sees),
       media_(scene),
       faces_(scene),
       has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -85,11 +87,6 @@ void ConnectionBatch::find_met(std::span<bool> met) {
 Spectrum ConnectionBatch::passing(const Ray& ray, float time, const MediumStack& media,
                                   const Wavelengths& waves, FreeFlight* flight) {
     return passing(ray, time, RayKind::Shadow, media, waves, flight);
-}
-
-Spectrum ConnectionBatch::between(const Ray& ray, float time, const MediumStack& media,
-                             const Wavelengths& waves, FreeFlight* flight) {
-    return passing(ray, time, RayKind::Reflection, media, waves, flight);
 }
 
 Spectrum ConnectionBatch::seen(const Ray& from_eye, float time, const MediumStack& media,

@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
 /// First dimension for distances in volumes.
 constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
+/// First dimension for the ends of segments.
+constexpr std::uint64_t kEndOfSegment = std::uint64_t{1} << 36;
 
 }  // namespace
 
@@ -24,13 +26,24 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
         ++counters_[path.kind].cast;
         hit_ = Hit();
-        if (!scene_.aggregate->closest(path.ray, hit_, {stats_, path.mask(), path.time})) {
+        path.passed = false;
+        bool found = scene_.aggregate->closest(path.ray, hit_, {stats_, path.mask(), path.time});
+        if (path.chooses && surfaces_.exist()) {
+            const PassedSurfaces::Choice choice = surfaces_.choose(
+                path.ray, path.time, numbers.at(kEndOfSegment + path.chosen++), found, hit_);
+            found = found || choice.passed;
+            path.passed = choice.passed;
+            path.throughput = choice.weight * path.throughput;
+        }
+        if (!found) {
             const bool scattered =
                 cross_medium(path, std::numeric_limits<double>::infinity(), numbers);
             return scattered ? PathMeets::Volume : PathMeets::Nothing;
         }
         ++counters_[path.kind].hit;
-        if (cross_medium(path, hit_.t, numbers)) return PathMeets::Volume;
+        if (cross_medium(path, hit_.t, numbers)) {
+            return path.passed ? PathMeets::Nothing : PathMeets::Volume;
+        }
         const Arrival arrival{!path.media.empty(), path.cone.width_at(hit_.t), path.time,
                               path.kind != RayKind::Eye};
         set_shading_point(scene_, path.ray, hit_, arrival, {}, point_);
@@ -46,6 +59,7 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
             }
             return PathMeets::Surface;
         }
+        if (path.passed) return PathMeets::Nothing;
         if (media_.has_open_boundaries()) {
             opening_.set(scene_, point_, path.media, *path.waves);
             opening_.cross_opening(path.media);

@@ -335,12 +335,15 @@ TEST(BrlcadScene, ALightIsInNoShadowOfItsSolid) {
     for (const std::string options : {"f 1", "f 1 v 0"}) {
         const Model model(kBall + light(options));
         ASSERT_EQ(model.description().lights.size(), 2u);
+        int found = 0;
         for (const ObjectDescription& object : model.description().objects) {
             for (const Part& part : object.parts) {
-                if (part.name != "l") continue;
+                if (part.name != model.description().lights[0].name) continue;
+                ++found;
                 EXPECT_EQ(part.visible_to, kRaysOfAllKinds & ~mask_of(RayKind::Shadow)) << options;
             }
         }
+        EXPECT_EQ(found, 1) << options;
     }
 }
 
