@@ -29,4 +29,11 @@ inline constexpr std::array<const char*, kRayKindCount> kRayKindNames{"eye", "sh
 /// The bits of all kinds; renderers ignore all others.
 inline constexpr RayMask kRaysOfAllKinds = (RayMask{1} << kRayKindCount) - 1;
 
+/// Light between two points of a path of light transport. Its bit is that of shadow rays, except on
+/// the surfaces of lights: they cast no shadow rays' shadow, but paths meet them as any surface.
+inline constexpr RayMask kConnectingRays = RayMask{1} << kRayKindCount;
+/// The mask of the surface of a light.
+inline constexpr RayMask kLightSurfaceMask =
+    (kRaysOfAllKinds & ~mask_of(RayKind::Shadow)) | kConnectingRays;
+
 }  // namespace alhazen

@@ -53,6 +53,7 @@ struct LightRay {
     bool infinite = false;            ///< from the environment or a directional light: the origin
                                       ///< lies on a disc perpendicular to the direction, in front
                                       ///< of all bounded geometry
+    bool is_hit = false;              ///< rays can hit the light
     PlaceInLight place;
 };
 

@@ -148,6 +148,7 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
             const Environment::Sight sight = d.environment->sight(from);
             out.radiance = waves.emission(sight.radiance);
             out.direction_density = sight.density;
+            out.is_hit = true;
         } else {
             const auto& sun = std::get<DirectionalLight>(d.scene->lights[d.parallel[far_light]]);
             out.ray = ray_from_afar(d.center, d.radius, -sun.to_light, place);
@@ -173,6 +174,7 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
     const double reach = max_component(abs(p.point)) + std::sqrt(e.area);
     out.ray = {p.point + (kOffSurface * reach) * out.normal, along};
     out.place_density = chosen.probability * p.density;
+    out.is_hit = chosen.light < d.emitters.size();
     out.direction_density = cosine / (e.two_sided ? 2.0 * kPi : kPi);
     Rgb radiance = e.radiance;
     if (chosen.light < d.emitters.size()) {

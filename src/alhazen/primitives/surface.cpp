@@ -319,6 +319,16 @@ HitParts parts_of(const Aggregate& aggregate, const Hit& hit) {
     return parts;
 }
 
+RayMask mask_at(const Aggregate& aggregate, const Hit& hit) {
+    const PrimitiveTable* table = &aggregate.primitives();
+    RayMask mask = kAllRays;
+    for (std::size_t level = hit.path.size(); level-- > 0;) {
+        mask &= table->visible_to(hit.path[level]);
+        table = &table->instances[table->index(hit.path[level])].aggregate->primitives();
+    }
+    return mask & table->visible_to(hit.primitive);
+}
+
 std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit) {
     const Aggregate* innermost = &aggregate;
     for (std::size_t i = hit.path.size(); i-- > 0;) {

@@ -84,6 +84,9 @@ struct HitParts {
 };
 [[nodiscard]] HitParts parts_of(const Aggregate& aggregate, const Hit& hit);
 
+/// The bits that the masks of the primitive hit and of all instances around it share.
+[[nodiscard]] RayMask mask_at(const Aggregate& aggregate, const Hit& hit);
+
 /// The material of the surface at a hit, if the primitive alone determines it: without vertex
 /// colours, and without an enclosing solid that shows another material.
 [[nodiscard]] std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit);

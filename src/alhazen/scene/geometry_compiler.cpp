@@ -20,9 +20,16 @@ std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
 }
 
 /// Masks with the bits of all kinds of rays become kAllRays, because queries of renderers have the
-/// bit of one kind.
-RayMask without_unused_bits(RayMask mask) {
-    return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
+/// bit of one kind. What casts shadows blocks connections.
+RayMask complete(RayMask mask) {
+    if ((mask & kRaysOfAllKinds) == kRaysOfAllKinds) return kAllRays;
+    return (mask & mask_of(RayKind::Shadow)) != 0 ? mask | kConnectingRays : mask;
+}
+
+/// True if rays of light transport see the part, but not all kinds of them.
+bool is_partial(RayMask mask) {
+    const RayMask own = mask & kLightSurfaceMask;
+    return own != 0 && own != kLightSurfaceMask;
 }
 
 /// The positions and directions of lights, as end points of shadow rays.
@@ -69,6 +76,7 @@ void GeometryCompiler::build(Scene& scene) {
     census_.instance_depth = root.instance_depth;
     scene.aggregate = root.aggregate;
     scene.has_masks = has_masks_;
+    scene.has_partial_masks = has_partial_masks_;
     scene.has_motion = census_.moving_things > 0;
     scene.census = census_;
     scene.accelerator = options_.accelerator;
@@ -136,8 +144,9 @@ GeometryCompiler::PlacedPart GeometryCompiler::place(const Part& part,
                                                      const Affine& outer_from_object,
                                                      std::uint32_t number, RayMask visible_to) {
     const PlacedPart placed{part, outer_from_object * part.object_from_part, number,
-                            visible_to & without_unused_bits(part.visible_to)};
+                            visible_to & complete(part.visible_to)};
     has_masks_ = has_masks_ || placed.visible_to != kAllRays;
+    has_partial_masks_ = has_partial_masks_ || is_partial(placed.visible_to);
     return placed;
 }
 

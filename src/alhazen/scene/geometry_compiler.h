@@ -121,7 +121,7 @@ class GeometryCompiler {
     std::vector<std::uint32_t> object_uses_;  ///< [object]
     std::vector<std::uint32_t> mesh_uses_;    ///< [mesh]
     std::vector<Moves> moves_;                ///< [object] moves_inside
-    bool has_masks_ = false;
+    bool has_masks_ = false, has_partial_masks_ = false;
     SceneCensus census_;
 };
 

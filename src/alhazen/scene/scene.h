@@ -48,7 +48,10 @@ struct Scene {
     bool all_opaque = false;      ///< no material lets light through
     bool has_scattering = false;  ///< some material scatters light inside volumes
     bool has_masks = false;       ///< some part is not visible to all rays
-    bool has_mipmaps = false;     ///< some texture is filtered by the cone of the ray
+    /// Some part is visible to some kinds of rays of light transport (kConnectingRays included),
+    /// but not to all.
+    bool has_partial_masks = false;
+    bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
     bool has_solid_textures = false;
     /// [material] 1: its appearance depends on texture coordinates; empty: none does.
     std::vector<std::uint8_t> reads_coordinates;

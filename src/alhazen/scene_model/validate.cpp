@@ -217,7 +217,7 @@ class Validator {
     }
 
     void check_mask(const Part& part) {
-        if (part.visible_to == kAllRays) return;
+        if (part.visible_to == kAllRays || part.visible_to == kLightSurfaceMask) return;
         if ((part.visible_to & ~kRaysOfAllKinds) != 0) {
             error(part.location,
                   fmt::format("is visible to rays of mask {:#x}; known are bits of {:#x}",

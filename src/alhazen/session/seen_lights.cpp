@@ -100,7 +100,7 @@ void add_seen_lights(SceneDescription& description) {
         part.material = static_cast<MaterialId>(description.materials.size() - 1);
         part.name = light.name;
         part.location = light.location;
-        part.visible_to = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
+        part.visible_to = kLightSurfaceMask;
         open_root(description).parts.push_back(std::move(part));
     }
 }

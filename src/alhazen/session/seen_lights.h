@@ -9,9 +9,10 @@
 
 namespace alhazen {
 
-/// Adds a part of emission AreaLight::radiance for each visible light; the part casts no shadow.
-/// The lights are marked as parts instead of as seen. The materials of these parts are the last of
-/// the description, in the order of the lights.
+/// Adds a part of emission AreaLight::radiance for each visible light; the part casts no shadow,
+/// but blocks the connections of light transport, whose paths meet it as any surface. The lights
+/// are marked as parts instead of as seen. The materials of these parts are the last of the
+/// description, in the order of the lights.
 void add_seen_lights(SceneDescription& description);
 
 /// The material of a light's part after `add_seen_lights`; none if the light has no part.

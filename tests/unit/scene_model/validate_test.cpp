@@ -157,8 +157,13 @@ TEST(Validate, MasksNameKindsOfRaysAndHideNoPartOfASolid) {
     Part& part = maker.description().objects[0].parts[0];
     part.visible_to = mask_of(RayKind::Shadow);
     EXPECT_EQ(errors_in(maker.description()), 0u);
-    part.visible_to = 1u << 7;
-    EXPECT_EQ(errors_in(maker.description()), 1u);
+    for (const RayMask unknown :
+         {RayMask{1} << 7, kConnectingRays, kRaysOfAllKinds | kConnectingRays}) {
+        part.visible_to = unknown;
+        EXPECT_EQ(errors_in(maker.description()), 1u) << unknown;
+    }
+    part.visible_to = kLightSurfaceMask;
+    EXPECT_EQ(errors_in(maker.description()), 0u) << "as add_seen_lights sets it";
     part.visible_to = 0;
     Diagnostics diagnostics;
     validate(maker.description(), diagnostics);

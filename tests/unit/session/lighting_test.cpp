@@ -233,6 +233,15 @@ TEST(Lighting, ALampIsHitWhereItIsDrawnAndNoLongerWhereItWas) {
     EXPECT_EQ(t(moved.scene, {1, 2, 0}), kInfinity);
 }
 
+TEST(Lighting, ALampCastsNoShadowButIsInTheWayOfPaths) {
+    const LoadedScene file = loaded(kLamps);
+    const Vec3 eye{0, 1, 9};
+    const Ray ray{eye, normalize(Vec3{1, 2, 0} - eye), 0.0, kInfinity};
+    EXPECT_FALSE(file.scene.aggregate->occluded(ray, {nullptr, mask_of(RayKind::Shadow)}));
+    EXPECT_TRUE(file.scene.aggregate->occluded(ray, {nullptr, mask_of(RayKind::Reflection)}));
+    EXPECT_TRUE(file.scene.aggregate->occluded(ray, {nullptr, kConnectingRays}));
+}
+
 TEST(Lighting, OnlySurfacesThatMoveAreBuiltAnew) {
     const LoadedScene file = loaded(kLamps);
     const std::vector<NamedLight> choices = light_choices(file.description);

@@ -157,8 +157,8 @@ void add_brlcad_lights(SceneDescription& scene, const BrlcadMaterials& materials
     for (const auto& one : found) {
         scene.lights.push_back(
             {one.part->name, make_light(one, fractions.of(*one.light)), one.part->location});
-        // The source is inside its visible solid, which therefore casts no shadows.
-        if (one.light->shown) one.part->visible_to = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
+        // The source is inside its solid, which therefore casts no shadows, visible or not.
+        one.part->visible_to = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
     }
     for (const auto& [id, light] : materials.lights()) {
         // Half of its brightness depends on the view direction, as the ambient light does.

@@ -47,7 +47,8 @@ class OcclusionEstimator {
           random_(job),
           camera_(job),
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr),
-          shadows_(job.scene, counters, job.count_tests ? &counters.tests : nullptr) {}
+          shadows_(job.scene, counters, job.count_tests ? &counters.tests : nullptr,
+                   mask_of(RayKind::Shadow)) {}
 
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                        std::span<Rgb> radiance) {

@@ -229,8 +229,10 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     Spectrum light =
         (y.importance_correction(to_z) / squared) * (y.throughput * at_y * z.throughput * at_z);
     if (light.is_black()) return;
+    const RayKind kind = z.kind_along(to_y);
+    if ((y.seen_by & mask_of(kind)) == 0) return;
     FreeFlight flight;
-    const Spectrum passing = joins_.passing(z.leaving(to_y, kBeforeEnd * distance), time,
+    const Spectrum passing = joins_.between(z.leaving(to_y, kBeforeEnd * distance), time, kind,
                                             z.media_along(to_y, behind_), waves_, &flight);
     if (passing.is_black()) return;
     begin_path(a, b);

@@ -21,10 +21,12 @@ Spectrum left_by(const Medium* medium, double length, const Wavelengths& waves) 
 
 }  // namespace
 
-ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
+ConnectionBatch::ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
+                                 RayMask sees)
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
+      connecting_(sees),
       media_(scene),
       faces_(scene),
       has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -179,7 +181,7 @@ Spectrum ConnectionBatch::through(const Ray& ray, float time, RayKind kind, cons
     const Arrival arrival{inside, 0.0, time, kind != RayKind::Eye};
     set_shading_point(scene_, ray, crossing, arrival, {}, point);
     if (media != nullptr) {
-        faces_.find(point, ray.direction, arrival, mask_of(kind));
+        faces_.find(point, ray.direction, arrival, mask_for(kind));
         crossed_ = faces_.others();
     }
     const double coverage = point.material->coverage;

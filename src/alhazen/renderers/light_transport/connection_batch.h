@@ -25,7 +25,9 @@ inline constexpr double kBeforeEnd = 1.0 - 1e-7;
 
 class ConnectionBatch {
   public:
-    ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
+    /// `sees`: what blocks light to a light.
+    ConnectionBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats,
+                    RayMask sees = kConnectingRays);
 
     /// Adds `light` times the transmittance of `ray` up to its t_max to `sum`, in `finish` or
     /// before, in the order of the calls. `media`: around the origin of the ray. `waves` and `sum`
@@ -38,6 +40,12 @@ class ConnectionBatch {
     /// The transmittance of one ray. Adds the parts in scattering media to `flight`; may be null.
     [[nodiscard]] Spectrum passing(const Ray& ray, float time, const MediumStack& media,
                                    const Wavelengths& waves, FreeFlight* flight = nullptr);
+    /// As `passing`, between two points that scatter: what rays of that kind meet blocks it.
+    [[nodiscard]] Spectrum between(const Ray& ray, float time, RayKind kind,
+                                   const MediumStack& media, const Wavelengths& waves,
+                                   FreeFlight* flight) {
+        return passing(ray, time, kind, media, waves, flight);
+    }
     /// As `passing`, for an eye ray.
     [[nodiscard]] Spectrum seen(const Ray& from_eye, float time, const MediumStack& media,
                                 const Wavelengths& waves, FreeFlight* flight = nullptr);
@@ -50,7 +58,10 @@ class ConnectionBatch {
     };
 
     [[nodiscard]] RayQuery query(float time, RayKind kind = RayKind::Shadow) const {
-        return {stats_, mask_of(kind), time};
+        return {stats_, mask_for(kind), time};
+    }
+    [[nodiscard]] RayMask mask_for(RayKind kind) const {
+        return kind == RayKind::Shadow ? connecting_ : mask_of(kind);
     }
     void find_met(std::span<bool> met);
     /// Finds the surfaces that a ray passes. False if one blocks it.
@@ -75,6 +86,7 @@ class ConnectionBatch {
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
+    RayMask connecting_;
     ScatteringMedia media_;
     CoincidentFaces faces_;
     bool has_single_sided_;

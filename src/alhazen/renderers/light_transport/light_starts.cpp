@@ -30,6 +30,7 @@ WalkStart LightStarts::of(const LightRay& light, float time, const Wavelengths& 
     const double cosine = across ? 1.0 : std::abs(dot(light.ray.direction, light.normal));
     start.throughput = (cosine / densities) * light.radiance;
     start.parallel = light.infinite;
+    start.as_connection = !light.is_hit;
     if (light.infinite) {
         if (is_endless_) begin_from_infinity(start);
     } else {

@@ -38,9 +38,10 @@ struct PathVertex {
     double back = 0;         ///< by solid angle, towards the vertex before; needs one more vertex
     double forward = 1;      ///< share of walks from the vertex before that reach it and stop
     double backward = 1;     ///< share of walks from it that reach the vertex before and stop
-    bool singular = false;   ///< the path continued by a singular lobe
-    MediumStack media;       ///< in front of it
-    Spectrum emission;       ///< emitted towards the path
+    RayMask seen_by = kAllRays;      ///< rays that see its surface; set by paths from lights
+    bool singular = false;           ///< the path continued by a singular lobe
+    MediumStack media;               ///< in front of it
+    Spectrum emission;               ///< emitted towards the path
     Illumination::EmitDensity emit;  ///< for `emission`
     double joined = 0;               ///< density of drawing it as light for the vertex before
     double distance = 0;             ///< from the vertex before
@@ -72,8 +73,15 @@ struct PathVertex {
     [[nodiscard]] double importance_correction(const Vec3& direction) const {
         return in_volume ? 1.0 : scatter.importance_correction(direction);
     }
+    /// True if eye rays from `direction` see it.
     [[nodiscard]] bool is_seen_from(const Vec3& direction) const {
+        if ((seen_by & mask_of(RayKind::Eye)) == 0) return false;
         return in_volume || scatter.is_seen_from(direction);
+    }
+    /// The kind of a ray of the path that leaves it along `direction`.
+    [[nodiscard]] RayKind kind_along(const Vec3& direction) const {
+        return in_volume || dot(direction, scatter.geometric()) < 0.0 ? RayKind::Refraction
+                                                                      : RayKind::Reflection;
     }
     /// Probability that a walk along `way` reaches the vertex; in a volume the density by length of
     /// stopping there.

@@ -60,11 +60,18 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
             medium != nullptr ? scattering_.in(*medium) : nullptr;
         ++counters_[kind_].cast;
         hit_ = Hit();
-        const bool found =
-            scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), start.time});
+        passed_ = false;
+        bool found = scene_.aggregate->closest(ray, hit_, {stats_, mask(), start.time});
+        if (chooses_) {
+            const double u = draws.random.extra(draws.id, of_walk(draws, chosen_++), 0);
+            const PassedSurfaces::Choice choice = surfaces_.choose(ray, start.time, u, found, hit_);
+            found = found || choice.passed;
+            passed_ = choice.passed;
+            front.throughput = choice.weight * front.throughput;
+        }
         if (scattering != nullptr &&
             scatters_within(front, *medium, *scattering, found ? hit_.t : kEndless, draws, start)) {
-            return Meets::Volume;
+            return passed_ ? Meets::Nothing : Meets::Volume;
         }
         if (!found) return Meets::Nothing;
         ++counters_[kind_].hit;
@@ -73,7 +80,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (draws.random.stops(draws.id, of_walk(draws, met_++), point_.material->coverage)) {
-            faces_.find(point_, ray.direction, arrival, mask_of(kind_));
+            faces_.find(point_, ray.direction, arrival, mask());
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
                 set_shading_point(scene_, faces_.ray(), hit_, arrival, {.constant = &constant_},
@@ -81,6 +88,7 @@ RandomWalk::Meets RandomWalk::find(Front& front, const WalkRandomness& draws,
             }
             return Meets::Surface;
         }
+        if (passed_) return Meets::Nothing;
         if (scattering_.has_open_boundaries()) pass_opening(front);
         ray = leaving_ray(point_.surface, ray.direction);
     }
@@ -94,6 +102,7 @@ void RandomWalk::set_vertex(const Front& front, const WalkStart& start, Meets me
     if (meets == Meets::Surface) {
         v.surface.value = point_.surface;
         v.coverage = point_.material->coverage;
+        if (chooses_) v.seen_by = surfaces_.seen_by(hit_);
         cosine = std::abs(dot(front.ray.direction, point_.geometric));
     } else {
         const Medium& medium = *front.media.here();
@@ -159,6 +168,7 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
     front.ray.direction = drawn->direction;
     if (drawn->straight) return Step::Straight;
+    if ((passed_ && drawn->singular) || (v.seen_by & mask_of(kind_)) == 0) return Step::Ends;
     eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
     v.singular = drawn->singular;
     front.density = drawn->singular ? 1.0 : drawn->density;
@@ -190,6 +200,9 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
     eta_scale_ = 1.0;
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
+    connects_ = start.as_connection;
+    chooses_ = !from_eye && surfaces_.exist();
+    chosen_ = 0;
     Front front{start.ray,     *start.waves,   start.throughput,
                 start.density, start.parallel, start.media};
     int count = 0;
@@ -208,11 +221,14 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
         const Step step = meets == Meets::Volume
                               ? scatter_in_volume(front, draws, pair, ends)
                               : scatter_at_surface(transport, front, draws, pair, ends);
-        if (step == Step::Ends) return;
+        if (step == Step::Ends) {
+            if ((v.seen_by & kRaysOfPaths) == 0) vertices.pop_back();
+            return;
+        }
         if (step == Step::Straight) {
             vertices.pop_back();
             --count;
-            if (++met_ > kMaxPassedSurfaces) return;
+            if (passed_ || ++met_ > kMaxPassedSurfaces) return;
             front.ray = leaving_ray(point_.surface, front.ray.direction);
             continue;
         }
@@ -231,6 +247,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkRan
             front.throughput = (1.0 / share) * front.throughput;
         }
         front.ray = v.leaving(front.ray.direction, kEndless);
+        connects_ = false;
         travelled_ = 0.0;
         flight_.begin();
     }

@@ -12,6 +12,7 @@
 
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/passed_surfaces.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_vertex.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
@@ -26,6 +27,9 @@ struct WalkStart {
     /// By solid angle; if `parallel`, by area perpendicular to the ray; 0: singular.
     double density = 0;
     bool parallel = false;
+    /// The first segment passes what connections to the light pass: no ray hits the light, so that
+    /// all other strategies connect to it.
+    bool as_connection = false;
     float time = 0;
     MediumStack media;  ///< around the origin
 };
@@ -51,7 +55,8 @@ class RandomWalk {
           scattering_(scene),
           constant_(scene),
           bsdfs_(scene),
-          faces_(scene) {}
+          faces_(scene),
+          surfaces_(scene, stats) {}
 
     /// Sets `vertices`. If a path from the eye leaves the scene, sets `escape()` to direction and
     /// density by solid angle of its last ray.
@@ -80,6 +85,9 @@ class RandomWalk {
     enum class Meets : std::uint8_t { Nothing, Surface, Volume };
     enum class Step : std::uint8_t { Ends, Straight, Scattered };
 
+    [[nodiscard]] RayMask mask() const {
+        return connects_ && !passed_ ? kConnectingRays : mask_of(kind_);
+    }
     /// Finds the next stop: a surface, or a point in a volume, which becomes the origin of the ray.
     [[nodiscard]] Meets find(Front& front, const WalkRandomness& draws, const WalkStart& start);
     /// Applies the absorption of a medium that does not scatter.
@@ -119,7 +127,8 @@ class RandomWalk {
     BsdfCache bsdfs_;
     ShadingPoint point_;
     CoincidentFaces faces_;  ///< at the point
-    ScatterPoint opening_;   ///< a surface that is passed at an uncovered part
+    PassedSurfaces surfaces_;
+    ScatterPoint opening_;  ///< a surface that is passed at an uncovered part
     Hit hit_;
     double travelled_ = 0;  ///< distance since the last vertex
     double segment_ = 0;    ///< distance whose absorption is not yet applied
@@ -128,6 +137,10 @@ class RandomWalk {
     FreeFlight flight_;          ///< since the last vertex
     double eta_scale_ = 1;
     RayKind kind_ = RayKind::Eye;
+    bool connects_ = false;     ///< the segment is that of WalkStart::as_connection
+    bool chooses_ = false;      ///< it may end at surfaces that do not block it
+    bool passed_ = false;       ///< `hit_` is such a surface
+    std::uint32_t chosen_ = 0;  ///< number of choices
     Escape escape_;
 };
 

@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
 /// First dimension for distances in volumes.
 constexpr std::uint64_t kVolume = std::uint64_t{1} << 34;
+/// First dimension for the ends of segments.
+constexpr std::uint64_t kEndOfSegment = std::uint64_t{1} << 36;
 
 }  // namespace
 
@@ -24,13 +26,24 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
     for (int passed = 0; passed <= kMaxPassedSurfaces; ++passed) {
         ++counters_[path.kind].cast;
         hit_ = Hit();
-        if (!scene_.aggregate->closest(path.ray, hit_, {stats_, mask_of(path.kind), path.time})) {
+        path.passed = false;
+        bool found = scene_.aggregate->closest(path.ray, hit_, {stats_, path.mask(), path.time});
+        if (path.chooses && surfaces_.exist()) {
+            const PassedSurfaces::Choice choice = surfaces_.choose(
+                path.ray, path.time, numbers.at(kEndOfSegment + path.chosen++), found, hit_);
+            found = found || choice.passed;
+            path.passed = choice.passed;
+            path.throughput = choice.weight * path.throughput;
+        }
+        if (!found) {
             const bool scattered =
                 cross_medium(path, std::numeric_limits<double>::infinity(), numbers);
             return scattered ? PathMeets::Volume : PathMeets::Nothing;
         }
         ++counters_[path.kind].hit;
-        if (cross_medium(path, hit_.t, numbers)) return PathMeets::Volume;
+        if (cross_medium(path, hit_.t, numbers)) {
+            return path.passed ? PathMeets::Nothing : PathMeets::Volume;
+        }
         const Arrival arrival{!path.media.empty(), path.cone.width_at(hit_.t), path.time,
                               path.kind != RayKind::Eye};
         set_shading_point(scene_, path.ray, hit_, arrival, {}, point_);
@@ -39,13 +52,14 @@ PathMeets NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
         const double coverage = point_.material->coverage;
         const std::uint32_t number = path.met++;
         if (coverage >= 1.0 || numbers.at(kCoverage + number) < coverage) {
-            faces_.find(point_, path.ray.direction, arrival, mask_of(path.kind));
+            faces_.find(point_, path.ray.direction, arrival, path.mask());
             if (faces_.opaque()) {
                 hit_ = *faces_.opaque();
                 set_shading_point(scene_, faces_.ray(), hit_, arrival, {}, point_);
             }
             return PathMeets::Surface;
         }
+        if (path.passed) return PathMeets::Nothing;
         if (media_.has_open_boundaries()) {
             opening_.set(scene_, point_, path.media, *path.waves);
             opening_.cross_opening(path.media);
@@ -81,6 +95,7 @@ void NextSurface::go_on_in_volume(PathEnd& path, const Vec2& u) const {
     const Vec3 direction = sample_henyey_greenstein(volume_.along, volume_.anisotropy, u);
     path.ray = {volume_.point, direction};
     path.kind = RayKind::Refraction;
+    path.as_connection = false;
     path.travelled = 0.0;
 }
 
@@ -90,7 +105,9 @@ void NextSurface::go_on(PathEnd& path, const ShapeSurface& at, const ScatterPoin
     if (drawn.transmitted) scatter.cross(path.media);
     path.kind = drawn.transmitted ? RayKind::Refraction : RayKind::Reflection;
     path.ray = leaving_ray(at, drawn.direction);
-    if (!drawn.straight) path.travelled = 0.0;
+    if (drawn.straight) return;
+    path.as_connection = false;
+    path.travelled = 0.0;
 }
 
 }  // namespace alhazen

@@ -9,6 +9,7 @@
 
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/passed_surfaces.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
 
@@ -24,6 +25,9 @@ struct PathNumbers {
 struct PathEnd {
     Ray ray;
     RayKind kind = RayKind::Eye;
+    bool as_connection = false;  ///< see WalkStart
+    bool chooses = false;        ///< segments may end at surfaces that do not block them
+    bool passed = false;         ///< the last one did
     float time = 0;
     RayCone cone;
     MediumStack media;
@@ -32,6 +36,11 @@ struct PathEnd {
     double travelled = 0;       ///< since the last scattering
     std::uint32_t met = 0;      ///< number of surfaces met
     std::uint32_t stretch = 0;  ///< number of segments in scattering media
+    std::uint32_t chosen = 0;   ///< number of choices of ends
+
+    [[nodiscard]] RayMask mask() const {
+        return as_connection && !passed ? kConnectingRays : mask_of(kind);
+    }
 };
 
 /// The next event of a path.
@@ -49,7 +58,12 @@ struct VolumePoint {
 class NextSurface {
   public:
     NextSurface(const Scene& scene, RayCounters& counters, TraversalStats* stats)
-        : scene_(scene), counters_(counters), stats_(stats), media_(scene), faces_(scene) {}
+        : scene_(scene),
+          counters_(counters),
+          stats_(stats),
+          media_(scene),
+          faces_(scene),
+          surfaces_(scene, stats) {}
 
     /// Advances to the next event: Nothing if the path leaves the scene.
     [[nodiscard]] PathMeets find(PathEnd& path, const PathNumbers& numbers);
@@ -59,6 +73,8 @@ class NextSurface {
     [[nodiscard]] const VolumePoint& volume() const { return volume_; }
     [[nodiscard]] const ScatteringMedia& media() const { return media_; }
     [[nodiscard]] const Hit& hit() const { return hit_; }
+    /// The rays that see the surface found.
+    [[nodiscard]] RayMask seen_by() const { return surfaces_.seen_by(hit_); }
     /// The faces that coincide with the surface found.
     [[nodiscard]] const OtherFaces& others() const { return faces_.others(); }
     /// Continues after a surface at the point `at`.
@@ -77,7 +93,8 @@ class NextSurface {
     ScatteringMedia media_;
     ShadingPoint point_;
     CoincidentFaces faces_;  ///< at the point
-    ScatterPoint opening_;   ///< a surface passed where it does not cover
+    PassedSurfaces surfaces_;
+    ScatterPoint opening_;  ///< a surface passed where it does not cover
     VolumePoint volume_;
     Hit hit_;
 };

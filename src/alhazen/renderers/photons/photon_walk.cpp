@@ -92,6 +92,8 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
+    path.as_connection = start.as_connection;
+    path.chooses = true;
     Wavelengths waves = *shot_.waves;
     path.waves = &waves;
     path.throughput = start.throughput;
@@ -123,18 +125,23 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         scatter_.set(scene_, point, path.media, waves, false, nullptr, &next_.others());
         if (scatter_.is_null_boundary()) {
             // Passing straight through is no event.
-            if (path.met > kMaxPassedSurfaces) return true;
+            if (path.passed || path.met > kMaxPassedSurfaces) return true;
             NextSurface::go_on(path, point.surface, scatter_,
                                *scatter_.sample(0.0, {}, Transport::Importance));
             --surface;
             continue;
         }
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
-        if (scatter_.has_density()) store(kind, fall * path.throughput, waves, stored);
+        const RayMask seen_by = next_.seen_by();
+        if (scatter_.has_density() && (seen_by & kRaysOfPaths) != 0)
+            store(kind, fall * path.throughput, waves, stored);
         const auto drawn =
             scatter_.sample(numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)},
                             Transport::Importance);
         if (!drawn || drawn->weight.is_black()) return true;
+        if (path.passed && (drawn->straight || drawn->singular)) return true;
+        const RayKind kind_of_next = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
+        if (!drawn->straight && (seen_by & mask_of(kind_of_next)) == 0) return true;
         if (!drawn->straight) {
             if (!drawn->singular) {
                 if (caustics_only_) return true;

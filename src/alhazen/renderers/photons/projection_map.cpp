@@ -46,6 +46,7 @@ bool meets_mirror(const Scene& scene, const LightRay& light, float time, const L
     path.ray = start.ray;
     path.time = time;
     path.kind = RayKind::Reflection;
+    path.as_connection = start.as_connection;
     // Ignores media, in which scattering would hide surfaces.
     if (next.find(path, numbers) != PathMeets::Surface || next.point().material->unlit) {
         return false;

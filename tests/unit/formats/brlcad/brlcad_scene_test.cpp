@@ -331,6 +331,22 @@ std::string light(const std::string& options, const std::string& name = "l") {
            "}} tree {l ball" + moved(3) + "}\n";
 }
 
+TEST(BrlcadScene, ALightIsInNoShadowOfItsSolid) {
+    for (const std::string options : {"f 1", "f 1 v 0"}) {
+        const Model model(kBall + light(options));
+        ASSERT_EQ(model.description().lights.size(), 2u);
+        int found = 0;
+        for (const ObjectDescription& object : model.description().objects) {
+            for (const Part& part : object.parts) {
+                if (part.name != model.description().lights[0].name) continue;
+                ++found;
+                EXPECT_EQ(part.visible_to, kRaysOfAllKinds & ~mask_of(RayKind::Shadow)) << options;
+            }
+        }
+        EXPECT_EQ(found, 1) << options;
+    }
+}
+
 TEST(BrlcadScene, LightsHaveTheirFractionAndOthersGoByTheirIntensity) {
     const Model model(kBall + light("inten 50", "a") + light("b 100", "b") + light("f .25", "c"));
     const auto& lights = model.description().lights;

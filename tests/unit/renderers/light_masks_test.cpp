@@ -1,0 +1,135 @@
+// Parts that only some kinds of rays see, in renderers of light transport.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::ball;
+using testing::expect_same_light;
+using testing::floor_from_above;
+using testing::matt;
+using testing::mean_of;
+using testing::picture_of;
+using testing::rectangle;
+using testing::SceneMaker;
+using testing::shining;
+
+constexpr RayMask kNoShadow = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
+
+void show_last_to(SceneMaker& maker, RayMask mask) {
+    maker.description().objects[0].parts.back().visible_to = mask;
+}
+
+// Three pairs of 4 blocks in each scene: a t of 22 degrees of freedom beyond 5.7 is seen in one of
+// 8000 scenes.
+constexpr double kMost = 5.7;
+
+/// A point of light in a ball that casts no shadows.
+Scene point_in_a_ball(const Material& surface) {
+    SceneMaker maker = floor_from_above(2, {0.8, 0.5, 0.3});
+    maker.add(rectangle({-1.2, 1, 0}, {2.4, 0, 0}, {0, 0, 2}), maker.material(matt({0.3, 0.5, 1})));
+    maker.light(PointLight{.position = {0, 0, 1}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    maker.add(ball({0, 0, 1}, 0.2), maker.material(surface));
+    show_last_to(maker, kNoShadow);
+    return maker.compile();
+}
+
+TEST(LightMasks, APointOfLightShinesThroughASurfaceThatCastsNoShadows) {
+    Material clear;
+    clear.transmissive.color = {1, 1, 1};
+    for (const Material& surface : {shining({1, 0.8, 0.5}), clear}) {
+        const Scene scene = point_in_a_ball(surface);
+        expect_same_light(scene, "point in a ball",
+                          {"path_tracing", "light_tracing", "bidirectional"}, 64, kMost);
+        const double light = mean_of(picture_of(scene, "path_tracing", 8, 256)).g;
+        ASSERT_GT(light, 0.1);
+        for (const std::string renderer :
+             {"vcm:photons=500,radius=0.05,pilot=off", "sppm:photons=500,radius=0.1",
+              "photon_mapping:photons=20000,nearest=50"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, 64)).g, light, 0.03 * light)
+                << renderer;
+        }
+    }
+}
+
+TEST(LightMasks, IndirectLightIsTheSameForAllStrategies) {
+    // A large ball without shadow hides the floor from the lit walls.
+    SceneMaker maker = floor_from_above(1.2, {0.8, 0.8, 0.8});
+    maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.9, 0.9, 0.9})));
+    maker.add(rectangle({1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.9, 0.9, 0.9})));
+    maker.light(PointLight{.position = {0, 0, 3}, .color = {9, 9, 9}, .attenuation = {0, 0, 1}});
+    maker.add(ball({0, 0, 0.8}, 0.7), maker.material(matt({0.1, 0.1, 0.1})));
+    show_last_to(maker, kNoShadow & ~mask_of(RayKind::Eye));
+    expect_same_light(maker.compile(), "ball without shadow",
+                      {"path_tracing", "light_tracing", "bidirectional"}, 96, kMost);
+}
+
+TEST(LightMasks, TheSurfaceOfALightIsInTheWayOfOtherLight) {
+    SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.3});
+    maker.add(rectangle({-0.8, -0.8, 0.9}, {0, 1.6, 0}, {1.6, 0, 0}),
+              maker.material(shining({0.3, 0.2, 0.1})));
+    show_last_to(maker, kLightSurfaceMask);
+    maker.description().environment = EnvironmentDescription{};
+    const Scene scene = maker.compile();
+    expect_same_light(scene, "lamp under a sky", {"path_tracing", "light_tracing", "bidirectional"},
+                      128, kMost);
+    const double light = mean_of(picture_of(scene, "path_tracing", 8, 256)).g;
+    for (const std::string renderer :
+         {"vcm:photons=500,radius=0.05,pilot=off", "sppm:photons=500,radius=0.1",
+          "photon_mapping:photons=20000,nearest=50"}) {
+        EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, 64)).g, light, 0.03 * light) << renderer;
+    }
+}
+
+TEST(LightMasks, AllStrategiesAgreeForEveryMask) {
+    for (RayMask mask = 1; mask <= kRaysOfAllKinds; ++mask) {
+        // A slope over one half of the floor, lit from above and from the floor beside it.
+        SceneMaker maker = floor_from_above(1.2, {0.8, 0.5, 0.3});
+        maker.add(rectangle({-0.5, -0.5, 0.05}, {0.6, 0, 0.3}, {0, 1, 0}),
+                  maker.material(matt({0.4, 0.6, 0.9})));
+        show_last_to(maker, mask);
+        maker.light(
+            PointLight{.position = {0.5, 0, 2}, .color = {4, 4, 4}, .attenuation = {0, 0, 1}});
+        const Scene scene = maker.compile();
+        const std::string name = "mask " + std::to_string(mask);
+        expect_same_light(scene, name, {"path_tracing", "light_tracing", "bidirectional"}, 48,
+                          kMost);
+        const double light = mean_of(picture_of(scene, "path_tracing", 8, 256)).g;
+        for (const std::string renderer :
+             {"vcm:photons=500,radius=0.05,pilot=off", "sppm:photons=500,radius=0.05"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 8, 128)).g, light, 0.02 * light)
+                << name << " " << renderer;
+        }
+    }
+}
+
+TEST(LightMasks, AWallWithoutShadowIsLitByLightPaths) {
+    // The red light of the wall reaches the floor by light paths that land on the wall.
+    SceneMaker maker = floor_from_above(2, {0.8, 0.8, 0.8});
+    maker.add(rectangle({-1.5, 0.5, 0}, {3, 0, 0}, {0, 0, 2}),
+              maker.material(matt({0.95, 0.05, 0.05})));
+    show_last_to(maker, kNoShadow);
+    maker.light(PointLight{.position = {0, -1, 2}, .color = {9, 9, 9}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    expect_same_light(scene, "wall", {"path_tracing", "light_tracing", "bidirectional"}, 64, kMost);
+}
+
+TEST(LightMasks, TheSurfaceOfALightDoesNotOccludeAmbientLight) {
+    const auto seen = [](RayMask mask) {
+        SceneMaker maker = floor_from_above(1.2);
+        maker.add(rectangle({-1, -1, 0.9}, {0, 2, 0}, {2, 0, 0}),
+                  maker.material(shining({1, 1, 1})));
+        show_last_to(maker, mask);
+        return mean_of(picture_of(maker.compile(), "ambient_occlusion", 8, 16)).g;
+    };
+    EXPECT_EQ(seen(kLightSurfaceMask), seen(kNoShadow));
+    EXPECT_LT(seen(kRaysOfAllKinds), 0.9 * seen(kLightSurfaceMask));
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
