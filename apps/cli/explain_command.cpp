@@ -126,7 +126,8 @@ void add_explain(CLI::App& app, int& exit_status) {
         ->capture_default_str()
         ->type_name("K");
     command->add_option("--seed", args->explain.render.seed, "Seed of the sample positions")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(unsigned_number());
     command
         ->add_option("--steps", args->explain.accelerator,
                      "The accelerator whose steps are shown: " + traceable_accelerators())

@@ -164,7 +164,9 @@ void add_measure_options(CLI::App& command, MeasureArguments& args) {
         ->type_name("A,B")
         ->take_all()
         ->allow_extra_args(false);
-    command.add_option("--seed", args.seed, "Seed of the lines")->capture_default_str();
+    command.add_option("--seed", args.seed, "Seed of the lines")
+        ->capture_default_str()
+        ->check(unsigned_number());
     command.add_flag("--all", args.all, "Measure all solids, however many");
     command.add_option("--json", args.json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");

@@ -57,6 +57,14 @@ PixelBox parse_crop(const std::string& text) {
     return {n[0], n[1], n[2], n[3]};
 }
 
+CLI::Validator unsigned_number() {
+    return {[](const std::string& text) {
+                return text.starts_with('-') ? fmt::format("expected 0 or more, not {}", text)
+                                             : std::string();
+            },
+            ""};
+}
+
 CLI::Validator number_in(double lo, double hi) {
     const std::string range = fmt::format("FLOAT in [{:g} - {:g}]", lo, hi);
     return {[lo, hi](std::string& text) {

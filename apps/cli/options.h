@@ -23,6 +23,9 @@ struct Size {
 /// Accepts a number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
 [[nodiscard]] CLI::Validator number_in(double lo, double hi);
 
+/// Refuses a sign, which CLI11 takes: it reads "-1" into an unsigned number as a huge one.
+[[nodiscard]] CLI::Validator unsigned_number();
+
 /// Adds the option --strict (LoadOptions::strict).
 void add_strict(CLI::App& command, bool& strict);
 

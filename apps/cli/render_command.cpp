@@ -389,9 +389,9 @@ void add_render(CLI::App& app, int& exit_status) {
             "Projection of the camera, with its position and direction: fisheye, "
             "equisolid (180 degrees high unless given), panorama (all around), perspective (45)")
         ->type_name("NAME[:DEGREES]");
-    // CLI11 reads "-1" into an unsigned number as a huge one.
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(unsigned_number());
     command->add_option("--tile-size", args->render.tile_size, "Side of a tile in pixels")
         ->capture_default_str()
         ->check(CLI::Range(1, 4096));

@@ -69,7 +69,9 @@ void add_samples(CLI::App& app, int& exit_status) {
     command->add_option("--dimension", args->dimension, "The first of the two that are drawn")
         ->capture_default_str()
         ->check(CLI::Range(0, 1 << 16));
-    command->add_option("--seed", args->study.seed, "Seed of the samples")->capture_default_str();
+    command->add_option("--seed", args->study.seed, "Seed of the samples")
+        ->capture_default_str()
+        ->check(unsigned_number());
     command->callback([args, &exit_status] { exit_status = run_samples(*args); });
 }
 

@@ -186,7 +186,9 @@ void add_verify(CLI::App& app, int& exit_status) {
     command->add_option("--rays", args->verify.rays, "Rays to trace")
         ->capture_default_str()
         ->check(number_in(1.0, 1e15));
-    command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
+    command->add_option("--seed", args->verify.seed, "Seed of the rays")
+        ->capture_default_str()
+        ->check(unsigned_number());
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_flag("--exact,!--no-exact", args->exact,
                       "Trace the exact solids again in numbers of 113 bits (the default)");

@@ -66,6 +66,7 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--size", "10"],
                           ["render", self.scene, "-o", picture, "--size", "0x10"],
                           ["render", self.scene, "-o", picture, "--spp", "0"],
+                          ["render", self.scene, "-o", picture, "--seed", "-1"], ["samples", "sobol", "--seed=-1"],
                           ["render", self.scene, "-o", picture, "--crop", "5,5,5,9"],
                           ["render", self.scene, "-o", picture, "--camera", "nobody"],
                           ["render", self.scene, "-o", picture, "--encoding", "gamma"],
