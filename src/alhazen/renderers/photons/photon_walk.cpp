@@ -133,8 +133,9 @@ bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
         }
         if (scatter_.needs_hero()) waves.keep_hero(path.throughput);
         const RayMask seen_by = next_.seen_by();
-        if (scatter_.has_density() && (seen_by & kRaysOfPaths) != 0)
+        if (scatter_.has_density() && (seen_by & kRaysOfPaths) != 0) {
             store(kind, fall * path.throughput, waves, stored);
+        }
         const auto drawn =
             scatter_.sample(numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)},
                             Transport::Importance);
