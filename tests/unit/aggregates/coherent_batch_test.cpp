@@ -337,10 +337,11 @@ TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
 }
 
 TEST(CoherentBatch, RaysBesideThoseFromOnePointAreTheirOwn) {
-    // All rays of a packet but one begin in the eye, that one beside it by a little or by much.
+    // All rays of a packet but one begin in the eye, that one beside it by a little or by much; the
+    // least distances vanish in float, where the packet then seems to come from one point.
     const Vec3 eye{0.1, 0.2, 3};
     for (const auto& [name, table] : tables(1, 31)) {
-        for (const double aside : {1e-6, 1e-3, 0.3}) {
+        for (const double aside : {1e-12, 1e-9, 1e-6, 1e-3, 0.3}) {
             for (const std::size_t place : {0u, 5u, 13u}) {
                 Rays rays = eye_rays(eye, {0, 0, -1}, 0.7, 24);
                 for (std::size_t i = place; i < rays.size(); i += 16) {
@@ -349,6 +350,9 @@ TEST(CoherentBatch, RaysBesideThoseFromOnePointAreTheirOwn) {
                 compare("rays beside the eye at " + name, table, rays);
             }
         }
+        Rays zeros = eye_rays({0, 0, 3}, {0, 0, -1}, 0.7, 24);
+        for (std::size_t i = 0; i < zeros.size(); i += 3) zeros[i].origin.x = -0.0;
+        compare("zeros of both signs at " + name, table, zeros);
     }
 }
 
