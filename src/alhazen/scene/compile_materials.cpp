@@ -21,7 +21,7 @@ class TextureCompiler {
     void operator()(SolidTexture& /*texture*/) { scene_.has_solid_textures = true; }
     /// Textures of one image share its pyramid.
     void operator()(ImageTexture& texture) {
-        if (texture.filter != TextureFilter::Mipmapped) return;
+        if (!has_pyramid(texture.filter)) return;
         auto& pyramid = pyramids_[{texture.image.get(), texture.decode_srgb}];
         if (!pyramid) {
             pyramid = std::make_shared<const MipPyramid>(texture.image, texture.decode_srgb);

@@ -93,6 +93,20 @@ TEST(MipmappedTexture, WithoutAFootprintIsTheBilinearOne) {
     }
 }
 
+TEST(MipmappedTexture, TheNearestTexelIsShownWhereTexelsAreLarge) {
+    ImageTexture t = mipmapped(checker(64));
+    t.filter = TextureFilter::NearestMipmapped;
+    ImageTexture squares = t;
+    squares.filter = TextureFilter::Nearest;
+    const ImageTexture smooth = mipmapped(checker(64));
+    for (const Vec2 uv : {Vec2{0.103, 0.707}, {0.5, 0.501}, {-3.203, 0.911}}) {
+        EXPECT_EQ(evaluate(t, uv), evaluate(squares, uv));
+        EXPECT_EQ(evaluate(t, uv, {{0.01, 0}, {0, 0.01}}), evaluate(squares, uv));
+        const UvFootprint large{{0.1, 0}, {0, 0.05}};
+        EXPECT_EQ(evaluate(t, uv, large), evaluate(smooth, uv, large));
+    }
+}
+
 TEST(MipmappedTexture, ALargeFootprintIsTheMeanWhateverItsShape) {
     const ImageTexture t = mipmapped(checker(64));
     const Vec2 uv{0.31, 0.77};

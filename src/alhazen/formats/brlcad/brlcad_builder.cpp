@@ -28,8 +28,31 @@ std::vector<std::string> BrlcadBuilder::top_level() const {
         }
     }
     std::vector<std::string> names;
+    std::unordered_set<const BrlcadObject*> reached;
+    const auto reach = [&](const BrlcadObject& root) {
+        std::vector<const BrlcadObject*> open{&root};
+        while (!open.empty()) {
+            const BrlcadObject* const object = open.back();
+            open.pop_back();
+            if (object == nullptr || !reached.insert(object).second) continue;
+            const auto* comb = std::get_if<BrlcadCombination>(&object->what);
+            if (comb == nullptr) continue;
+            for (const BrlcadNode& node : comb->tree.nodes()) {
+                if (node.op == BrlcadOperator::Leaf) open.push_back(database_.find(node.member));
+            }
+        }
+    };
     for (const BrlcadObject& object : database_.objects) {
-        if (!used.contains(object.name)) names.push_back(object.name);
+        if (used.contains(object.name)) continue;
+        names.push_back(object.name);
+        reach(object);
+    }
+    if (names.empty()) return names;
+    // Combinations that contain each other, or themselves: `enter` reports them.
+    for (const BrlcadObject& object : database_.objects) {
+        if (reached.contains(&object)) continue;
+        names.push_back(object.name);
+        reach(object);
     }
     return names;
 }

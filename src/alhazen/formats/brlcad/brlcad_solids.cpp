@@ -158,7 +158,9 @@ BrlcadBuilder::Operand BrlcadBuilder::solid(const BrlcadObject& object, Material
     }
     const BrlcadPieces& pieces = entry->second;
     if (!pieces.refused.empty()) {
-        unread_ = "solid '" + object.name + "' (" + given.type + ") " + pieces.refused;
+        unread_ = given.type == "comb"
+                      ? "combination '" + object.name + "' " + pieces.refused
+                      : "solid '" + object.name + "' (" + given.type + ") " + pieces.refused;
         return {Outcome::Unread, {}};
     }
     std::vector<Part> parts;

@@ -38,7 +38,9 @@ std::uint32_t BrlcadTree::combine(BrlcadOperator op, std::uint32_t left, std::ui
     switch (op) {
         case BrlcadOperator::Union:
         case BrlcadOperator::Intersection: {
-            // Both operators are commutative; append to the larger chain.
+            // Both operators are commutative; append to the larger chain. The first operand of an
+            // intersection stays first, for regions keep the material of their left operand.
+            const std::uint32_t first = nodes_[left].op == op ? nodes_[left].operands[0] : left;
             if (nodes_[left].op != op ||
                 (nodes_[right].op == op &&
                  nodes_[right].operands.size() > nodes_[left].operands.size())) {
@@ -46,12 +48,14 @@ std::uint32_t BrlcadTree::combine(BrlcadOperator op, std::uint32_t left, std::ui
             }
             if (nodes_[left].op != op) return join(op, right, left);
             std::vector<std::uint32_t>& operands = nodes_[left].operands;
+            const std::size_t appended = operands.size();
             if (nodes_[right].op == op) {
                 const std::vector<std::uint32_t> more = std::exchange(nodes_[right].operands, {});
                 operands.insert(operands.end(), more.begin(), more.end());
             } else {
                 operands.push_back(right);
             }
+            if (operands[0] != first) std::swap(operands[0], operands[appended]);
             return left;
         }
         case BrlcadOperator::Difference:

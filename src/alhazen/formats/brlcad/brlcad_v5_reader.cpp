@@ -71,6 +71,13 @@ FileLocation BrlcadV5Reader::location(const TclWord& word) {
     return database_.at(places_.of(word.text.data()));
 }
 
+void BrlcadV5Reader::fault(const Error& error, const TclWord& word) {
+    if (error.location().line <= 0) return fault(location(word), error.what());
+    // `what` begins with the location.
+    const std::string message(error.what());
+    fault(error.location(), message.substr(to_string(error.location()).size() + 2));
+}
+
 void BrlcadV5Reader::fault(const FileLocation& where, const std::string& message) {
     database_.fault(where, message, diagnostics_);
 }
@@ -84,8 +91,7 @@ void BrlcadV5Reader::read() {
                 read_command(words);
             } catch (const Error& error) {
                 if (error.kind() != ErrorKind::Scene) throw;
-                fault(error.location().line > 0 ? error.location() : location(words[0]),
-                      error.what());
+                fault(error, words[0]);
             }
         }
     } catch (const Error& error) {
@@ -128,7 +134,7 @@ void BrlcadV5Reader::read_put(std::span<const TclWord> words) {
         if (error.kind() != ErrorKind::Scene) throw;
         object.what = BrlcadSolid{std::string(words[2].text.substr(0, 40)),
                                   BrlcadUnsupported{"could not be read"}};
-        fault(error.location().line > 0 ? error.location() : location(words[0]), error.what());
+        fault(error, words[0]);
     }
     if (++elements_ > options_.max_elements) {
         throw Error(ErrorKind::Resource,

@@ -35,6 +35,8 @@ class BrlcadV5Reader {
 
     /// Reads the words of `put` into `object.what`. Throws Error (Scene).
     void read_form(std::span<const TclWord> words, BrlcadObject& object);
+    /// Reports an error at its own place, or at `word`.
+    void fault(const Error& error, const TclWord& word);
     void fault(const FileLocation& where, const std::string& message);
     [[nodiscard]] FileLocation location(const TclWord& word);
 

@@ -119,9 +119,11 @@ inline const Vocabulary<Wrap>& native_words() {
 }
 template <>
 inline const Vocabulary<TextureFilter>& native_words() {
-    static const Vocabulary<TextureFilter> kWords{{"nearest", TextureFilter::Nearest},
-                                                  {"bilinear", TextureFilter::Bilinear},
-                                                  {"mipmapped", TextureFilter::Mipmapped}};
+    static const Vocabulary<TextureFilter> kWords{
+        {"nearest", TextureFilter::Nearest},
+        {"bilinear", TextureFilter::Bilinear},
+        {"mipmapped", TextureFilter::Mipmapped},
+        {"nearest_mipmapped", TextureFilter::NearestMipmapped}};
     return kWords;
 }
 

@@ -118,7 +118,7 @@ void TextureTable::derive(TextureId id, const std::string& key,
 std::optional<TextureId> TextureTable::use(Picture& picture, const ImageTexture& settings,
                                            std::string name, const FileLocation& where) {
     if (!picture.image) return std::nullopt;
-    if (settings.filter == TextureFilter::Mipmapped &&
+    if (has_pyramid(settings.filter) &&
         !std::exchange(picture.counted_pyramid[settings.decode_srgb ? 1 : 0], true)) {
         count(MipPyramid::memory_bytes_for(*picture.image), name);
     }

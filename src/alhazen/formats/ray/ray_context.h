@@ -8,6 +8,14 @@
 
 namespace alhazen {
 
+/// The camera of the programs, which each camera block changes.
+struct RayCamera {
+    Vec3 eye;
+    Mat3 axes;          ///< right, up and backward; lengths and angles as in the file
+    double height = 1;  ///< of the image at distance 1: 53.13 degrees
+    double aspect = 1;
+};
+
 struct RayContext {
     SceneDescription& scene;
     Diagnostics& diagnostics;
@@ -15,6 +23,7 @@ struct RayContext {
     RayFamily family;
     std::uint64_t elements = 0;      ///< vertices, triangles and parts so far
     bool reported_rounding = false;  ///< a warning about a rounded matrix was given
+    RayCamera camera = {};
 
     /// Throws Error (Resource) beyond options.max_elements.
     void count_elements(std::uint64_t more, const FileLocation& where) {

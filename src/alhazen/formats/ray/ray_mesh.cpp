@@ -57,7 +57,10 @@ std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
     } else {
         reader.ignore("materials");
     }
-    if (wants_normals(reader) && readable) mesh->generate_normals();
+    // The programs of the course give each face the same weight.
+    if (wants_normals(reader) && readable) {
+        mesh->generate_normals(TriangleMesh::NormalWeights::Equal);
+    }
     report_other_items(reader, context.diagnostics);
     if (!readable) return std::nullopt;
     context.scene.meshes.push_back({"", std::move(mesh), reader.block().location()});

@@ -31,10 +31,25 @@ Mat3 rotation(double x, double y, double z, double w) {
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-/// The camera axes: unit right, up and backward by default. As in the original programs, lengths
-/// and angles given in the file are kept.
-Mat3 read_axes(BlockReader& reader, bool normalise) {
-    Mat3 axes;
+/// The axes of a camera at `eye` that looks at the point `look_at`; up by default along y.
+Mat3 axes_towards(BlockReader& reader, const Vec3& eye, const Vec3& point, const Mat3& before) {
+    Vec3 up{0, 1, 0};
+    reader.read("updir", up);
+    const Vec3 view = point - eye, right = cross(view, up);
+    if (!has_direction(reader, "updir", up)) return before;
+    if (!(length_squared(right) > 0)) {
+        reader.error(*reader.find("look_at"),
+                     "look_at must not lie at the position, nor along updir from it");
+        return before;
+    }
+    const Vec3 x = normalize(right), z = normalize(-view);
+    return {x, cross(z, x), z};
+}
+
+/// The camera axes. As in the original programs, lengths and angles given in the file are kept;
+/// `before` holds where the file says nothing.
+Mat3 read_axes(BlockReader& reader, const Vec3& eye, const Mat3& before, bool normalise) {
+    Mat3 axes = before;
     double q[4];
     for (const char* key :
          {"quaternian", "quaternion"}) {  // the first is the spelling of the reference
@@ -47,9 +62,12 @@ Mat3 read_axes(BlockReader& reader, bool normalise) {
             reader.error(*value, std::string(key) + " must not be zero");
         }
     }
-    Vec3 view, up;
+    Vec3 point, view, up;
+    if (!reader.has("viewdir") && reader.read("look_at", point)) {
+        return axes_towards(reader, eye, point, axes);
+    }
     const bool has_view = reader.read("viewdir", view), has_up = reader.read("updir", up);
-    if (reader.has("viewdir") != reader.has("updir")) {
+    if (reader.has("viewdir") != reader.has("updir") && !reader.has("look_at")) {
         reader.error(reader.block(), "viewdir and updir must be given together");
     }
     if (!has_view || !has_up || !has_direction(reader, "viewdir", view) ||
@@ -78,28 +96,37 @@ void refuse_lens(BlockReader& reader) {
 
 void read_camera(TextNode entry, RayContext& context) {
     BlockReader reader = reader_of(entry, context);
-    PerspectiveCamera camera;
-    reader.read("position", camera.eye);
-    const Mat3 axes = read_axes(reader, context.family.dictionary);
+    RayCamera& own = context.camera;
+    reader.read("position", own.eye);
+    own.axes = read_axes(reader, own.eye, own.axes, context.family.dictionary);
     double aspect = 1, fov_deg = 0;
-    if (reader.read("aspectratio", aspect) && !(aspect > 0)) {
-        reader.error(reader.block(), "aspectratio must be greater than 0");
-        aspect = 1;
+    if (reader.read("aspectratio", aspect)) {
+        if (aspect > 0) {
+            own.aspect = aspect;
+        } else {
+            reader.error(reader.block(), "aspectratio must be greater than 0");
+        }
     }
-    double height = 1;  // of the image at distance 1: 53.13 degrees
     if (reader.read("fov", fov_deg)) {
         if (fov_deg > 0 && fov_deg < 180) {
-            height = 2 * std::tan(0.5 * fov_deg * kRadiansPerDegree);
+            own.height = 2 * std::tan(0.5 * fov_deg * kRadiansPerDegree);
         } else {
             reader.error(reader.block(), "fov must be between 0 and 180 degrees");
         }
     }
     refuse_lens(reader);
     reader.finish();
-    camera.look = -axes.z_axis;
-    camera.right = height * aspect * axes.x_axis;
-    camera.up = height * axes.y_axis;
-    context.scene.cameras.push_back({"", camera, aspect, entry.location()});
+    PerspectiveCamera camera;
+    camera.eye = own.eye;
+    camera.look = -own.axes.z_axis;
+    camera.right = own.height * own.aspect * own.axes.x_axis;
+    camera.up = own.height * own.axes.y_axis;
+    if (!context.scene.cameras.empty()) {
+        context.diagnostics.warning(entry.location(),
+                                    "another camera block changes the camera of the first");
+        context.scene.cameras.clear();
+    }
+    context.scene.cameras.push_back({"", camera, own.aspect, entry.location()});
 }
 
 Rgb read_color(BlockReader& reader) {

@@ -245,35 +245,90 @@ void read_rib_nu_patch(const RibRequest& request, const RibState& state, RibScen
 
 // --- Quadrics.
 
-std::optional<AnyShape> rib_quadric(const RibRequest& request) {
-    std::array<double, 5> n{};
-    std::size_t count = 0;
-    while (count < n.size() && request.number(count)) {
-        n[count] = *request.number(count);
-        ++count;
+/// The numbers of a quadric, given one by one or as one array; parameters after them are no part.
+std::vector<double> numbers_of_rib_quadric(const RibRequest& request) {
+    std::vector<double> n;
+    for (std::size_t k = 0; k < request.arguments.size() && request.is_numbers(k); ++k) {
+        const std::span<const double> more = request.list(k);
+        n.insert(n.end(), more.begin(), more.end());
+        if (request.arguments[k].kind == RibArgument::Kind::Numbers) break;
     }
-    const auto whole = [&](std::size_t arguments) {
-        return count == arguments && std::fabs(n[arguments - 1]) >= 360.0;
-    };
-    const std::string_view name = request.name;
-    if (name == "Sphere" && whole(4) && n[1] <= -std::fabs(n[0]) && n[2] >= std::fabs(n[0])) {
-        return Sphere{{0, 0, 0}, std::fabs(n[0])};
-    }
-    if (name == "Cone" && whole(3)) {
-        return Cone{{0, 0, 0}, {0, 0, n[0]}, std::fabs(n[1]), 0.0, false};
-    }
-    if (name == "Cylinder" && whole(4)) {
-        return Cylinder{{0, 0, n[1]}, {0, 0, n[2]}, std::fabs(n[0]), false};
-    }
-    if (name == "Disk" && whole(3)) return Disc{{0, 0, n[0]}, {0, 0, 1}, std::fabs(n[1]), 0.0};
-    if (name == "Torus" && whole(5) && std::fabs(n[3] - n[2]) >= 360.0 && n[1] <= n[0]) {
-        return Torus{{0, 0, 0}, {0, 0, 1}, n[0], n[1]};
-    }
-    if (name == "Paraboloid" && whole(4) && n[1] == 0.0) {
-        return Paraboloid{{0, 0, 0}, {0, 0, n[2]}, {n[0], 0, 0}, {0, n[0], 0}, false};
-    }
-    return std::nullopt;
+    return n;
 }
+
+using RibNumbers = std::span<const double>;
+
+std::optional<AnyShape> whole_rib_sphere(RibNumbers n) {
+    const double r = std::fabs(n[0]);
+    if (n[1] > -r || n[2] < r) return std::nullopt;
+    return Sphere{{0, 0, 0}, r};
+}
+std::optional<AnyShape> whole_rib_cone(RibNumbers n) {
+    if (n[0] == 0.0) return Disc{{0, 0, 0}, {0, 0, 1}, std::fabs(n[1]), 0.0};
+    return Cone{{0, 0, 0}, {0, 0, n[0]}, std::fabs(n[1]), 0.0, false};
+}
+std::optional<AnyShape> whole_rib_cylinder(RibNumbers n) {
+    return Cylinder{{0, 0, n[1]}, {0, 0, n[2]}, std::fabs(n[0]), false};
+}
+std::optional<AnyShape> whole_rib_disk(RibNumbers n) {
+    return Disc{{0, 0, n[0]}, {0, 0, 1}, std::fabs(n[1]), 0.0};
+}
+std::optional<AnyShape> whole_rib_torus(RibNumbers n) {
+    if (std::fabs(n[3] - n[2]) < 360.0 || n[1] > n[0]) return std::nullopt;
+    return Torus{{0, 0, 0}, {0, 0, 1}, n[0], n[1]};
+}
+std::optional<AnyShape> whole_rib_paraboloid(RibNumbers n) {
+    if (n[1] != 0.0) return std::nullopt;
+    return Paraboloid{{0, 0, 0}, {0, 0, n[2]}, {n[0], 0, 0}, {0, n[0], 0}, false};
+}
+
+/// A quadric of the interface; the last of its numbers is the angle of the sweep in degrees.
+struct RibQuadric {
+    std::string_view name;
+    std::size_t count;  ///< of its numbers
+    bool (*has_extent)(RibNumbers);
+    /// None for a part of the shape.
+    std::optional<AnyShape> (*whole)(RibNumbers);
+};
+constexpr std::array kRibQuadrics{
+    RibQuadric{"Sphere", 4, [](RibNumbers n) { return n[0] != 0.0 && n[1] < n[2]; },
+               whole_rib_sphere},
+    RibQuadric{"Cone", 3, [](RibNumbers n) { return n[1] != 0.0; }, whole_rib_cone},
+    RibQuadric{"Cylinder", 4, [](RibNumbers n) { return n[0] != 0.0 && n[1] != n[2]; },
+               whole_rib_cylinder},
+    RibQuadric{"Disk", 3, [](RibNumbers n) { return n[1] != 0.0; }, whole_rib_disk},
+    RibQuadric{"Torus", 5, [](RibNumbers n) { return n[0] != 0.0 && n[1] != 0.0; },
+               whole_rib_torus},
+    RibQuadric{"Paraboloid", 4, [](RibNumbers n) { return n[0] != 0.0 && n[1] != n[2]; },
+               whole_rib_paraboloid},
+};
+
+void read_rib_quadric(const RibQuadric& quadric, const RibRequest& request, const RibState& state,
+                      RibScene& scene) {
+    const std::vector<double> n = numbers_of_rib_quadric(request);
+    const std::string name(quadric.name);
+    if (n.size() != quadric.count) {
+        return scene.error(request.place, name + ": expected " + std::to_string(quadric.count) +
+                                              " numbers, found " + std::to_string(n.size()));
+    }
+    const double sweep = n.back();
+    if (sweep == 0.0 || !quadric.has_extent(n)) {
+        return scene.leave_out(name + " without extent", request.place);
+    }
+    std::optional<AnyShape> shape;
+    if (std::fabs(sweep) >= 360.0) shape = quadric.whole(n);
+    if (!shape) return scene.leave_out("partial " + name, request.place);
+    scene.add_shape(state, std::move(*shape), request.place);
+}
+
+/// Geometry of the interface that has no shape here.
+constexpr std::array<std::string_view, 14> kLeftOut{"Polygon",        "GeneralPolygon",
+                                                    "PointsPolygons", "PointsGeneralPolygons",
+                                                    "Curves",         "Points",
+                                                    "Hyperboloid",    "SubdivisionMesh",
+                                                    "Blobby",         "HierarchicalSubdivisionMesh",
+                                                    "Geometry",       "Procedural",
+                                                    "Procedural2",    "ReadArchive"};
 
 }  // namespace
 
@@ -284,10 +339,14 @@ bool read_rib_geometry(const RibRequest& request, const RibState& state, RibScen
         read_rib_patch_mesh(request, state, scene);
     } else if (request.name == "NuPatch") {
         read_rib_nu_patch(request, state, scene);
-    } else if (std::optional<AnyShape> shape = rib_quadric(request)) {
-        scene.add_shape(state, std::move(*shape), request.place);
+    } else if (std::find(kLeftOut.begin(), kLeftOut.end(), request.name) != kLeftOut.end()) {
+        scene.leave_out(std::string(request.name), request.place);
     } else {
-        return false;
+        const auto* quadric =
+            std::find_if(kRibQuadrics.begin(), kRibQuadrics.end(),
+                         [&](const RibQuadric& entry) { return entry.name == request.name; });
+        if (quadric == kRibQuadrics.end()) return false;
+        read_rib_quadric(*quadric, request, state, scene);
     }
     return true;
 }

@@ -107,6 +107,7 @@ class RibInterpreter {
             fail("expected a number or name, outside of other objects");
         }
         state_.transform = {};
+        state_.inherits_color = true;
     }
     void end(std::string_view name) {
         if (name == "World" && skipped_world_) {
@@ -195,7 +196,7 @@ class RibInterpreter {
             concat(Affine::rotate(axis, n[0] * std::numbers::pi / 180.0));
         }
     }
-    void identity() { state_.transform = had_world_ ? Affine{} : state_.transform; }
+    void identity() { state_.transform = {}; }
     /// Reads a matrix for row vectors. Transform replaces the current one within the world.
     void transform() {
         std::array<double, 16> n{}, columns{};
@@ -219,6 +220,7 @@ class RibInterpreter {
             if (channel < 0.0) return fail("a colour is not negative");
         }
         state_.color = {n[0], n[1], n[2]};
+        state_.inherits_color = false;
     }
     void basis() {
         CubicBasis bases[2];

@@ -1,5 +1,6 @@
 #include "alhazen/formats/rib/rib_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/formats/mesh/mesh_scene.h"
@@ -36,14 +37,16 @@ Part& RibScene::add_part(const RibState& state, const RibPlace& place) {
     part.location = at(place);
     std::vector<Part>& parts = scene_.objects[current_].parts;
     parts.push_back(std::move(part));
+    part_colors_.resize(scene_.objects.size());
+    part_colors_[current_].push_back({state.color, state.inherits_color});
     return parts.back();
 }
 
-void RibScene::count(std::uint64_t points, const RibPlace& place) {
+void RibScene::count(std::uint64_t points, const FileLocation& where) {
     points_ += points;
     if (points_ <= limit_) return;
     throw Error(ErrorKind::Resource, "more than " + std::to_string(limit_) + " control points",
-                at(place));
+                where);
 }
 
 RibScene::Meshed& RibScene::mesh_of(const RibState& state, const BezierNet& net,
@@ -67,7 +70,8 @@ RibScene::Meshed& RibScene::mesh_of(const RibState& state, const BezierNet& net,
                   t.z,
                   c.r,
                   c.g,
-                  c.b};
+                  c.b,
+                  state.inherits_color ? 1.0 : 0.0};
     const auto [entry, fresh] = mesh_numbers_.try_emplace(key, meshes_.size());
     if (fresh) {
         add_part(state, place);
@@ -96,13 +100,13 @@ void RibScene::add_patch(const RibState& state, const BezierNet& given, const Ri
             return;
         }
     }
-    count(size, place);
+    count(size, at(place));
     mesh_of(state, net, place).welder.add({points.data(), size}, {weights.data(), size});
 }
 
 void RibScene::add_shape(const RibState& state, AnyShape shape, const RibPlace& place) {
     if (const auto* surface = std::get_if<NurbsSurface>(&shape)) {
-        count(surface->points.size(), place);
+        count(surface->points.size(), at(place));
     }
     add_part(state, place).what = std::move(shape);
 }
@@ -128,10 +132,80 @@ bool RibScene::add_instance(const RibState& state, const std::string& name, cons
     return true;
 }
 
+void RibScene::leave_out(const std::string& what, const RibPlace& place) {
+    if (left_out_.empty()) first_left_out_ = place;
+    ++left_out_[what];
+}
+
+std::size_t RibScene::colored(std::size_t object, const Rgb& color, int depth) {
+    const std::vector<PartColor>& own = part_colors_[object];
+    const bool inherits =
+        std::any_of(own.begin(), own.end(), [](const PartColor& part) { return part.inherits; });
+    if (!inherits) return object;
+    if (depth > max_nesting_) {
+        throw Error(ErrorKind::Resource,
+                    "objects nested more than " + std::to_string(max_nesting_) + " deep",
+                    scene_.objects[object].location);
+    }
+    const std::array<double, 4> key{double(object), color.r, color.g, color.b};
+    if (const auto made = colored_.find(key); made != colored_.end()) return made->second;
+    ObjectDescription copy = scene_.objects[object];
+    bool differs = false;
+    for (std::size_t k = 0; k < copy.parts.size(); ++k) {
+        Part& part = copy.parts[k];
+        if (!own[k].inherits) continue;
+        if (const auto* of = std::get_if<ObjectIndex>(&part.what)) {
+            const auto child = ObjectIndex(colored(std::size_t(*of), color, depth + 1));
+            differs = differs || child != *of;
+            part.what = child;
+        }
+        const MaterialId material = material_of(color);
+        differs = differs || material != part.material;
+        part.material = material;
+    }
+    std::size_t result = object;
+    if (differs) {
+        for (const Part& part : copy.parts) {
+            const auto* shape = std::get_if<AnyShape>(&part.what);
+            if (shape == nullptr) continue;
+            if (const auto* mesh = std::get_if<PatchMesh>(shape)) {
+                count(mesh->points.size(), copy.location);
+            }
+            if (const auto* surface = std::get_if<NurbsSurface>(shape)) {
+                count(surface->points.size(), copy.location);
+            }
+        }
+        result = scene_.objects.size();
+        scene_.objects.push_back(std::move(copy));
+    }
+    colored_.emplace(key, result);
+    return result;
+}
+
+void RibScene::color_instances() {
+    part_colors_.resize(scene_.objects.size());
+    for (std::size_t object = 0; object < part_colors_.size(); ++object) {
+        for (std::size_t k = 0; k < part_colors_[object].size(); ++k) {
+            const PartColor& own = part_colors_[object][k];
+            const auto* of = std::get_if<ObjectIndex>(&scene_.objects[object].parts[k].what);
+            if (of == nullptr || own.inherits) continue;
+            const auto child = ObjectIndex(colored(std::size_t(*of), own.color, 0));
+            scene_.objects[object].parts[k].what = child;
+        }
+    }
+}
+
 void RibScene::finish() {
     for (Meshed& mesh : meshes_) {
         scene_.objects[mesh.object].parts[mesh.part].what = AnyShape{mesh.welder.take()};
     }
+    color_instances();
+    if (left_out_.empty()) return;
+    std::string list;
+    for (const auto& [what, number] : left_out_) {
+        list += (list.empty() ? "" : ", ") + std::to_string(number) + " " + what;
+    }
+    warning(first_left_out_, "geometry left out: " + list);
 }
 
 }  // namespace alhazen

@@ -22,6 +22,7 @@ namespace alhazen {
 struct RibState {
     Affine transform;  ///< object_from_current, or world_from_current
     Rgb color{0.7, 0.7, 0.7};
+    bool inherits_color = false;  ///< in an object: its colour is that of each instance
     CubicBasis basis_u, basis_v;
     int step_u = 3, step_v = 3;
     bool reversed = false;
@@ -36,6 +37,7 @@ class RibScene {
           file_(source.path.string()),
           name_(source.path.stem().string()),
           limit_(source.options.max_elements),
+          max_nesting_(source.options.max_nesting),
           diagnostics_(diagnostics) {}
 
     /// Throws Error (Resource) beyond max_elements control points.
@@ -45,11 +47,14 @@ class RibScene {
     /// False if an object is already open, or none is.
     bool begin_object(const std::string& name, const RibPlace& place);
     bool end_object();
-    /// False if there is no such object.
+    /// False if there is no such object. Parts that inherit their colour have that of `state`.
     bool add_instance(const RibState& state, const std::string& name, const RibPlace& place);
     [[nodiscard]] bool in_object() const { return current_ != 0; }
 
-    /// Moves the patch meshes to their parts.
+    /// Notes geometry that has no shape here; `finish` lists it.
+    void leave_out(const std::string& what, const RibPlace& place);
+
+    /// Moves the patch meshes to their parts, and gives instances their colours.
     void finish();
 
     void error(const RibPlace& place, const std::string& message);
@@ -62,12 +67,20 @@ class RibScene {
         PatchWelder welder;
         std::size_t object, part;
     };
-    using Key = std::array<double, 17>;
+    using Key = std::array<double, 18>;
+    /// What a part says beside its description.
+    struct PartColor {
+        Rgb color;
+        bool inherits;
+    };
 
     Part& add_part(const RibState& state, const RibPlace& place);
     MaterialId material_of(const Rgb& color);
     Meshed& mesh_of(const RibState& state, const BezierNet& net, const RibPlace& place);
-    void count(std::uint64_t points, const RibPlace& place);
+    void count(std::uint64_t points, const FileLocation& where);
+    /// The object with `color` for the parts that inherit theirs: itself if none does.
+    std::size_t colored(std::size_t object, const Rgb& color, int depth);
+    void color_instances();
     [[nodiscard]] FileLocation at(const RibPlace& place) const {
         return {file_, place.line, place.column};
     }
@@ -75,12 +88,17 @@ class RibScene {
     SceneDescription& scene_;
     std::string file_, name_;
     std::uint64_t limit_, points_ = 0;
+    int max_nesting_;
     Diagnostics& diagnostics_;
     std::deque<Meshed> meshes_;
     std::map<Key, std::size_t> mesh_numbers_;
     std::map<std::array<double, 3>, MaterialId> materials_;
     std::map<std::string, std::size_t> objects_;
-    std::size_t current_ = 0;  ///< the object to which parts are added
+    std::size_t current_ = 0;                               ///< the object to which parts are added
+    std::vector<std::vector<PartColor>> part_colors_;       ///< by object and part
+    std::map<std::array<double, 4>, std::size_t> colored_;  ///< by object and colour
+    std::map<std::string, std::size_t> left_out_;           ///< number of requests
+    RibPlace first_left_out_;
     int errors_ = 0;
 };
 

@@ -144,7 +144,8 @@ json texture_json(const std::string& name, const SolidTexture& t) {
 }
 
 json texture_json(const std::string& name, const ImageTexture& t) {
-    static constexpr const char* kFilters[] = {"nearest", "bilinear", "mipmapped"};
+    static constexpr const char* kFilters[] = {"nearest", "bilinear", "mipmapped",
+                                               "nearest_mipmapped"};
     static constexpr int kBits[] = {8, 16, 32};
     return {{"name", name},
             {"width", t.image->width},

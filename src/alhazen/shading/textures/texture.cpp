@@ -58,6 +58,15 @@ Rgba bilinear(const ImageTexture& texture, double x, double y, int width, int he
     return (1 - fy) * top + fy * bottom;
 }
 
+/// The texel of level 0 nearest to (x, y), with texel i at i.
+Rgba nearest(const ImageTexture& texture, double x, double y) {
+    const auto at = [](double place, int n, Wrap wrap) {
+        return wrapped(static_cast<long long>(std::floor(place + 0.5)), n, wrap);
+    };
+    return texel(texture, at(x, texture.image->width, texture.wrap_u),
+                 at(y, texture.image->height, texture.wrap_v));
+}
+
 /// Interpolates at (x, y), in texels of level 0 with texel i at i, between the two nearest levels.
 Rgba trilinear(const ImageTexture& texture, double x, double y, double level) {
     const MipPyramid& pyramid = *texture.pyramid;
@@ -70,7 +79,10 @@ Rgba trilinear(const ImageTexture& texture, double x, double y, double level) {
                         [&](int i, int j) { return pyramid.texel(l, i, j); });
     };
     const int last = pyramid.levels() - 1;
-    if (!(level > 0.0)) return at_level(0);
+    if (!(level > 0.0)) {
+        return texture.filter == TextureFilter::NearestMipmapped ? nearest(texture, x, y)
+                                                                 : at_level(0);
+    }
     if (level >= last) return at_level(last);
     const int finer = static_cast<int>(level);
     const double f = level - finer;
@@ -131,14 +143,8 @@ Rgba evaluate(const ImageTexture& texture, const Vec2& uv, const UvFootprint& fo
     const double corner = texture.corner_texels ? 0.0 : 0.5;
     const double x = u * image.width - corner;
     const double y = v * image.height - corner;
-    if (texture.filter == TextureFilter::Nearest) {
-        const auto nearest = [](double at, int n, Wrap wrap) {
-            return wrapped(static_cast<long long>(std::floor(at + 0.5)), n, wrap);
-        };
-        return texel(texture, nearest(x, image.width, texture.wrap_u),
-                     nearest(y, image.height, texture.wrap_v));
-    }
-    if (texture.filter == TextureFilter::Mipmapped && texture.pyramid) {
+    if (texture.filter == TextureFilter::Nearest) return nearest(texture, x, y);
+    if (has_pyramid(texture.filter) && texture.pyramid) {
         return filtered(texture, x, y, footprint);
     }
     return bilinear(texture, x, y, image.width, image.height,

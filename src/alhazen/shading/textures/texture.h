@@ -27,8 +27,13 @@ inline constexpr TextureId kNoTexture{0xFFFFFFFFu};
 /// Treatment of coordinates outside [0, 1].
 enum class Wrap { Repeat, Clamp, Mirror };
 
-/// Nearest texel; bilinear interpolation; or trilinear in an image pyramid, by the ray's footprint.
-enum class TextureFilter { Nearest, Bilinear, Mipmapped };
+/// Nearest texel; bilinear interpolation; trilinear in an image pyramid, by the ray's footprint; or
+/// the same where a texel is no larger than the footprint, and the nearest texel where it is.
+enum class TextureFilter { Nearest, Bilinear, Mipmapped, NearestMipmapped };
+/// True for the filters that look up an image pyramid.
+inline bool has_pyramid(TextureFilter filter) {
+    return filter == TextureFilter::Mipmapped || filter == TextureFilter::NearestMipmapped;
+}
 
 /// Transform of texture coordinates before a lookup: (u', v') = (uu u + uv v + offset.x, vu u + vv
 /// v + offset.y).
@@ -64,7 +69,7 @@ struct ImageTexture {
     bool decode_srgb = false;  ///< samples are sRGB encoded and are decoded to linear
     int uv_set = 0;            ///< set of texture coordinates of a mesh: 0 or 1
     UvTransform uv_transform;
-    /// Pyramid of `image`; built by `compile` for Mipmapped. Null: looked up as Bilinear.
+    /// Pyramid of `image`; built by `compile` where `has_pyramid`. Null: looked up as Bilinear.
     std::shared_ptr<const MipPyramid> pyramid;
 };
 

@@ -132,12 +132,13 @@ UvDerivatives TriangleMesh::uv_derivatives(std::size_t triangle,
     return is_finite(result.dpdu) && is_finite(result.dpdv) ? result : UvDerivatives{};
 }
 
-void TriangleMesh::generate_normals() {
+void TriangleMesh::generate_normals(NormalWeights weights) {
     normals.assign(positions.size(), Vec3{});
     for (const auto& triangle : triangles) {
         const Vec3& p0 = positions[triangle[0]];
         const Vec3 area = cross(positions[triangle[1]] - p0, positions[triangle[2]] - p0);
-        for (const std::uint32_t vertex : triangle) normals[vertex] += area;
+        const Vec3 normal = weights == NormalWeights::Area ? area : unit_or(area, {});
+        for (const std::uint32_t vertex : triangle) normals[vertex] += normal;
     }
     // A vertex without area keeps a zero normal; its triangles have flat shading there.
     for (Vec3& normal : normals) normal = unit_or(normal, {});

@@ -54,9 +54,11 @@ struct TriangleMesh {
     /// are merged: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
 
-    /// Sets each normal to the normalised sum of the area-weighted normals of the vertex's
-    /// triangles.
-    void generate_normals();
+    /// How much a triangle counts in the normal of its vertices.
+    enum class NormalWeights { Area, Equal };
+    /// Sets each normal to the normalised weighted sum of the normals of the vertex's triangles;
+    /// those without area do not count.
+    void generate_normals(NormalWeights weights = NormalWeights::Area);
     /// Applies a transform to positions, tangents and (by the inverse transpose) to normals.
     void transform(const Affine& to_from);
 };

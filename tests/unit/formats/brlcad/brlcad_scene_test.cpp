@@ -284,6 +284,27 @@ TEST(BrlcadScene, CombinationsThatContainThemselvesAreRefused) {
     EXPECT_TRUE(mentions(region, "contains itself")) << text_of(region);
 }
 
+TEST(BrlcadScene, CombinationsThatNoOtherReachesAreToldOf) {
+    for (const char* lost : {"put r comb region yes tree {l r}\n",
+                             "put r comb tree {l q}\nput q comb region yes tree {l r}\n"}) {
+        const Model model(kBall + lost);
+        EXPECT_EQ(model.at({0, 0, 0}), 1u);
+        EXPECT_TRUE(mentions(model.found(), "warning: combination 'r' contains itself"))
+            << text_of(model.found());
+    }
+}
+
+TEST(BrlcadScene, AnIntersectionKeepsTheMaterialOfItsLeftOperand) {
+    const std::string b = "put b comb region yes rgb {0 0 255} tree {l ball" + moved(0.5) + "}\n";
+    for (const char* tree :
+         {"{n {l r} {n {l g} {l b}}}", "{n {n {l r} {l g}} {l b}}",
+          "{n {l r} {n {l g} {n {l b} {l g}}}}", "{n {n {l r} {l b}} {n {l g} {n {l b} {l g}}}}"}) {
+        const Model model(kRegions + b + "put c comb tree " + tree + "\n");
+        EXPECT_EQ(model.color({1.2, 0, 9}, {0, 0, -1}), (Rgb{1, 0, 0})) << tree;
+        EXPECT_EQ(model.at({1.2, 0, 0}), 1u) << tree;
+    }
+}
+
 TEST(BrlcadScene, CombinationsThatDoubleAtEachLevelDoNotFillMemory) {
     std::string text = kBall + "put c0 comb region yes tree {l ball}\n";
     for (int i = 1; i < 60; ++i) {

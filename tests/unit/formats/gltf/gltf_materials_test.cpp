@@ -224,7 +224,11 @@ TEST(GltfTextures, TransformsAreRestatedForUpwardV) {
 TEST(GltfTextures, FiltersFollowTheSampler) {
     using gltf::Filter;
     EXPECT_EQ(gltf::filter_of({}), TextureFilter::Mipmapped);
-    EXPECT_EQ(gltf::filter_of({Filter::Nearest, Filter::LinearMipmap}), TextureFilter::Mipmapped);
+    EXPECT_EQ(gltf::filter_of({Filter::Linear, Filter::LinearMipmap}), TextureFilter::Mipmapped);
+    for (const Filter minify :
+         {Filter::Unset, Filter::Linear, Filter::NearestMipmap, Filter::LinearMipmap}) {
+        EXPECT_EQ(gltf::filter_of({Filter::Nearest, minify}), TextureFilter::NearestMipmapped);
+    }
     EXPECT_EQ(gltf::filter_of({Filter::Unset, Filter::Linear}), TextureFilter::Bilinear);
     EXPECT_EQ(gltf::filter_of({Filter::Nearest, Filter::Nearest}), TextureFilter::Nearest);
     EXPECT_EQ(gltf::filter_of({Filter::Linear, Filter::Nearest}), TextureFilter::Bilinear);

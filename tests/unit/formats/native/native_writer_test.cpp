@@ -198,7 +198,7 @@ TEST(NativeWriter, PicturesKeepTheirSamplesAndAreWrittenOnce) {
             texture.image = picture(channels, kind);
             texture.wrap_u = Wrap(kind);
             texture.wrap_v = Wrap((kind + 1) % 3);
-            texture.filter = TextureFilter(kind);
+            texture.filter = TextureFilter((kind + channels) % 4);
             texture.corner_texels = kind == 1;
             texture.decode_srgb = kind == 1;
             texture.uv_set = kind == 1 ? 1 : 0;

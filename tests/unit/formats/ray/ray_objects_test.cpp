@@ -120,6 +120,15 @@ TEST(RayImporter, MakesFansOfPolygons) {
     expect_near(mesh.normals[0], {0, 0, 1});
 }
 
+// As in the programs of the course: the area of a face does not count.
+TEST(RayImporter, GeneratedNormalsAreMeansOfUnitNormals) {
+    const Imported i = import_ray(
+        "trimesh { points = ((0,0,0),(1,0,0),(0,9,0),(0,0,1)); faces = ((0,1,2),(0,3,1),(0,0,1)); "
+        "gennormals; }");
+    ASSERT_EQ(i.scene.meshes.size(), 1u) << i.messages();
+    expect_near(i.scene.meshes[0].mesh->normals.at(0), Vec3{0, 1, 1} / std::sqrt(2.0));
+}
+
 TEST(RayImporter, ReadsNormalsAndMaterialsAtTheVertices) {
     const Imported i = import_ray(
         std::string("material = { name a; diffuse = (1,0,0) } trimesh { ") + kSquareMesh +

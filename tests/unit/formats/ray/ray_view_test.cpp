@@ -69,6 +69,40 @@ TEST(RayImporter, TurnsTheCameraByAQuaternionInBothSpellings) {
     }
 }
 
+TEST(RayImporter, LooksAtAPoint) {
+    const auto camera = [](const Imported& i) {
+        EXPECT_EQ(i.errors(), 0u) << i.messages();
+        return std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera);
+    };
+    const PerspectiveCamera c =
+        camera(import_ray("camera { look_at = (3,0,4); position = (3,0,9); }"));
+    expect_near(c.look, {0, 0, -1});
+    expect_near(c.up, {0, 1, 0});
+    expect_near(c.right, {1, 0, 0});
+    const PerspectiveCamera turned =
+        camera(import_ray("camera { position = (0,0,0); look_at = (0,9,9); updir = (0,0,2); }"));
+    expect_near(turned.look, Vec3{0, 1, 1} / std::sqrt(2.0));
+    expect_near(turned.up, Vec3{0, -1, 1} / std::sqrt(2.0));
+    for (const char* bad : {"look_at = (0,0,0);", "look_at = (0,3,0);"}) {
+        EXPECT_TRUE(import_ray(std::string("camera { ") + bad + " }").says("look_at must not lie"));
+    }
+}
+
+TEST(RayImporter, CameraBlocksChangeOneCamera) {
+    const Imported i = import_ray(
+        "camera { position = (1,2,3); viewdir = (1,0,0); updir = (0,1,0); fov = 90 }"
+        "camera { position = (4,5,6); aspectratio = 2 }");
+    ASSERT_EQ(i.scene.cameras.size(), 1u);
+    EXPECT_TRUE(i.says("warning: another camera block changes the camera of the first"))
+        << i.messages();
+    const auto& c = std::get<PerspectiveCamera>(i.scene.cameras[0].camera);
+    expect_near(c.eye, {4, 5, 6});
+    expect_near(c.look, {1, 0, 0});
+    expect_near(c.up, {0, 2, 0});
+    expect_near(c.right, {0, 0, 4});
+    EXPECT_EQ(i.scene.cameras[0].aspect, 2);
+}
+
 TEST(RayImporter, WantsViewAndUpTogether) {
     EXPECT_TRUE(import_ray("camera { viewdir = (1,0,0) }").says("together"));
     EXPECT_TRUE(import_ray("camera { viewdir = (0,0,0); updir = (0,1,0) }").says("zero vector"));

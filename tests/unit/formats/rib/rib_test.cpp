@@ -143,12 +143,68 @@ TEST(Rib, QuadricsObjectsAndColours) {
         "Scale 2 2 2 ObjectInstance 3 Translate 1 0 0 ObjectInstance 3\n"
         "Torus 3 1 0 360 360 Cone 2 1 360 Disk 1 1 360 Paraboloid 1 0 2 360 Sphere 2 -1 2 360\n");
     EXPECT_EQ(read.errors(), 0u) << read.messages();
-    EXPECT_TRUE(read.says("a.rib:3:68: warning: ignored: Sphere")) << read.messages();
+    EXPECT_TRUE(read.says("a.rib:3:68: warning: geometry left out: 1 partial Sphere"))
+        << read.messages();
     ASSERT_EQ(read.scene.objects.size(), 2u);
     EXPECT_EQ(read.scene.objects[1].parts.size(), 2u);
     EXPECT_EQ(read.parts().size(), 6u);
     EXPECT_EQ(read.parts()[1].object_from_part.translation, (Vec3{2, 0, 0}));
     EXPECT_EQ(read.scene.materials.at(0).material.diffuse.color.g, 0);
+}
+
+TEST(Rib, NumbersOfQuadricsMayBeOneArray) {
+    const auto read = import_rib(
+        "Sphere [2 -2 2 360] Cylinder [1 0 3 360] Torus [3 1 0 360 360] Cone [2 1 360]\n"
+        "Disk [1 1 360] Paraboloid [1 0 2 360] Sphere [1 -1 1 360] \"Cs\" [1 0 0]\n");
+    EXPECT_EQ(read.messages(), "");
+    ASSERT_EQ(read.parts().size(), 7u);
+    EXPECT_EQ(shape_of<Sphere>(read).radius, 2);
+}
+
+TEST(Rib, GeometryLeftOutIsCountedAndAWrongCountIsAnError) {
+    const auto read =
+        import_rib(bilinear(0) +
+                   "Sphere 1 -1 0 360 Sphere 1 -1 1 180 Polygon \"P\" [0 0 0 1 0 0 0 1 0]\n"
+                   "ReadArchive \"b.rib\" Disk 0 0 360 Cone 1 0 360 Shpere 1 2\n");
+    EXPECT_EQ(
+        read.messages(),
+        "a.rib:3:34: warning: ignored: Shpere\n"
+        "a.rib:2:1: warning: geometry left out: 1 Cone without extent, 1 Disk without extent, "
+        "1 Polygon, 1 ReadArchive, 2 partial Sphere\n");
+    EXPECT_TRUE(
+        import_rib("Sphere 1 -1 1").says("a.rib:1:1: error: Sphere: expected 4 numbers, found 3"));
+    // By its equations a cone of height 0 is a disc.
+    EXPECT_EQ(shape_of<Disc>(import_rib("Cone 0 2 360")).radius, 2);
+}
+
+TEST(Rib, InstancesInheritTheColourThatTheObjectDoesNotSet) {
+    const auto read = import_rib(
+        "Color [0 0 1] ObjectBegin 1 Sphere 1 -1 1 360 Color [0 1 0] Sphere 1 -1 1 360 ObjectEnd\n"
+        "ObjectBegin 2 ObjectInstance 1 ObjectEnd\n"
+        "Color [1 0 0] ObjectInstance 2 ObjectInstance 1 Color [0 0 1] ObjectInstance 1\n");
+    EXPECT_EQ(read.messages(), "");
+    const auto color_of = [&](const Part& part) {
+        return read.scene.materials.at(std::size_t(part.material)).material.diffuse.color;
+    };
+    const auto object_of = [&](const Part& part) -> const ObjectDescription& {
+        return read.scene.objects.at(std::size_t(std::get<ObjectIndex>(part.what)));
+    };
+    ASSERT_EQ(read.parts().size(), 3u);
+    const ObjectDescription& nested = object_of(object_of(read.parts()[0]).parts.at(0));
+    const ObjectDescription& red = object_of(read.parts()[1]);
+    const ObjectDescription& blue = object_of(read.parts()[2]);
+    EXPECT_EQ(&nested, &red);
+    EXPECT_EQ(color_of(red.parts.at(0)), (Rgb{1, 0, 0}));
+    EXPECT_EQ(color_of(red.parts.at(1)), (Rgb{0, 1, 0}));
+    EXPECT_EQ(color_of(blue.parts.at(0)), (Rgb{0, 0, 1}));
+}
+
+TEST(Rib, IdentityBeforeTheWorldIsTheCamerasOwn) {
+    const auto read = import_rib(
+        "Projection \"perspective\" Translate 0 0 5 Identity Translate 0 0 3 WorldBegin\n" +
+        bilinear(0) + "WorldEnd");
+    const auto& camera = std::get<PerspectiveCamera>(read.scene.cameras.at(0).camera);
+    EXPECT_NEAR(length(camera.eye - Vec3{0, 0, -3}), 0, 1e-12);
 }
 
 TEST(Rib, WhatIsIgnoredIsListedOnce) {

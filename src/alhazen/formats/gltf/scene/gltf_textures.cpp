@@ -51,8 +51,12 @@ UvTransform uv_transform(const TextureInfo& info) {
 }
 
 TextureFilter filter_of(const Sampler& sampler) {
-    if (sampler.minify == Filter::Linear) return TextureFilter::Bilinear;
-    if (sampler.minify != Filter::Nearest) return TextureFilter::Mipmapped;
+    if (sampler.minify != Filter::Nearest) {
+        // Minified without mipmaps: those of the pyramid have no aliases.
+        if (sampler.magnify == Filter::Nearest) return TextureFilter::NearestMipmapped;
+        return sampler.minify == Filter::Linear ? TextureFilter::Bilinear
+                                                : TextureFilter::Mipmapped;
+    }
     return sampler.magnify == Filter::Nearest ? TextureFilter::Nearest : TextureFilter::Bilinear;
 }
 
