@@ -198,7 +198,8 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
     const Doubles half(f.half_height);
     const Doubles slab_entry = (copysign(half, -dz) - oz) / dz;
     const Doubles slab_exit = (copysign(half, dz) - oz) / dz;
-    maybe &= ~bits_of(level) | bits_of(abs(oz) < half);
+    spans.unsure |= maybe & bits_of(level);
+    maybe &= ~bits_of(level);
     const LaneMask<double> by_cap = (!level) & (slab_entry > entry);
     const LaneMask<double> to_cap = (!level) & (slab_exit < exit);
     entry = select_lanes(by_cap, slab_entry, entry);

@@ -103,7 +103,7 @@ struct PlaneFrame {
 [[nodiscard]] PlaneFrame frame_of(const SectionPlane& plane);
 
 /// Area of the section of a solid by a plane, from lines in the plane. A plane through a face
-/// counts as outside of it.
+/// is inside or outside by `keeps_face` (shape_numerics.h).
 struct SectionArea {
     Estimate area;
     std::uint64_t lines = 0;

@@ -57,7 +57,7 @@ CrossingsOf<R> exact_frustum(const Vec3& base, const Vec3& top, double base_radi
     const Vec3Of<R>& d = line.direction;
     const R squared = dot(axis, axis);
     const R z0 = dot(w, axis) / squared, z1 = dot(d, axis) / squared;
-    const SlabOf<R> ends = slab<R>(z0, z1, R(0), R(1));
+    const SlabOf<R> ends = slab<R>(z0, z1, R(0), R(1), keeps_face(top - base));
     if (ends.empty) return {};
     const R growth = R(top_radius) - R(base_radius);
     const R r0 = R(base_radius) + growth * z0, r1 = growth * z1;
@@ -103,7 +103,10 @@ template <class R>
 CrossingsOf<R> exact_crossings(const HalfSpace& half, const LineOf<R>& line) {
     const Vec3Of<R> n(half.normal);
     const R rate = dot(n, line.direction);
-    if (rate == 0) return {dot(n, line.origin - Vec3Of<R>(half.point)) < 0, {}};
+    if (rate == 0) {
+        const R height = dot(n, line.origin - Vec3Of<R>(half.point));
+        return {height < 0 || (height == 0 && keeps_face(half.normal)), {}};
+    }
     return {rate > 0, {dot(n, Vec3Of<R>(half.point) - line.origin) / rate}};
 }
 
@@ -117,7 +120,7 @@ CrossingsOf<R> exact_crossings(const Polyhedron& solid, const LineOf<R>& line) {
         const R rate = dot(n, line.direction);
         const R height = dot(n, line.origin - Vec3Of<R>(face.point));
         if (rate == 0) {
-            if (!(height < 0)) return {};
+            if (!(height < 0 || (height == 0 && keeps_face(face.normal)))) return {};
             continue;
         }
         const R t = -height / rate;

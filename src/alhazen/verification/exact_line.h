@@ -73,15 +73,20 @@ std::vector<R> quadratic_roots(const R& a, const R& b, const R& c) {
     return {t1, t0};
 }
 
-/// The part of a line between two values of one coordinate. A line along a face is outside.
+/// The part of a line between two values of one coordinate. A line along the face at hi is inside,
+/// one along that at lo is not, or the other way round (`keeps_face` of shape_numerics.h).
 template <class R>
 struct SlabOf {
     bool empty = false, unlimited = false;
     R lo{}, hi{};
 };
 template <class R>
-SlabOf<R> slab(const R& origin, const R& direction, const R& lo, const R& hi) {
-    if (direction == 0) return {!(lo < origin && origin < hi), true};
+SlabOf<R> slab(const R& origin, const R& direction, const R& lo, const R& hi,
+               bool keeps_hi = true) {
+    if (direction == 0) {
+        const bool inside = keeps_hi ? lo < origin && origin <= hi : lo <= origin && origin < hi;
+        return {!inside, true};
+    }
     const R a = (lo - origin) / direction, b = (hi - origin) / direction;
     return {false, false, a < b ? a : b, a < b ? b : a};
 }

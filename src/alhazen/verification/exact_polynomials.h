@@ -119,24 +119,32 @@ struct ClippedPart {
     R lo = -kInfinitelyFar<R>, hi = kInfinitelyFar<R>;
 
     [[nodiscard]] bool empty() const { return !(lo < hi); }
-    /// Clips to least <= a + b t <= most; a line along an end is outside.
-    void cut(const R& a, const R& b, double least, double most) {
+    /// Clips to least <= a + b t <= most. Of the lines along an end those at `most` are inside, or
+    /// those at `least`.
+    void cut(const R& a, const R& b, double least, double most, bool keeps_most = true) {
         if (b == 0) {
-            if (!(R(least) < a && a < R(most))) hi = lo;
+            const bool inside =
+                keeps_most ? R(least) < a && a <= R(most) : R(least) <= a && a < R(most);
+            if (!inside) hi = lo;
             return;
         }
         const R first = (R(b > 0 ? least : most) - a) / b, last = (R(b > 0 ? most : least) - a) / b;
         if (first > lo) lo = first;
         if (last < hi) hi = last;
     }
-    void cut(const LineOf<R>& line, const Box3& box) {
-        for (int k = 0; k < 3; ++k) cut(line.origin[k], line.direction[k], box.lo[k], box.hi[k]);
+    /// `line` and the clips are in the frame.
+    void cut(const SolidFrame& frame, const LineOf<R>& line, const Box3& box) {
+        for (int k = 0; k < 3; ++k) {
+            cut(line.origin[k], line.direction[k], box.lo[k], box.hi[k],
+                keeps_face(frame.normal_of(k)));
+        }
     }
-    void cut(const LineOf<R>& line, const std::vector<ClipPlane>& planes) {
+    void cut(const SolidFrame& frame, const LineOf<R>& line, const std::vector<ClipPlane>& planes) {
         for (const ClipPlane& plane : planes) {
             const Vec3Of<R> n(plane.normal);
             cut(dot(n, line.origin), dot(n, line.direction),
-                -std::numeric_limits<double>::infinity(), plane.offset);
+                -std::numeric_limits<double>::infinity(), plane.offset,
+                keeps_face(transpose_times(frame.local_from_object, plane.normal)));
         }
     }
 };
@@ -175,11 +183,12 @@ struct CoordinatesOf {
     }
 };
 
-/// The parts in the box where a polynomial `f(coordinates)` is negative.
+/// The parts in the box, of a line in the frame, where a polynomial `f(coordinates)` is negative.
 template <class R, class F>
-CrossingsOf<R> negative_in_box(const LineOf<R>& line, const Box3& box, F&& f) {
+CrossingsOf<R> negative_in_box(const SolidFrame& frame, const LineOf<R>& line, const Box3& box,
+                               F&& f) {
     ClippedPart<R> part;
-    part.cut(line, box);
+    part.cut(frame, line, box);
     if (part.empty()) return {};
     const R middle = (part.lo + part.hi) / 2;
     return where_negative(f(CoordinatesOf<R>(line, middle)), middle, part);
@@ -191,8 +200,8 @@ template <class R>
 CrossingsOf<R> exact_crossings(const ClippedQuadric& solid, const LineOf<R>& given) {
     const LineOf<R> line = in_frame(solid.frame, given);
     ClippedPart<R> part;
-    part.cut(line, solid.clip_box);
-    part.cut(line, solid.planes);
+    part.cut(solid.frame, line, solid.clip_box);
+    part.cut(solid.frame, line, solid.planes);
     if (part.empty()) return {};
     const QuadricForm& f = solid.quadric.form();
     const auto bilinear = [&](const Vec3Of<R>& p, const Vec3Of<R>& q) {
@@ -250,7 +259,7 @@ CrossingsOf<R> exact_crossings(const Torus& torus, const LineOf<R>& given) {
     const R r = torus.tube;
     const double reach = 2.0 + 2.0 * torus.tube;
     const Box3 around{{-reach, -reach, -reach}, {reach, reach, reach}};
-    return negative_in_box(line, around, [&](const CoordinatesOf<R>& at) {
+    return negative_in_box(torus.frame, line, around, [&](const CoordinatesOf<R>& at) {
         const PowersOf<R> across = sum(product(at.x, at.x), product(at.y, at.y), R(1));
         const PowersOf<R> squared = sum(across, product(at.z, at.z), R(1));
         const PowersOf<R> a = sum(squared, PowersOf<R>{1 - r * r}, R(1));
@@ -263,7 +272,7 @@ CrossingsOf<R> exact_crossings(const Tgc& cone, const LineOf<R>& given) {
     if (!cone.quartic) return exact_crossings(cone.solid, given);
     const LineOf<R> line = in_frame(cone.solid.frame, given);
     const Box3 around{{-2, -2, 0}, {2, 2, 1}};
-    return negative_in_box(line, around, [&](const CoordinatesOf<R>& at) {
+    return negative_in_box(cone.solid.frame, line, around, [&](const CoordinatesOf<R>& at) {
         // With the semi-axes at the height: (x b)^2 + (y a)^2 - (a b)^2.
         const auto between = [&](double at_base, double at_top) {
             const PowersOf<R> none{R(at_base)};
@@ -278,7 +287,7 @@ CrossingsOf<R> exact_crossings(const Tgc& cone, const LineOf<R>& given) {
 template <class R>
 CrossingsOf<R> exact_crossings(const Algebraic& surface, const LineOf<R>& line) {
     using Op = PolynomialExpression::Op;
-    return negative_in_box(line, surface.clip_box, [&](const CoordinatesOf<R>& at) {
+    return negative_in_box(SolidFrame{}, line, surface.clip_box, [&](const CoordinatesOf<R>& at) {
         std::vector<PowersOf<R>> of;
         for (const PolynomialExpression::Node& n : surface.polynomial->nodes()) {
             switch (n.op) {

@@ -117,7 +117,7 @@ template <class R>
 CrossingsOf<R> exact_crossings(const Superellipsoid& solid, const LineOf<R>& given) {
     const LineOf<R> line = in_frame(solid.frame, given);
     ClippedPart<R> part;
-    part.cut(line, Box3{{-1, -1, -1}, {1, 1, 1}});
+    part.cut(solid.frame, line, Box3{{-1, -1, -1}, {1, 1, 1}});
     if (part.empty()) return {};
     const bool convex = solid.p >= 1 && solid.q >= 1;
     const bool mixed = (solid.p > 1 && solid.q < 1) || (solid.p < 1 && solid.q > 1);

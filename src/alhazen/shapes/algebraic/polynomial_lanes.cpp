@@ -91,7 +91,8 @@ HWY_INLINE std::uint32_t cut_around(double reach, double height, Lines& l) {
                    (dot(c, c) <= Doubles(reach * reach) * dot(l.d, l.d)));
 }
 
-/// As `cut_by_box`; returns the lanes that remain. `unsure`: those where a quotient overflows.
+/// As `cut_by_box` in the frame of the object; returns the lanes that remain. `unsure`: those where
+/// a quotient overflows.
 HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& unsure) {
     std::uint32_t left = kAllLanes;
     unsure = 0;
@@ -108,7 +109,7 @@ HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& un
         l.exit = select_lanes(sooner, far, l.exit);
         l.exit_part = select_lanes(sooner, select_lanes(up, second, first), l.exit_part);
         const std::uint32_t moving = bits_of(moves);
-        left &= moving | bits_of((lo < o) & (o < hi));
+        left &= moving | bits_of((lo < o) & (o <= hi));
         unsure |= moving & ~bits_of(is_finite(near) & is_finite(far));
     };
     cut(l.o.x, l.d.x, box.lo.x, box.hi.x, 1.0);

@@ -62,7 +62,7 @@ inline bool clip_segment(const SolidFrame& frame, const Ray& ray, const Box3& bo
     return clip_segment_by(
         frame, ray, size,
         [&](const Vec3& o, const Vec3& d, ClipRange& range) {
-            return cut_by_box(o, d, box, range);
+            return cut_by_box(frame, o, d, box, range);
         },
         s);
 }

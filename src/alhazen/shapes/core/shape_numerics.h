@@ -29,6 +29,20 @@ constexpr double gamma_bound(int n) {
 inline constexpr double kMaxCoordinate = 1e70;
 inline constexpr double kMinLength = 1e-70;
 
+/// True if a solid with a face of this outward normal keeps the lines that lie in the face: as if
+/// lines were moved by (-e, -e^2, -e^3) for an infinitesimal e > 0. Between solids that touch in a
+/// face there is then neither gap nor overlap. In a mirrored or turned placement the frame is that
+/// of the solid.
+///
+/// Source: Edelsbrunner and Mücke, "Simulation of Simplicity", ACM Transactions on Graphics 9(1),
+/// 1990.
+inline bool keeps_face(const Vec3& outward) {
+    for (int k = 0; k < 3; ++k) {
+        if (outward[k] != 0.0) return outward[k] > 0.0;
+    }
+    return false;
+}
+
 /// Cross product, each component within 1.5 ulp, also for nearly parallel vectors.
 inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
     return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),

@@ -52,6 +52,11 @@ struct SolidFrame {
         return local_vector(
             Point3<Real>{p.x - Real(origin.x), p.y - Real(origin.y), p.z - Real(origin.z)});
     }
+    /// The direction in the object of increasing local coordinate `k`, as a normal.
+    [[nodiscard]] Vec3 normal_of(int k) const {
+        const Mat3& m = local_from_object;
+        return {m.x_axis[k], m.y_axis[k], m.z_axis[k]};
+    }
     [[nodiscard]] Vec3 to_local(const Vec3& p) const { return local_from_object * (p - origin); }
     [[nodiscard]] Vec3 to_object(const Vec3& p) const { return object_from_local * p + origin; }
     /// Rounding of `to_object`, per component.
@@ -88,9 +93,10 @@ struct ClipRange {
     std::uint32_t entry_part = 0, exit_part = 0;
 
     /// Cuts the range to where o + t d lies between lo and hi; returns false when it is empty. The
-    /// sign of d selects the entry face; a line in the plane of a face is outside.
-    bool cut(double o, double d, double lo, double hi, std::uint32_t lo_part) {
-        if (d == 0.0) return lo < o && o < hi;
+    /// sign of d selects the entry face; `outward`, the normal of the face at hi in the object,
+    /// where a line in the plane of a face is (`keeps_face`).
+    bool cut(double o, double d, double lo, double hi, std::uint32_t lo_part, const Vec3& outward) {
+        if (d == 0.0) return keeps_face(outward) ? lo < o && o <= hi : lo <= o && o < hi;
         const double near = ((d > 0.0 ? lo : hi) - o) / d;
         const double far = ((d > 0.0 ? hi : lo) - o) / d;
         // A face without a finite t.
@@ -113,9 +119,11 @@ struct ClipRange {
 inline constexpr std::uint32_t kFirstClipPlanePart = 7;
 
 /// Cuts the line by a box in the frame of the clip.
-inline bool cut_by_box(const Vec3& o, const Vec3& d, const Box3& box, ClipRange& range) {
-    return range.cut(o.x, d.x, box.lo.x, box.hi.x, 1) &&
-           range.cut(o.y, d.y, box.lo.y, box.hi.y, 3) && range.cut(o.z, d.z, box.lo.z, box.hi.z, 5);
+inline bool cut_by_box(const SolidFrame& frame, const Vec3& o, const Vec3& d, const Box3& box,
+                       ClipRange& range) {
+    return range.cut(o.x, d.x, box.lo.x, box.hi.x, 1, frame.normal_of(0)) &&
+           range.cut(o.y, d.y, box.lo.y, box.hi.y, 3, frame.normal_of(1)) &&
+           range.cut(o.z, d.z, box.lo.z, box.hi.z, 5, frame.normal_of(2));
 }
 
 /// Writes the crossings of a clipped solid. `t`, ascending and within the range, are where the line

@@ -33,8 +33,8 @@ int BoxShape::intersect(const Ray& ray, ShapeHit* hits) const {
         const double o = ray.origin[k];
         const double d = ray.direction[k];
         if (d == 0.0) {
-            // A ray in the plane of a face is outside: prevents 0 / 0 and single crossings.
-            if (!(lo[k] < o && o < hi[k])) return 0;
+            // A ray in the plane of a face: `keeps_face`.
+            if (!(lo[k] < o && o <= hi[k])) return 0;
             continue;
         }
         const std::uint32_t low_face = static_cast<std::uint32_t>(2 * k);

@@ -2,8 +2,8 @@
 /// A solid box with sides along the axes of its frame.
 ///
 /// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs).
-/// Differs: the sign of the direction selects the faces; a ray in the plane of a face is outside,
-/// so that it never has a single crossing.
+/// Differs: the sign of the direction selects the faces; a ray in the plane of a face is inside or
+/// outside by `keeps_face`, so that it never has a single crossing.
 /// Conventions: part = 0..5 for the faces -x +x -y +y -z +z. On each face v runs from 0 to 1 along
 /// the higher of the other two axes, u along the lower one, from 0 to 1 on the high face and from 1
 /// to 0 on the low one, as in the programs for which textured .ray scenes were made.

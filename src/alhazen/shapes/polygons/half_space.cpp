@@ -50,7 +50,8 @@ bool HalfSpace::inside_at_minus_infinity(const Ray& ray) const {
     line.t_max = kInfinity;
     ShapeHit hit;
     if (face.intersect(line, &hit) == 1) return dot(face.unit_normal, ray.direction) > 0.0;
-    return dot(face.unit_normal, face.point - ray.origin) > 0.0;
+    const double depth = dot(face.unit_normal, face.point - ray.origin);
+    return depth > 0.0 || (depth == 0.0 && keeps_face(face.unit_normal));
 }
 
 }  // namespace alhazen

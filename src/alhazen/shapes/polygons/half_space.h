@@ -4,8 +4,8 @@
 /// Source: Roth, "Ray Casting for Modeling Solids", Computer Graphics and Image Processing 18,
 /// 1982.
 /// Conventions: `normal` points out of the solid and need not be unit. uv are coordinates along two
-/// unit vectors in the plane from `point`, as for `plane`. A line in the plane is outside and has
-/// no crossing.
+/// unit vectors in the plane from `point`, as for `plane`. A line in the plane is inside or
+/// outside by `keeps_face`, and has no crossing.
 
 #include "alhazen/shapes/polygons/plane.h"
 

@@ -171,7 +171,7 @@ int Polyhedron::intersect(const Ray& ray, ShapeHit* hits) const {
         const double toward = dot(face.normal, ray.direction);
         const double depth = dot(face.normal, face.point - ray.origin);
         if (toward == 0.0) {
-            if (!(depth > 0.0)) return 0;
+            if (!(depth > 0.0 || (depth == 0.0 && keeps_face(face.normal)))) return 0;
             continue;
         }
         const double t = depth / toward;

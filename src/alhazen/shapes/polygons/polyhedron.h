@@ -3,7 +3,7 @@
 ///
 /// Source: Haines, "Fast Ray-Convex Polyhedron Intersection", Graphics Gems II, 1991 (intersection
 /// of the line's intervals in the half spaces).
-/// Differs: a line in the plane of a face is outside.
+/// Differs: a line in the plane of a face is inside or outside by `keeps_face`.
 /// Conventions: the solid is the intersection of the half spaces of all planes, so that a line
 /// crosses it twice or not at all. Faces by vertices may have either winding, may repeat vertices,
 /// and need be planar only approximately: the plane is the mean one (Newell). part = the plane or

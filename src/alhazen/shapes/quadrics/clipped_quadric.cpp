@@ -2,14 +2,17 @@
 
 namespace alhazen {
 
-bool cut_by_clip(const Vec3& o, const Vec3& d, const Box3& box,
+bool cut_by_clip(const SolidFrame& frame, const Vec3& o, const Vec3& d, const Box3& box,
                  const std::vector<ClipPlane>& planes, ClipRange& range) {
-    if (!cut_by_box(o, d, box, range)) return false;
+    if (!cut_by_box(frame, o, d, box, range)) return false;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         // With the far side infinitely far, only one of the slab's two parts can be hit.
         const std::uint32_t part = kFirstClipPlanePart + static_cast<std::uint32_t>(i);
-        if (!range.cut(dot(planes[i].normal, o), dot(planes[i].normal, d), -kInfinity,
-                       planes[i].offset, part - 1)) {
+        const double climb = dot(planes[i].normal, d);
+        const Vec3 outward =
+            climb == 0.0 ? transpose_times(frame.local_from_object, planes[i].normal) : Vec3{};
+        if (!range.cut(dot(planes[i].normal, o), climb, -kInfinity, planes[i].offset, part - 1,
+                       outward)) {
             return false;
         }
     }
@@ -27,7 +30,7 @@ int ClippedQuadric::intersect(const Ray& ray, ShapeHit* hits) const {
     if (has_clip()) {
         const Vec3 o = frame.to_local(ray.origin);
         const Vec3 d = frame.local_from_object * ray.direction;
-        if (!cut_by_clip(o, d, clip_box, planes, range)) return 0;
+        if (!cut_by_clip(frame, o, d, clip_box, planes, range)) return 0;
         if (!(range.exit >= ray.t_min && range.entry <= ray.t_max)) return 0;
     }
     const QuadricSpans spans = quadric.spans(frame, ray);
@@ -48,7 +51,8 @@ bool ClippedQuadric::inside_at_minus_infinity(const Ray& ray) const {
     ClipRange range;
     const Vec3 o = frame.to_local(ray.origin);
     const Vec3 d = frame.local_from_object * ray.direction;
-    if (!cut_by_clip(o, d, clip_box, planes, range) || range.entry > -kInfinity) return false;
+    if (!cut_by_clip(frame, o, d, clip_box, planes, range) || range.entry > -kInfinity)
+        return false;
     return quadric.spans(frame, ray).inside_first;
 }
 

@@ -49,7 +49,8 @@ struct ClippedQuadric {
                                              std::uint32_t part);
 
 /// Cuts the line by the box and all planes; returns false when nothing is left.
-[[nodiscard]] bool cut_by_clip(const Vec3& o, const Vec3& d, const Box3& box,
-                               const std::vector<ClipPlane>& planes, ClipRange& range);
+[[nodiscard]] bool cut_by_clip(const SolidFrame& frame, const Vec3& o, const Vec3& d,
+                               const Box3& box, const std::vector<ClipPlane>& planes,
+                               ClipRange& range);
 
 }  // namespace alhazen

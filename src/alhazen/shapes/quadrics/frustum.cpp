@@ -95,13 +95,26 @@ Interval inside_side(const FrustumLine& l) {
     return {};
 }
 
-int intersect_solid(const FrustumLine& l, double half_height, const Ray& ray, ShapeHit* hits) {
+/// True if a line parallel to the ends runs between them; in an end: `keeps_face`.
+bool between_ends(const Frustum& f, const FrustumLine& l, const Ray& ray) {
+    for (int k = 0; k < 3; ++k) {
+        // The height along an axis of coordinates is compared without rounding.
+        if (std::abs(f.axis[k]) != 1.0) continue;
+        const double o = ray.origin[k];
+        return std::min(f.base[k], f.top[k]) < o && o <= std::max(f.base[k], f.top[k]);
+    }
+    if (std::abs(l.oz) != f.half_height) return std::abs(l.oz) < f.half_height;
+    return keeps_face(l.oz > 0.0 ? f.axis : -f.axis);
+}
+
+int intersect_solid(const Frustum& f, const FrustumLine& l, const Ray& ray, ShapeHit* hits) {
+    const double half_height = f.half_height;
     const Interval side = inside_side(l);
     if (side.empty()) return 0;
     double entry = side.lo, exit = side.hi;
     std::uint32_t entry_part = 0, exit_part = 0;
     if (l.dz == 0.0) {
-        if (!(std::abs(l.oz) < half_height)) return 0;
+        if (!between_ends(f, l, ray)) return 0;
     } else {
         // The sign of the direction selects the entry cap; the order then survives rounding.
         const double slab_entry = (std::copysign(half_height, -l.dz) - l.oz) / l.dz;
@@ -144,8 +157,7 @@ int intersect_side(const FrustumLine& l, double half_height, const Ray& ray, Sha
 
 int all_hits_body(const Frustum& f, const Ray& ray, bool capped, ShapeHit* hits) {
     const FrustumLine l = localise(f, ray);
-    return capped ? intersect_solid(l, f.half_height, ray, hits)
-                  : intersect_side(l, f.half_height, ray, hits);
+    return capped ? intersect_solid(f, l, ray, hits) : intersect_side(l, f.half_height, ray, hits);
 }
 ALHAZEN_FOR_EACH_INSTRUCTION_SET(int all_hits(const Frustum& f, const Ray& ray, bool capped,
                                               ShapeHit* hits),

@@ -9,8 +9,8 @@
 /// and apex included. A line that starts far away is first shifted to its point nearest the shape.
 /// Conventions: part 0 the side, 1 the cap at `base`, 2 the cap at `top`. u runs around the axis, v
 /// along it from `base`; on caps v runs from the axis (0) to the rim (1). A line in a cap's plane
-/// or along the side of a cylinder is outside. Open ends: a crossing of the side belongs to the
-/// half-open range [base, top).
+/// is inside or outside by `keeps_face`, one along the side of a cylinder is outside. Open ends: a
+/// crossing of the side belongs to the half-open range [base, top).
 
 #include "alhazen/shapes/core/shape.h"
 

@@ -31,6 +31,13 @@ struct ProfileLine {
         x = b * oy - a * Real(d.y);
         y = a * Real(d.x) - b * ox;
         c = ox * Real(d.y) - oy * Real(d.x);
+        // A point on the line counts as positive: the line is moved as `keeps_face` says. By the
+        // direction alone, so that both precisions agree.
+        if (d.y > 0.0 || (d.y == 0.0 && d.x < 0.0)) {
+            x = -x;
+            y = -y;
+            c = -c;
+        }
         const double across = larger(d.x, d.y), g = std::abs(prism.growth);
         const double near = larger(double(ox), double(oy));
         const double z = larger(double(oz), prism.h0);
@@ -199,7 +206,7 @@ void Prism::intersect(const Ray& ray, ShapeHits& hits) const {
     const PrismRay local(*this, ray);
     double slab_entry = -kInfinity, slab_exit = kInfinity;
     if (local.dz == 0.0) {
-        if (!(h0 < local.oz && local.oz < h1)) return;
+        if (!(h0 < local.oz && local.oz <= h1)) return;  // `keeps_face`
     } else {
         slab_entry = ((local.dz > 0.0 ? h0 : h1) - local.oz) / local.dz;
         slab_exit = ((local.dz > 0.0 ? h1 : h0) - local.oz) / local.dz;

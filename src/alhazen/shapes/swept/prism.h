@@ -11,8 +11,8 @@
 /// Conventions: the section at height z is the profile times 1 + (top_scale - 1) (z - h0) / (h1 -
 /// h0). part 0 the end at h0, 1 the end at h1, 2 + i the side along curve i. On sides u runs around
 /// all curves (0 to 1), v along the height; on ends uv are the profile's coordinates (of h0). A
-/// line in the plane of an end is outside. Loops may cross; inside is then odd-even.
-/// Complexity: O(curves) per ray.
+/// line in the plane of an end or side is inside or outside by `keeps_face`. Loops may cross;
+/// inside is then odd-even. Complexity: O(curves) per ray.
 
 #include "alhazen/shapes/core/shape.h"
 #include "alhazen/shapes/swept/profile.h"
