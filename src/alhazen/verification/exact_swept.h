@@ -48,7 +48,7 @@ bool is_within(const Profile& profile, const PointOf<R>& point) {
         at.y[0] = at.y[0] - point.y;
         const bool from = R(curve.p[0].y) < point.y, to = R(curve.p[3].y) < point.y;
         for (const R& u : sign_changes(at.y, R(0), R(1), from, to)) {
-            if (value_at(at.x, u) > point.x) inside = !inside;
+            if (value_at(at.x, u) >= point.x) inside = !inside;
         }
     }
     return inside;
@@ -63,7 +63,13 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
     // The section has the size s0 + t s1. The line intersects the profile point (x, y) at the zeros
     // of a x + b y + c.
     const R s0 = R(1) + R(prism.growth) * (o.z - R(prism.h0)), s1 = R(prism.growth) * d.z;
-    const R a = s1 * o.y - s0 * d.y, b = s0 * d.x - s1 * o.x, c = o.x * d.y - o.y * d.x;
+    R a = s1 * o.y - s0 * d.y, b = s0 * d.x - s1 * o.x, c = o.x * d.y - o.y * d.x;
+    // A point on the line is on its positive side: `keeps_face`.
+    if (d.y > 0 || (d.y == 0 && d.x < 0)) {
+        a = -a;
+        b = -b;
+        c = -c;
+    }
     const auto size_at = [&](const R& t) { return s0 + t * s1; };
     if (a == 0 && b == 0) {
         // The line projects to one profile point.

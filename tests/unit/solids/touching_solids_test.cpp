@@ -127,5 +127,12 @@ TEST(TouchingSolids, SidesOfPrismsHaveNoGapEither) {
     expect_no_gap(solid("box", 0, 0, 1), prism(1, 2), 0);
 }
 
+// An axis that only rounds to an axis of coordinates; the line crosses half way up.
+TEST(TouchingSolids, AnAxisThatIsNearlyOneOfCoordinatesIsNone) {
+    EXPECT_NEAR(thickness("cylinder { base=(0,0,0) top=(1,1e-9,0) radius=0.5 material=\"m\" }",
+                          {1.5, -1e9, 0}, {-1e-9, 1, 0}),
+                1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -74,8 +74,10 @@ FileLocation BrlcadV5Reader::location(const TclWord& word) {
 void BrlcadV5Reader::fault(const Error& error, const TclWord& word) {
     if (error.location().line <= 0) return fault(location(word), error.what());
     // `what` begins with the location.
-    const std::string message(error.what());
-    fault(error.location(), message.substr(to_string(error.location()).size() + 2));
+    std::string message(error.what());
+    const std::string place = to_string(error.location()) + ": ";
+    if (message.starts_with(place)) message.erase(0, place.size());
+    fault(error.location(), message);
 }
 
 void BrlcadV5Reader::fault(const FileLocation& where, const std::string& message) {

@@ -67,7 +67,7 @@ Mat3 read_axes(BlockReader& reader, const Vec3& eye, const Mat3& before, bool no
         return axes_towards(reader, eye, point, axes);
     }
     const bool has_view = reader.read("viewdir", view), has_up = reader.read("updir", up);
-    if (reader.has("viewdir") != reader.has("updir") && !reader.has("look_at")) {
+    if (reader.has("viewdir") != reader.has("updir")) {
         reader.error(reader.block(), "viewdir and updir must be given together");
     }
     if (!has_view || !has_up || !has_direction(reader, "viewdir", view) ||

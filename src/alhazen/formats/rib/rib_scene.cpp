@@ -184,7 +184,10 @@ std::size_t RibScene::colored(std::size_t object, const Rgb& color, int depth) {
 
 void RibScene::color_instances() {
     part_colors_.resize(scene_.objects.size());
-    for (std::size_t object = 0; object < part_colors_.size(); ++object) {
+    // Instances refer to objects before their own; the world, which is the first, is the last.
+    const std::size_t count = part_colors_.size();
+    for (std::size_t number = 1; number <= count; ++number) {
+        const std::size_t object = number % count;
         for (std::size_t k = 0; k < part_colors_[object].size(); ++k) {
             const PartColor& own = part_colors_[object][k];
             const auto* of = std::get_if<ObjectIndex>(&scene_.objects[object].parts[k].what);

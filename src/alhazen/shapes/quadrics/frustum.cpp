@@ -99,7 +99,7 @@ Interval inside_side(const FrustumLine& l) {
 bool between_ends(const Frustum& f, const FrustumLine& l, const Ray& ray) {
     for (int k = 0; k < 3; ++k) {
         // The height along an axis of coordinates is compared without rounding.
-        if (std::abs(f.axis[k]) != 1.0) continue;
+        if (f.axis[(k + 1) % 3] != 0.0 || f.axis[(k + 2) % 3] != 0.0) continue;
         const double o = ray.origin[k];
         return std::min(f.base[k], f.top[k]) < o && o <= std::max(f.base[k], f.top[k]);
     }

@@ -97,7 +97,7 @@ void for_each_sign_change(const Profile& profile, Make make, F f) {
     }
 }
 
-/// Odd-even rule, along the line towards +x.
+/// Odd-even rule, along the line towards +x; a point on the outline: `keeps_face`.
 bool inside_profile(const Profile& profile, Vec2 q) {
     bool inside = false;
     for_each_sign_change(
@@ -109,7 +109,7 @@ bool inside_profile(const Profile& profile, Vec2 q) {
             for (int i = 0; i <= p.degree; ++i) p.b[i] = Real(curve.control(i).y) - Real(q.y);
         },
         [&](std::uint32_t i, double s) {
-            if (profile.curves[i].point(s).x > q.x) inside = !inside;
+            if (profile.curves[i].point(s).x >= q.x) inside = !inside;
         });
     return inside;
 }

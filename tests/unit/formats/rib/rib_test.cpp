@@ -194,6 +194,19 @@ TEST(Rib, InstancesInheritTheColourThatTheObjectDoesNotSet) {
     const ObjectDescription& red = object_of(read.parts()[1]);
     const ObjectDescription& blue = object_of(read.parts()[2]);
     EXPECT_EQ(&nested, &red);
+    // An instance within an object keeps the colour that the object sets for it.
+    const auto own = import_rib(
+        "ObjectBegin 1 Sphere 1 -1 1 360 ObjectEnd\n"
+        "ObjectBegin 2 Sphere 1 -1 1 360 Color [0 1 0] ObjectInstance 1 ObjectEnd\n"
+        "Color [1 0 0] ObjectInstance 2\n");
+    const auto part_of = [&](std::size_t object, std::size_t k) -> const Part& {
+        return own.scene.objects.at(object).parts.at(k);
+    };
+    const auto shown = std::size_t(std::get<ObjectIndex>(own.parts().at(0).what));
+    const auto inner = std::size_t(std::get<ObjectIndex>(part_of(shown, 1).what));
+    EXPECT_EQ(
+        own.scene.materials.at(std::size_t(part_of(inner, 0).material)).material.diffuse.color,
+        (Rgb{0, 1, 0}));
     EXPECT_EQ(color_of(red.parts.at(0)), (Rgb{1, 0, 0}));
     EXPECT_EQ(color_of(red.parts.at(1)), (Rgb{0, 1, 0}));
     EXPECT_EQ(color_of(blue.parts.at(0)), (Rgb{0, 0, 1}));
