@@ -49,9 +49,9 @@ struct LeafQuery {
         // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
         valid =
-            make_ray(frame, Test::slab_slack(frame), r, slabs, [&](const LocalRay& local) HWY_ATTR {
-                make_triangle_filter_ray(slabs, local, filter);
-                parameter = local.parameter;
+            make_ray(frame, Test::slab_slack(frame), r, slabs, [&](const AxisLanes& axes) HWY_ATTR {
+                make_triangle_filter_ray(slabs, axes, filter);
+                parameter = axes.parameter;
             });
         s_max = slabs.s_max;
     }
@@ -197,7 +197,7 @@ struct LeafQuery {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});
         }
-        return pairs.resolve((1u << used) - 1,
+        return pairs.resolve((1u << used) - 1, scene.layout->frame.inverse_scale,
                              [&](std::size_t lane, ShapeHit& hit) HWY_ATTR {
                                  return hits_triangle_scalar(block.ids[lane].id(), hit);
                              },
@@ -293,7 +293,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     template <class Stats>
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
-            resolution.add(*this->source, best, block, lane, stats);
+            resolution.add(*this->source, this->filter, best, block, lane, stats);
         });
     }
 
