@@ -42,10 +42,15 @@ struct LeafQuery {
     const Ray* source;  ///< the caller's
     LocalParameter parameter;
     const WideBvhScene& scene;
+    const TriangleBlock* blocks;  ///< null: leaves hold indices
     float s_max;
     bool valid;  ///< false: the ray cannot be traced
 
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r) : ray(r), source(&r), scene(s) {
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r)
+        : ray(r),
+          source(&r),
+          scene(s),
+          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()) {
         // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
         valid =
@@ -61,11 +66,11 @@ struct LeafQuery {
         const std::uint32_t count = ref.count();
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles: {
-                if (HWY_UNLIKELY(scene.layout->is_indexed())) return visit_indices(ref, stats);
-                const TriangleBlock* blocks = &scene.layout->triangles[ref.offset()];
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    stats.primitives(used_lanes(blocks[i]));
-                    if (visit_block(blocks[i], stats)) return true;
+                if (HWY_UNLIKELY(blocks == nullptr)) return visit_indices(ref, stats);
+                const TriangleBlock* block = blocks + ref.offset();
+                for (const TriangleBlock* end = block + count; block < end; ++block) {
+                    stats.primitives(used_lanes(*block));
+                    if (visit_block(*block, stats)) return true;
                 }
                 return false;
             }

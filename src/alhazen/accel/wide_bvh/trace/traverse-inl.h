@@ -59,8 +59,9 @@ class StackEntry {
     HWY_INLINE StackEntry(float entry, NodeRef ref)
         : bits_(std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | ref.bits()) {}
 
-    [[nodiscard]] HWY_INLINE float entry() const {
-        return std::bit_cast<float>(static_cast<std::uint32_t>(bits_ >> 32));
+    /// Compared as integers: the entry is not negative, and neither is a NaN.
+    [[nodiscard]] HWY_INLINE bool is_beyond(float s_max) const {
+        return static_cast<std::int32_t>(bits_ >> 32) > std::bit_cast<std::int32_t>(s_max);
     }
     [[nodiscard]] HWY_INLINE NodeRef ref() const {
         return NodeRef::from_bits(static_cast<std::uint32_t>(bits_));
@@ -144,11 +145,10 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 continue;
             }
         }
-        // Written so that NaN is visited.
         do {
             if (height == 0) return false;
             --height;
-        } while (stack[height].entry() > leaf.s_max);
+        } while (stack[height].is_beyond(leaf.s_max));
         ref = stack[height].ref();
     }
 }
