@@ -157,32 +157,74 @@ HWY_INLINE Lanes<float, 4> first_three(const Lanes<float, 4>& a) {
     }
     return r;
 }
-/// The largest lane, in every lane. Precondition: no NaN, nothing negative.
-HWY_INLINE Lanes<float, 4> largest_of(const Lanes<float, 4>& a) {
-    const LaneTag<float, 4> d;
-    const hn::RebindToSigned<LaneTag<float, 4>> di;  // integer comparison is faster
-    auto most = hn::BitCast(di, a.part[0]);
-    for (std::size_t i = 1; i < kParts<float, 4>; ++i) {
-        most = hn::Max(most, hn::BitCast(di, a.part[i]));
+/// The lanes of `a`, then those of `b`.
+template <std::size_t N>
+HWY_INLINE Lanes<float, 2 * N> joined(const Lanes<float, N>& a, const Lanes<float, N>& b) {
+    Lanes<float, 2 * N> r;
+    if constexpr (kParts<float, 2 * N> == 2 * kParts<float, N>) {
+        for (std::size_t i = 0; i < kParts<float, N>; ++i) {
+            r.part[i] = a.part[i];
+            r.part[kParts<float, N> + i] = b.part[i];
+        }
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to combine
+    } else {
+        r.part[0] = hn::Combine(LaneTag<float, 2 * N>(), b.part[0], a.part[0]);
+#endif
     }
-    most = hn::MaxOfLanes(di, most);
-    Lanes<float, 4> r;
-    for (auto& part : r.part) part = hn::BitCast(d, most);
     return r;
 }
-/// Lane i is values[place[i]]; both arrays are aligned to 16 bytes.
-HWY_INLINE Lanes<float, 4> permuted(const float* values, const std::int32_t* place) {
-    const LaneTag<float, 4> d;
-    Lanes<float, 4> r;
-    if constexpr (kParts<float, 4> == 1) {
-        const hn::RebindToSigned<LaneTag<float, 4>> di;
-        r.part[0] =
-            hn::TableLookupLanes(hn::Load(d, values), hn::IndicesFromVec(d, hn::Load(di, place)));
+/// The upper half of the lanes.
+template <std::size_t N>
+HWY_INLINE Lanes<float, N / 2> upper_half(const Lanes<float, N>& a) {
+    Lanes<float, N / 2> r;
+    if constexpr (kParts<float, N> == 2 * kParts<float, N / 2>) {
+        for (std::size_t i = 0; i < kParts<float, N / 2>; ++i) {
+            r.part[i] = a.part[kParts<float, N / 2> + i];
+        }
+#if HWY_TARGET != HWY_SCALAR
     } else {
-        HWY_ALIGN float in_place[4];
-        for (std::size_t i = 0; i < 4; ++i) in_place[i] = values[place[i]];
-        r = load_lanes<4>(in_place);
+        r.part[0] = hn::UpperHalf(LaneTag<float, N / 2>(), a.part[0]);
+#endif
     }
+    return r;
+}
+/// The largest of each four lanes, in all four. Precondition: no NaN, nothing negative.
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> largest_of_fours(const Lanes<float, N>& a) {
+    Lanes<float, N> r;
+#if HWY_TARGET == HWY_SCALAR
+    HWY_ALIGN float values[N];
+    store_lanes(a, values);
+    for (std::size_t first = 0; first < N; first += 4) {
+        float most = values[first];
+        for (std::size_t i = 1; i < 4; ++i) {
+            if (values[first + i] > most) most = values[first + i];
+        }
+        for (std::size_t i = 0; i < 4; ++i) values[first + i] = most;
+    }
+    r = load_lanes<N>(values);
+#else
+    const LaneTag<float, N> d;
+    const hn::RebindToSigned<LaneTag<float, N>> di;  // integer comparison is faster
+    for (std::size_t i = 0; i < kParts<float, N>; ++i) {
+        auto most = hn::BitCast(di, a.part[i]);
+        most = hn::Max(most, hn::Shuffle1032(most));
+        most = hn::Max(most, hn::Shuffle2301(most));
+        r.part[i] = hn::BitCast(d, most);
+    }
+#endif
+    return r;
+}
+/// Lane i is lane place[i] of `a`; `place` is aligned to 16 bytes.
+HWY_INLINE Lanes<float, 4> permuted(const Lanes<float, 4>& a, const std::int32_t* place) {
+    Lanes<float, 4> r;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < 4; ++i) r.part[i] = a.part[place[i]];
+#else
+    const LaneTag<float, 4> d;
+    const hn::RebindToSigned<LaneTag<float, 4>> di;
+    r.part[0] = hn::TableLookupLanes(a.part[0], hn::IndicesFromVec(d, hn::Load(di, place)));
+#endif
     return r;
 }
 template <class T, std::size_t N>

@@ -25,7 +25,7 @@ namespace {
 
 std::uint32_t met(const WideNode& node, const LocalFrame& frame, const Ray& ray) {
     SlabRay slabs;
-    if (!make_ray(frame, frame.slack.slab, ray, slabs, [](const LocalRay&) {})) return 0;
+    if (!make_ray(frame, frame.slack.slab, ray, slabs, [](const AxisLanes&) {})) return 0;
     Floats entry;
     return bits_of(meet_children(node, slabs, slabs.s_max, entry));
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <sstream>
@@ -107,6 +108,39 @@ TEST(WideBvh, FindsTheHitsOfBruteForceAmongRandomTriangles) {
     for (const int count : {2, 3, 8, 9, 17, 100, 1000}) {
         compare(std::to_string(count) + " triangles", random_triangles(count, 1, 0.3, 11),
                 random_rays(1), 1000);
+    }
+}
+
+TEST(WideBvh, CornersThatFloatHoldsAndOthersAreDecidedTogether) {
+    // A stream decides eight rays together. Blocks hold corners exactly where they are on the grid;
+    // the others come from the mesh.
+    const auto on_grid = [](const Vec3& p) {
+        const auto snap = [](double x) { return std::round(x * 1024) / 1024; };
+        return Vec3{snap(p.x), snap(p.y), snap(p.z)};
+    };
+    for (const Vec3& middle : {Vec3{}, Vec3{96, 32, -64}}) {
+        for (const int every : {1, 2, 5}) {
+            RandomEngine random(23);
+            TableBuilder builder;
+            for (int i = 0; i < 400; ++i) {
+                Vec3 p[3] = {uniform_point(random, 1), {}, {}};
+                p[1] = p[0] + uniform_point(random, 0.3), p[2] = p[0] + uniform_point(random, 0.3);
+                for (Vec3& corner : p)
+                    corner = middle + (i % every == 0 ? on_grid(corner) : corner);
+                builder.add_triangle(p[0], p[1], p[2]);
+            }
+            const MakeRay around = random_rays(1);
+            const auto make_ray = [&](RandomEngine& engine) {
+                Ray ray = around(engine);
+                ray.origin += middle;
+                // Two components of the same size, or of the same float: no axis is dominant.
+                if (engine() % 4 == 0) ray.direction.y = -ray.direction.x;
+                if (engine() % 4 == 0) ray.direction.z = ray.direction.x * (1 + 0x1p-40);
+                return ray;
+            };
+            compare("corners, every " + std::to_string(every) + " on the grid", builder.finish(),
+                    make_ray);
+        }
     }
 }
 

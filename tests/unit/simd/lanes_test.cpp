@@ -46,7 +46,10 @@ struct alignas(64) Rows {
     float least[2][4], most[2][4];  ///< of the columns: of 16 lanes, of 32
     float doubled[32];              ///< a column twice, the second time times two
     double promoted[8];
+    float pair[8], largest[8];    ///< of the first two rows
+    float upper[4], permuted[4];  ///< half of the pair; the first row by kPlaces
 };
+constexpr std::int32_t kPlaces[4] = {2, 0, 3, 0};
 
 }  // namespace alhazen::lanes_test
 #endif
@@ -84,6 +87,14 @@ void turn_rows(Rows& r) {
     store_lanes(many.least, r.least[1]);
     store_lanes(many.most, r.most[1]);
     store_lanes(as_doubles(load_lanes<8>(r.turned[1])), r.promoted);
+    const Lanes<float, 4> first = load_lanes<4>(r.in[0]);
+    const Lanes<float, 8> pair = joined(first, load_lanes<4>(r.in[1]));
+    store_lanes(pair, r.pair);
+    store_lanes(upper_half(pair), r.upper);
+    store_lanes(largest_of_fours(abs(pair)), r.largest);
+    HWY_ALIGN std::int32_t places[4];
+    std::copy_n(lanes_test::kPlaces, 4, places);
+    store_lanes(permuted(first, places), r.permuted);
 }
 
 void operators(Case& c) {
@@ -298,6 +309,15 @@ TEST(Lanes, RowsBecomeColumnsAndGiveTheirExtremes) {
             }
             for (std::size_t i = 0; i < 8; ++i) {
                 ASSERT_EQ(r.promoted[i], double{r.in[i][1]}) << target;
+                const auto& row = r.in[i / 4];
+                ASSERT_EQ(r.pair[i], row[i % 4]) << target;
+                float largest = 0;
+                for (const float x : row) largest = std::fmax(largest, std::abs(x));
+                ASSERT_EQ(r.largest[i], largest) << target;
+            }
+            for (std::size_t i = 0; i < 4; ++i) {
+                ASSERT_EQ(r.upper[i], r.in[1][i]) << target;
+                ASSERT_EQ(r.permuted[i], r.in[0][lanes_test::kPlaces[i]]) << target;
             }
         }
     }

@@ -24,16 +24,15 @@ class BatchResolution {
   public:
     HWY_INLINE explicit BatchResolution(const WideBvhScene& scene) : scene_(scene) {}
 
+    /// `filter` is that of the ray.
     template <class Stats>
-    HWY_INLINE void add(const Ray& ray, Hit& best, const TriangleBlock& block, std::size_t lane,
-                        Stats stats) {
+    HWY_INLINE void add(const Ray& ray, const TriangleFilterRay& filter, Hit& best,
+                        const TriangleBlock& block, std::size_t lane, Stats stats) {
         const BlockId id = block.ids[lane];
         if (HWY_LIKELY(id.exact())) {
-            const LocalFrame& frame = scene_.layout->frame;
-            const Vec3 corners[3] = {frame.world(block.corner(0, lane)),
-                                     frame.world(block.corner(1, lane)),
-                                     frame.world(block.corner(2, lane))};
-            return place({&ray, &best, id.id()}, corners, stats);
+            pairs_.set(count_, ray, {filter.kx, filter.ky, filter.kz}, scene_.layout->frame, block,
+                       lane);
+            return place({&ray, &best, id.id()}, stats);
         }
         hwy::Prefetch(scene_.table->triangle_corners(triangle(id.id())));
         fetching_[fetching_count_++] = {&ray, &best, id.id()};
@@ -63,7 +62,8 @@ class BatchResolution {
     HWY_NOINLINE void fetch(Stats stats) {
         for (std::size_t i = 0; i < fetched_count_; ++i) {
             const auto [a, b, c] = scene_.table->triangle_vertices(triangle(fetched_[i].id));
-            place(fetched_[i], {a, b, c}, stats);
+            pairs_.set(count_, *fetched_[i].ray, {a, b, c});
+            place(fetched_[i], stats);
         }
         for (std::size_t i = 0; i < fetching_count_; ++i) {
             fetched_[i] = fetching_[i];
@@ -76,9 +76,9 @@ class BatchResolution {
         fetching_count_ = 0;
     }
 
+    /// The pair of the lane that has been set.
     template <class Stats>
-    HWY_INLINE void place(const Pair& pair, const Vec3 (&corners)[3], Stats stats) {
-        pairs_.set(count_, *pair.ray, corners);
+    HWY_INLINE void place(const Pair& pair, Stats stats) {
         pair_[count_] = pair;
         if (++count_ == kLaneCount) resolve(stats);
     }
@@ -86,7 +86,7 @@ class BatchResolution {
     template <class Stats>
     HWY_NOINLINE void resolve(Stats stats) {
         // Lanes beyond the count hold earlier pairs or zeros.
-        pairs_.resolve((1u << count_) - 1,
+        pairs_.resolve((1u << count_) - 1, scene_.layout->frame.inverse_scale,
                        [&](std::size_t lane, ShapeHit& hit)
                            HWY_ATTR { return resolve_scalar(pair_[lane], hit); },
                        [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {

@@ -139,44 +139,92 @@ struct PairVerdicts {
 };
 
 /// Eight arbitrary rays, each with its own triangle; [..][lane].
-struct TrianglePairs {
-    alignas(64) double vertex[3][3][kLaneCount];  ///< [corner][axis], axes as in RayShear
-    alignas(64) double origin[3][kLaneCount], direction[3][kLaneCount];
-    alignas(64) double t_min[kLaneCount], t_max[kLaneCount];
-
+class TrianglePairs {
+  public:
+    /// A triangle of any vertices.
     HWY_INLINE void set(std::size_t lane, const Ray& ray, const Vec3 (&corners)[3]) {
-        const int kz = dominant_axis(ray.direction);
-        const int axis[3] = {kz == 2 ? 0 : kz + 1, kz == 0 ? 2 : kz - 1, kz};
+        const auto kz = static_cast<std::uint32_t>(dominant_axis(ray.direction));
+        const std::uint32_t axis[3] = {kz == 2 ? 0 : kz + 1, kz == 0 ? 2 : kz - 1, kz};
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
-            origin[k][lane] = ray.origin[axis[k]];
-            direction[k][lane] = ray.direction[axis[k]];
-            for (std::size_t i = 0; i < 3; ++i) vertex[i][k][lane] = corners[i][axis[k]];
+            for (std::size_t i = 0; i < 3; ++i) {
+                vertex_[i][k][lane] = corners[i][static_cast<int>(axis[k])];
+            }
         }
-        t_min[lane] = ray.t_min;
-        t_max[lane] = ray.t_max;
+        in_block_ &= ~(1u << lane);
+        set_ray(lane, ray, axis);
+    }
+    /// A triangle that its block holds unrounded. `axis`: the order of axes of the ray's filter.
+    HWY_INLINE void set(std::size_t lane, const Ray& ray, const std::uint32_t (&axis)[3],
+                        const LocalFrame& frame, const TriangleBlock& block,
+                        std::size_t block_lane) {
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                local_[i][k][lane] = block.vertex[i][axis[k]][block_lane];
+            }
+            center_[k][lane] = (&frame.center.x)[axis[k]];
+        }
+        in_block_ |= 1u << lane;
+        set_ray(lane, ray, axis);
     }
 
     /// Tests the lanes of `used`: see PairVerdicts::take.
     template <class Scalar, class Accept>
-    HWY_INLINE bool resolve(std::uint32_t used, Scalar&& scalar, Accept&& accept) {
+    HWY_INLINE bool resolve(std::uint32_t used, double inverse_scale, Scalar&& scalar,
+                            Accept&& accept) {
         PairVerdicts<kLaneCount> verdicts;
-        test(verdicts);
-        return verdicts.take(used, kAllLanes, scalar, accept);
+        const std::uint32_t set_up = test(inverse_scale, verdicts);
+        return verdicts.take(used, set_up, scalar, accept);
     }
 
   private:
-    HWY_NOINLINE HWY_FLATTEN void test(PairVerdicts<kLaneCount>& verdicts) const {
+    HWY_INLINE void set_ray(std::size_t lane, const Ray& ray, const std::uint32_t (&axis)[3]) {
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            origin_[k][lane] = (&ray.origin.x)[axis[k]];
+            direction_[k][lane] = (&ray.direction.x)[axis[k]];
+        }
+        t_min_[lane] = ray.t_min;
+        t_max_[lane] = ray.t_max;
+    }
+    /// Returns the lanes whose third axis is the dominant one.
+    HWY_NOINLINE HWY_FLATTEN std::uint32_t test(double inverse_scale,
+                                                PairVerdicts<kLaneCount>& verdicts) const {
         PairLanes<kLaneCount> pairs;
         for (std::size_t k = 0; k < 3; ++k) {
-            for (std::size_t i = 0; i < 3; ++i) pairs.vertex[i][k] = load_lanes(vertex[i][k]);
-            pairs.origin[k] = load_lanes(origin[k]);
-            pairs.direction[k] = load_lanes(direction[k]);
+            const Doubles center = load_lanes(center_[k]);
+            for (std::size_t i = 0; i < 3; ++i) {
+                // As LocalFrame::world.
+                pairs.vertex[i][k] =
+                    Doubles(inverse_scale) * as_doubles(load_lanes(local_[i][k])) + center;
+            }
+            pairs.origin[k] = load_lanes(origin_[k]);
+            pairs.direction[k] = load_lanes(direction_[k]);
         }
-        pairs.t_min = load_lanes(t_min);
-        pairs.t_max = load_lanes(t_max);
+        if (in_block_ != kAllLanes) {
+            const auto in_block = lanes_of_bits<double>(in_block_);
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t i = 0; i < 3; ++i) {
+                    pairs.vertex[i][k] =
+                        select_lanes(in_block, pairs.vertex[i][k], load_lanes(vertex_[i][k]));
+                }
+            }
+        }
+        pairs.t_min = load_lanes(t_min_);
+        pairs.t_max = load_lanes(t_max_);
         verdicts.test(pairs);
+        const Doubles most = abs(pairs.direction[2]);
+        return bits_of((most > abs(pairs.direction[0])) & (most > abs(pairs.direction[1])));
     }
+
+    std::uint32_t in_block_ = 0;                   ///< bits of the lanes of `local_`
+    alignas(64) float local_[3][3][kLaneCount];    ///< [corner][axis], in the local frame
+    alignas(64) double vertex_[3][3][kLaneCount];  ///< [corner][axis], axes as in RayShear
+    alignas(64) double center_[3][kLaneCount];     ///< of the local frame
+    alignas(64) double origin_[3][kLaneCount], direction_[3][kLaneCount];
+    alignas(64) double t_min_[kLaneCount], t_max_[kLaneCount];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -42,16 +42,21 @@ struct LeafQuery {
     const Ray* source;  ///< the caller's
     LocalParameter parameter;
     const WideBvhScene& scene;
+    const TriangleBlock* blocks;  ///< null: leaves hold indices
     float s_max;
     bool valid;  ///< false: the ray cannot be traced
 
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r) : ray(r), source(&r), scene(s) {
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r)
+        : ray(r),
+          source(&r),
+          scene(s),
+          blocks(s.layout->is_indexed() ? nullptr : s.layout->triangles.data()) {
         // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
         valid =
-            make_ray(frame, Test::slab_slack(frame), r, slabs, [&](const LocalRay& local) HWY_ATTR {
-                make_triangle_filter_ray(slabs, local, filter);
-                parameter = local.parameter;
+            make_ray(frame, Test::slab_slack(frame), r, slabs, [&](const AxisLanes& axes) HWY_ATTR {
+                make_triangle_filter_ray(slabs, axes, filter);
+                parameter = axes.parameter;
             });
         s_max = slabs.s_max;
     }
@@ -61,11 +66,11 @@ struct LeafQuery {
         const std::uint32_t count = ref.count();
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles: {
-                if (HWY_UNLIKELY(scene.layout->is_indexed())) return visit_indices(ref, stats);
-                const TriangleBlock* blocks = &scene.layout->triangles[ref.offset()];
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    stats.primitives(used_lanes(blocks[i]));
-                    if (visit_block(blocks[i], stats)) return true;
+                if (HWY_UNLIKELY(blocks == nullptr)) return visit_indices(ref, stats);
+                const TriangleBlock* block = blocks + ref.offset();
+                for (const TriangleBlock* end = block + count; block < end; ++block) {
+                    stats.primitives(used_lanes(*block));
+                    if (visit_block(*block, stats)) return true;
                 }
                 return false;
             }
@@ -197,7 +202,7 @@ struct LeafQuery {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});
         }
-        return pairs.resolve((1u << used) - 1,
+        return pairs.resolve((1u << used) - 1, scene.layout->frame.inverse_scale,
                              [&](std::size_t lane, ShapeHit& hit) HWY_ATTR {
                                  return hits_triangle_scalar(block.ids[lane].id(), hit);
                              },
@@ -293,7 +298,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     template <class Stats>
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
-            resolution.add(*this->source, best, block, lane, stats);
+            resolution.add(*this->source, this->filter, best, block, lane, stats);
         });
     }
 

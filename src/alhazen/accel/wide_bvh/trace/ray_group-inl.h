@@ -95,7 +95,7 @@ HWY_INLINE void take_lanes(std::span<const Ray, kRayLanes> rays, RayLanes& lanes
     for (std::size_t i = 0; i < kRayLanes; ++i) lanes.set(i, rays[i]);
 }
 
-/// Converts eight rays to the local frame, as `local_ray_nearby`; returns the bits of those that it
+/// Converts eight rays to the local frame, as `make_ray_nearby`; returns the bits of those that it
 /// accepts.
 HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays, RayGroup& group) {
     using D = Doubles;

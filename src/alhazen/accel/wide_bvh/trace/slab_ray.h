@@ -84,7 +84,7 @@ struct alignas(64) SlabRay {
 };
 static_assert(sizeof(SlabRay) == 64);
 
-/// A ray in the local frame, from which the float tests of leaves are prepared.
+/// A ray in the local frame, moved close to the scene.
 struct alignas(16) LocalRay {
     float origin[4], direction[4];  ///< origin after the shift; the fourth is 0
     float reach, delta;             ///< as in FrameSlack

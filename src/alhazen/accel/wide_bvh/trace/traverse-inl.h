@@ -15,6 +15,11 @@
 #define ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
+#include <bit>
+#include <cstdint>
+
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
 #include "alhazen/simd/lanes-inl.h"
@@ -45,9 +50,29 @@ HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const Sla
     return entry <= exit;
 }
 
-struct StackEntry {
-    float entry;
-    NodeRef ref;
+/// A subtree to visit, and the parameter where the ray enters it, in one word: an entry is moved
+/// right after it was stored, and a load of two stores would wait for both.
+class StackEntry {
+  public:
+    StackEntry() = default;
+    /// Precondition: `entry` is not negative.
+    HWY_INLINE StackEntry(float entry, NodeRef ref)
+        : bits_(std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | ref.bits()) {}
+
+    /// Compared as integers: the entry is not negative, and neither is a NaN.
+    [[nodiscard]] HWY_INLINE bool is_beyond(float s_max) const {
+        return static_cast<std::int32_t>(bits_ >> 32) > std::bit_cast<std::int32_t>(s_max);
+    }
+    [[nodiscard]] HWY_INLINE NodeRef ref() const {
+        return NodeRef::from_bits(static_cast<std::uint32_t>(bits_));
+    }
+    /// The order of numbers that are not negative is that of their bits.
+    [[nodiscard]] HWY_INLINE bool is_nearer_than(const StackEntry& other) const {
+        return bits_ < (other.bits_ & ~std::uint64_t{0xFFFFFFFFu});
+    }
+
+  private:
+    std::uint64_t bits_;
 };
 
 /// Pushes the children that are hit, the nearest last; returns the new height.
@@ -59,7 +84,7 @@ HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit,
         const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
         const StackEntry child{entry[slot], node.child[slot]};
         std::size_t place = height++;
-        while (place > base && stack[place - 1].entry < child.entry) {
+        while (place > base && stack[place - 1].is_nearer_than(child)) {
             stack[place] = stack[place - 1];
             --place;
         }
@@ -81,6 +106,8 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
             if (leaf.visit(ref, stats)) return true;
         } else {
             const WideNodeOf<W>& node = nodes[ref.index()];
+            // Their line is read when the planes have been tested.
+            hwy::Prefetch(&node.child);
             stats.nodes(1);
             stats.boxes(node.child_count());
             Lanes<float, W> entries;
@@ -106,7 +133,7 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 if constexpr (kOrdered) {
                     hit |= 1u << first | 1u << second;
                     height = push_sorted(node, hit, entry, stack, height);
-                    ref = stack[--height].ref;
+                    ref = stack[--height].ref();
                 } else {
                     hit |= 1u << second;
                     for (; hit != 0; hit &= ~(0x80000000u >> std::countl_zero(hit))) {
@@ -118,12 +145,11 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 continue;
             }
         }
-        // Written so that NaN is visited.
         do {
             if (height == 0) return false;
             --height;
-        } while (stack[height].entry > leaf.s_max);
-        ref = stack[height].ref;
+        } while (stack[height].is_beyond(leaf.s_max));
+        ref = stack[height].ref();
     }
 }
 

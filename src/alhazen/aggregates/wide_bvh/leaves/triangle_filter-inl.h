@@ -30,32 +30,33 @@ struct FilteredTriangles {
     HWY_ALIGN float hi[kBlockWidth];
 };
 
-/// Precondition: `slabs` and `local` are of the same ray.
-HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& local,
+/// Precondition: `slabs` and `axes` are of the same ray.
+HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const AxisLanes& axes,
                                          TriangleFilterRay& filter) {
     // The positions of the axes x, y, z for main axis 0, 1 and 2; the fourth is arbitrary.
     HWY_ALIGN static constexpr std::int32_t kTurned[3][4] = {
         {1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
-    const std::uint32_t kz = local.main_axis;
+    const std::uint32_t kz = axes.main_axis;
     const float sz = slabs.reciprocal[kz];
-    const auto turned = [&](const float* axes) HWY_ATTR { return permuted(axes, kTurned[kz]); };
+    const auto turned = [&](const AxisLanes::F& a) HWY_ATTR { return permuted(a, kTurned[kz]); };
     // The fourth of each is set below. Addressed relative to the whole object, not to the member,
     // beyond whose end it lies: where lanes are stored one by one, compilers notice.
     static_assert(offsetof(TriangleFilterRay, sx) == offsetof(TriangleFilterRay, origin) + 16);
+    static_assert(offsetof(TriangleFilterRay, sure_max) ==
+                  offsetof(TriangleFilterRay, sure_min) + sizeof(float));
     float* origin = reinterpret_cast<float*>(&filter);
-    store_lanes(turned(local.origin), origin);
-    store_lanes(turned(local.direction) * AxisLanes::F(sz), origin + 4);
+    store_lanes(turned(axes.origin), origin);
+    store_lanes(turned(axes.direction) * AxisLanes::F(sz), origin + 4);
     std::memcpy(&filter.kx, kTurned[kz], sizeof(kTurned[kz]));
     filter.sz = sz;
     constexpr float e = 0x1p-24f;
-    const float error = 13.2f * e * local.reach + 4.0f * local.delta;
-    filter.near_error = 2.2f * e * local.reach + 4.0f * local.delta;
+    const float error = 13.2f * e * axes.reach + 4.0f * axes.delta;
+    filter.near_error = 2.2f * e * axes.reach + 4.0f * axes.delta;
     filter.edge_slack = 5.12f * error;
     filter.edge_slack_min = 2.12f * error * error;
-    filter.s_slack = (14.2f * e * local.reach + 4.0f * local.delta) * std::abs(sz);
-    filter.sure_min = local.above[0];
-    filter.sure_max = local.below[1];
-    if (HWY_UNLIKELY(!local.regular)) {
+    filter.s_slack = (14.2f * e * axes.reach + 4.0f * axes.delta) * std::abs(sz);
+    store_lanes(axes.sure, &filter.sure_min);
+    if (HWY_UNLIKELY(!axes.regular)) {
         filter.edge_slack = filter.near_error = std::numeric_limits<float>::infinity();
     }
 }

@@ -39,8 +39,8 @@ struct alignas(64) TriangleFilterRay {
     float edge_slack_min;      ///< 2.1 E^2
     std::uint32_t kx, ky, kz;  ///< as in RayShear
     float s_slack;             ///< error of a local parameter, in addition to that of the weights
-    float near_error;          ///< the part of E that all triangles share
     float sure_min, sure_max;  ///< parameters between these are certainly in the ray's range
+    float near_error;          ///< the part of E that all triangles share
 };
 static_assert(sizeof(TriangleFilterRay) == 64);
 
