@@ -22,6 +22,7 @@
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_hits-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_pinhole-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
@@ -106,16 +107,11 @@ class LaneCandidates {
 /// The leaves of a packet in lanes. `Derived` offers `found(place, result, stats)` for a triangle
 /// and the rays that it may be hit by, returning those that need no more; `triangles`, `sphere` and
 /// `shape` for one ray (lone_ray-inl.h); and `left()` when a leaf has limited rays.
-template <class Derived, class Result>
+template <class Derived>
 class LaneLeaves {
   public:
-    HWY_INLINE LaneLeaves(const WideBvhScene& scene, std::span<const Ray> rays,
-                          std::span<Result> results, LanePacket& packet)
-        : scene_(scene),
-          rays_(rays),
-          results_(results),
-          packet_(packet),
-          resolution_(scene, packet, rays) {}
+    HWY_INLINE LaneLeaves(const WideBvhScene& scene, const GivenRays& rays, LanePacket& packet)
+        : scene_(scene), rays_(rays), packet_(packet), resolution_(scene, packet, rays) {}
 
     template <class Stats>
     HWY_INLINE void visit(NodeRef ref, std::uint32_t lanes, Stats stats) {
@@ -218,6 +214,13 @@ class LaneLeaves {
         }
         derived().left();
     }
+    /// The i-th ray; `scratch` may hold it.
+    [[nodiscard]] HWY_INLINE const Ray& ray_of(std::size_t i, Ray& scratch) {
+        if (rays_.columns() == nullptr) return rays_.ray(i, scratch);
+        packet_.lay_out(i / kRayLanes, rays_);
+        scratch = packet_.rays[i / kRayLanes].ray(i % kRayLanes);
+        return scratch;
+    }
     [[nodiscard]] HWY_INLINE const Sphere& sphere_of(PrimitiveId id) const {
         return std::get<ShapeColumn<Sphere>>(scene_.table->columns)
             .shapes[static_cast<std::uint32_t>(id) - scene_.table->first(column_of<Sphere>())];
@@ -238,8 +241,7 @@ class LaneLeaves {
     }
 
     const WideBvhScene& scene_;
-    std::span<const Ray> rays_;
-    std::span<Result> results_;
+    GivenRays rays_;
     LanePacket& packet_;
 
   private:
@@ -247,19 +249,20 @@ class LaneLeaves {
 };
 
 /// The closest hits.
-class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
+class ClosestLanes : public LaneLeaves<ClosestLanes> {
   public:
     static constexpr bool kOrdered = true;
+    using Results = LaneHits;
 
-    HWY_INLINE ClosestLanes(const WideBvhScene& scene, std::span<const Ray> rays,
-                            std::span<Hit> best, LanePacket& packet)
-        : LaneLeaves(scene, rays, best, packet) {
-        if (HWY_LIKELY(!any_found(best))) return;
+    HWY_INLINE ClosestLanes(const WideBvhScene& scene, const GivenRays& rays, LaneHits& hits,
+                            LanePacket& packet)
+        : LaneLeaves(scene, rays, packet), hits_(hits) {
+        if (HWY_LIKELY(hits.earlier() == 0)) return;
         for (std::size_t group = 0; group < kLaneGroups; ++group) packet.lay_out(group, rays);
-        for (std::size_t i = 0; i < best.size(); ++i) {
-            if (!best[i].found()) continue;
-            packet.s_max[i] = std::min(packet.s_max[i], parameter().above(best[i].t));
-            packet.rays[i / kRayLanes].t_max[i % kRayLanes] = best[i].t;
+        for (std::uint32_t rest = hits.earlier(); rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            packet.s_max[i] = std::min(packet.s_max[i], parameter().above(hits.t(i)));
+            packet.rays[i / kRayLanes].t_max[i % kRayLanes] = hits.t(i);
         }
     }
 
@@ -294,27 +297,29 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
     template <class Stats>
     HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
-        Hit& best = results_[i];
         SphereCrossings met;
-        const Verdict verdict = resolve_sphere(rays_[i], sphere_of(id), met);
+        Ray scratch;
+        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere_of(id), met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
         stats.primitive_hits(1);
-        if (!wins(met.t[0], id, best)) return false;
-        Ray ray;
-        offer_hit({met.t[0], 0, 0, 0}, id, ray, best);
+        if (!hits_.wins(i, met.t[0], id)) return false;
+        hits_.offer(i, id, {met.t[0], 0, 0, 0});
         s_max = std::min(s_max, parameter().above(met.t[0]));
         limit(i, s_max);
         return false;
     }
     template <class Stats>
     HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
-        Hit& best = results_[i];
-        Ray ray = rays_[i];
+        Hit best;
+        best.t = hits_.t(i);
+        best.primitive = hits_.id(i);
+        Ray scratch, ray = rays_.ray(i, scratch);
         if (best.found()) ray.t_max = best.t;
         const double last = ray.t_max;
         scene_.table->closest(id, ray, kUnusedShear, best, stats, scene_.mask);
+        if (best.found()) hits_.offer(i, best.primitive, best);
         if (ray.t_max == last) return false;
         s_max = std::min(s_max, parameter().above(ray.t_max));
         limit(i, s_max);
@@ -329,19 +334,19 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
 
   private:
-    static HWY_INLINE bool any_found(std::span<const Hit> hits) {
-        auto all = static_cast<std::uint32_t>(kNoPrimitive);
-        if (HWY_LIKELY(hits.size() == kPacketLanes)) {
-            const Hit* hit = hits.data();
-            HWY_UNROLL(32)
-            for (std::size_t i = 0; i < kPacketLanes; ++i) {
-                all &= static_cast<std::uint32_t>(hit[i].primitive);
-            }
-        } else {
-            for (const Hit& hit : hits) all &= static_cast<std::uint32_t>(hit.primitive);
+    /// What PacketResolution gives the hits to.
+    struct Offered {
+        LaneHits& best;
+        void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
+            best.offer(i, id, hit);
         }
-        return all != static_cast<std::uint32_t>(kNoPrimitive);
-    }
+        template <std::size_t N>
+        HWY_INLINE void take(std::size_t n, std::uint32_t lanes, const Lanes<float, N>& ids,
+                             const PairVerdicts<N>& verdicts) const {
+            best.offer_triangles(n, lanes, ids, verdicts.t, verdicts.u, verdicts.v);
+        }
+    };
+
     [[nodiscard]] HWY_INLINE LocalParameter parameter() const {
         return {scene_.layout->frame.scale, 0.0};
     }
@@ -362,20 +367,22 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
     template <class Stats>
     HWY_INLINE void decide(std::uint32_t lanes, const TrianglePlace* places, Stats stats) {
-        resolve(lanes, places, OfferedHits{results_}, stats);
+        resolve(lanes, places, Offered{hits_}, stats);
     }
 
+    LaneHits& hits_;
     LaneCandidates candidates_;
 };
 
 /// Which rays hit anything. A ray that does leaves the packet.
-class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
+class OccludedLanes : public LaneLeaves<OccludedLanes> {
   public:
     static constexpr bool kOrdered = false;
+    using Results = std::span<bool>;
 
-    HWY_INLINE OccludedLanes(const WideBvhScene& scene, std::span<const Ray> rays,
+    HWY_INLINE OccludedLanes(const WideBvhScene& scene, const GivenRays& rays,
                              std::span<bool> occluded, LanePacket& packet)
-        : LaneLeaves(scene, rays, occluded, packet) {}
+        : LaneLeaves(scene, rays, packet), results_(occluded) {}
 
     HWY_INLINE std::uint32_t wanting(float) const { return wanting_; }
     template <class Stats>
@@ -420,7 +427,8 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
     template <class Stats>
     HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
         SphereCrossings met;
-        const Verdict verdict = resolve_sphere(rays_[i], sphere_of(id), met);
+        Ray scratch;
+        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere_of(id), met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
@@ -429,7 +437,9 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
     }
     template <class Stats>
     HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float&, Stats stats) {
-        const bool hit = scene_.table->occluded(id, rays_[i], kUnusedShear, stats, scene_.mask);
+        Ray scratch;
+        const bool hit =
+            scene_.table->occluded(id, rays_.ray(i, scratch), kUnusedShear, stats, scene_.mask);
         return hit && drop(i);
     }
     HWY_INLINE void left() {}
@@ -451,15 +461,16 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
         return results_[i] = true;
     }
 
+    std::span<bool> results_;
     std::uint32_t wanting_ = ~0u;
 };
 
 /// Traces up to kPacketLanes rays, those of `wanted`; bits of those that are left to be traced
 /// alone.
-template <class Leaves, class Result, class Stats>
+template <class Leaves, class Stats>
 HWY_NOINLINE std::uint32_t trace_lanes(const WideBvhScene& scene,
                                        const PrefetchTable& prefetch_table, const LaneFrame& frame,
-                                       std::span<const Ray> rays, std::span<Result> results,
+                                       const GivenRays& rays, typename Leaves::Results& results,
                                        std::uint32_t wanted, Stats stats) {
     const WideBvhLayout& layout = *scene.layout;
     LanePacket packet;
