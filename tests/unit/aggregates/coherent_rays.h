@@ -92,10 +92,12 @@ inline void compare_columns(const Aggregate& tested, const Rays& rays, const std
     }
 }
 
-/// Compares packets directly, even if the aggregate would not choose them.
+/// Compares packets directly, even if the aggregate would not choose them. `waits`: as in a large
+/// tree.
 inline void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
-                            const std::vector<Hit>& expected, const std::string& name) {
-    const WideBvhScene scene(tested.primitives(), tested.layout());
+                            const std::vector<Hit>& expected, const std::string& name, bool waits) {
+    WideBvhScene scene(tested.primitives(), tested.layout());
+    scene.waits = waits;
     std::vector<Hit> hits(rays.size());
     wide_bvh_kernels(8).plain.closest_coherent(scene, rays, hits, false, nullptr);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -145,7 +147,8 @@ inline void compare_with(const Aggregate& list, const Aggregate& tested, const R
     const auto* tree = dynamic_cast<const WideBvhAggregate*>(&tested);
     // Unbounded primitives are not in the tree.
     if (tree != nullptr && std::isfinite(tree->box().size().x) && !tree->layout().tree.empty) {
-        compare_packets(*tree, rays, hits, name);
+        compare_packets(*tree, rays, hits, name, false);
+        compare_packets(*tree, rays, hits, name + ", in turn", true);
     }
 }
 

@@ -95,8 +95,8 @@ struct Kernels {
                 closest(scene, rays.ray(i), hit, stats);
                 hits.set(i, hit);
             };
-            run_lanes<ClosestLanes>(scene, prefetch_table_of(*scene.layout), GivenRays(rays),
-                                    HitColumnsSink{hits}, policy(stats), otherwise);
+            run_lanes<ClosestLanes>(scene, GivenRays(rays), HitColumnsSink{hits}, policy(stats),
+                                    otherwise);
             return true;
         }
         return false;
@@ -108,8 +108,8 @@ struct Kernels {
         const auto otherwise = [&](std::size_t i, std::size_t) {
             result[i] = occluded(scene, rays.ray(i), stats);
         };
-        run_lanes<OccludedLanes>(scene, prefetch_table_of(*scene.layout), GivenRays(rays),
-                                 OcclusionSink{result}, policy(stats), otherwise);
+        run_lanes<OccludedLanes>(scene, GivenRays(rays), OcclusionSink{result}, policy(stats),
+                                 otherwise);
         return true;
     }
 

@@ -148,7 +148,7 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
         outside_.closest(table_, rays[i], hits[i], query);
     }
     if (layout_.tree.empty) return;
-    WideBvhScene seen = scene(query.mask);
+    WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
@@ -174,7 +174,7 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         occluded[i] = outside_.occluded(table_, rays[i], query);
     }
     if (layout_.tree.empty) return;
-    WideBvhScene seen = scene(query.mask);
+    WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
@@ -196,7 +196,7 @@ void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns&
                                        RayQuery query, Coherence coherence) const {
     if (takes_whole(coherence) &&
         kernels_.for_stats(query.stats)
-            .closest_columns(scene(query.mask), rays, hits, query.stats)) {
+            .closest_columns(batch_scene(query.mask), rays, hits, query.stats)) {
         return;
     }
     Aggregate::closest_columns(rays, hits, query, coherence);
@@ -206,7 +206,7 @@ void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> 
                                         RayQuery query, Coherence coherence) const {
     if (takes_whole(coherence) &&
         kernels_.for_stats(query.stats)
-            .occluded_columns(scene(query.mask), rays, occluded, query.stats)) {
+            .occluded_columns(batch_scene(query.mask), rays, occluded, query.stats)) {
         return;
     }
     Aggregate::occluded_columns(rays, occluded, query, coherence);

@@ -69,6 +69,11 @@ class WideBvhAggregate final : public Aggregate {
     /// Sets the members that depend on the table and the layout.
     void finish_build();
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
+    [[nodiscard]] WideBvhScene batch_scene(RayMask mask) const {
+        WideBvhScene seen = scene(mask);
+        seen.waits = schedules_.waits();
+        return seen;
+    }
     /// Traces a part of a batch. Precondition: `hits` are empty, if not `unset`.
     void trace_closest(std::span<const Ray> rays, std::span<Hit> hits, bool unset, RayQuery query,
                        Coherence coherence) const;
