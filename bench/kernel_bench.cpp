@@ -1,6 +1,8 @@
 /// Rays per second of wide_bvh and Embree: same scene, same rays, one thread, in turn, medians.
+/// `single` and `batch` take rays as `Ray`, `columns` floats in columns.
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
 ///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact] [--masks]
+///            [--target AVX3|AVX2|SSE4]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
 /// SCENE: see kernel_scenes.h. --check measures no times: it counts the rays on which the tracers
 /// disagree and resolves each disagreement by brute force in extended precision.
@@ -8,8 +10,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "alhazen/base/file.h"
+#include "alhazen/simd/targets.h"
 #include "command_line.h"
 #include "report.h"
 #ifdef ALHAZEN_HAVE_EMBREE
@@ -28,12 +32,21 @@ struct Settings {
     std::string only;  ///< name of a ray set; empty: all
     BuildOptions build{BuildQuality::High};
     bool masks = false;  ///< also measures with masks
+    std::string target;  ///< instruction set of all tracers; empty: the best
 };
+
+/// Embree's name of a target.
+std::string embree_isa(const std::string& target) {
+    if (target == "AVX3") return "avx512";
+    if (target == "AVX2") return "avx2";
+    return target == "SSE4" ? "sse4.2" : "";
+}
 
 /// Both trees of Embree and, if there are cylinders, both representations of them.
 class Peers {
   public:
-    explicit Peers([[maybe_unused]] const KernelScene& scene) {
+    explicit Peers([[maybe_unused]] const KernelScene& scene,
+                   [[maybe_unused]] const std::string& isa) {
 #ifdef ALHAZEN_HAVE_EMBREE
         for (const bool robust : {true, false}) {
             for (const bool curves : {false, true}) {
@@ -41,6 +54,7 @@ class Peers {
                 EmbreeOptions options;
                 options.robust = robust;
                 options.cylinders_are_curves = curves;
+                options.isa = isa;
                 scenes_.push_back(std::make_unique<EmbreeScene>(scene, options));
                 std::string suffix;
                 if (!scene.cylinders.empty()) suffix = curves ? ", curves" : ", user geometry";
@@ -59,9 +73,10 @@ class Peers {
 };
 
 std::vector<Contender> our_tracers(const Aggregate& aggregate, const Aggregate& fast,
-                                   const RaySet& set) {
+                                   const RaySet& set, const RayColumns& columns) {
     return {{kOurs, "single", {}, [&] { return trace_single(aggregate, set); }, {}},
             {kOurs, "batch", {}, [&] { return trace_batches(aggregate, set); }, {}},
+            {kOurs, "columns", {}, [&] { return trace_columns(aggregate, set, columns); }, {}},
             {kOursFast, "single", {}, [&] { return trace_single(fast, set); }, {}},
             {kOursFast, "batch", {}, [&] { return trace_batches(fast, set); }, {}}};
 }
@@ -106,13 +121,14 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
     fast_options.precision = Precision::Fast;
     const auto fast = build_ours(scene, fast_options);
     const auto masked = settings.masks ? build_masked(scene, settings.build) : nullptr;
-    const Peers peers(scene);
+    const Peers peers(scene, embree_isa(settings.target));
     SceneResult result{scene.name, scene.contents(), {}};
     fmt::print("{}: {}\n", scene.name, result.contents);
     for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
         if (!settings.only.empty() && set.name != settings.only) continue;
         if (set.rays.empty()) continue;
-        std::vector<Contender> tracers = our_tracers(*aggregate, *fast, set);
+        const ColumnsOfRays columns(set);
+        std::vector<Contender> tracers = our_tracers(*aggregate, *fast, set, columns.rays());
         if (masked != nullptr) add_masked(*masked, set, tracers);
 #ifdef ALHAZEN_HAVE_EMBREE
         std::vector<std::unique_ptr<EmbreePackets>> packets;
@@ -136,7 +152,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
     for (const std::string& spec : line.rest) {
         const KernelScene scene = make_scene(spec);
         const auto aggregate = build_ours(scene, settings.build);
-        const Peers peers(scene);
+        const Peers peers(scene, embree_isa(settings.target));
         for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
             if (set.rays.empty() || (!settings.only.empty() && set.name != settings.only)) continue;
             const std::vector<CheckResult> results = check(scene, *aggregate, set, peers.list);
@@ -164,7 +180,8 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
 
 int run_program(int argc, char** argv) {
     const CommandLine line(
-        argc, argv, {"--side", "--rounds", "--only", "--json", "--markdown", "--build", "--width"},
+        argc, argv,
+        {"--side", "--rounds", "--only", "--json", "--markdown", "--build", "--width", "--target"},
         {"--check", "--compact", "--masks"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
@@ -178,6 +195,9 @@ int run_program(int argc, char** argv) {
     settings.build.width = static_cast<std::uint32_t>(line.count("--width", 8));
     if (line.has("--compact")) settings.build.leaves = Leaves::Indices;
     settings.masks = line.has("--masks");
+    settings.target = line.text("--target", "");
+    std::optional<SimdTargetOverride> forced;
+    if (!settings.target.empty()) forced.emplace(settings.target);
     if (line.has("--check")) {
         const std::size_t faults = run_checks(line, settings);
         fmt::print("{} faults of wide_bvh or of the judge\n", faults);

@@ -96,6 +96,57 @@ std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set, RayMask
     return count;
 }
 
+ColumnsOfRays::ColumnsOfRays(const RaySet& set) {
+    for (const Ray& ray : set.rays) {
+        const double row[8] = {ray.origin.x,    ray.origin.y,    ray.origin.z, ray.direction.x,
+                               ray.direction.y, ray.direction.z, ray.t_min,    ray.t_max};
+        for (std::size_t k = 0; k < 8; ++k) numbers_[k].push_back(static_cast<float>(row[k]));
+    }
+    const auto all_equal = [&](std::size_t k) {
+        return std::ranges::all_of(numbers_[k], [&](float x) { return x == numbers_[k].front(); });
+    };
+    const bool one_point = all_equal(0) && all_equal(1) && all_equal(2);
+    for (std::size_t k = 0; k < 3; ++k) {
+        rays_.directions[k] = numbers_[3 + k];
+        if (one_point) {
+            rays_.origin[k] = numbers_[k].front();
+        } else {
+            rays_.origins[k] = numbers_[k];
+        }
+    }
+    if (all_equal(6)) {
+        rays_.range[0] = numbers_[6].front();
+    } else {
+        rays_.t_min = numbers_[6];
+    }
+    if (all_equal(7)) {
+        rays_.range[1] = numbers_[7].front();
+    } else {
+        rays_.t_max = numbers_[7];
+    }
+}
+
+std::size_t trace_columns(const Aggregate& aggregate, const RaySet& set, const RayColumns& rays) {
+    const RayQuery query(nullptr, kAllRays);
+    std::vector<double> t(kBatch), u(kBatch), v(kBatch);
+    std::vector<PrimitiveId> ids(kBatch);
+    const auto occluded = std::make_unique<bool[]>(kBatch);
+    std::size_t count = 0;
+    const Coherence coherence = set.coherent ? Coherence::Coherent : Coherence::Any;
+    for (std::size_t i = 0; i < rays.size(); i += kBatch) {
+        const std::size_t n = std::min(kBatch, rays.size() - i);
+        if (set.any_hit) {
+            aggregate.occluded_columns(rays.part(i, n), {occluded.get(), n}, query, coherence);
+            for (std::size_t k = 0; k < n; ++k) count += occluded[k];
+        } else {
+            const HitColumns hits = HitColumns{t, u, v, ids}.part(0, n);
+            aggregate.closest_columns(rays.part(i, n), hits, query, coherence);
+            for (std::size_t k = 0; k < n; ++k) count += ids[k] != kNoPrimitive;
+        }
+    }
+    return count;
+}
+
 WorkPerRay count_work(const Aggregate& aggregate, const RaySet& set) {
     TraversalStats stats;
     for (const Ray& ray : set.rays) {

@@ -1,7 +1,9 @@
 #pragma once
 /// wide_bvh over a benchmark scene; traces rays one by one and in batches.
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "alhazen/accel/wide_bvh/build/build_options.h"
 #include "alhazen/primitives/aggregate.h"
@@ -28,6 +30,22 @@ inline constexpr RayMask kSeeing = 1;
 /// Traces by `closest_batch` or `occluded_batch`, kBatch rays per call; returns the number of hits.
 [[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set,
                                         RayMask mask = kAllRays);
+
+/// The rays of a set in columns of floats, as the library takes them: one origin and one range
+/// where all rays have the same.
+class ColumnsOfRays {
+  public:
+    explicit ColumnsOfRays(const RaySet& set);
+    [[nodiscard]] const RayColumns& rays() const { return rays_; }
+
+  private:
+    std::array<std::vector<float>, 8> numbers_;  ///< origin, direction, t_min, t_max
+    RayColumns rays_;
+};
+/// Traces by `closest_columns` or `occluded_columns`, kBatch rays per call, with t, u, v and ids of
+/// closest hits; returns the number of hits. `rays` are those of the set.
+[[nodiscard]] std::size_t trace_columns(const Aggregate& aggregate, const RaySet& set,
+                                        const RayColumns& rays);
 
 /// Mean counted work per ray of the set.
 struct WorkPerRay {

@@ -114,14 +114,16 @@ const Measured* best_single(const SetResult& set) {
 std::string medians_row(const SetResult& set) {
     const Measured* single = find(set.tracers, kOurs, "single");
     const Measured* batch = find(set.tracers, kOurs, "batch");
+    const Measured* columns = find(set.tracers, kOurs, "columns");
     const Measured* robust = best_of(set.tracers, kRobust);
     const Measured* robust1 = best_single(set);
     const Measured* fast = find(set.tracers, kOursFast, "single");
     const Measured* fast_batch = find(set.tracers, kOursFast, "batch");
-    return fmt::format(
-        " {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |", number(single), number(batch),
-        number(robust1), best(robust), best(best_of(set.tracers, kFast)), ratio(single, robust1),
-        ratio(single, robust), ratio(batch, robust), ratio(single, fast), ratio(batch, fast_batch));
+    return fmt::format(" {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+                       number(single), number(batch), number(columns), number(robust1),
+                       best(robust), best(best_of(set.tracers, kFast)), ratio(single, robust1),
+                       ratio(single, robust), ratio(batch, robust), ratio(columns, robust),
+                       ratio(single, fast), ratio(batch, fast_batch));
 }
 
 }  // namespace
@@ -189,10 +191,10 @@ std::string as_markdown(const RunFacts& facts, const std::vector<SceneResult>& s
         "%).\n\n",
         facts.command, facts.machine, facts.rounds);
     text +=
-        "| scene | rays | `wide_bvh` single | batch | Embree robust 1 | robust best | fast best | "
-        "single / robust 1 | single / robust best | batch / robust best | single / our fast | "
-        "batch / our fast |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        "| scene | rays | `wide_bvh` single | batch | columns | Embree robust 1 | robust best | "
+        "fast best | single / robust 1 | single / robust best | batch / robust best | "
+        "columns / robust best | single / our fast | batch / our fast |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     text += rows(scenes, medians_row);
     text +=
         "\nQuartiles (and least to greatest) of the rounds:\n\n"

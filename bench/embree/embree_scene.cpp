@@ -106,8 +106,10 @@ void EmbreeScene::Impl::add_curves(const std::vector<Cylinder>& list, RTCBuildQu
 
 EmbreeScene::EmbreeScene(const KernelScene& scene, const EmbreeOptions& options)
     : impl_(std::make_unique<Impl>()) {
-    const std::string config = fmt::format("threads={}", options.threads);
-    impl_->device = rtcNewDevice(options.threads > 0 ? config.c_str() : nullptr);
+    std::string config;
+    if (options.threads > 0) config = fmt::format("threads={}", options.threads);
+    if (!options.isa.empty()) config += (config.empty() ? "isa=" : ",isa=") + options.isa;
+    impl_->device = rtcNewDevice(config.empty() ? nullptr : config.c_str());
     if (impl_->device == nullptr) throw Error(ErrorKind::Resource, "Embree: no device");
     rtcSetDeviceMemoryMonitorFunction(impl_->device, count_bytes, &impl_->bytes);
     impl_->scene = rtcNewScene(impl_->device);

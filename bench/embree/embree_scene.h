@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 
 #include <memory>
+#include <string>
 
 #include "kernel_scenes.h"
 
@@ -18,6 +19,7 @@ struct EmbreeOptions {
     RTCBuildQuality quality = RTC_BUILD_QUALITY_HIGH;
     bool cylinders_are_curves = false;  ///< false: user geometry
     int threads = 0;                    ///< for building; 0: all cores
+    std::string isa;                    ///< Embree's instruction set: "avx2"; empty: the best
 };
 
 class EmbreeScene {

@@ -4,6 +4,24 @@
 
 namespace alhazen {
 
+namespace {
+
+/// Number of rays of columns that are converted at a time.
+constexpr std::size_t kConvertedRays = 256;
+
+/// Calls trace(rays, first) for all rays, in parts.
+template <class Trace>
+void convert(const RayColumns& columns, Trace&& trace) {
+    std::vector<Ray> rays(std::min(kConvertedRays, columns.size()));
+    for (std::size_t first = 0; first < columns.size(); first += rays.size()) {
+        rays.resize(std::min(rays.size(), columns.size() - first));
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = columns.ray(first + i);
+        trace(std::span<const Ray>(rays), first);
+    }
+}
+
+}  // namespace
+
 BoundingSphere Aggregate::sphere() const {
     return bounding_sphere(box());
 }
@@ -16,6 +34,23 @@ void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, Ra
 void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result, RayQuery query,
                                Coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
+}
+
+void Aggregate::closest_columns(const RayColumns& columns, const HitColumns& results,
+                                RayQuery query, Coherence coherence) const {
+    std::vector<Hit> hits;
+    convert(columns, [&](std::span<const Ray> rays, std::size_t first) {
+        hits.resize(rays.size());
+        closest_batch(rays, hits, query, coherence);
+        for (std::size_t i = 0; i < hits.size(); ++i) results.set(first + i, hits[i]);
+    });
+}
+
+void Aggregate::occluded_columns(const RayColumns& columns, std::span<bool> result, RayQuery query,
+                                 Coherence coherence) const {
+    convert(columns, [&](std::span<const Ray> rays, std::size_t first) {
+        occluded_batch(rays, result.subspan(first, rays.size()), query, coherence);
+    });
 }
 
 void Aggregate::closest_batch_at(std::span<const Ray> rays, std::span<const float>,

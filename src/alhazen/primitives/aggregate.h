@@ -18,6 +18,7 @@
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/motion/moving_box.h"
 #include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/ray_columns.h"
 #include "alhazen/geometry/ray_mask.h"
 
 namespace alhazen {
@@ -92,6 +93,12 @@ class Aggregate {
     /// Sets `occluded` [ray] to the result of `Aggregate::occluded`.
     virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                                 Coherence coherence = Coherence::Any) const;
+
+    /// `closest_batch` for rays in columns, which are read in place by packets of coherent rays.
+    virtual void closest_columns(const RayColumns& rays, const HitColumns& hits, RayQuery query,
+                                 Coherence coherence = Coherence::Any) const;
+    virtual void occluded_columns(const RayColumns& rays, std::span<bool> occluded, RayQuery query,
+                                  Coherence coherence = Coherence::Any) const;
 
     /// `closest_batch` for rays with a time each; `times` is as long as `rays`. Default: nothing
     /// moves.

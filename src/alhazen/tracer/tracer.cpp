@@ -1,5 +1,7 @@
 #include "alhazen/tracer/tracer.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -68,6 +70,49 @@ class UsualRays {
     bool unusual_ = false;
 };
 
+void check_columns(const RayColumns& rays) {
+    if (rays.is_complete()) return;
+    throw Error(ErrorKind::Usage, "the columns of a batch of " + std::to_string(rays.size()) +
+                                      " rays have different lengths");
+}
+
+/// Calls f(column) for every column.
+template <class F>
+void for_each_column(const TracedColumns& hits, F&& f) {
+    f(hits.t);
+    f(hits.u);
+    f(hits.v);
+    f(hits.geometry);
+    f(hits.primitive);
+    f(hits.outermost);
+}
+
+/// True if no direction needs `rescaled`, for all that is known without its exponent.
+bool are_usual(const RayColumns& rays) {
+    const auto& [x, y, z] = rays.directions;
+    bool usual = true;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const float longest = std::max(std::max(std::abs(x[i]), std::abs(y[i])), std::abs(z[i]));
+        usual &= longest == 0.0f || (longest >= static_cast<float>(kShortestDirection) &&
+                                     longest <= static_cast<float>(kLongestDirection));
+    }
+    return usual;
+}
+
+/// Number of rays in columns whose ids are found together.
+constexpr std::size_t kColumnBlock = 1024;
+
+/// Calls trace(rays, first) with the rays of columns, in parts.
+template <class Trace>
+void convert(const RayColumns& columns, Trace&& trace) {
+    std::vector<Ray> rays;
+    for (std::size_t first = 0; first < columns.size(); first += rays.size()) {
+        rays.resize(std::min(kColumnBlock, columns.size() - first));
+        for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = columns.ray(first + i);
+        trace(std::span<const Ray>(rays), first);
+    }
+}
+
 }  // namespace
 
 Tracer::Tracer(TracerScene scene, const TracerOptions& options)
@@ -130,6 +175,67 @@ void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMa
                       Coherence coherence) const {
     check_lengths(rays.size(), occluded.size());
     aggregate_->occluded_batch(UsualRays(rays).rays(), occluded, {nullptr, mask}, coherence);
+}
+
+void Tracer::intersect(const RayColumns& rays, const TracedColumns& hits, RayMask mask,
+                       Coherence coherence) const {
+    check_columns(rays);
+    for_each_column(hits, [&](auto column) {
+        if (!column.empty()) check_lengths(rays.size(), column.size());
+    });
+    if (aggregate_->primitives().instances.empty() && are_usual(rays)) {
+        return intersect_usual(rays, hits, mask, coherence);
+    }
+    std::vector<Hit> found;
+    convert(rays, [&](std::span<const Ray> some, std::size_t first) {
+        found.resize(some.size());
+        intersect(some, found, mask, coherence);
+        const HitColumns plain{hits.t, hits.u, hits.v};
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            plain.set(first + i, found[i]);
+            set_ids(hits, first + i, found[i]);
+        }
+    });
+}
+
+void Tracer::intersect_usual(const RayColumns& rays, const TracedColumns& hits, RayMask mask,
+                             Coherence coherence) const {
+    const HitColumns plain{hits.t, hits.u, hits.v};
+    if (hits.geometry.empty() && hits.primitive.empty() && hits.outermost.empty()) {
+        return aggregate_->closest_columns(rays, plain, {nullptr, mask}, coherence);
+    }
+    std::array<PrimitiveId, kColumnBlock> ids;
+    Hit hit;
+    for (std::size_t first = 0; first < rays.size(); first += kColumnBlock) {
+        const std::size_t count = std::min(kColumnBlock, rays.size() - first);
+        HitColumns here = plain.part(first, count);
+        here.primitive = std::span(ids).first(count);
+        aggregate_->closest_columns(rays.part(first, count), here, {nullptr, mask}, coherence);
+        for (std::size_t i = 0; i < count; ++i) {
+            hit.primitive = ids[i];
+            set_ids(hits, first + i, hit);
+        }
+    }
+}
+
+void Tracer::set_ids(const TracedColumns& hits, std::size_t i, const Hit& hit) const {
+    HitIds found{kNoGeometry, kNoTriangle, kNoGeometry};
+    if (hit.found()) found = ids(hit);
+    if (!hits.geometry.empty()) hits.geometry[i] = found.geometry;
+    if (!hits.primitive.empty()) hits.primitive[i] = found.primitive;
+    if (!hits.outermost.empty()) hits.outermost[i] = found.outermost;
+}
+
+void Tracer::occluded(const RayColumns& rays, std::span<bool> occluded, RayMask mask,
+                      Coherence coherence) const {
+    check_columns(rays);
+    check_lengths(rays.size(), occluded.size());
+    if (are_usual(rays)) {
+        return aggregate_->occluded_columns(rays, occluded, {nullptr, mask}, coherence);
+    }
+    convert(rays, [&](std::span<const Ray> some, std::size_t first) {
+        this->occluded(some, occluded.subspan(first, some.size()), mask, coherence);
+    });
 }
 
 void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask) const {

@@ -21,6 +21,7 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/ray_columns.h"
 #include "alhazen/primitives/aggregate.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/solids/spans.h"
@@ -64,6 +65,18 @@ struct HitLists {
     }
 };
 
+/// Where the nearest hits of rays in columns are written. Empty columns are not.
+struct TracedColumns {
+    std::span<double> t{};                 ///< infinite without a hit
+    std::span<double> u{}, v{};            ///< as in Hit; 0 without a hit
+    std::span<GeometryId> geometry{};      ///< as HitIds::geometry; kNoGeometry without a hit
+    std::span<std::uint32_t> primitive{};  ///< as HitIds::primitive
+    std::span<GeometryId> outermost{};     ///< as HitIds::outermost
+};
+/// The ids of rays without a hit in columns.
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
+inline constexpr GeometryId kNoGeometry{kNoTriangle};
+
 class Tracer {
   public:
     /// Builds over the whole scene, which may be empty.
@@ -97,6 +110,14 @@ class Tracer {
     void occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMask mask = kAllRays,
                   Coherence coherence = Coherence::Any) const;
     void all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask = kAllRays) const;
+
+    // --- Batches of rays in float, in columns (geometry/ray_columns.h). The hits are those of the
+    // same numbers in double. Coherent rays are read in place, and their hits written once. Throws
+    // Error (Usage) when a column is neither empty nor as long as the directions.
+    void intersect(const RayColumns& rays, const TracedColumns& hits, RayMask mask = kAllRays,
+                   Coherence coherence = Coherence::Any) const;
+    void occluded(const RayColumns& rays, std::span<bool> occluded, RayMask mask = kAllRays,
+                  Coherence coherence = Coherence::Any) const;
 
     /// The ids of the geometry hit; faster than `details`. Throws Error (Usage) without a hit.
     [[nodiscard]] HitIds ids(const Hit& hit) const;
@@ -134,6 +155,11 @@ class Tracer {
            std::size_t depth)
         : aggregate_(std::move(aggregate)), geometry_count_(geometry_count), depth_(depth) {}
 
+    /// Of rays whose directions have usual lengths, in a scene without instances.
+    void intersect_usual(const RayColumns& rays, const TracedColumns& hits, RayMask mask,
+                         Coherence coherence) const;
+    /// Writes the ids of a hit, where they are wanted.
+    void set_ids(const TracedColumns& hits, std::size_t i, const Hit& hit) const;
     void append_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask) const;
 
     std::shared_ptr<const Aggregate> aggregate_;

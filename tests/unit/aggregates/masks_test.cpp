@@ -120,7 +120,7 @@ void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
     if (tree == nullptr || !tree->box().bounded() || tree->layout().tree.empty) return;
     std::fill(hits.begin(), hits.end(), Hit{});
     const WideBvhScene scene(tree->primitives(), tree->layout(), mask);
-    wide_bvh_kernels(8).plain.closest_coherent(scene, rays, hits, nullptr);
+    wide_bvh_kernels(8).plain.closest_coherent(scene, rays, hits, false, nullptr);
     check("packets");
 }
 

@@ -114,51 +114,62 @@ HWY_NOINLINE PacketOutcome trace_packets(const WideBvhScene& scene,
     return {alone, work > Leaves::kWork.fair * traced || (traced == 0 && wanted != 0)};
 }
 
-/// Traces packets in lanes, and calls `otherwise(i, 1)` for rays that do not fit in.
-template <class Leaves, class Result, class Stats, class Otherwise>
-HWY_INLINE void run_lanes(const WideBvhScene& scene, const PrefetchTable& prefetch_table,
-                          std::span<const Ray> rays, std::span<Result> results, Stats stats,
-                          Otherwise&& otherwise) {
-    const LaneFrame frame(scene.layout->frame);
+inline PrefetchTable prefetch_table_of(const WideBvhLayout& layout) {
+    return {layout.tree.nodes.data(),
+            {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
+             layout.others.data()},
+            {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)}};
+}
+
+/// Traces packets in lanes, and calls `otherwise(i, 1)` for rays that do not fit in, whose results
+/// are then those of `sink` (lane_hits-inl.h).
+template <class Leaves, class Sink, class Stats, class Otherwise>
+HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, const Sink& sink,
+                          Stats stats, Otherwise&& otherwise) {
+    const LaneBatch batch{scene, prefetch_table_of(*scene.layout), {scene.layout->frame, rays}};
     for (std::size_t i = 0; i < rays.size(); i += kPacketLanes) {
         const std::size_t count = std::min(kPacketLanes, rays.size() - i);
-        if (rays.size() - i - count >= kPacketLanes) {
-            const Ray* next = &rays[i + count];
-            HWY_UNROLL(32)
-            for (std::size_t k = 0; k < kPacketLanes; ++k) hwy::Prefetch(next + k);
-        }
-        const std::span<Result> here = results.subspan(i, count);
+        if (rays.size() - i - count >= kPacketLanes) rays.prefetch<kPacketLanes>(i + count);
+        typename Leaves::Results results;
+        const std::uint32_t wanted = sink.begin(i, count, results);
         std::uint32_t alone =
-            trace_lanes<Leaves>(scene, prefetch_table, frame, rays.subspan(i, count), here,
-                                static_cast<std::uint32_t>(wanted_rays(here)), stats);
+            trace_lanes<Leaves>(batch, rays.part(i, count), results, wanted, stats);
+        sink.end(i, count, results);
         for (; alone != 0; alone &= alone - 1) {
             otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
         }
     }
 }
 
-/// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
-/// in WideBvhKernels::closest_batch and occluded_batch.
-template <class Leaves, class InLanes, class Result, class Stats, class Otherwise>
-HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
-                             std::span<Result> results, Stats stats, Otherwise&& otherwise) {
-    const WideBvhLayout& layout = *scene.layout;
-    // Packets need vertices in the leaves.
-    if (layout.is_indexed()) return otherwise(0, rays.size());
-    const PrefetchTable prefetch_table(
-        layout.tree.nodes.data(),
-        {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
-         layout.others.data()},
-        {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
-    constexpr bool kAnyHit = !InLanes::kOrdered;
+/// Whether a tree has packets in lanes, for any hit or for closest hits.
+template <bool kAnyHit>
+HWY_INLINE bool has_lane_packets(const WideBvhLayout& layout) {
     constexpr std::size_t kRegisters = kParts<float, 16>;
-    const CoherentTraversal traversal = coherent_traversal(layout, kAnyHit, kRegisters);
-    if (traversal == CoherentTraversal::Alone) return otherwise(0, rays.size());
-    if constexpr (kAnyHit || kRegisters <= kMostLaneRegisters) {
-        if (traversal == CoherentTraversal::Lanes) {
-            return run_lanes<InLanes>(scene, prefetch_table, rays, results, stats, otherwise);
+    if constexpr (!kAnyHit && kRegisters > kMostLaneRegisters) return false;
+    // Packets need vertices in the leaves.
+    return !layout.is_indexed() &&
+           coherent_traversal(layout, kAnyHit, kRegisters) == CoherentTraversal::Lanes;
+}
+
+/// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
+/// in WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
+template <class Leaves, class InLanes, class Result, class Sink, class Stats, class Otherwise>
+HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
+                             std::span<Result> results, const Sink& sink, Stats stats,
+                             Otherwise&& otherwise) {
+    const WideBvhLayout& layout = *scene.layout;
+    constexpr bool kAnyHit = !InLanes::kOrdered;
+    if constexpr (kAnyHit || kParts<float, 16> <= kMostLaneRegisters) {
+        if (has_lane_packets<kAnyHit>(layout)) {
+            return run_lanes<InLanes>(scene, GivenRays(rays), sink, stats, otherwise);
         }
     }
+    clear_unset(sink);
+    if (layout.is_indexed() ||
+        coherent_traversal(layout, kAnyHit, kParts<float, 16>) == CoherentTraversal::Alone) {
+        return otherwise(0, rays.size());
+    }
+    const PrefetchTable prefetch_table = prefetch_table_of(layout);
     PacketTrials trials(scene.failures);
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);

@@ -10,6 +10,9 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_KERNELS_INL_H_
 #endif
 
+#include <algorithm>
+#include <span>
+
 #include "alhazen/aggregates/wide_bvh/coherent_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/dispatch-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
@@ -54,7 +57,7 @@ struct Kernels {
     }
     /// Rays in no packet are traced one by one if they are few or the tree is small.
     static void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
-                                 std::span<Hit> best, TraversalStats* stats) {
+                                 std::span<Hit> best, bool unset, TraversalStats* stats) {
         const auto otherwise = [&](std::size_t first, std::size_t count) {
             if (streams_coherent(scene, count)) {
                 return closest_batch(scene, rays.subspan(first, count), best.subspan(first, count),
@@ -64,7 +67,8 @@ struct Kernels {
                 closest(scene, rays[i], best[i], stats);
             }
         };
-        run_coherent<ClosestPacket, ClosestLanes>(scene, rays, best, policy(stats), otherwise);
+        run_coherent<ClosestPacket, ClosestLanes>(scene, rays, best, HitArraySink{best, unset},
+                                                  policy(stats), otherwise);
     }
     static void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                                   std::span<bool> result, TraversalStats* stats) {
@@ -77,20 +81,51 @@ struct Kernels {
                 if (!result[i]) result[i] = occluded(scene, rays[i], stats);
             }
         };
-        run_coherent<OccludedPacket, OccludedLanes>(scene, rays, result, policy(stats), otherwise);
+        run_coherent<OccludedPacket, OccludedLanes>(scene, rays, result, OcclusionSink{result},
+                                                    policy(stats), otherwise);
+    }
+    static bool closest_columns([[maybe_unused]] const WideBvhScene& scene,
+                                [[maybe_unused]] const RayColumns& rays,
+                                [[maybe_unused]] const HitColumns& hits,
+                                [[maybe_unused]] TraversalStats* stats) {
+        if constexpr (kParts<float, 16> <= kMostLaneRegisters) {
+            if (!has_lane_packets<false>(*scene.layout)) return false;
+            const auto otherwise = [&](std::size_t i, std::size_t) {
+                Hit hit;
+                closest(scene, rays.ray(i), hit, stats);
+                hits.set(i, hit);
+            };
+            run_lanes<ClosestLanes>(scene, GivenRays(rays), HitColumnsSink{hits}, policy(stats),
+                                    otherwise);
+            return true;
+        }
+        return false;
+    }
+    static bool occluded_columns(const WideBvhScene& scene, const RayColumns& rays,
+                                 std::span<bool> result, TraversalStats* stats) {
+        if (!has_lane_packets<true>(*scene.layout)) return false;
+        std::fill(result.begin(), result.end(), false);
+        const auto otherwise = [&](std::size_t i, std::size_t) {
+            result[i] = occluded(scene, rays.ray(i), stats);
+        };
+        run_lanes<OccludedLanes>(scene, GivenRays(rays), OcclusionSink{result}, policy(stats),
+                                 otherwise);
+        return true;
     }
 
     /// Packets exist for nodes of 8 and exact tests only. The collecting queries are exact in both
     /// precisions: with FloatTriangleTest they are null, and the exact kernels serve instead.
     static constexpr WideBvhKernels table() {
-        WideBvhKernels kernels{&closest,       &occluded,       nullptr, nullptr,
-                               &closest_batch, &occluded_batch, nullptr, nullptr};
+        WideBvhKernels kernels{&closest,        &occluded, nullptr, nullptr, &closest_batch,
+                               &occluded_batch, nullptr,   nullptr, nullptr, nullptr};
         if constexpr (TriangleTest::kExact) {
             kernels.all_hits = &all_hits;
             kernels.shadowed = &shadowed;
             if constexpr (W == 8) {
                 kernels.closest_coherent = &closest_coherent;
                 kernels.occluded_coherent = &occluded_coherent;
+                kernels.closest_columns = &closest_columns;
+                kernels.occluded_columns = &occluded_columns;
             }
         }
         return kernels;

@@ -13,15 +13,17 @@
 
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <limits>
+#include <new>
 #include <span>
 #include <tuple>
 
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_candidates-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_hits-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_pinhole-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
@@ -33,88 +35,19 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The candidates of the rays of a packet. Most rays have one: it is kept in lanes, further ones in
-/// a list.
-class LaneCandidates {
-  public:
-    HWY_INLINE LaneCandidates() { store_lanes(PacketFloats(kNone), lo_); }
-
-    /// Adds a triangle for the rays of `candidates`; a kept one beyond the s_max of its ray is
-    /// replaced. False when the list is full: then nothing is done.
-    [[nodiscard]] HWY_INLINE bool add(TrianglePlace place, std::uint32_t candidates,
-                                      const PacketFloats& begin, const PacketFloats& s_max) {
-        const PacketFloats lo = load_row(lo_), none(kNone);
-        // A NaN goes to the list, where it is never replaced.
-        const PacketMask keep = lanes_of_bits<float, kPacketLanes>(candidates) & (begin < none) &
-                                ((lo > s_max) | (lo >= none));
-        const std::uint32_t rest = candidates & ~bits_of(keep);
-        if (HWY_UNLIKELY(rest != 0)) {
-            if (overflow_count_ == kMaxOverflow) return false;
-            Overflow& overflow = overflow_[overflow_count_++];
-            store_lanes(begin, overflow.lo);
-            overflow.lanes = rest;
-            overflow.place = place;
-        }
-        store_lanes(select_lanes(keep, begin, lo), lo_);
-        store_lanes(select_lanes(keep, PacketFloats(std::bit_cast<float>(place)), load_row(place_)),
-                    place_);
-        return true;
-    }
-
-    /// Calls `resolve(lanes, places)` for the candidates up to `s_max`, or only those of the list,
-    /// and drops them.
-    template <class Resolve>
-    HWY_INLINE void take_all(const PacketRow& s_max, Resolve&& resolve) {
-        const PacketFloats lo = load_row(lo_);
-        const std::uint32_t lanes = bits_of((lo < PacketFloats(kNone)) & (lo <= load_row(s_max)));
-        if (lanes != 0) {
-            alignas(64) TrianglePlace places[kPacketLanes];
-            std::memcpy(places, place_, sizeof(places));
-            resolve(lanes, places);
-        }
-        store_lanes(PacketFloats(kNone), lo_);
-        take_overflow(s_max, resolve);
-    }
-    template <class Resolve>
-    HWY_INLINE void take_overflow(const PacketRow& s_max, Resolve&& resolve) {
-        for (std::size_t n = 0; n < overflow_count_; ++n) {
-            const Overflow& b = overflow_[n];
-            // Written so that a NaN is not passed over.
-            const std::uint32_t lanes = b.lanes & ~bits_of(load_row(b.lo) > load_row(s_max));
-            if (lanes == 0) continue;
-            alignas(64) TrianglePlace places[kPacketLanes];
-            for (TrianglePlace& place : places) place = b.place;
-            resolve(lanes, places);
-        }
-        overflow_count_ = 0;
-    }
-
-  private:
-    static constexpr float kNone = std::numeric_limits<float>::infinity();
-    static constexpr std::size_t kMaxOverflow = 16;
-    struct alignas(64) Overflow {
-        PacketRow lo;
-        std::uint32_t lanes;
-        TrianglePlace place;
-    };
-    alignas(64) PacketRow lo_;     ///< kNone: none
-    alignas(64) PacketRow place_;  ///< bits of a TrianglePlace
-    std::size_t overflow_count_ = 0;
-    Overflow overflow_[kMaxOverflow];
-};
-
 /// The leaves of a packet in lanes. `Derived` offers `found(place, result, stats)` for a triangle
 /// and the rays that it may be hit by, returning those that need no more; `triangles`, `sphere` and
 /// `shape` for one ray (lone_ray-inl.h); and `left()` when a leaf has limited rays.
-template <class Derived, class Result>
+template <class Derived>
 class LaneLeaves {
   public:
-    HWY_INLINE LaneLeaves(const WideBvhScene& scene, std::span<const Ray> rays,
-                          std::span<Result> results, LanePacket& packet)
+    /// `in_turn`: null if rays that go on alone do not wait for memory.
+    HWY_INLINE LaneLeaves(const WideBvhScene& scene, const PrefetchTable* in_turn,
+                          const GivenRays& rays, LanePacket& packet)
         : scene_(scene),
           rays_(rays),
-          results_(results),
           packet_(packet),
+          in_turn_(in_turn),
           resolution_(scene, packet, rays) {}
 
     template <class Stats>
@@ -128,14 +61,55 @@ class LaneLeaves {
         }
         if (changed) derived().left();
     }
+    /// Takes rays through a subtree one by one; in turn, and later, if they would wait for memory.
     template <class Stats>
     HWY_NOINLINE void go_alone(NodeRef ref, std::uint32_t lanes, Stats stats) {
         for (; lanes != 0; lanes &= lanes - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(lanes));
+            if (in_turn_ != nullptr) {
+                if (HWY_UNLIKELY(alone_count_ == kMostAlone)) trace_alone(stats);
+                alone_[alone_count_++] = {ref, i};
+                continue;
+            }
             LoneRay<Derived> ray(scene_, packet_, i, derived());
             (void)traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs, ray,
                                               stats);
         }
+        if (in_turn_ == nullptr) derived().left();
+    }
+    [[nodiscard]] HWY_INLINE bool any_alone() const { return alone_count_ != 0; }
+    /// Traces the rays that are to go on alone, several in turn as the stream does. A ray may be in
+    /// turn in several subtrees.
+    template <class Stats>
+    HWY_NOINLINE void trace_alone(Stats stats) {
+        StreamSlot<Alone, WideNode::kWidth> slots[kStreamSlots];
+        StreamSlot<Alone, WideNode::kWidth>* active[kStreamSlots];
+        std::size_t next = 0, count = 0;
+        const auto start = [&](StreamSlot<Alone, WideNode::kWidth>& slot) HWY_ATTR {
+            while (next < alone_count_) {
+                const AloneIn& in = alone_[next++];
+                if (!derived().wants(in.lane)) continue;
+                new (slot.place) Alone(scene_, packet_, in.lane, derived());
+                slot.stack.clear();
+                slot.stack.entry[1] = -std::numeric_limits<float>::infinity();
+                slot.stack.child[1] = in.ref.bits();
+                slot.height = 2;
+                return true;
+            }
+            return false;
+        };
+        while (count < kStreamSlots && start(slots[count])) {
+            active[count] = &slots[count];
+            ++count;
+        }
+        const WideNode* const nodes = scene_.layout->tree.nodes.data();
+        while (count > 0) {
+            for (std::size_t i = 0; i < count; ++i) {
+                if (advance(*active[i], nodes, *in_turn_, stats)) continue;
+                if (!start(*active[i])) active[i--] = active[--count];
+            }
+        }
+        alone_count_ = 0;
         derived().left();
     }
 
@@ -218,6 +192,13 @@ class LaneLeaves {
         }
         derived().left();
     }
+    /// The i-th ray; `scratch` may hold it.
+    [[nodiscard]] HWY_INLINE const Ray& ray_of(std::size_t i, Ray& scratch) {
+        if (rays_.columns() == nullptr) return rays_.ray(i, scratch);
+        packet_.lay_out(i / kRayLanes, rays_);
+        scratch = packet_.rays[i / kRayLanes].ray(i % kRayLanes);
+        return scratch;
+    }
     [[nodiscard]] HWY_INLINE const Sphere& sphere_of(PrimitiveId id) const {
         return std::get<ShapeColumn<Sphere>>(scene_.table->columns)
             .shapes[static_cast<std::uint32_t>(id) - scene_.table->first(column_of<Sphere>())];
@@ -238,34 +219,51 @@ class LaneLeaves {
     }
 
     const WideBvhScene& scene_;
-    std::span<const Ray> rays_;
-    std::span<Result> results_;
+    GivenRays rays_;
     LanePacket& packet_;
 
   private:
+    /// A ray that is to go on alone in a subtree, and the query that does.
+    struct AloneIn {
+        NodeRef ref;
+        std::uint32_t lane;
+    };
+    struct Alone : LoneRay<Derived> {
+        static constexpr bool kOrdered = Derived::kOrdered;
+        HWY_INLINE Alone(const WideBvhScene& scene, const LanePacket& packet, std::size_t lane,
+                         Derived& leaves)
+            : LoneRay<Derived>(scene, packet, lane, leaves) {}
+    };
+    static constexpr std::size_t kMostAlone = 32;
+
+    const PrefetchTable* in_turn_;
     PacketResolution<LanePacket> resolution_;
+    std::size_t alone_count_ = 0;
+    AloneIn alone_[kMostAlone];
 };
 
 /// The closest hits.
-class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
+class ClosestLanes : public LaneLeaves<ClosestLanes> {
   public:
     static constexpr bool kOrdered = true;
+    using Results = LaneHits;
 
-    HWY_INLINE ClosestLanes(const WideBvhScene& scene, std::span<const Ray> rays,
-                            std::span<Hit> best, LanePacket& packet)
-        : LaneLeaves(scene, rays, best, packet) {
-        if (HWY_LIKELY(!any_found(best))) return;
+    HWY_INLINE ClosestLanes(const WideBvhScene& scene, const PrefetchTable* in_turn,
+                            const GivenRays& rays, LaneHits& hits, LanePacket& packet)
+        : LaneLeaves(scene, in_turn, rays, packet), hits_(hits) {
+        if (HWY_LIKELY(hits.earlier() == 0)) return;
         for (std::size_t group = 0; group < kLaneGroups; ++group) packet.lay_out(group, rays);
-        for (std::size_t i = 0; i < best.size(); ++i) {
-            if (!best[i].found()) continue;
-            packet.s_max[i] = std::min(packet.s_max[i], parameter().above(best[i].t));
-            packet.rays[i / kRayLanes].t_max[i % kRayLanes] = best[i].t;
+        for (std::uint32_t rest = hits.earlier(); rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            packet.s_max[i] = std::min(packet.s_max[i], parameter().above(hits.t(i)));
+            packet.rays[i / kRayLanes].t_max[i % kRayLanes] = hits.t(i);
         }
     }
 
     HWY_INLINE std::uint32_t wanting(float entry) const {
         return bits_of(PacketFloats(entry) <= load_row(packet_.s_max));
     }
+    [[nodiscard]] HWY_INLINE bool wants(std::uint32_t) const { return true; }
     template <class Stats>
     HWY_INLINE std::uint32_t found(TrianglePlace place, const FilteredLanes& found, Stats stats) {
         const PacketMask sure = lanes_of_bits<float, kPacketLanes>(found.sure);
@@ -294,27 +292,29 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
     template <class Stats>
     HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
-        Hit& best = results_[i];
         SphereCrossings met;
-        const Verdict verdict = resolve_sphere(rays_[i], sphere_of(id), met);
+        Ray scratch;
+        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere_of(id), met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
         stats.primitive_hits(1);
-        if (!wins(met.t[0], id, best)) return false;
-        Ray ray;
-        offer_hit({met.t[0], 0, 0, 0}, id, ray, best);
+        if (!hits_.wins(i, met.t[0], id)) return false;
+        hits_.offer(i, id, {met.t[0], 0, 0, 0});
         s_max = std::min(s_max, parameter().above(met.t[0]));
         limit(i, s_max);
         return false;
     }
     template <class Stats>
     HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
-        Hit& best = results_[i];
-        Ray ray = rays_[i];
+        Hit best;
+        best.t = hits_.t(i);
+        best.primitive = hits_.id(i);
+        Ray scratch, ray = rays_.ray(i, scratch);
         if (best.found()) ray.t_max = best.t;
         const double last = ray.t_max;
         scene_.table->closest(id, ray, kUnusedShear, best, stats, scene_.mask);
+        if (best.found()) hits_.offer(i, best.primitive, best);
         if (ray.t_max == last) return false;
         s_max = std::min(s_max, parameter().above(ray.t_max));
         limit(i, s_max);
@@ -329,26 +329,28 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
 
   private:
-    static HWY_INLINE bool any_found(std::span<const Hit> hits) {
-        auto all = static_cast<std::uint32_t>(kNoPrimitive);
-        if (HWY_LIKELY(hits.size() == kPacketLanes)) {
-            const Hit* hit = hits.data();
-            HWY_UNROLL(32)
-            for (std::size_t i = 0; i < kPacketLanes; ++i) {
-                all &= static_cast<std::uint32_t>(hit[i].primitive);
-            }
-        } else {
-            for (const Hit& hit : hits) all &= static_cast<std::uint32_t>(hit.primitive);
+    /// What PacketResolution gives the hits to.
+    struct Offered {
+        LaneHits& best;
+        void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
+            best.offer(i, id, hit);
         }
-        return all != static_cast<std::uint32_t>(kNoPrimitive);
-    }
+        template <std::size_t N>
+        HWY_INLINE void take(std::size_t n, std::uint32_t lanes, const Lanes<float, N>& ids,
+                             const PairVerdicts<N>& verdicts) const {
+            best.offer_triangles(n, lanes, ids, verdicts.t, verdicts.u, verdicts.v);
+        }
+    };
+
     [[nodiscard]] HWY_INLINE LocalParameter parameter() const {
         return {scene_.layout->frame.scale, 0.0};
     }
-    /// As a whole: parts of a row that was stored as a whole, and then read so, are waited for.
+    /// As a whole: parts of a row that was stored as a whole, and then read so, are waited for. The
+    /// ray may have been limited more by another of its subtrees.
     HWY_INLINE void limit(std::size_t i, float s_max) {
-        store_lanes(select_lanes(lanes_of_bits<float, kPacketLanes>(1u << i), PacketFloats(s_max),
-                                 load_row(packet_.s_max)),
+        const PacketFloats before = load_row(packet_.s_max);
+        store_lanes(select_lanes(lanes_of_bits<float, kPacketLanes>(1u << i),
+                                 min_lanes(PacketFloats(s_max), before), before),
                     packet_.s_max);
     }
     template <class Stats>
@@ -362,20 +364,24 @@ class ClosestLanes : public LaneLeaves<ClosestLanes, Hit> {
     }
     template <class Stats>
     HWY_INLINE void decide(std::uint32_t lanes, const TrianglePlace* places, Stats stats) {
-        resolve(lanes, places, OfferedHits{results_}, stats);
+        resolve(lanes, places, Offered{hits_}, stats);
     }
 
+    LaneHits& hits_;
     LaneCandidates candidates_;
 };
 
 /// Which rays hit anything. A ray that does leaves the packet.
-class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
+class OccludedLanes : public LaneLeaves<OccludedLanes> {
   public:
     static constexpr bool kOrdered = false;
+    using Results = std::span<bool>;
 
-    HWY_INLINE OccludedLanes(const WideBvhScene& scene, std::span<const Ray> rays,
-                             std::span<bool> occluded, LanePacket& packet)
-        : LaneLeaves(scene, rays, occluded, packet) {}
+    HWY_INLINE OccludedLanes(const WideBvhScene& scene, const PrefetchTable* in_turn,
+                             const GivenRays& rays, std::span<bool> occluded, LanePacket& packet)
+        : LaneLeaves(scene, in_turn, rays, packet), results_(occluded) {}
+
+    [[nodiscard]] HWY_INLINE bool wants(std::uint32_t i) const { return (wanting_ >> i & 1) != 0; }
 
     HWY_INLINE std::uint32_t wanting(float) const { return wanting_; }
     template <class Stats>
@@ -420,7 +426,8 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
     template <class Stats>
     HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
         SphereCrossings met;
-        const Verdict verdict = resolve_sphere(rays_[i], sphere_of(id), met);
+        Ray scratch;
+        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere_of(id), met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
@@ -429,7 +436,9 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
     }
     template <class Stats>
     HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float&, Stats stats) {
-        const bool hit = scene_.table->occluded(id, rays_[i], kUnusedShear, stats, scene_.mask);
+        Ray scratch;
+        const bool hit =
+            scene_.table->occluded(id, rays_.ray(i, scratch), kUnusedShear, stats, scene_.mask);
         return hit && drop(i);
     }
     HWY_INLINE void left() {}
@@ -451,28 +460,38 @@ class OccludedLanes : public LaneLeaves<OccludedLanes, bool> {
         return results_[i] = true;
     }
 
+    std::span<bool> results_;
     std::uint32_t wanting_ = ~0u;
+};
+
+/// What the packets of a batch have in common.
+struct LaneBatch {
+    const WideBvhScene& scene;
+    PrefetchTable prefetch_table;
+    LaneFrame frame;
 };
 
 /// Traces up to kPacketLanes rays, those of `wanted`; bits of those that are left to be traced
 /// alone.
-template <class Leaves, class Result, class Stats>
-HWY_NOINLINE std::uint32_t trace_lanes(const WideBvhScene& scene,
-                                       const PrefetchTable& prefetch_table, const LaneFrame& frame,
-                                       std::span<const Ray> rays, std::span<Result> results,
-                                       std::uint32_t wanted, Stats stats) {
-    const WideBvhLayout& layout = *scene.layout;
+template <class Leaves, class Stats>
+HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& rays,
+                                       typename Leaves::Results& results, std::uint32_t wanted,
+                                       Stats stats) {
+    const WideBvh& tree = batch.scene.layout->tree;
     LanePacket packet;
-    std::uint32_t rest = packet.load(frame, rays, wanted);
+    std::uint32_t rest = packet.load(batch.frame, rays, wanted);
     const std::uint32_t alone = wanted & ~rest;
     if (rest == 0) return alone;
-    Leaves leaves(scene, rays, results, packet);
+    Leaves leaves(batch.scene, batch.scene.waits ? &batch.prefetch_table : nullptr, rays, results,
+                  packet);
     while (rest != 0) {
         const std::uint32_t set = packet.choose_set(rest);
         rest &= ~set;
-        traverse_lanes(layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet, set,
+        traverse_lanes(tree.nodes.data(), tree.root, batch.prefetch_table, packet, set,
                        kMinPacketLanes, leaves, stats);
-        leaves.finish(stats);  // while the main axis is that of the set
+        // While the axes are those of the set.
+        if (leaves.any_alone()) leaves.trace_alone(stats);
+        leaves.finish(stats);
     }
     return alone;
 }

@@ -36,7 +36,7 @@ template <class Derived>
 class PacketLeaves {
   public:
     HWY_INLINE PacketLeaves(const WideBvhScene& scene, std::span<const Ray> rays, RayPacket& packet)
-        : scene_(scene), packet_(packet), resolution_(scene, packet, rays) {}
+        : scene_(scene), packet_(packet), resolution_(scene, packet, GivenRays(rays)) {}
 
     std::uint32_t work = 0;  ///< see traverse_packet
 

@@ -14,6 +14,7 @@
 #include <bit>
 #include <span>
 
+#include "alhazen/accel/wide_bvh/trace/given_rays-inl.h"
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 
@@ -32,17 +33,18 @@ class PacketResolution {
     static constexpr std::size_t kRays = Packet::kResolvedGroups * kGroupRays;  ///< together
 
     HWY_INLINE PacketResolution(const WideBvhScene& scene, const Packet& packet,
-                                std::span<const Ray> rays)
+                                const GivenRays& rays)
         : scene_(scene), packet_(packet), rays_(rays) {}
 
     /// Tests rays of the `n`-th kRays, each with the triangle at `places[lane]`; calls `hits(ray,
-    /// id, shape_hit)` for those that hit.
+    /// id, shape_hit)` for those that hit, or `hits.take(n, lanes, ids, verdicts)` for several.
     template <class Hits, class Stats>
     HWY_NOINLINE HWY_FLATTEN void resolve(std::size_t n, std::uint32_t lanes,
                                           const TrianglePlace* places, Hits&& hits, Stats stats) {
         PairLanes<kRays> pairs;
-        if (HWY_UNLIKELY(!take_corners_of_blocks(lanes, places, pairs.vertex))) {
-            take_corners(lanes, places, pairs.vertex);
+        Ids ids;
+        if (HWY_UNLIKELY(!take_corners_of_blocks(lanes, places, pairs.vertex, ids))) {
+            take_corners(lanes, places, pairs.vertex, ids);
         }
         take_rays(&packet_.rays[n * Packet::kResolvedGroups], pairs);
         const Reals z = abs(pairs.direction[2]);
@@ -51,11 +53,16 @@ class PacketResolution {
         PairVerdicts<kRays> verdicts;
         verdicts.test(pairs);
         const std::uint32_t alone = (verdicts.unsure | ~set_up) & lanes;
-        for (std::uint32_t rest = verdicts.hit & lanes & ~alone; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            stats.primitive_hits(1);
-            hits(n * kRays + lane, id(places[lane]).id(),
-                 ShapeHit{verdicts.t[lane], verdicts.u[lane], verdicts.v[lane], 0});
+        const std::uint32_t decided = verdicts.hit & lanes & ~alone;
+        stats.primitive_hits(static_cast<std::uint64_t>(std::popcount(decided)));
+        if constexpr (requires { hits.take(n, decided, ids, verdicts); }) {
+            hits.take(n, decided, ids, verdicts);
+        } else {
+            for (std::uint32_t rest = decided; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                hits(n * kRays + lane, id(places[lane]).id(),
+                     ShapeHit{verdicts.t[lane], verdicts.u[lane], verdicts.v[lane], 0});
+            }
         }
         for (std::uint32_t rest = alone; HWY_UNLIKELY(rest != 0); rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -69,6 +76,7 @@ class PacketResolution {
   private:
     using Reals = Lanes<double, kRays>;
     using Corners = Reals[3][3];
+    using Ids = Lanes<float, kRays>;  ///< bits of PrimitiveId
 
     HWY_INLINE void take_rays(const RayLanes* groups, PairLanes<kRays>& pairs) const {
         const auto row = [&](const auto& of) HWY_ATTR {
@@ -100,6 +108,9 @@ class PacketResolution {
         return static_cast<std::uint32_t>(id(place).id()) - scene_.table->first(kTriangleKind);
     }
 
+    static HWY_INLINE Ids bits_as_lanes(PrimitiveId id) {
+        return Ids(std::bit_cast<float>(static_cast<std::uint32_t>(id)));
+    }
     static HWY_INLINE std::uint32_t lanes_with(const TrianglePlace* places, TrianglePlace place) {
         const LaneTag<TrianglePlace, kRays> d;
         LaneMask<TrianglePlace, kRays> same;
@@ -127,16 +138,18 @@ class PacketResolution {
     /// The corners of blocks that float holds exactly, as LocalFrame::world; false if one is not
     /// exact.
     HWY_INLINE bool take_corners_of_blocks(std::uint32_t lanes, const TrianglePlace* places,
-                                           Corners& corners) const {
+                                           Corners& corners, Ids& ids) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
         using F = Lanes<float, kRays>;
         F local[3][3] = {};
+        ids = F(0.0f);
         const bool taken =
             for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
                 const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
                 const std::size_t lane = place % kBlockWidth;
                 if (!block.ids[lane].exact()) return false;
                 const auto mask = lanes_of_bits<float, kRays>(same);
+                ids = select_lanes(mask, bits_as_lanes(block.ids[lane].id()), ids);
                 HWY_UNROLL(3)
                 for (std::size_t i = 0; i < 3; ++i) {
                     HWY_UNROLL(3)
@@ -160,9 +173,10 @@ class PacketResolution {
         return true;
     }
     /// Corners from the mesh where the block holds rounded ones.
-    HWY_INLINE void take_corners(std::uint32_t lanes, const TrianglePlace* places,
-                                 Corners& corners) const {
+    HWY_INLINE void take_corners(std::uint32_t lanes, const TrianglePlace* places, Corners& corners,
+                                 Ids& ids) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
+        ids = Ids(0.0f);
         (void)for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
             Vec3 exact[3];
             std::array<const Vec3*, 3> from{&exact[0], &exact[1], &exact[2]};
@@ -174,6 +188,8 @@ class PacketResolution {
             } else {
                 from = scene_.table->corner_positions(triangle(place));
             }
+            ids =
+                select_lanes(lanes_of_bits<float, kRays>(same), bits_as_lanes(id(place).id()), ids);
             const auto mask = lanes_of_bits<double, kRays>(same);
             HWY_UNROLL(3)
             for (std::size_t i = 0; i < 3; ++i) {
@@ -188,12 +204,14 @@ class PacketResolution {
     }
     HWY_NOINLINE bool resolve_scalar(std::size_t ray, TrianglePlace place, ShapeHit& hit) const {
         const auto [a, b, c] = scene_.table->triangle_vertices(triangle(place));
-        return intersect_triangle(rays_[ray], RayShear(rays_[ray].direction), a, b, c, hit);
+        Ray scratch;
+        const Ray& given = rays_.ray(ray, scratch);
+        return intersect_triangle(given, RayShear(given.direction), a, b, c, hit);
     }
 
     const WideBvhScene& scene_;
     const Packet& packet_;
-    std::span<const Ray> rays_;
+    GivenRays rays_;
 };
 
 /// Offers the hits of PacketResolution to the closest ones.

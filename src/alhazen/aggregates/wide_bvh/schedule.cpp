@@ -58,6 +58,7 @@ Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {
     const ScheduledTree tree{layout.memory_bytes(), treeless,
                              layout.others.empty() || suits_packets(table, unbounded), has_packets};
+    waits_ = tree.bytes > kMaxSingleTreeBytes;
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
         batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);
     }

@@ -75,7 +75,8 @@ inline constexpr PacketWork kClosestPacketWork = {6, 14, 20};
 inline constexpr PacketWork kOccludedPacketWork = {12, 10, 14};
 /// After n failures in a row, n at most this value, 2^n - 1 packets are skipped.
 inline constexpr std::uint32_t kMaxPacketBackoff = 4;
-/// Largest tree whose coherent rays in no packet are traced one by one, bytes. The stream hides the
+/// Largest tree whose coherent rays in no packet, or left over from one in lanes, are traced one by
+/// one, bytes. The stream hides the
 /// latency of memory; a tree in the caches has little, and neighbouring rays predict each other's
 /// branches.
 inline constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
@@ -96,9 +97,12 @@ class Schedules {
     [[nodiscard]] Schedule of_batch(Coherence coherence) const {
         return batches_[static_cast<std::size_t>(coherence)];
     }
+    /// Whether rays that leave a packet in lanes wait for memory, one by one.
+    [[nodiscard]] bool waits() const { return waits_; }
 
   private:
     std::array<Schedule, 2> batches_{Schedule::Stream, Schedule::Stream};  ///< [coherence]
+    bool waits_ = false;
 };
 
 }  // namespace alhazen

@@ -131,21 +131,24 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
+    const bool unset = takes_whole(coherence);
     for (std::size_t i = 0; i < rays.size(); i += kInCache) {
         const std::size_t count = std::min(kInCache, rays.size() - i);
         const std::span<Hit> here = hits.subspan(i, count);
-        for (Hit& hit : here) hit = Hit{};
-        trace_closest(rays.subspan(i, count), here, query, coherence);
+        if (!unset) {
+            for (Hit& hit : here) hit = Hit{};
+        }
+        trace_closest(rays.subspan(i, count), here, unset, query, coherence);
     }
 }
 
-void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
-                                     Coherence coherence) const {
+void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> hits, bool unset,
+                                     RayQuery query, Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size() && !outside_.empty(); ++i) {
         outside_.closest(table_, rays[i], hits[i], query);
     }
     if (layout_.tree.empty) return;
-    WideBvhScene seen = scene(query.mask);
+    WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
@@ -158,7 +161,7 @@ void WideBvhAggregate::trace_closest(std::span<const Ray> rays, std::span<Hit> h
         case Schedule::Packets:
             // Counts must not depend on earlier batches.
             if (query.stats == nullptr) seen.failures = &closest_failures_;
-            return kernels.closest_coherent(seen, rays, hits, query.stats);
+            return kernels.closest_coherent(seen, rays, hits, unset, query.stats);
         case Schedule::TreelessPackets:
             return treeless_.closest(table_, rays, hits, query);
     }
@@ -171,7 +174,7 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         occluded[i] = outside_.occluded(table_, rays[i], query);
     }
     if (layout_.tree.empty) return;
-    WideBvhScene seen = scene(query.mask);
+    WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
         case Schedule::Single:
@@ -187,6 +190,26 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         case Schedule::TreelessPackets:
             return treeless_.occluded(table_, rays, occluded, query);
     }
+}
+
+void WideBvhAggregate::closest_columns(const RayColumns& rays, const HitColumns& hits,
+                                       RayQuery query, Coherence coherence) const {
+    if (takes_whole(coherence) &&
+        kernels_.for_stats(query.stats)
+            .closest_columns(batch_scene(query.mask), rays, hits, query.stats)) {
+        return;
+    }
+    Aggregate::closest_columns(rays, hits, query, coherence);
+}
+
+void WideBvhAggregate::occluded_columns(const RayColumns& rays, std::span<bool> occluded,
+                                        RayQuery query, Coherence coherence) const {
+    if (takes_whole(coherence) &&
+        kernels_.for_stats(query.stats)
+            .occluded_columns(batch_scene(query.mask), rays, occluded, query.stats)) {
+        return;
+    }
+    Aggregate::occluded_columns(rays, occluded, query, coherence);
 }
 
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {

@@ -58,6 +58,10 @@ class WideBvhAggregate final : public Aggregate {
                        Coherence coherence = Coherence::Any) const override;
     void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                         Coherence coherence = Coherence::Any) const override;
+    void closest_columns(const RayColumns& rays, const HitColumns& hits, RayQuery query,
+                         Coherence coherence = Coherence::Any) const override;
+    void occluded_columns(const RayColumns& rays, std::span<bool> occluded, RayQuery query,
+                          Coherence coherence = Coherence::Any) const override;
 
   private:
     WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);
@@ -65,9 +69,19 @@ class WideBvhAggregate final : public Aggregate {
     /// Sets the members that depend on the table and the layout.
     void finish_build();
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
-    /// Traces a part of a batch. Precondition: `hits` are empty.
-    void trace_closest(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+    [[nodiscard]] WideBvhScene batch_scene(RayMask mask) const {
+        WideBvhScene seen = scene(mask);
+        seen.waits = schedules_.waits();
+        return seen;
+    }
+    /// Traces a part of a batch. Precondition: `hits` are empty, if not `unset`.
+    void trace_closest(std::span<const Ray> rays, std::span<Hit> hits, bool unset, RayQuery query,
                        Coherence coherence) const;
+    /// Whether the packets of the tree take a batch and set all of its results.
+    [[nodiscard]] bool takes_whole(Coherence coherence) const {
+        return schedules_.of_batch(coherence) == Schedule::Packets && outside_.empty() &&
+               !layout_.tree.empty;
+    }
     /// Sorts the hits that a query appended, and removes duplicates.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/geometry/ray_columns.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {
@@ -24,6 +25,7 @@ class WideBvhScene {
     const WideBvhLayout* layout;
     RayMask mask;
     PacketFailures* failures = nullptr;  ///< null: each batch starts without failures
+    bool waits = false;  ///< rays that leave a packet in lanes are traced several in turn
 
     [[nodiscard]] bool sees(PrimitiveId id) const {
         return all_seen_ || (table->visible_to(id) & mask) != 0;
@@ -49,11 +51,18 @@ struct WideBvhKernels {
     /// For each ray; skips rays that are already occluded.
     void (*occluded_batch)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
                            TraversalStats*);
-    /// As the batches, by packets of coherent rays; null in kernels without packets.
+    /// As the batches, by packets of coherent rays; null in kernels without packets. `unset`:
+    /// `best` holds nothing, and is set for each ray.
     void (*closest_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
-                             TraversalStats*);
+                             bool unset, TraversalStats*);
     void (*occluded_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
                               TraversalStats*);
+    /// The same for rays in columns. Every result is set, or false is returned and nothing done:
+    /// the tree has no packets in lanes.
+    bool (*closest_columns)(const WideBvhScene&, const RayColumns&, const HitColumns&,
+                            TraversalStats*);
+    bool (*occluded_columns)(const WideBvhScene&, const RayColumns&, std::span<bool> occluded,
+                             TraversalStats*);
 };
 
 struct WideBvhKernelPair {

@@ -32,7 +32,7 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
-#include "alhazen/accel/wide_bvh/trace/ray_group-inl.h"
+#include "alhazen/accel/wide_bvh/trace/given_rays-inl.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray.h"
 #include "alhazen/simd/lane_rows-inl.h"
 
@@ -61,18 +61,6 @@ HWY_INLINE float most_of(const PacketFloats& a) {
     return -least_of(-a);
 }
 
-/// What brings rays into the local frame, made once for many packets: a ray is a row of eight
-/// numbers. What is not scaled keeps its bits.
-struct LaneFrame {
-    const LocalFrame& frame;
-    alignas(64) double from[8], by[8];
-
-    explicit LaneFrame(const LocalFrame& f)
-        : frame(f),
-          from{f.center.x, f.center.y, f.center.z, 0.0, 0.0, 0.0, 0.0, 0.0},
-          by{f.scale, f.scale, f.scale, 1.0, 1.0, 1.0, f.scale, f.scale} {}
-};
-
 struct alignas(64) LanePacket {
     /// Groups of eight that are resolved together: two registers of double with AVX-512.
     static constexpr std::size_t kResolvedGroups = kPacketLanes == 32 ? 2 : 1;
@@ -99,13 +87,13 @@ struct alignas(64) LanePacket {
     Pinhole pinhole;
 
     /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes.
-    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, std::span<const Ray> given,
+    [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const GivenRays& given,
                                      std::uint32_t wanted);
     /// Chooses those of the rays that go the way of the first, and makes their frustum.
     [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
 
     /// Fills `rays[group]`, once; `given` as for `load`.
-    HWY_INLINE void lay_out(std::size_t group, std::span<const Ray> given) {
+    HWY_INLINE void lay_out(std::size_t group, const GivenRays& given) {
         if (!laid_out_[group]) take_group(group, given);
     }
 
@@ -148,8 +136,8 @@ struct alignas(64) LanePacket {
     static constexpr std::size_t kLoadedRays = 16;  ///< at a time
 
     HWY_INLINE std::uint32_t load_rows(const LaneFrame& lane_frame,
-                                       std::span<const Ray, kLoadedRays> given, std::size_t at);
-    void take_group(std::size_t group, std::span<const Ray> given);
+                                       const Lanes<float, kLoadedRays> (&rows)[8], std::size_t at);
+    void take_group(std::size_t group, const GivenRays& given);
     void make_frustum(std::uint32_t set, std::size_t first);
     HWY_INLINE void make_pinhole(const PacketMask& in_set, std::size_t first);
 
@@ -192,60 +180,12 @@ struct LaneSlabs {
     }
 };
 
-/// The numbers of sixteen rays in the local frame, in lanes: origins, directions and ends.
-HWY_INLINE void load_local(const LaneFrame& frame, std::span<const Ray, 16> given,
-                           Lanes<float, 16> (&rows)[8]) {
-    static_assert(sizeof(Ray) == 8 * sizeof(double) &&
-                  offsetof(Ray, direction) == 3 * sizeof(double) &&
-                  offsetof(Ray, t_min) == 6 * sizeof(double));
-#if HWY_CAP_GE512
-    const hn::CappedTag<double, 8> d;
-    const hn::CappedTag<float, 8> half;
-    const hn::CappedTag<float, 16> whole;
-    const auto from = hn::Load(d, frame.from), by = hn::Load(d, frame.by);
-    const auto local = [&](const Ray& ray) HWY_ATTR {
-        return hn::DemoteTo(half, hn::Mul(hn::Sub(hn::Load(d, &ray.origin.x), from), by));
-    };
-    hn::Vec<hn::CappedTag<float, 16>> pairs[8];
-    HWY_UNROLL(8)
-    for (std::size_t i = 0; i < 8; ++i) {
-        pairs[i] = hn::Combine(whole, local(given[i + 8]), local(given[i]));
-    }
-    transpose_blocks(pairs);
-    HWY_UNROLL(8)
-    for (std::size_t k = 0; k < 8; ++k) rows[k].part[0] = pairs[k];
-#else
-    const auto from = load_lanes<4>(frame.from);
-    const auto by0 = load_lanes<4>(frame.by), by1 = load_lanes<4>(frame.by + 4);
-    // Origin and x of the direction; the rest of the direction and the ends.
-    Lanes<float, 4> first[4][4], second[4][4];
-    HWY_UNROLL(4)
-    for (std::size_t g = 0; g < 4; ++g) {
-        HWY_UNROLL(4)
-        for (std::size_t i = 0; i < 4; ++i) {
-            const Ray& ray = given[4 * g + i];
-            first[g][i] = as_floats((load_lanes<4>(&ray.origin.x) - from) * by0);
-            second[g][i] = as_floats(load_lanes<4>(&ray.direction.y) * by1);
-        }
-        transpose(first[g]);
-        transpose(second[g]);
-    }
-    HWY_UNROLL(4)
-    for (std::size_t k = 0; k < 4; ++k) {
-        rows[k] = joined<16>(first[0][k], first[1][k], first[2][k], first[3][k]);
-        rows[4 + k] = joined<16>(second[0][k], second[1][k], second[2][k], second[3][k]);
-    }
-#endif
-}
-
 /// Fills sixteen lanes of the rows of origins, directions and ends; bits of the rays that can be
 /// traced.
 HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
-                                               std::span<const Ray, kLoadedRays> given,
+                                               const Lanes<float, kLoadedRays> (&rows)[8],
                                                std::size_t at) {
     using F = Lanes<float, kLoadedRays>;
-    F rows[8];
-    load_local(lane_frame, given, rows);
     const F o[3] = {rows[0], rows[1], rows[2]}, d[3] = {rows[3], rows[4], rows[5]};
     const F t_min = rows[6], t_max = rows[7];
     HWY_UNROLL(3)
@@ -273,31 +213,33 @@ HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
     return bits_of(usable & moves);
 }
 
-inline void LanePacket::take_group(std::size_t group, std::span<const Ray> given) {
+inline void LanePacket::take_group(std::size_t group, const GivenRays& given) {
     laid_out_[group] = true;
-    const std::size_t first = group * kRayLanes;
-    if (given.size() >= first + kRayLanes) {
-        return take_lanes(given.subspan(first).first<kRayLanes>(), rays[group]);
-    }
-    for (std::size_t i = 0; i < kRayLanes; ++i) {
-        rays[group].set(i, given[std::min(first + i, given.size() - 1)]);
-    }
+    // A group without rays repeats the last ray.
+    const std::size_t first = std::min(group * kRayLanes, given.size() - 1);
+    take_lanes(given.part(first, std::min(kRayLanes, given.size() - first)), rays[group]);
 }
 
-inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, std::span<const Ray> given,
+inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRays& given,
                                       std::uint32_t wanted) {
     const LocalFrame& frame = lane_frame.frame;
     std::uint32_t usable = 0;
     for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
-        if (HWY_LIKELY(given.size() >= at + kLoadedRays)) {
-            usable |= load_rows(lane_frame, given.subspan(at).first<kLoadedRays>(), at) << at;
-            continue;
+        Lanes<float, kLoadedRays> rows[8];
+        if (HWY_UNLIKELY(given.size() < at + kLoadedRays)) {
+            Ray repeated[kLoadedRays];
+            for (std::size_t i = 0; i < kLoadedRays; ++i) {
+                Ray scratch;
+                repeated[i] = given.ray(std::min(at + i, given.size() - 1), scratch);
+            }
+            load_local(lane_frame, repeated, rows);
+        } else if (given.columns() != nullptr) {
+            load_local(lane_frame, *given.columns(), given.first() + at, rows);
+        } else {
+            load_local(lane_frame,
+                       std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows);
         }
-        Ray repeated[kLoadedRays];
-        for (std::size_t i = 0; i < kLoadedRays; ++i) {
-            repeated[i] = given[std::min(at + i, given.size() - 1)];
-        }
-        usable |= load_rows(lane_frame, repeated, at) << at;
+        usable |= load_rows(lane_frame, rows, at) << at;
     }
     usable &= wanted;
     if (usable == 0) return 0;

@@ -1,0 +1,210 @@
+/// The nearest hits of the rays of a packet in lanes while it is traced, and where they are written
+/// when it is done: once, whether rays hit or not.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h). Ties are decided as by `wins`
+/// (primitives/nearest_hit.h). Sets of rays are bits.
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
+#endif
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray_columns.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+class LaneHits {
+  public:
+    /// No hit. Not defaulted: see FilteredLanes.
+    HWY_INLINE LaneHits() {
+        fill(t_, std::numeric_limits<double>::infinity());
+        fill(u_, 0.0);
+        fill(v_, 0.0);
+        fill(id_, static_cast<std::uint32_t>(kNoPrimitive));
+        fill(part_, std::uint32_t{0});
+    }
+
+    [[nodiscard]] HWY_INLINE double t(std::size_t i) const { return t_[i]; }
+    [[nodiscard]] HWY_INLINE PrimitiveId id(std::size_t i) const { return PrimitiveId{id_[i]}; }
+    /// Rays that hit something before.
+    [[nodiscard]] HWY_INLINE std::uint32_t earlier() const { return earlier_; }
+    HWY_INLINE void set_earlier(std::size_t i, const Hit& hit) {
+        earlier_ |= 1u << i;
+        t_[i] = hit.t;
+        id_[i] = static_cast<std::uint32_t>(hit.top());
+    }
+
+    [[nodiscard]] HWY_INLINE bool wins(std::size_t i, double t, PrimitiveId id) const {
+        return t < t_[i] || (t == t_[i] && id < PrimitiveId{id_[i]});
+    }
+    HWY_INLINE void offer(std::size_t i, PrimitiveId id, const ShapeHit& hit) {
+        if (!wins(i, hit.t, id)) return;
+        changed_ |= 1u << i;
+        t_[i] = hit.t;
+        u_[i] = hit.u;
+        v_[i] = hit.v;
+        part_[i] = hit.part;
+        id_[i] = static_cast<std::uint32_t>(id);
+    }
+    /// The same for the rays `lanes` of the n-th N, with triangles; `id` has bits of PrimitiveId.
+    template <std::size_t N>
+    HWY_INLINE void offer_triangles(std::size_t n, std::uint32_t lanes, const Lanes<float, N>& id,
+                                    const double (&t)[N], const double (&u)[N],
+                                    const double (&v)[N]) {
+        const std::size_t at = n * N;
+        const Lanes<double, N> offered = load_lanes<N>(t), best = load_lanes<N>(t_ + at);
+        std::uint32_t won = lanes & bits_of(offered < best);
+        std::uint32_t tied = lanes & ~won & bits_of(offered <= best);
+        if (HWY_UNLIKELY(tied != 0)) {
+            alignas(64) float ids[N];
+            store_lanes(id, ids);
+            for (; tied != 0; tied &= tied - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(tied));
+                if (std::bit_cast<std::uint32_t>(ids[i]) < id_[at + i]) won |= 1u << i;
+            }
+        }
+        changed_ |= won << at;
+        const auto wide = lanes_of_bits<double, N>(won);
+        const auto put = [&](const Lanes<double, N>& values, double* row) HWY_ATTR {
+            store_lanes(select_lanes(wide, values, load_lanes<N>(row + at)), row + at);
+        };
+        put(offered, t_);
+        put(load_lanes<N>(u), u_);
+        put(load_lanes<N>(v), v_);
+        const auto narrow = lanes_of_bits<float, N>(won);
+        const auto put_bits = [&](const Lanes<float, N>& bits, std::uint32_t* row) HWY_ATTR {
+            float* const to = reinterpret_cast<float*>(row) + at;
+            store_lanes(select_lanes(narrow, bits, load_lanes<N>(to)), to);
+        };
+        put_bits(id, id_);
+        put_bits(Lanes<float, N>(0.0f), part_);
+    }
+
+    /// Writes the hits of the first rays: all of them, or those that are new.
+    HWY_INLINE void write(std::span<Hit> hits, bool all) const {
+        const std::uint32_t count = static_cast<std::uint32_t>(hits.size());
+        const std::uint32_t every = count == 32 ? ~0u : (1u << count) - 1;
+        if (HWY_LIKELY(all)) {
+            for (std::size_t i = 0; i < count; ++i) write(i, hits[i]);
+            return;
+        }
+        for (std::uint32_t rest = changed_ & every; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            write(i, hits[i]);
+        }
+    }
+    HWY_INLINE void write(const HitColumns& columns, std::size_t first, std::size_t count) const {
+        copy(t_, columns.t, first, count);
+        copy(u_, columns.u, first, count);
+        copy(v_, columns.v, first, count);
+        copy(id_, columns.primitive, first, count);
+    }
+
+  private:
+    template <class T>
+    using Row = T[kPacketLanes];
+    template <class T>
+    using Tag = LaneTag<T, kPacketLanes>;
+
+    template <class T>
+    static HWY_INLINE void fill(Row<T>& row, T value) {
+        const Tag<T> d;
+        HWY_UNROLL(8)
+        for (std::size_t i = 0; i < kPacketLanes; i += hn::Lanes(d)) {
+            hn::Store(hn::Set(d, value), d, row + i);
+        }
+    }
+    template <class T, class Number>
+    static HWY_INLINE void copy(const Row<T>& row, std::span<Number> column, std::size_t first,
+                                std::size_t count) {
+        if (column.empty()) return;
+        Number* const to = &column[first];
+        if (HWY_UNLIKELY(count < kPacketLanes)) {
+            for (std::size_t i = 0; i < count; ++i) to[i] = Number{row[i]};
+            return;
+        }
+        const Tag<T> d;
+        HWY_UNROLL(8)
+        for (std::size_t i = 0; i < kPacketLanes; i += hn::Lanes(d)) {
+            hn::StoreU(hn::Load(d, row + i), d, reinterpret_cast<T*>(to) + i);
+        }
+    }
+    HWY_INLINE void write(std::size_t i, Hit& hit) const {
+        hit.t = t_[i];
+        hit.u = u_[i];
+        hit.v = v_[i];
+        hit.part = part_[i];
+        hit.primitive = PrimitiveId{id_[i]};
+        hit.path.clear();
+    }
+
+    alignas(64) Row<double> t_, u_, v_;
+    alignas(64) Row<std::uint32_t> id_, part_;
+    std::uint32_t earlier_ = 0, changed_ = 0;
+};
+
+/// Writes to an array of hits. If `unset` these are of no account, else they limit the search.
+struct HitArraySink {
+    std::span<Hit> hits;
+    bool unset;
+
+    HWY_INLINE std::uint32_t begin(std::size_t first, std::size_t count, LaneHits& found) const {
+        for (std::size_t i = 0; i < count && !unset; ++i) {
+            if (hits[first + i].found()) found.set_earlier(i, hits[first + i]);
+        }
+        return ~0u >> (32 - count);
+    }
+    HWY_INLINE void end(std::size_t first, std::size_t count, const LaneHits& found) const {
+        found.write(hits.subspan(first, count), unset);
+    }
+};
+
+HWY_INLINE void clear_unset(const HitArraySink& sink) {
+    if (!sink.unset) return;
+    for (Hit& hit : sink.hits) hit = Hit{};
+}
+
+/// Writes to columns of hits.
+struct HitColumnsSink {
+    const HitColumns& columns;
+
+    HWY_INLINE std::uint32_t begin(std::size_t, std::size_t count, LaneHits&) const {
+        return ~0u >> (32 - count);
+    }
+    HWY_INLINE void end(std::size_t first, std::size_t count, const LaneHits& found) const {
+        found.write(columns, first, count);
+    }
+};
+
+/// Whether rays are occluded; those that are already are not traced.
+struct OcclusionSink {
+    std::span<bool> occluded;
+
+    HWY_INLINE std::uint32_t begin(std::size_t first, std::size_t count,
+                                   std::span<bool>& here) const {
+        here = occluded.subspan(first, count);
+        std::uint32_t wanted = 0;
+        for (std::size_t i = 0; i < count; ++i) wanted |= std::uint32_t{!here[i]} << i;
+        return wanted;
+    }
+    HWY_INLINE void end(std::size_t, std::size_t, const std::span<bool>&) const {}
+};
+HWY_INLINE void clear_unset(const OcclusionSink&) {}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
