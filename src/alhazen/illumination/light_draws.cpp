@@ -46,7 +46,8 @@ void LightDraws::draw_near() {
         const double probability = d.near_share * chosen[k].probability;
         if (!(probability > 0.0)) {
             results_.set(draw, {});
-        } else if (!d.is_emitter(light) || !RectangleLanes::takes(d.emitter(light))) {
+        } else if (!d.is_emitter(light) || !RectangleLanes::takes(d.emitter(light)) ||
+                   is_far(d.emitter(light), near_points_.point_of(k))) {
             results_.set(draw, d.draw_near(light, probability, near_points_[k], u, *waves));
         } else {
             rectangles_.set(in_lanes_, d.emitter(light), near_points_.point_of(k), u);
@@ -61,8 +62,11 @@ void LightDraws::draw_sky() {
     for (const SkyDraw& draw : draws) d.environment->approach(draw.search);
     for (SkyDraw& draw : draws) d.environment->find(draw.search);
     for (const SkyDraw& draw : draws) {
+        const LitPoint& at = draw.at;
         const Vec3 direction = d.environment->direction(draw.search);
-        results_.set(draw.draw, d.draw_sky(draw.chosen, draw.at, direction, *draw.waves));
+        const bool counts = at.both_sides || at.in_volume || dot(direction, at.normal) > 0.0;
+        results_.set(draw.draw,
+                     counts ? d.draw_sky(draw.chosen, at, direction, *draw.waves) : LightDraw{});
     }
 }
 

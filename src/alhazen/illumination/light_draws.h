@@ -1,6 +1,9 @@
 #pragma once
 /// `Illumination::draw` for eight points at once: choices in a light tree and rectangles in lanes,
 /// searches in a picture of the environment by turns, other lights one by one.
+///
+/// Differs from it: directions to the picture of the environment from below a point that counts
+/// light of one side have density 0, without a search for their radiance.
 
 #include <array>
 #include <cstddef>
