@@ -190,7 +190,7 @@ inline Spectrum mean_irradiance(const Scene& scene, const Illumination& lights, 
         if (!(draw.density > 0.0) || !(cosine > 0.0)) continue;
         const Ray ray{at.point, draw.to_light, 1e-9,
                       std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-9) : kInfinity};
-        if (scene.aggregate->occluded(ray, {nullptr, draw.passes})) continue;
+        if (scene.aggregate->occluded(ray, {nullptr, mask_of(RayKind::Shadow)})) continue;
         sum += (cosine / draw.density) * draw.radiance;
     }
     return (1.0 / draws) * sum;
@@ -212,7 +212,7 @@ inline double irradiance_z(const Scene& scene, const Illumination& lights, const
             const Ray shadow{
                 at.point, draw.to_light, 1e-9,
                 std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-7) : kInfinity};
-            if (!scene.aggregate->occluded(shadow, {nullptr, draw.passes})) {
+            if (!scene.aggregate->occluded(shadow, {nullptr, mask_of(RayKind::Shadow)})) {
                 drawn = cosine / draw.density * draw.radiance.b;
             }
         }

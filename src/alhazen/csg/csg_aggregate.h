@@ -32,6 +32,7 @@ class CsgAggregate final : public SolidAggregate {
     [[nodiscard]] const LaneSolid* lane_solid() const override { return evaluator_->lane_solid(); }
     [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const override;
     void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
+    [[nodiscard]] bool completes_surfaces() const override { return true; }
     [[nodiscard]] bool changes_materials() const override {
         return solid_.has_media() || !shows_minuend_.empty();
     }

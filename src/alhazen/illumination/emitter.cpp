@@ -77,6 +77,7 @@ Vec2 weights_at(const Emitter& e, const Vec3& p) {
 }
 
 EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u) {
+    if (is_far(e, from)) return seen_by_area(e, from, point_of(e, u));
     const SphericalTriangle seen = triangle_from(e, from);
     if (!(seen.solid_angle() > kLeastSolidAngle)) return seen_by_area(e, from, point_of(e, u));
     const Vec3 direction = seen.direction(u), corner = corner_of(e) - from;
@@ -89,7 +90,7 @@ EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u)
 }
 
 EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u) {
-    if (e.right_angled) {
+    if (e.right_angled && !is_far(e, from)) {
         const SphericalRectangle seen(corner_of(e) - from, e.sides);
         if (seen.solid_angle() > kLeastSolidAngle) {
             if (!e.two_sided && !(dot(corner_of(e) - from, axis_z(e)) < 0.0)) return {};
@@ -285,6 +286,14 @@ bool make_ready(Emitter& e) {
             e.area = integrated_area(e);
             break;
     }
+    if (e.form == EmitterForm::Triangle || e.form == EmitterForm::Rectangle) {
+        // No point is farther from the corner than the sum of the edges is long; from a distance d
+        // of all of them the solid angle is at most area / d^2. The margin covers its rounding.
+        constexpr double kMargin = 1.02;
+        const double near = length(x) + length(y);
+        const double far = near + std::sqrt(kMargin / kLeastSolidAngle * e.area);
+        e.far_squared = far * far;
+    }
     return e.area > 0.0 && std::isfinite(e.area) && is_finite(corner_of(e)) &&
            is_finite(axis_z(e)) && e.radiance.is_finite();
 }
@@ -311,12 +320,13 @@ double density(const Emitter& e, const Vec3& from, const EmitterHit& hit) {
     if (!e.two_sided && !(dot(hit.direction, hit.normal) < 0.0)) return 0.0;
     switch (e.form) {
         case EmitterForm::Triangle: {
+            if (is_far(e, from)) break;
             const double solid = triangle_from(e, from).solid_angle();
             if (solid > kLeastSolidAngle) return 1.0 / solid;
             break;
         }
         case EmitterForm::Rectangle:
-            if (e.right_angled) {
+            if (e.right_angled && !is_far(e, from)) {
                 const SphericalRectangle seen(corner_of(e) - from, e.sides);
                 if (seen.solid_angle() > kLeastSolidAngle) return 1.0 / seen.solid_angle();
             }

@@ -12,6 +12,7 @@
 /// from many.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -59,14 +60,23 @@ struct Emitter {
     Affine world_from_own;
     double inner = 0;  ///< Disc: radius of the hole
     double area = 0;   ///< of one side; of curved forms by numerical integration
-    Rgb radiance;      ///< mean over the surface
+    /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the
+    /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle.
+    double far_squared = std::numeric_limits<double>::infinity();
+    Rgb radiance;                          ///< mean over the surface
     std::optional<Illuminant> illuminant;  ///< its spectrum, if known
     std::shared_ptr<const EmitterParts> parts;
     std::shared_ptr<const EmittingPatch> patch;
 };
 
-/// Sets `area` and `right_angled`. False if the area is 0 or some value is not finite.
+/// Sets `area`, `right_angled`, `sides` and `far_squared`. False if the area is 0 or some value is
+/// not finite.
 [[nodiscard]] bool make_ready(Emitter& emitter);
+
+/// True if a point is certain to be in the range where the emitter is sampled by area.
+[[nodiscard]] inline bool is_far(const Emitter& emitter, const Vec3& from) {
+    return length_squared(emitter.world_from_own.translation - from) > emitter.far_squared;
+}
 
 /// A point of an emitter as seen from another point.
 struct EmitterSample {

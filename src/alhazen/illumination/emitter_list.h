@@ -42,6 +42,10 @@ class EmitterList {
     /// `distance`.
     [[nodiscard]] Rgb radiance(std::size_t emitter, const Vec3& from, const Vec3& direction,
                                double distance, const Vec2& parameters) const;
+    /// The radiance of an emitter, if it is the same everywhere; else null.
+    [[nodiscard]] const Rgb* constant_radiance(std::size_t emitter) const {
+        return varying_[emitter] ? nullptr : &emitters_[emitter].radiance;
+    }
 
   private:
     /// The emitters in an aggregate, those of its instances included.

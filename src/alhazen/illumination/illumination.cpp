@@ -161,7 +161,6 @@ LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& 
     draw.radiance = waves.emission(kPi * s.intensity);
     draw.density = probability;
     draw.singular = true;
-    draw.passes = mask_of(RayKind::Shadow);
     return draw;
 }
 
@@ -190,7 +189,6 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
     const Environment::Sight sight = sight_for(environment, at, direction);
     draw.radiance = waves.emission(sight.radiance);
     draw.density = probability * sight.density;
-    draw.passes = mask_of(RayKind::Shadow);
     return draw;
 }
 
@@ -241,7 +239,6 @@ LightDraw Illumination::Data::draw_of_emitter(std::size_t light, double probabil
     draw.to_light = s.to_light;
     draw.distance = s.distance;
     draw.density = probability * s.density;
-    draw.passes = mask_of(RayKind::Shadow);
     if (light < emitters.size()) {
         draw.radiance =
             waves.emission(emitters.radiance(light, at, s.to_light, s.distance, s.parameters),

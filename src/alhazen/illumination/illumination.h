@@ -37,7 +37,6 @@ struct LightDraw {
     double density = 0;     ///< by solid angle; of a singular light the probability of its choice;
                             ///< 0: no light arrives
     bool singular = false;  ///< no other strategy finds this light
-    RayMask passes = kAllRays;  ///< mask for the shadow ray
     PlaceInLight place;
 };
 

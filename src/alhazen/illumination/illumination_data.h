@@ -92,14 +92,20 @@ struct Illumination::Data {
     /// `Illumination::draw` of an emitter, chosen with `probability` and sampled as `s`.
     [[nodiscard]] LightDraw draw_of_emitter(std::size_t light, double probability, const Vec3& at,
                                             const EmitterSample& s, const Wavelengths& waves) const;
+    /// The radiance of an emitter of the scene, if it is the same everywhere; else null.
+    [[nodiscard]] const Rgb* constant_radiance(std::size_t light) const {
+        return light < emitters.size() ? emitters.constant_radiance(light) : nullptr;
+    }
     [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const {
         return options.choice == LightChoice::Tree ? tree.choose(at, choice) : near.choose(choice);
     }
-    /// `choose_near` for up to kMostLightChoices points.
-    void choose_near(std::span<const LitPoint> at, std::span<const double> choices,
+    /// `choose_near` for the first `count` points.
+    void choose_near(const LitPointLanes& at, const ChoiceLanes& choices, std::size_t count,
                      ChosenLight* chosen) const {
-        if (options.choice == LightChoice::Tree) return choose_lights(tree, at, choices, chosen);
-        for (std::size_t i = 0; i < at.size(); ++i) chosen[i] = near.choose(choices[i]);
+        if (options.choice == LightChoice::Tree) {
+            return choose_lights(tree, at, choices, count, chosen);
+        }
+        for (std::size_t i = 0; i < count; ++i) chosen[i] = near.choose(choices.of[i]);
     }
     [[nodiscard]] double probability_of_near(const LitPoint& at, std::size_t light) const {
         return options.choice == LightChoice::Tree ? tree.probability(at, light)

@@ -1,6 +1,9 @@
 #pragma once
 /// `Illumination::draw` for eight points at once: choices in a light tree and rectangles in lanes,
 /// searches in a picture of the environment by turns, other lights one by one.
+///
+/// Differs from it: directions to the picture of the environment from below a point that counts
+/// light of one side have density 0, without a search for their radiance.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +18,7 @@ namespace alhazen {
 class LightDraws {
   public:
     static constexpr std::size_t kMost = RectangleLanes::kMost;
-    static_assert(kMost == kMostLightChoices);
+    static_assert(kMost == LitPointLanes::kMost);
 
     /// `lights` must outlive the object, unchanged.
     explicit LightDraws(const Illumination& lights) : lights_(lights) {}
@@ -25,8 +28,24 @@ class LightDraws {
     /// until `draw`.
     void add(const LitPoint& at, double choice, const Vec2& u, const Wavelengths& waves);
     void draw();
+    /// Results of `Illumination::draw` in lanes: lane i is that of the i-th `add`.
+    struct Results {
+        using Numbers = double[kMost];  ///< [lane]
+        alignas(64) Numbers to_light[3] = {};
+        alignas(64) Numbers distance = {}, density = {};
+        alignas(64) Numbers radiance[Spectrum::kCount] = {};
+        std::uint32_t singular = 0;  ///< bits of lanes
+        std::array<PlaceInLight, kMost> places;
+
+        void set(std::size_t lane, const LightDraw& draw);
+        /// Sets what is not the direction.
+        void set(std::size_t lane, const Spectrum& light, bool is_singular,
+                 const PlaceInLight& place);
+    };
+    /// Valid after `draw`.
+    [[nodiscard]] const Results& results() const { return results_; }
     /// The result of the i-th `add`; valid after `draw`.
-    [[nodiscard]] const LightDraw& operator[](std::size_t i) const { return drawn_[i]; }
+    [[nodiscard]] LightDraw operator[](std::size_t i) const;
     void clear() { size_ = near_ = sky_ = in_lanes_ = 0; }
 
   private:
@@ -48,22 +67,23 @@ class LightDraws {
     struct Waiting {
         std::size_t draw, light;
         double probability;
-        Vec3 at;
         const Wavelengths* waves;
     };
 
     /// Draws near lights; rectangles are put into their lanes.
     void draw_near();
     void draw_sky();
+    /// Samples the rectangles.
+    void draw_rectangles();
 
     const Illumination& lights_;
     std::array<NearDraw, kMost> near_draws_;
-    std::array<LitPoint, kMost> near_points_;  ///< [near draw]
-    std::array<double, kMost> near_choices_;   ///< [near draw]
+    LitPointLanes near_points_;  ///< [near draw]
+    ChoiceLanes near_choices_;   ///< [near draw]
     std::array<SkyDraw, kMost> sky_draws_;
     RectangleLanes rectangles_;
     std::array<Waiting, kMost> waiting_;  ///< [lane]
-    std::array<LightDraw, kMost> drawn_;
+    Results results_;
     std::size_t size_ = 0, near_ = 0, sky_ = 0, in_lanes_ = 0;
 };
 

@@ -130,35 +130,24 @@ HWY_INLINE Doubles importances_of(const Node* const (&nodes)[kLaneCount], std::u
     return select_lanes(outside, result, intensity / larger_of(Doubles(1e-300), radius2));
 }
 
-inline void choose(const LightTree& tree, std::span<const LitPoint> points,
-                   std::span<const double> choices, ChosenLight* chosen) {
+inline void choose(const LightTree& tree, const LitPointLanes& points, const ChoiceLanes& choices,
+                   std::size_t count, ChosenLight* chosen) {
     const Node* const nodes = tree.nodes().data();
-    // Lanes without a point repeat the first one; those that are done stay at the root.
+    // Lanes without a point, and those that are done, stay at the root.
     const Node* node[kLaneCount];
-    HWY_ALIGN double place[6][kLaneCount], choice_of[kLaneCount], share[kLaneCount];
-    std::uint32_t both_sides = 0, in_volume = 0;
+    HWY_ALIGN double share[kLaneCount];
     for (std::size_t i = 0; i < kLaneCount; ++i) node[i] = nodes;
-    for (std::size_t i = 0; i < kLaneCount; ++i) {
-        const std::size_t from = i < points.size() ? i : 0;
-        for (int k = 0; k < 3; ++k) {
-            place[k][i] = points[from].point[k];
-            place[3 + k][i] = points[from].normal[k];
-        }
-        choice_of[i] = choices[from];
-        both_sides |= std::uint32_t{points[from].both_sides} << i;
-        in_volume |= std::uint32_t{points[from].in_volume} << i;
-    }
-    const LitPoints at{load_lanes(place[0]),
-                       load_lanes(place[1]),
-                       load_lanes(place[2]),
-                       load_lanes(place[3]),
-                       load_lanes(place[4]),
-                       load_lanes(place[5]),
-                       lanes_of_bits<double>(both_sides),
-                       lanes_of_bits<double>(in_volume)};
-    Doubles choice = load_lanes(choice_of), probability(1.0);
+    const LitPoints at{load_lanes(points.point[0]),
+                       load_lanes(points.point[1]),
+                       load_lanes(points.point[2]),
+                       load_lanes(points.normal[0]),
+                       load_lanes(points.normal[1]),
+                       load_lanes(points.normal[2]),
+                       lanes_of_bits<double>(points.both_sides),
+                       lanes_of_bits<double>(points.in_volume)};
+    Doubles choice = load_lanes(choices.of), probability(1.0);
     const Doubles one(1.0), most(0x1.fffffffffffffp-1);
-    for (std::uint32_t left = (1u << points.size()) - 1;;) {
+    for (std::uint32_t left = (1u << count) - 1;;) {
         const Node *first[kLaneCount], *second[kLaneCount];
         std::uint32_t first_two_sided = 0, second_two_sided = 0;
         for (std::size_t i = 0; i < kLaneCount; ++i) {
@@ -196,9 +185,9 @@ inline void choose(const LightTree& tree, std::span<const LitPoint> points,
 
 }  // namespace light_choices
 
-void choose_lights_of_target(const LightTree& tree, std::span<const LitPoint> at,
-                             std::span<const double> choices, ChosenLight* chosen) {
-    light_choices::choose(tree, at, choices, chosen);
+void choose_lights_of_target(const LightTree& tree, const LitPointLanes& at,
+                             const ChoiceLanes& choices, std::size_t count, ChosenLight* chosen) {
+    light_choices::choose(tree, at, choices, count, chosen);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -210,14 +199,18 @@ namespace alhazen {
 
 ALHAZEN_KERNEL_TABLE(choose_lights_of_target);
 
-void choose_lights(const LightTree& tree, std::span<const LitPoint> at,
-                   std::span<const double> choices, ChosenLight* chosen) {
+void choose_lights(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
+                   std::size_t count, ChosenLight* chosen) {
     const std::vector<LightTree::Node>& nodes = tree.nodes();
-    if (nodes.size() <= 1 || at.size() <= 1) {
-        for (std::size_t i = 0; i < at.size(); ++i) chosen[i] = tree.choose(at[i], choices[i]);
-        return;
+    if (nodes.size() <= 1) {
+        // None, or one for all points.
+        const ChosenLight only = nodes.empty() ? ChosenLight{} : ChosenLight{nodes[0].content, 1.0};
+        for (std::size_t i = 0; i < count; ++i) chosen[i] = only;
+    } else if (count == 1) {
+        chosen[0] = tree.choose(at[0], choices.of[0]);
+    } else {
+        ALHAZEN_KERNEL(choose_lights_of_target)(tree, at, choices, count, chosen);
     }
-    ALHAZEN_KERNEL(choose_lights_of_target)(tree, at, choices, chosen);
 }
 
 }  // namespace alhazen

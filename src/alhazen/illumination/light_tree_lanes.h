@@ -4,16 +4,18 @@
 /// Conventions: the bits are those of LightTree::choose.
 
 #include <cstddef>
-#include <span>
 
 #include "alhazen/illumination/light_tree.h"
 
 namespace alhazen {
 
-inline constexpr std::size_t kMostLightChoices = 8;
+/// Numbers in [0, 1) for choices, [lane].
+struct ChoiceLanes {
+    alignas(64) double of[LitPointLanes::kMost] = {};
+};
 
-/// Chooses a light for each of up to kMostLightChoices points; `choices` in [0, 1).
-void choose_lights(const LightTree& tree, std::span<const LitPoint> at,
-                   std::span<const double> choices, ChosenLight* chosen);
+/// Chooses a light for each of the first `count` points.
+void choose_lights(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
+                   std::size_t count, ChosenLight* chosen);
 
 }  // namespace alhazen

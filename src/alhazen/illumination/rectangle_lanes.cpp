@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
 #include "alhazen/math/constants.h"
+#include "alhazen/simd/lane_vectors-inl.h"
 #include "alhazen/simd/trigonometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,15 +16,6 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-struct LaneVectors {
-    Doubles x, y, z;
-};
-HWY_INLINE LaneVectors load_vectors(const double (&values)[3][RectangleLanes::kMost]) {
-    return {load_lanes(values[0]), load_lanes(values[1]), load_lanes(values[2])};
-}
-HWY_INLINE Doubles dot(const LaneVectors& a, const LaneVectors& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 /// std::clamp of each lane, for NaNs, too.
 HWY_INLINE Doubles clamped(const Doubles& v, const Doubles& lo, const Doubles& hi) {
     return select_lanes(v < lo, lo, select_lanes(hi < v, hi, v));
@@ -44,8 +36,7 @@ void draw_rectangles(RectangleLanes::Numbers& n) {
     LaneVectors axis_z = load_vectors(n.z);
     Doubles z0 = dot(corner, axis_z);
     const LaneMask<double> turned = z0 > zero;
-    axis_z = {select_lanes(turned, -axis_z.x, axis_z.x), select_lanes(turned, -axis_z.y, axis_z.y),
-              select_lanes(turned, -axis_z.z, axis_z.z)};
+    axis_z = select_lanes(turned, -axis_z, axis_z);
     z0 = select_lanes(turned, -z0, z0);
     // A rectangle edge on is sampled by `sample`; -1 avoids a division by 0 in its lane.
     const LaneMask<double> before = z0 < zero;
@@ -76,15 +67,12 @@ void draw_rectangles(RectangleLanes::Numbers& n) {
     const LaneMask<double> inner = rest > Doubles(1e-14);
     const Doubles root = sqrt(select_lanes(inner, rest, one));
     const Doubles y = select_lanes(inner, clamped(h * d / root, y0, y1), y1);
-    const LaneVectors offset{x * axis_x.x + y * axis_y.x + z0 * axis_z.x,
-                             x * axis_x.y + y * axis_y.y + z0 * axis_z.y,
-                             x * axis_x.z + y * axis_y.z + z0 * axis_z.z};
+    const LaneVectors offset = x * axis_x + y * axis_y + z0 * axis_z;
     const Doubles distance = sqrt(dot(offset, offset));
-    store_lanes(offset.x / distance, n.to_light[0]);
-    store_lanes(offset.y / distance, n.to_light[1]);
-    store_lanes(offset.z / distance, n.to_light[2]);
+    store_vectors(offset / distance, n.to_light);
     store_lanes(distance, n.distance);
     store_lanes(one / solid_angle, n.density);
+    n.shining = n.two_sided | bits_of(dot(corner, load_vectors(n.normal)) < zero);
     n.drawn = bits_of(before & (solid_angle > Doubles(kLeastSolidAngle)));
 }
 
@@ -120,6 +108,9 @@ void RectangleLanes::set(std::size_t lane, const Emitter& e, const Vec3& from, c
         put(e.sides.x, numbers_.x);
         put(e.sides.y, numbers_.y);
         put(e.sides.z, numbers_.z);
+        put(e.world_from_own.linear.z_axis, numbers_.normal);
+        const std::uint32_t bit = 1u << lane;
+        numbers_.two_sided = e.two_sided ? numbers_.two_sided | bit : numbers_.two_sided & ~bit;
         numbers_.width[lane] = e.sides.width;
         numbers_.height[lane] = e.sides.height;
     }
@@ -139,8 +130,7 @@ EmitterSample RectangleLanes::sampled(std::size_t lane) const {
     if ((n.drawn >> lane & 1u) == 0) {
         return sample(e, from_[lane], {n.u[0][lane], n.u[1][lane]});
     }
-    const Vec3 corner{n.corner[0][lane], n.corner[1][lane], n.corner[2][lane]};
-    if (!e.two_sided && !(dot(corner, e.world_from_own.linear.z_axis) < 0.0)) return {};
+    if ((n.shining >> lane & 1u) == 0) return {};
     return {{n.to_light[0][lane], n.to_light[1][lane], n.to_light[2][lane]},
             n.distance[lane],
             n.density[lane],

@@ -29,17 +29,25 @@ class RectangleLanes {
     void draw();
     /// The result of `sample` for the arguments of `set`; valid after `draw`.
     [[nodiscard]] EmitterSample sampled(std::size_t lane) const;
+    /// The point of `set`.
+    [[nodiscard]] const Vec3& from(std::size_t lane) const { return from_[lane]; }
+    /// The same in lanes, where `drawn`.
+    struct Numbers;
+    [[nodiscard]] const Numbers& numbers() const { return numbers_; }
 
     /// Input and output of the kernels, [coordinate][lane].
     struct Numbers {
         alignas(64) double corner[3][kMost] = {};  ///< relative to the point of view
         alignas(64) double x[3][kMost] = {}, y[3][kMost] = {}, z[3][kMost] = {};
+        alignas(64) double normal[3][kMost] = {};  ///< outer
         alignas(64) double width[kMost] = {}, height[kMost] = {};
         alignas(64) double u[2][kMost] = {};
         // Results.
         alignas(64) double to_light[3][kMost] = {};
         alignas(64) double distance[kMost] = {}, density[kMost] = {};
-        std::uint32_t drawn = 0;  ///< bits of the lanes that the kernel has sampled
+        std::uint32_t two_sided = 0;  ///< bits of lanes; input
+        std::uint32_t drawn = 0;      ///< bits of the lanes that the kernel has sampled
+        std::uint32_t shining = 0;    ///< bits of the lanes whose emitter shines on the point
     };
 
   private:

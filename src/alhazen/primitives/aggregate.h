@@ -75,6 +75,8 @@ class Aggregate {
     /// is a primitive of this aggregate or the instance of the hit; `ray` is in the frame of the
     /// aggregate. Default: no change.
     virtual void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const;
+    /// True if `complete` may change a surface.
+    [[nodiscard]] virtual bool completes_surfaces() const { return false; }
     /// The bounds of all primitives while the shutter is open. Default: nothing moves.
     [[nodiscard]] virtual MovingBox moving_box() const { return {box(), box()}; }
 

@@ -10,6 +10,7 @@
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/plain_surface.h"
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/meshes/triangle_lanes.h"
 #include "alhazen/shapes/meshes/triangle_surface.h"
 
 namespace alhazen {
@@ -185,10 +186,7 @@ void triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hi
     share_coordinates(surface);
     surface.is_of_mesh = true;
     const auto& corners = mesh.triangles[triangle];
-    // The test of the next ray rounds relative to the size of the triangle, not to the position of
-    // the point, and along any axis: in the plane z = 0 it does not compute a distance of exactly
-    // 0.
-    const double rounding = 12 * kEpsilon * reach;
+    const double rounding = kNextTestRounding * reach;
     surface.error += Vec3{rounding, rounding, rounding};
     if (placed.mirrored) {
         surface.normal = -surface.normal;

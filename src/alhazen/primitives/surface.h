@@ -104,9 +104,14 @@ struct HitParts {
 /// `leaving_ray` for many rays of one surface.
 class LeavingRays {
   public:
+    /// The margin, relative to the bound.
+    static constexpr double kErrorsAway = 32.0;
+    /// The first t: positive, and far enough from the subnormal numbers to keep arithmetic fast.
+    static constexpr double kBeyondZero = 0x1p-500;
+
     // Implicit, so that a surface may be passed.
     LeavingRays(const ShapeSurface& surface) : normal_(surface.normal) {
-        const double margin = 32.0 * dot(abs(surface.normal), surface.error);
+        const double margin = kErrorsAway * dot(abs(surface.normal), surface.error);
         // The sums round by half an ulp, far less than the margin.
         outside_ = surface.point + margin * surface.normal;
         inside_ = surface.point + (-margin) * surface.normal;
@@ -117,9 +122,6 @@ class LeavingRays {
     }
 
   private:
-    /// The first t: positive, and far enough from the subnormal numbers to keep arithmetic fast.
-    static constexpr double kBeyondZero = 0x1p-500;
-
     Vec3 normal_, outside_, inside_;
 };
 

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
+#include "alhazen/illumination/emitter.h"
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/sampling/random.h"
 #include "support/light_checks.h"
 #include "support/scene_maker.h"
 
@@ -466,6 +469,42 @@ TEST(Emitters, EmittedPowerIsAreaTimesPiTimesRadiance) {
     EXPECT_NEAR(out.radiance.a * dot(out.normal, out.ray.direction) /
                     (out.place_density * out.direction_density),
                 kPi * 2.0 * kPi, 1e-9);
+}
+
+// Where the solid angle is certain to be small it is not computed; the bits are the same.
+TEST(Emitters, FarOnesAreSampledAsTheirSolidAngleSays) {
+    RandomStream random(11);
+    int far = 0, near = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto vector = [&](double size) {
+            return size * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        };
+        Emitter e;
+        e.form = i % 2 == 0 ? EmitterForm::Triangle : EmitterForm::Rectangle;
+        e.two_sided = i % 3 == 0;
+        e.radiance = {1, 1, 1};
+        const double size = std::exp(random.uniform(-7, 3));
+        const Vec3 x = vector(size);
+        Vec3 y = vector(size);
+        if (e.form == EmitterForm::Rectangle) y = cross(x, y) / length(x);
+        e.world_from_own.linear = {x, y, normalize(cross(x, y))};
+        e.world_from_own.translation = vector(2.0);
+        if (!make_ready(e)) continue;
+        Emitter unknown = e;
+        unknown.far_squared = std::numeric_limits<double>::infinity();
+        const double distance = std::sqrt(e.far_squared) * std::exp(random.uniform(-1, 1));
+        const Vec3 from = e.world_from_own.translation + distance * normalize(vector(1.0));
+        const Vec2 u{random.uniform(0, 1), random.uniform(0, 1)};
+        const EmitterSample a = sample(e, from, u), b = sample(unknown, from, u);
+        ASSERT_EQ(a.density, b.density) << i;
+        ASSERT_EQ(a.to_light, b.to_light) << i;
+        ASSERT_EQ(a.distance, b.distance) << i;
+        const EmitterHit hit{a.to_light, a.distance, e.world_from_own.linear.z_axis, a.parameters};
+        ASSERT_EQ(density(e, from, hit), density(unknown, from, hit)) << i;
+        ++(is_far(e, from) ? far : near);
+    }
+    EXPECT_GT(far, 5000);
+    EXPECT_GT(near, 5000);
 }
 
 }  // namespace

@@ -94,22 +94,24 @@ TEST(LightTree, EightChoicesInLanesAreAsOneByOne) {
             for (TreeLight& light : lights) light = random_light(random);
             const LightTree tree(lights);
             for (int i = 0; i < 500; ++i) {
-                std::array<LitPoint, kMostLightChoices> at;
-                std::array<double, kMostLightChoices> choices;
-                std::array<ChosenLight, kMostLightChoices> chosen;
-                const std::size_t used = 1 + random.below(kMostLightChoices);
+                constexpr std::size_t kMost = LitPointLanes::kMost;
+                std::array<LitPoint, kMost> at;
+                std::array<ChosenLight, kMost> chosen;
+                LitPointLanes lanes;
+                ChoiceLanes choices;
+                const std::size_t used = 1 + random.below(kMost);
                 for (std::size_t k = 0; k < used; ++k) {
                     at[k] = random_point(random);
                     if (random.below(5) == 0) at[k] = LitPoint::inside_volume(at[k].point);
                     if (count > 0 && random.below(9) == 0) {
                         at[k].point = lights[random.below(count)].bounds.box.lo;
                     }
-                    choices[k] = random.below(9) == 0 ? 0.0 : random.uniform(0, 1);
+                    choices.of[k] = random.below(9) == 0 ? 0.0 : random.uniform(0, 1);
+                    lanes.set(k, at[k]);
                 }
-                choose_lights(tree, std::span(at).first(used), std::span(choices).first(used),
-                              chosen.data());
+                choose_lights(tree, lanes, choices, used, chosen.data());
                 for (std::size_t k = 0; k < used; ++k) {
-                    const ChosenLight alone = tree.choose(at[k], choices[k]);
+                    const ChosenLight alone = tree.choose(at[k], choices.of[k]);
                     ASSERT_EQ(chosen[k].probability, alone.probability) << target << " " << i;
                     ASSERT_EQ(chosen[k].light, alone.light) << target << " " << i;
                     ++(alone.probability > 0.0 ? lit : dark);

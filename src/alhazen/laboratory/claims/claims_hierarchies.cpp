@@ -46,6 +46,7 @@ class TimedAggregate final : public Aggregate {
     [[nodiscard]] Box3 box() const override { return asked_.box(); }
     [[nodiscard]] std::size_t memory_bytes() const override { return asked_.memory_bytes(); }
     [[nodiscard]] bool changes_materials() const override { return asked_.changes_materials(); }
+    [[nodiscard]] bool completes_surfaces() const override { return asked_.completes_surfaces(); }
     [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override {
         return timed([&] { return asked_.closest(ray, hit, query); });
     }

@@ -32,9 +32,13 @@ class SampleDraws {
         if (pair >= together_.size()) {
             return sampler_.at(ids_[sample].pixel, pair, ids_[sample].number);
         }
+        return all(pair)[sample];
+    }
+    /// The numbers of a pair that is drawn for all samples together, [sample]. Valid until `begin`.
+    [[nodiscard]] const Vec2* all(std::uint32_t pair) {
         std::vector<Vec2>& points = together_[pair];
         if (points.empty()) draw_all(pair, points);
-        return points[sample];
+        return points.data();
     }
 
   private:

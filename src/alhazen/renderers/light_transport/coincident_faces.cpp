@@ -16,7 +16,7 @@ namespace {
 
 /// Rays begin that many error bounds away from the surface that they leave (leaving_ray): they miss
 /// all faces within.
-constexpr double kErrorsAway = 32.0, kLeastCosine = 1e-3;
+constexpr double kErrorsAway = LeavingRays::kErrorsAway, kLeastCosine = 1e-3;
 
 /// The `number`-th direction in which ends of volumes are searched for, if a ray crosses a surface
 /// along `direction`: straight on, then nearly along the surface.

@@ -51,6 +51,13 @@ class PathRandomness {
         return p < kByHash ? draws_.at(sample, p) : by_hash(key_of(sample), p);
     }
 
+    /// The numbers of a pair, [sample of the batch]; null if they are not drawn together. Valid
+    /// until `begin`.
+    [[nodiscard]] const Vec2* drawn(int bounce, BouncePair pair) {
+        const std::uint32_t p = pair_of(bounce, pair);
+        return p < kByHash ? draws_.all(p) : nullptr;
+    }
+
     [[nodiscard]] Vec2 draw(const SampleId& id, std::uint32_t pair) const {
         if (pair < kByHash) return sampler_.at(id.pixel, pair, id.number);
         return by_hash(random_key(seed_, id.pixel.id(), id.number), pair);

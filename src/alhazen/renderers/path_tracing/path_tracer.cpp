@@ -28,6 +28,8 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                             manifold != nullptr
                         ? 1
                         : LightDraws::kMost),
+      uses_lanes_(most_waiting_ > 1 && !random_.is_spectral()),
+      plain_(scene_),
       draws_(lights),
       faces_(scene_),
       media_(scene_),
@@ -41,8 +43,9 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
                                std::span<Rgb> radiance) {
     ids_ = ids;
     // After an exception in a bounce they still refer to the paths of the last batch.
-    waiting_ = 0;
+    waiting_ = in_lanes_ = 0;
     draws_.clear();
+    lanes_.triangles.clear();
     random_.begin(ids);
     paths_.resize(rays.size());
     alive_.clear();
@@ -102,7 +105,11 @@ void PathTracer::bounce(bool first) {
             }
             ++counters_[path.kind].hit;
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
+        },
+        [&](std::size_t k, const Hit& hit) {
+            return takes_into_lane(paths_[alive_[k]], rays_[k], hit);
         });
+    scatter_lanes();
     scatter_all();
     shadows_.finish();
     if (recorded_ != kNoSample) record_arrival();

@@ -14,9 +14,11 @@
 #include "alhazen/renderers/light_transport/light_layers.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/renderers/light_transport/plain_meshes.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/light_transport/vertex_lanes.h"
 #include "alhazen/renderers/manifold/manifold_light.h"
 
 namespace alhazen {
@@ -76,7 +78,23 @@ class PathTracer {
         std::optional<LeavingRays> leaving;
     };
 
+    /// A vertex in lanes.
+    struct LaneVertex {
+        EyePath* path = nullptr;
+        const PlainMaterial* material = nullptr;
+    };
+
     void bounce(bool first);
+    /// Puts the path into a lane if its vertex at the hit is plain; else false.
+    [[nodiscard]] bool takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit);
+    /// Adds direct light at the vertices in lanes and scatters their paths.
+    void scatter_lanes();
+    /// Draws the random numbers of the lanes; adds their points to `draws_`.
+    void draw_numbers();
+    /// Sets the values and the sample of a BSDF that is not matt.
+    void scatter_rough(std::size_t lane);
+    /// Continues a path along the direction of its lane.
+    void leave_lane(std::size_t lane);
     /// Adds direct light at the waiting vertices and scatters their paths.
     void scatter_all();
     /// The last vertex of the record (RenderJob::path); null for paths that are not recorded.
@@ -179,6 +197,11 @@ class PathTracer {
     /// Vertices that wait for each other: their lights are sampled together.
     std::array<Vertex, LightDraws::kMost> vertices_;
     std::size_t waiting_ = 0, most_waiting_;
+    bool uses_lanes_;  ///< plain vertices are handled in lanes
+    PlainMeshes plain_;
+    VertexLanes lanes_;
+    std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
+    std::size_t in_lanes_ = 0;
     LightDraws draws_;
     std::array<std::optional<Scattered>, LightDraws::kMost> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;

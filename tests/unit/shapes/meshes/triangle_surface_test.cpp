@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <string>
 
+#include "alhazen/shapes/meshes/triangle_lanes.h"
 #include "alhazen/simd/targets.h"
 #include "support/random.h"
 
@@ -72,6 +74,55 @@ TEST(TriangleSurface, InLanesHasTheBitsOfOneByOne) {
                 const double reach = set_triangle_surface(mesh, triangle, hit, found);
                 ASSERT_TRUE(same_bits(found, expected)) << target << " " << form << " " << i;
                 ASSERT_EQ(reach, farthest) << target << " " << form << " " << i;
+            }
+        }
+    }
+}
+
+Vec3 vector_of(const TriangleLanes::Vectors& of, std::size_t lane) {
+    return {of[0][lane], of[1][lane], of[2][lane]};
+}
+
+TEST(TriangleSurface, EightInLanesHaveTheBitsOfOneByOne) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        Random random(23);
+        std::array<TriangleMesh, 4> meshes;
+        for (int form = 0; form < 4; ++form) {
+            meshes[static_cast<std::size_t>(form)] =
+                any_triangles(random, (form & 1) != 0, (form & 2) != 0);
+        }
+        TriangleLanes lanes;
+        for (int batch = 0; batch < 3000; ++batch) {
+            std::array<ShapeSurface, TriangleLanes::kMost> expected;
+            // Some lanes stay empty.
+            lanes.clear();
+            const auto count = static_cast<std::size_t>(1 + random.below(TriangleLanes::kMost));
+            for (std::size_t lane = 0; lane < count; ++lane) {
+                const TriangleMesh& mesh = meshes[static_cast<std::size_t>(random.below(4))];
+                const auto triangle = static_cast<std::size_t>(random.below(200));
+                ShapeHit hit;
+                hit.u = random.below(9) == 0 ? 0.0 : random.uniform();
+                hit.v = (1.0 - hit.u) * random.uniform();
+                const bool mirrored = random.coin();
+                lanes.set(lane, mesh, triangle, hit, mirrored);
+                ShapeSurface& surface = expected[lane];
+                const double reach = set_triangle_surface(mesh, triangle, hit, surface);
+                const double rounding = kNextTestRounding * reach;
+                surface.error += Vec3{rounding, rounding, rounding};
+                if (!mirrored) continue;
+                surface.normal = -surface.normal;
+                if (mesh.normals.empty()) surface.shading_normal = surface.normal;
+            }
+            lanes.find_surfaces();
+            for (std::size_t lane = 0; lane < count; ++lane) {
+                const ShapeSurface& s = expected[lane];
+                ASSERT_TRUE(same_bits(vector_of(lanes.point, lane), s.point)) << target;
+                ASSERT_TRUE(same_bits(vector_of(lanes.error, lane), s.error)) << target;
+                ASSERT_TRUE(same_bits(vector_of(lanes.normal, lane), s.normal)) << target;
+                ASSERT_TRUE(same_bits(vector_of(lanes.shading_normal, lane), s.shading_normal))
+                    << target;
+                ASSERT_TRUE(same_bits(vector_of(lanes.dpdu, lane), s.dpdu)) << target;
             }
         }
     }

@@ -1,0 +1,64 @@
+#pragma once
+/// The meshes whose points are vertices for VertexLanes: all points of a material scatter alike,
+/// on the side of the view only, and do not emit.
+///
+/// Conventions: for colour channels, paths outside of all volumes and scenes at rest. Threads: used
+/// by one thread.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "alhazen/geometry/hit.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/scene/scene.h"
+#include "alhazen/shading/bsdf/bsdf.h"
+
+namespace alhazen {
+
+struct PlainMaterial {
+    std::array<Bsdf, 2> bsdfs;  ///< [ShadingPoint::entering]
+    bool is_matt = false;       ///< one diffuse reflection, the same from both sides
+    Spectrum matt;              ///< its value, without cosine; else black
+};
+
+class PlainMeshes {
+  public:
+    /// The scene must outlive the object and keep its materials.
+    explicit PlainMeshes(const Scene& scene);
+
+    struct Place {
+        const PlacedMesh* mesh = nullptr;
+        std::uint32_t triangle = 0;               ///< of the mesh
+        const PlainMaterial* material = nullptr;  ///< null: not plain
+    };
+    /// The triangle of a hit; without material if its points are not plain.
+    [[nodiscard]] Place find(const Hit& hit) {
+        const std::uint32_t kind = table_.kind(hit.primitive);
+        if (!any_ || kind != kTriangleKind || !hit.path.empty()) return {};
+        const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - first_;
+        const PlacedMesh& mesh = table_.mesh_of(index);
+        Look& look = looks_[static_cast<std::size_t>(&mesh - table_.meshes.data())];
+        if (!look.known) look_at(mesh, look);
+        return {&mesh, index - mesh.first_triangle, look.material};
+    }
+
+  private:
+    struct Look {
+        bool known = false;
+        const PlainMaterial* material = nullptr;
+    };
+
+    void look_at(const PlacedMesh& mesh, Look& look);
+    [[nodiscard]] const PlainMaterial* material_of(MaterialId id);
+
+    const Scene& scene_;
+    const PrimitiveTable& table_;
+    std::uint32_t first_;                                    ///< primitive of the first triangle
+    bool any_;                                               ///< false: no hit is plain
+    std::vector<Look> looks_;                                ///< [mesh]
+    std::vector<std::unique_ptr<PlainMaterial>> materials_;  ///< [material]; null: not yet made
+};
+
+}  // namespace alhazen

@@ -1,0 +1,136 @@
+// Vertices of PathTracer in lanes: from the hits to shadow rays and next rays.
+
+#include <bit>
+
+#include "alhazen/renderers/path_tracing/path_tracer.h"
+
+namespace alhazen {
+
+namespace {
+
+Vec3 vector_of(const VertexLanes::Vectors& of, std::size_t lane) {
+    return {of[0][lane], of[1][lane], of[2][lane]};
+}
+Spectrum spectrum_of(const VertexLanes::Spectra& of, std::size_t lane) {
+    return {of[0][lane], of[1][lane], of[2][lane], of[3][lane]};
+}
+template <class V, std::size_t N>
+void put(const V& v, std::size_t lane, VertexLanes::Numbers (&to)[N]) {
+    for (std::size_t k = 0; k < N; ++k) to[k][lane] = v[static_cast<int>(k)];
+}
+
+/// Calls f(lane) for each of `lanes`.
+template <class F>
+void for_each_lane(std::uint32_t lanes, const F& f) {
+    for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
+}
+
+}  // namespace
+
+bool PathTracer::takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit) {
+    if (!uses_lanes_ || path.inside) return false;
+    const PlainMeshes::Place place = plain_.find(hit);
+    if (place.material == nullptr) return false;
+    ++counters_[path.kind].hit;
+    path.travelled += hit.t;
+    path.cone = path.cone.from(hit.t);
+    ++path.met;
+    if (path.scatterings >= settings_.depth) return true;
+    const std::size_t lane = in_lanes_++;
+    of_lanes_[lane] = {&path, place.material};
+    lanes_.triangles.set(lane, *place.mesh->mesh, place.triangle, hit, place.mesh->mirrored);
+    put(ray.direction, lane, lanes_.ray);
+    put(path.throughput, lane, lanes_.throughput);
+    put(place.material->matt, lane, lanes_.matt);
+    if (in_lanes_ == VertexLanes::kMost) scatter_lanes();
+    return true;
+}
+
+void PathTracer::draw_numbers() {
+    using enum PathRandomness::BouncePair;
+    // Most paths of a batch have the same number of bounces.
+    int bounce = -1;
+    const Vec2 *places = nullptr, *directions = nullptr;
+    for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
+        const EyePath& path = *of_lanes_[lane].path;
+        const std::uint32_t sample = path.sample;
+        if (path.drawn != bounce) {
+            bounce = path.drawn;
+            places = random_.drawn(bounce, kLight);
+            directions = random_.drawn(bounce, kDirection);
+        }
+        const Vec2 place = places ? places[sample] : random_.draw(sample, bounce, kLight);
+        const Vec2 u = directions ? directions[sample] : random_.draw(sample, bounce, kDirection);
+        const double choice = choices(path, chooses_light_).y;
+        draws_.add({vector_of(lanes_.triangles.point, lane), vector_of(lanes_.z, lane)}, choice,
+                   place, kColorChannels);
+        lanes_.u[0][lane] = u.x;
+        lanes_.u[1][lane] = u.y;
+    }
+}
+
+void PathTracer::scatter_lanes() {
+    if (in_lanes_ == 0) return;
+    VertexLanes& v = lanes_;
+    v.find_frames();
+    draw_numbers();
+    draws_.draw();
+    const LightDraws::Results& lights = draws_.results();
+    v.scatter(lights);
+    for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
+        if (!of_lanes_[lane].material->is_matt) scatter_rough(lane);
+    }
+    v.weigh(lights);
+    const std::uint32_t used = (1u << in_lanes_) - 1;
+    for_each_lane(v.lit & used, [&](std::size_t lane) {
+        const EyePath& path = *of_lanes_[lane].path;
+        const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
+                         LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
+        const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
+        shadows_.add(shadow, path.time, path.media, kColorChannels, shown, light_[path.sample]);
+    });
+    for_each_lane(v.sampled & used, [&](std::size_t lane) { leave_lane(lane); });
+    draws_.clear();
+    v.triangles.clear();
+    in_lanes_ = 0;
+}
+
+void PathTracer::scatter_rough(std::size_t lane) {
+    VertexLanes& v = lanes_;
+    const auto& [path, material] = of_lanes_[lane];
+    const Bsdf& bsdf = material->bsdfs[v.entering >> lane & 1u];
+    const Vec3 view = vector_of(v.view, lane);
+    if ((v.lit >> lane & 1u) != 0) {
+        const Vec3 to_light = vector_of(v.to_light, lane);
+        put(to_light.z * bsdf.value(view, to_light, Transport::Radiance), lane, v.value);
+        v.density[lane] = bsdf.density(view, to_light);
+    }
+    const double choice = choices(*path, bsdf.chooses()).x;
+    const std::optional<BsdfSample> drawn =
+        bsdf.sample(view, choice, {v.u[0][lane], v.u[1][lane]}, Transport::Radiance);
+    if (!drawn) {
+        v.sampled &= ~(1u << lane);
+        return;
+    }
+    put(drawn->direction, lane, v.next);
+    put(drawn->weight, lane, v.next_weight);
+    v.next_density[lane] = drawn->density;
+}
+
+void PathTracer::leave_lane(std::size_t lane) {
+    const VertexLanes& v = lanes_;
+    EyePath& path = *of_lanes_[lane].path;
+    path.throughput = spectrum_of(v.throughput, lane);
+    ++path.drawn;
+    ++path.scatterings;
+    path.singular = false;
+    path.density = v.next_density[lane];
+    path.from = {vector_of(v.triangles.point, lane), vector_of(v.z, lane)};
+    path.travelled = 0.0;
+    path.kind = RayKind::Reflection;
+    if (!survives_roulette(path)) return;
+    go_on(path,
+          {vector_of(v.origin, lane), vector_of(v.direction, lane), LeavingRays::kBeyondZero});
+}
+
+}  // namespace alhazen

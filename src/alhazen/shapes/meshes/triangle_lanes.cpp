@@ -1,0 +1,207 @@
+#include "alhazen/shapes/meshes/triangle_lanes.h"
+
+#include "alhazen/simd/dispatch.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/shapes/meshes/triangle_lanes.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include <bit>
+#include <limits>
+
+#include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/simd/lane_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace triangle_lanes {
+
+HWY_INLINE std::uint32_t other_lanes(std::uint32_t lanes) {
+    return ~lanes & kAllLanes;
+}
+
+/// Calls f(lane) for each of `lanes`.
+template <class F>
+HWY_INLINE void for_each_lane(std::uint32_t lanes, const F& f) {
+    for (; lanes != 0; lanes &= lanes - 1) f(std::countr_zero(lanes));
+}
+HWY_INLINE Vec3 vector_of(const TriangleLanes::Vectors& v, int lane) {
+    return {v[0][lane], v[1][lane], v[2][lane]};
+}
+HWY_INLINE void set_vector(const Vec3& from, int lane, TriangleLanes::Vectors& v) {
+    for (int k = 0; k < 3; ++k) v[k][lane] = from[k];
+}
+
+/// `difference_of_products` of each lane.
+HWY_INLINE Doubles product_difference(const Doubles& a, const Doubles& b, const Doubles& c,
+                                      const Doubles& d) {
+    if constexpr (kFusesExactly) {
+        return difference_of_products(a, b, c, d);
+    } else {
+        HWY_ALIGN double in[4][kLaneCount];
+        store_lanes(a, in[0]);
+        store_lanes(b, in[1]);
+        store_lanes(c, in[2]);
+        store_lanes(d, in[3]);
+        for (std::size_t i = 0; i < kLaneCount; ++i) {
+            in[0][i] = alhazen::difference_of_products(in[0][i], in[1][i], in[2][i], in[3][i]);
+        }
+        return load_lanes(in[0]);
+    }
+}
+HWY_INLINE LaneVectors accurate_cross(const LaneVectors& a, const LaneVectors& b) {
+    return {product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
+            product_difference(a.x, b.y, a.y, b.x)};
+}
+
+/// `unit_or` of each lane.
+HWY_INLINE LaneVectors unit_vectors_or(const LaneVectors& v, const LaneVectors& fallback) {
+    const Doubles squared = dot(v, v);
+    const LaneMask<double> sane = (squared > Doubles(1e-200)) & (squared < Doubles(1e200));
+    const LaneVectors unit = v / sqrt(select_lanes(sane, squared, Doubles(1.0)));
+    const std::uint32_t others = other_lanes(bits_of(sane));
+    if (others == 0) return unit;
+    HWY_ALIGN TriangleLanes::Vectors of, rest, result;
+    store_vectors(v, of);
+    store_vectors(fallback, rest);
+    store_vectors(unit, result);
+    for_each_lane(others, [&](int i) {
+        set_vector(unit_or(vector_of(of, i), vector_of(rest, i)), i, result);
+    });
+    return load_vectors(result);
+}
+
+/// w p + u q + v r.
+HWY_INLINE LaneVectors weighted(const Doubles& w, const LaneVectors& p, const Doubles& u,
+                                const LaneVectors& q, const Doubles& v, const LaneVectors& r) {
+    return w * p + u * q + v * r;
+}
+
+HWY_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
+    return select_lanes(b > a, b, a);
+}
+HWY_INLINE Doubles largest_coordinate(const LaneVectors& a) {
+    return larger(larger(a.x, a.y), a.z);
+}
+
+/// The derivatives by the first texture coordinate; first edges where there are none.
+HWY_INLINE LaneVectors derivatives_by_u(const TriangleLanes& t, const LaneVectors& e1,
+                                        const LaneVectors& e2) {
+    const Doubles x0 = load_lanes(t.uvs[0][0]), y0 = load_lanes(t.uvs[0][1]);
+    const Doubles ax = load_lanes(t.uvs[1][0]) - x0, ay = load_lanes(t.uvs[1][1]) - y0;
+    const Doubles bx = load_lanes(t.uvs[2][0]) - x0, by = load_lanes(t.uvs[2][1]) - y0;
+    const Doubles zero(0.0), area = product_difference(ax, by, ay, bx);
+    const LaneMask<double> mapped = lanes_of_bits<double>(t.mapped);
+    const LaneMask<double> spans = mapped & ((area > zero) | (area < zero));
+    // No division of 0 by 0.
+    const Doubles divisor = select_lanes(spans, area, Doubles(1.0));
+    const LaneVectors by_u = (by * e1 - ay * e2) / divisor, by_v = (ax * e2 - bx * e1) / divisor;
+    const auto is_finite = [](const LaneVectors& v) {
+        constexpr double kLargest = std::numeric_limits<double>::max();
+        const Doubles most(kLargest);
+        return (abs(v.x) <= most) & (abs(v.y) <= most) & (abs(v.z) <= most);
+    };
+    const LaneMask<double> known = spans & is_finite(by_u) & is_finite(by_v);
+    const LaneVectors none{zero, zero, zero};
+    return select_lanes(mapped, select_lanes(known, by_u, none), e1);
+}
+
+HWY_INLINE void find(TriangleLanes& t) {
+    const LaneVectors p0 = load_vectors(t.corners[0]), p1 = load_vectors(t.corners[1]);
+    const LaneVectors p2 = load_vectors(t.corners[2]);
+    const Doubles u = load_lanes(t.u), v = load_lanes(t.v);
+    const Doubles rest = Doubles(1.0) - u, w = rest - v;
+    const LaneVectors point = weighted(w, p0, u, p1, v, p2);
+    store_vectors(point, t.point);
+    // As in TriangleMesh::surface.
+    const LaneVectors size0 = abs(p0);
+    const LaneVectors sizes = weighted(abs(w), size0, abs(u), abs(p1), abs(v), abs(p2));
+    const LaneVectors error =
+        Doubles(gamma_bound(7)) * sizes + (Doubles(gamma_bound(2)) * abs(rest)) * size0;
+    LaneVectors reach = abs(p0 - point);
+    for (const LaneVectors* p : {&p1, &p2}) {
+        const LaneVectors away = abs(*p - point);
+        reach = {larger(reach.x, away.x), larger(reach.y, away.y), larger(reach.z, away.z)};
+    }
+    const Doubles rounding = Doubles(kNextTestRounding) * largest_coordinate(reach);
+    store_vectors(error + LaneVectors{rounding, rounding, rounding}, t.error);
+
+    const LaneVectors e1 = p1 - p0, e2 = p2 - p0;
+    const Doubles zero(0.0);
+    const LaneVectors normal = unit_vectors_or(accurate_cross(e1, e2), {zero, zero, Doubles(1.0)});
+    const LaneVectors turned =
+        t.mirrored == 0 ? normal : select_lanes(lanes_of_bits<double>(t.mirrored), -normal, normal);
+    store_vectors(turned, t.normal);
+    LaneVectors shading = turned;
+    if (t.smooth != 0) {
+        const LaneMask<double> smooth = lanes_of_bits<double>(t.smooth);
+        const LaneVectors mean =
+            weighted(w, load_vectors(t.normals[0]), u, load_vectors(t.normals[1]), v,
+                     load_vectors(t.normals[2]));
+        shading = select_lanes(smooth, unit_vectors_or(select_lanes(smooth, mean, normal), normal),
+                               turned);
+    }
+    store_vectors(shading, t.shading_normal);
+    store_vectors(t.mapped == 0 ? e1 : derivatives_by_u(t, e1, e2), t.dpdu);
+}
+
+}  // namespace triangle_lanes
+
+void find_triangle_surfaces_of_target(TriangleLanes& lanes) {
+    triangle_lanes::find(lanes);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+ALHAZEN_KERNEL_TABLE(find_triangle_surfaces_of_target);
+
+TriangleLanes::TriangleLanes() {
+    for (std::size_t lane = 0; lane < kMost; ++lane) {
+        corners[1][0][lane] = corners[2][1][lane] = 1.0;
+        for (auto& normal : normals) normal[2][lane] = 1.0;
+    }
+}
+
+void TriangleLanes::set(std::size_t lane, const TriangleMesh& mesh, std::size_t triangle,
+                        const ShapeHit& hit, bool is_mirrored) {
+    const auto [i0, i1, i2] = mesh.triangles[triangle];
+    const auto put = [&](const std::vector<Vec3>& of, Vectors(&to)[3]) {
+        const Vec3 &a = of[i0], &b = of[i1], &c = of[i2];
+        for (int k = 0; k < 3; ++k) {
+            to[0][k][lane] = a[k];
+            to[1][k][lane] = b[k];
+            to[2][k][lane] = c[k];
+        }
+    };
+    put(mesh.positions, corners);
+    u[lane] = hit.u;
+    v[lane] = hit.v;
+    const std::uint32_t bit = 1u << lane;
+    if (is_mirrored) mirrored |= bit;
+    if (!mesh.normals.empty()) {
+        smooth |= bit;
+        put(mesh.normals, normals);
+    }
+    if (mesh.uvs.empty()) return;
+    mapped |= bit;
+    const std::array<std::uint32_t, 3> vertices{i0, i1, i2};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2& from = mesh.uvs[vertices[i]];
+        uvs[i][0][lane] = from.x;
+        uvs[i][1][lane] = from.y;
+    }
+}
+
+void TriangleLanes::find_surfaces() {
+    ALHAZEN_KERNEL(find_triangle_surfaces_of_target)(*this);
+}
+
+}  // namespace alhazen
+#endif

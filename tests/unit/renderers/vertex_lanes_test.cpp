@@ -1,0 +1,181 @@
+// Vertices of path tracing in lanes have the bits of those one by one.
+
+#include "alhazen/renderers/light_transport/vertex_lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "alhazen/renderers/core/path_record.h"
+#include "alhazen/renderers/light_transport/plain_meshes.h"
+#include "alhazen/simd/targets.h"
+#include "support/light_pictures.h"
+#include "support/random.h"
+#include "support/sphere_mesh.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+TriangleMesh quad(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    TriangleMesh mesh;
+    mesh.positions = {corner, corner + u, corner + u + v, corner + v};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+/// A sphere-like mesh, with vertex normals and texture coordinates on request.
+TriangleMesh round_mesh(bool smooth, bool mapped) {
+    const SphereMesh sphere(2);
+    TriangleMesh mesh;
+    mesh.positions = sphere.positions;
+    mesh.triangles = sphere.triangles;
+    if (smooth) mesh.normals = sphere.positions;
+    if (mapped) {
+        for (const Vec3& p : mesh.positions) mesh.uvs.push_back({p.x + 0.3 * p.z, p.y});
+    }
+    return mesh;
+}
+
+Material metal(double roughness) {
+    Material m;
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->base_color.color = {0.9, 0.7, 0.4};
+    m.metallic_roughness->roughness.value = roughness;
+    return m;
+}
+Material plastic(double index) {
+    Material m = metal(0.4);
+    m.metallic_roughness->metallic.value = 0.0;
+    m.index.value = index;
+    return m;
+}
+
+/// A room of meshes: matt, rough, smooth, of glass; mapped, mirrored, placed twice; lamps of
+/// rectangles, triangles and points.
+Scene room(bool with_sky) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera = look_along({0, -1, 6.5}, {0, 0, -1}, {0, 1, 0}, 0.9, 1);
+    const auto add = [&](TriangleMesh mesh, const Material& m, const Affine& placement = {}) {
+        maker.add(maker.mesh(std::move(mesh)), maker.material(m), placement);
+    };
+    add(quad({-4, -4, -2}, {8, 0, 0}, {0, 8, 0}), matt({0.7, 0.6, 0.5}));
+    add(quad({-4, -4, -2}, {0, 8, 0}, {0, 0, 8}), matt({0.6, 0.1, 0.1}));
+    add(quad({4, -4, -2}, {0, 0, 8}, {0, 8, 0}), metal(0.35));
+    Material shiny = matt({0.3, 0.4, 0.3});
+    shiny.specular.color = {0.4, 0.4, 0.4};
+    shiny.shininess.value = 20;
+    add(quad({-4, 4, -2}, {8, 0, 0}, {0, 0, 8}), shiny);
+    Material one_sided = matt({0.2, 0.7, 0.3});
+    one_sided.double_sided = false;
+    add(quad({-3, -3, 0}, {1, 0, 0}, {0, 0.5, 1}), one_sided);
+    Material mirror;
+    mirror.reflective.color = {0.8, 0.9, 0.8};
+    add(quad({2.5, -2, -1.5}, {0.5, 1, 0}, {0, 0, 2}), mirror);
+    // Seen from behind.
+    add(quad({-1.5, 1.5, 0.5}, {0, 1.5, 0}, {1.5, 0, 0.5}), matt({0.3, 0.3, 0.9}));
+
+    const auto at = [](const Vec3& place, double size, bool mirrored) {
+        Affine a;
+        a.linear.x_axis = {mirrored ? -size : size, 0, 0};
+        a.linear.y_axis = {0, size, 0.3 * size};
+        a.linear.z_axis = {0, 0, size};
+        a.translation = place;
+        return a;
+    };
+    add(round_mesh(true, false), matt({0.8, 0.8, 0.2}), at({-2, 1, -1}, 0.9, true));
+    add(round_mesh(false, true), plastic(1.6), at({0, 1.5, -0.5}, 0.9, false));
+    add(round_mesh(true, true), metal(0.25), at({2, 1, -1}, 0.9, true));
+    add(round_mesh(true, false), smooth_glass(), at({0, -1.5, -0.5}, 0.8, false));
+    TriangleMesh tinted = round_mesh(true, false);
+    for (std::size_t i = 0; i < tinted.positions.size(); ++i) {
+        tinted.colors.push_back({0.5f, 0.01f * static_cast<float>(i), 0.3f, 1});
+    }
+    add(tinted, matt({0.9, 0.9, 0.9}), at({-2, -2, -1}, 0.5, false));
+    const ObjectIndex twice = maker.object("twice");
+    maker.add(maker.mesh(round_mesh(false, false)), maker.material(matt({0.4, 0.5, 0.9})), {},
+              twice);
+    maker.add(twice, MaterialId{0}, at({1, -2, -1.2}, 0.4, false));
+    maker.add(twice, MaterialId{0}, at({2, -2, -1.2}, 0.4, true));
+    maker.add(ball({-1, -0.5, 0.5}, 0.4), maker.material(matt({0.5, 0.5, 0.5})));
+
+    add(quad({-1, 1, 3}, {0, 1, 0}, {1, 0, 0}), shining({9, 8, 7}));
+    add(quad({2, 1, 2.5}, {0.4, 1, 0}, {1, 0, 0.3}), shining({5, 7, 9}));
+    maker.light(PointLight{.position = {-2, -2, 2}, .color = {3, 3, 3}, .attenuation = {0, 0, 1}});
+    Scene scene = maker.compile("wide_bvh");
+    if (with_sky) scene.background = {0.3, 0.4, 0.6};
+    return scene;
+}
+
+/// With `one_by_one`, a path is recorded that is not in the picture.
+Film picture(const Scene& scene, const std::string& renderer, bool one_by_one, int threads = 1) {
+    constexpr int kSide = 24;
+    const SamplingPlan plan;
+    PathRecord record;
+    record.sample = 0xFFFFFFFFu;
+    Film film(kSide, kSide, {0, 0, kSide, kSide});
+    const RenderJob job{.scene = scene,
+                        .camera = scene.cameras[0].camera,
+                        .samples_per_pixel = 16,
+                        .seed = 3,
+                        .sampling = &plan,
+                        .path = one_by_one ? &record : nullptr,
+                        .control = {.threads = threads, .tile_size = 5 + 4 * threads}};
+    EXPECT_TRUE(make_renderer(renderer)->render(job, film).complete());
+    return film;
+}
+
+TEST(VertexLanes, PicturesHaveTheBitsOfVerticesOneByOne) {
+    for (const bool with_sky : {false, true}) {
+        const Scene scene = room(with_sky);
+        for (const char* renderer :
+             {"path_tracing", "path_tracing:depth=2", "path_tracing:clamp=0.5,roulette=1"}) {
+            const Film expected = picture(scene, renderer, true);
+            for (const std::string& target : simd_targets()) {
+                const SimdTargetOverride forced(target);
+                const Film found = picture(scene, renderer, false, 1 + with_sky);
+                for (int i = 0; i < found.frame_width() * found.frame_height(); ++i) {
+                    const int x = i % found.frame_width(), y = i / found.frame_width();
+                    ASSERT_EQ(found.at(x, y), expected.at(x, y))
+                        << renderer << " " << target << " " << x << " " << y;
+                }
+            }
+        }
+    }
+}
+
+TEST(PlainMeshes, AreThoseWhosePointsScatterAlike) {
+    const Scene scene = room(false);
+    PlainMeshes meshes(scene);
+    const PrimitiveTable& table = scene.aggregate->primitives();
+    std::vector<std::string> kinds;
+    for (const PlacedMesh& mesh : table.meshes) {
+        Hit hit;
+        hit.primitive =
+            PrimitiveId{table.first(kTriangleKind) + mesh.first_triangle + std::uint32_t{1}};
+        const PlainMeshes::Place place = meshes.find(hit);
+        EXPECT_TRUE(place.material == nullptr || place.mesh == &mesh);
+        EXPECT_TRUE(place.material == nullptr || place.triangle == 1);
+        kinds.push_back(place.material == nullptr ? "no"
+                        : place.material->is_matt ? "matt"
+                                                  : "yes");
+    }
+    // Floor, walls, single-sided card, mirror, card from behind, balls, lamps.
+    const std::vector<std::string> expected{"matt", "matt", "yes", "yes", "no", "no", "matt",
+                                            "matt", "yes",  "yes", "no",  "no", "no", "no"};
+    EXPECT_EQ(kinds, expected);
+    Hit sphere;
+    sphere.primitive = PrimitiveId{0};
+    EXPECT_EQ(meshes.find(sphere).material, nullptr);
+    Hit inside;
+    inside.primitive = PrimitiveId{table.first(kTriangleKind)};
+    inside.path.push_back(PrimitiveId{0});
+    EXPECT_EQ(meshes.find(inside).material, nullptr);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
