@@ -54,7 +54,7 @@ struct Share {
 
 BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table) {
     // Usually all primitives are bounded: then no list of ids is made.
-    constexpr std::size_t kGrain = 16384;
+    constexpr std::size_t kGrain = 4096;
     std::vector<Share> parts((table.size() + kGrain - 1) / kGrain);
     parallel_for(table.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         parts[begin / kGrain].include(table, static_cast<std::uint32_t>(begin),

@@ -66,6 +66,11 @@ struct TriangleBounds {
         pad();
     }
 
+    void include(const PointLanes& p) {
+        lower = lesser(p.xy, lower);
+        upper = greater(p.xy, upper);
+        deep = lesser(Double2{p.z, -p.z}, deep);
+    }
     void include(const TriangleBounds& b) {
         lower = lesser(b.lower, lower);
         upper = greater(b.upper, upper);
@@ -78,14 +83,7 @@ struct TriangleBounds {
         return {{lower[0], lower[1], deep[0]}, {upper[0], upper[1], -deep[1]}};
     }
 
-  private:
-    void include(const PointLanes& p) {
-        lower = lesser(p.xy, lower);
-        upper = greater(p.xy, upper);
-        deep = lesser(Double2{p.z, -p.z}, deep);
-    }
-    static Double2 magnitude(Double2 v) { return greater(v, -v); }
-    /// As `padded`.
+    /// As `padded`. The padded box of some points contains those of any of them.
     void pad() {
         if (empty()) return;
         constexpr double kRelative = 8e-16;
@@ -96,6 +94,9 @@ struct TriangleBounds {
         upper += across;
         deep -= along;
     }
+
+  private:
+    static Double2 magnitude(Double2 v) { return greater(v, -v); }
 };
 
 /// Calls f(id, a, b, c) with the corners of the triangles with ids from `begin` to `end`.

@@ -11,8 +11,8 @@
 
 #include "alhazen/accel/wide_bvh/build/binary_builder.h"
 #include "alhazen/accel/wide_bvh/build/build_options.h"
-#include "alhazen/accel/wide_bvh/build/clustering.h"
 #include "alhazen/accel/wide_bvh/build/collapse.h"
+#include "alhazen/accel/wide_bvh/build/curve_builder.h"
 #include "alhazen/accel/wide_bvh/build/morton_order.h"
 #include "alhazen/accel/wide_bvh/build/reinsertion.h"
 #include "alhazen/accel/wide_bvh/build/sah_cost.h"
@@ -69,8 +69,53 @@ class BoxSplitter final : public ReferenceSplitter {
     }
 };
 
+/// References for the builder along a curve.
+class ReferencesOnCurve final : public CurvePrimitives {
+  public:
+    ReferencesOnCurve(std::span<const BuildReference> references, Leaves& leaves)
+        : references_(references), leaves_(leaves), common_(kLeafKinds) {
+        const auto same = [&](const BuildReference& r) { return r.kind == references[0].kind; };
+        if (std::all_of(references.begin(), references.end(), same) && !references.empty()) {
+            common_ = references[0].kind;
+        }
+    }
+
+    [[nodiscard]] std::uint32_t size() const override {
+        return static_cast<std::uint32_t>(references_.size());
+    }
+    [[nodiscard]] std::uint32_t common_kind() const override { return common_; }
+    [[nodiscard]] std::uint32_t kind(std::uint32_t index) const override {
+        return references_[index].kind;
+    }
+    void centers(std::uint32_t begin, std::uint32_t end, Float4* to) const override {
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const BuildReference& r = references_[i];
+            to[i - begin] = Float4{r.center2(0), r.center2(1), r.center2(2), 0};
+        }
+    }
+    void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
+        leaves_.resize(blocks);
+    }
+    void fill(std::span<const CurveLeaf> leaves, const std::uint32_t* indices, std::uint32_t first,
+              BuildReference* boxes, float* areas) const override {
+        for (const CurveLeaf& leaf : leaves) {
+            std::vector<BuildReference> here;
+            const std::span its(indices + leaf.first, leaf.count);
+            EXPECT_TRUE(std::is_sorted(its.begin(), its.end()));
+            EXPECT_LE(leaf.count, kKinds[leaf.kind].width());
+            for (const std::uint32_t index : its) here.push_back(references_[index]);
+            *areas++ = leaves_.pack(leaf.kind, leaf.offset, here);
+            *boxes++ = {leaves_.leaves[leaf.kind][leaf.offset].box, first++, leaf.kind};
+        }
+    }
+
+  private:
+    std::span<const BuildReference> references_;
+    Leaves& leaves_;
+    std::uint32_t common_;
+};
+
 BinaryBvh build_as(BuildQuality quality, std::vector<BuildReference>& references) {
-    if (quality == BuildQuality::Fast) return build_by_clustering(references, kKinds);
     if (quality == BuildQuality::Default) return build_binary(references, kKinds);
     DraftBvh draft = draft_of(build_with_spatial_splits(references, kKinds, BoxSplitter()), kKinds);
     EXPECT_GE(reinsert(draft), 0.0);
@@ -83,21 +128,35 @@ WideBvh build_and_check(BuildQuality quality, std::vector<BuildReference> refere
                         std::string name) {
     name += std::string(", ") + name_of(quality);
     const std::size_t count = references.size();
+    FloatBox all;
+    for (const BuildReference& r : references) all.include(r.box());
     Leaves leaves;
-    const BinaryBvh binary = build_as(quality, references);
-    WideBvh tree = collapse(binary, references, kKinds, leaves);
+    WideBvh tree;
+    if (quality == BuildQuality::Fast) {
+        ReferencesOnCurve primitives(references, leaves);
+        tree = build_along_curve(primitives, kKinds);
+    } else {
+        const BinaryBvh binary = build_as(quality, references);
+        tree = collapse(binary, references, kKinds, leaves);
+    }
     EXPECT_LE(tree.depth, kMaxWideDepth) << name;
     EXPECT_EQ(tree.empty, count == 0) << name;
     std::vector<int> seen(count);
     std::size_t wrong_boxes = 0, wrong_leaves = 0;
+    // A leaf is recorded as one, or block by block.
     const auto check_leaf = [&](NodeRef ref, const FloatBox& box) {
-        const Leaves::Leaf& leaf = leaves.leaves[ref.kind()][ref.offset()];
-        const auto size = static_cast<std::uint32_t>(leaf.ids.size());
-        wrong_leaves += !leaf.one_kind || ref.count() != kKinds[ref.kind()].blocks(size);
-        wrong_boxes += !contains(box, leaf.box);
-        for (const std::uint32_t id : leaf.ids) ++seen[id];
+        std::uint32_t blocks = 0;
+        for (std::uint32_t i = 0; i < ref.count(); ++i) {
+            const Leaves::Leaf& part = leaves.leaves[ref.kind()].at(ref.offset() + i);
+            blocks += kKinds[ref.kind()].blocks(static_cast<std::uint32_t>(part.ids.size()));
+            wrong_leaves += !part.one_kind;
+            if (part.ids.empty()) continue;
+            wrong_boxes += !contains(box, part.box);
+            for (const std::uint32_t id : part.ids) ++seen[id];
+        }
+        wrong_leaves += ref.count() != blocks;
     };
-    if (!tree.empty && tree.root.is_leaf()) check_leaf(tree.root, binary.nodes[0].box);
+    if (!tree.empty && tree.root.is_leaf()) check_leaf(tree.root, all);
     for (const WideNode& node : tree.nodes) {
         for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
             const FloatBox box = node.box(i);
@@ -364,48 +423,79 @@ TEST(WideBvhBuild, NodesThatAreNotInUseAreFew) {
     EXPECT_LT(binary.index_count, references.size());
 }
 
-TEST(MortonOrder, SortsByAllBitsAndKeepsTheOrderOfEqualCodes) {
-    std::mt19937_64 random(6);
-    std::vector<BuildReference> references;
-    // Most lie in a corner so small that the first half of their codes is the same.
-    for (std::size_t i = 0; i < 150000; ++i) {
-        const float scale = i % 10 == 0 ? 1.0f : 0x1p-12f;
-        const auto coordinate = [&] { return scale * static_cast<float>(random() % 64) / 64.0f; };
-        const float x = coordinate(), y = coordinate(), z = coordinate();
-        references.push_back(reference(i, x, y, z, 0));
-    }
-    std::vector<BuildReference> sorted(references.size());
-    std::vector<std::uint64_t> codes(references.size());
-    sort_along_curve(references, sorted, codes);
-    float lo[3], hi[3];
-    for (int k = 0; k < 3; ++k) {
-        const auto [least, most] = std::minmax_element(
-            references.begin(), references.end(),
-            [k](const auto& a, const auto& b) { return a.center2(k) < b.center2(k); });
-        lo[k] = least->center2(k);
-        hi[k] = most->center2(k);
-    }
-    std::vector<bool> seen(references.size());
-    std::size_t alike = 0, same = 0;
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        const BuildReference& r = sorted[i];
-        ASSERT_FALSE(seen[r.id]);
-        seen[r.id] = true;
-        std::uint64_t code = 0;
+/// The place of a point on the curve in a box, found by halving the longest side of its cell.
+std::uint32_t place_on_curve(Float4 point, const Box4& box) {
+    float side[3];
+    int halvings[3]{};
+    std::vector<int> axes;
+    for (int k = 0; k < 3; ++k) side[k] = box.hi[k] - box.lo[k];
+    while (axes.size() < 32) {
+        int longest = -1;
         for (int k = 0; k < 3; ++k) {
-            const float place = (r.center2(k) - lo[k]) * (2097151.0f / (hi[k] - lo[k]));
-            const auto number = static_cast<std::uint64_t>(std::min(place, 2097151.0f));
-            for (int bit = 0; bit < 21; ++bit) code |= (number >> bit & 1) << (3 * bit + 2 - k);
+            if (halvings[k] == 11 || side[k] <= 0) continue;
+            if (longest < 0 || side[k] > side[longest]) longest = k;
         }
-        ASSERT_EQ(codes[i], code);
-        if (i == 0) continue;
-        ASSERT_LE(codes[i - 1], codes[i]);
-        alike += codes[i - 1] != codes[i] && codes[i - 1] >> 31 == codes[i] >> 31;
-        if (codes[i - 1] != codes[i]) continue;
-        ++same;
-        ASSERT_LT(sorted[i - 1].id, r.id);
+        if (longest < 0) break;
+        side[longest] /= 2;
+        ++halvings[longest];
+        axes.push_back(longest);
     }
-    EXPECT_GT(alike, 1000u);
+    std::uint32_t cell[3];
+    for (int k = 0; k < 3; ++k) {
+        const float cells = std::ldexp(1.0f, halvings[k]);
+        const float place =
+            halvings[k] == 0 ? 0 : (point[k] - box.lo[k]) * (cells / (box.hi[k] - box.lo[k]));
+        cell[k] = static_cast<std::uint32_t>(std::min(place, cells - 1));
+    }
+    std::uint32_t code = 0;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const std::uint32_t bit = cell[axes[i]] >> --halvings[axes[i]] & 1;
+        code |= bit << (31 - i);
+    }
+    return code;
+}
+
+TEST(MortonOrder, DividesCrowdedCellsAnewAndKeepsTheOrderOfEqualPlaces) {
+    std::mt19937_64 random(6);
+    std::vector<Float4> points;
+    // Most lie in a corner so small that it is one cell, in a flat box.
+    for (std::size_t i = 0; i < 150000; ++i) {
+        const float scale = i % 10 == 0 ? 1.0f : 0x1p-14f;
+        const auto coordinate = [&] { return scale * static_cast<float>(random() % 64) / 64.0f; };
+        const float x = coordinate(), y = coordinate();
+        points.push_back(Float4{x, y, 0.125f * coordinate(), 0});
+    }
+    HugeRoom room(CurveOrder::room_bytes(points.size()));
+    const CurveOrder order(points, room);
+    Box4 all;
+    for (const Float4& p : points) all.include_point(p);
+    std::vector<bool> seen(points.size());
+    std::size_t inner = 0, same = 0;
+    for (std::size_t begin = 0; begin < points.size();) {
+        const auto cell_of = [&](std::size_t i) { return order.place(i) >> 32; };
+        std::size_t end = begin;
+        Box4 box;
+        for (; end < points.size() && cell_of(end) == cell_of(begin); ++end) {
+            box.include_point(points[order.index(end)]);
+        }
+        for (std::size_t i = begin; i < end; ++i) {
+            const Float4 point = points[order.index(i)];
+            ASSERT_FALSE(seen[order.index(i)]);
+            seen[order.index(i)] = true;
+            ASSERT_EQ(cell_of(i), place_on_curve(point, all));
+            const bool crowded = end - begin > kCurveLeafSize;
+            ASSERT_EQ(static_cast<std::uint32_t>(order.place(i)),
+                      crowded ? place_on_curve(point, box) : 0);
+            if (i == 0) continue;
+            ASSERT_LE(order.place(i - 1), order.place(i));
+            inner += cell_of(i - 1) == cell_of(i) && order.place(i - 1) < order.place(i);
+            if (order.place(i - 1) != order.place(i)) continue;
+            ++same;
+            ASSERT_LT(order.index(i - 1), order.index(i));
+        }
+        begin = end;
+    }
+    EXPECT_GT(inner, 1000u);
     EXPECT_GT(same, 1000u);
 }
 

@@ -103,5 +103,53 @@ TEST(BuildReferences, AreMadeOfWhatIsBounded) {
     }
 }
 
+/// Calls f(node's box, id) for every primitive in a leaf.
+template <class F>
+void for_primitives(const WideBvhLayout& layout, F&& f) {
+    for (const WideNode& node : layout.tree.nodes) {
+        for (std::uint32_t slot = 0; slot < node.child_count(); ++slot) {
+            const NodeRef ref = node.child[slot];
+            const auto visit = [&](const auto& blocks) {
+                for (std::uint32_t i = 0; i < ref.count(); ++i) {
+                    for (const BlockId id : blocks[ref.offset() + i].ids) {
+                        if (id.used()) f(node.box(slot), id.id());
+                    }
+                }
+            };
+            if (!ref.is_leaf()) continue;
+            switch (static_cast<LeafType>(ref.kind())) {
+                case LeafType::Triangles:
+                    visit(layout.triangles);
+                    break;
+                case LeafType::Spheres:
+                    visit(layout.spheres);
+                    break;
+                default:
+                    FAIL();
+            }
+        }
+    }
+}
+
+TEST(BuildReferences, BoxesOfLeavesBuiltAlongACurveContainThoseOfTheTable) {
+    for (const double size : {1e-30, 1.0, 3e7, 1e100}) {
+        for (const double shift : {0.0, -5.0, 1e5}) {
+            const PrimitiveTable table =
+                odd_table(size, {shift * size, -shift * size, 2 * shift * size}, 52);
+            const BoundedPrimitives bounded(table);
+            const WideBvhLayout layout = build_wide_bvh(table, bounded, {BuildQuality::Fast});
+            std::size_t count = 0;
+            for_primitives(layout, [&](const FloatBox& box, PrimitiveId id) {
+                const FloatBox its = layout.frame.local(table.box(static_cast<std::uint32_t>(id)));
+                FloatBox both = box;
+                both.include(its);
+                ASSERT_EQ(both, box) << size << ", " << shift;
+                ++count;
+            });
+            EXPECT_EQ(count, bounded.size());
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

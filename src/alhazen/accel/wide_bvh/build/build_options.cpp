@@ -6,7 +6,8 @@ namespace alhazen {
 namespace {
 
 constexpr BuildQualityEntry kEntries[] = {
-    {"fast", "clustering in Morton order: several times faster to build", BuildQuality::Fast},
+    {"fast", "neighbors on a Morton curve share a leaf: several times faster to build",
+     BuildQuality::Fast},
     {"default", "binned surface area heuristic", BuildQuality::Default},
     {"high", "spatial splits and reinsertion: several times slower to build, faster to trace",
      BuildQuality::High},

@@ -9,7 +9,7 @@ namespace alhazen {
 
 /// Build effort. Hits are the same for all; build and trace times differ.
 enum class BuildQuality : std::uint8_t {
-    Fast,     ///< for scenes that change with every image: clustering along a space-filling curve
+    Fast,     ///< for scenes that change with every image: divides a space-filling curve
     Default,  ///< binned surface area heuristic
     High,     ///< for scenes that are traced often: spatial splits, reinsertion
 };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 /// Subtrees of at least this many references are separate tasks.
-constexpr std::uint32_t kTaskSize = 4096;
+constexpr std::uint32_t kTaskSize = 1024;
 
 /// [i - 1] The least cost of the subtree of a binary node as at most i wide subtrees.
 template <std::uint32_t kWidth>

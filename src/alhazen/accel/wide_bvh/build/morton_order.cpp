@@ -1,155 +1,178 @@
 #include "alhazen/accel/wide_bvh/build/morton_order.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "alhazen/accel/wide_bvh/build/sah_split.h"
 #include "alhazen/parallel/parallel.h"
 
 namespace alhazen {
 namespace {
 
-constexpr std::size_t kRadixChunk = 65536;
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-constexpr int kCodeBits = 63;
-/// Number of leading bits of a code that are sorted by digits.
-constexpr int kKeyBits = 32;
+/// Fewer points are sorted by comparison.
+constexpr std::size_t kLeastForDigits = 1024;
 
-/// The leading bits of a code, and below them the index of its reference.
-using Entry = std::uint64_t;
-
-/// The lowest 21 bits with two zeros before each.
-std::uint64_t spread(std::uint64_t x) {
-    x &= 0x1FFFFF;
-    x = (x | x << 32) & 0x1F00000000FFFF;
-    x = (x | x << 16) & 0x1F0000FF0000FF;
-    x = (x | x << 8) & 0x100F00F00F00F00F;
-    x = (x | x << 4) & 0x10C30C30C30C30C3;
-    return (x | x << 2) & 0x1249249249249249;
+/// Parts of a pass over `size` entries. Few, because each counts all digits.
+std::size_t part_size(std::size_t size) {
+    return std::max<std::size_t>(8192, (size + 7) / 8);
 }
 
-/// One stable pass of a radix sort: chunks are counted, then written, in parallel.
-void sort_by_digit(std::span<const Entry> from, Entry* to, int shift) {
-    const std::size_t chunks = (from.size() - 1) / kRadixChunk + 1;
-    std::vector<std::array<std::uint32_t, kDigits>> places(chunks);
-    const auto digit = [&](Entry e) { return e >> shift & (kDigits - 1); };
-    parallel_for(from.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        std::uint32_t* const counts = places[begin / kRadixChunk].data();
-        const Entry* const entries = from.data();
+/// One stable pass of a radix sort: parts are counted, then written, in parallel.
+void sort_by_digit(std::span<const std::uint64_t> from, std::uint64_t* to, int shift) {
+    const std::size_t part = part_size(from.size());
+    std::vector<std::array<std::uint32_t, kDigits>> places((from.size() - 1) / part + 1);
+    const auto digit = [shift](std::uint64_t e) { return e >> shift & (kDigits - 1); };
+    parallel_for(from.size(), part, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t* const counts = places[begin / part].data();
+        const std::uint64_t* const entries = from.data();
         for (std::size_t i = begin; i < end; ++i) ++counts[digit(entries[i])];
     });
     std::uint32_t next = 0;
     for (std::size_t d = 0; d < kDigits; ++d) {
         for (auto& place : places) next += std::exchange(place[d], next);
     }
-    parallel_for(from.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        std::uint32_t* const place = places[begin / kRadixChunk].data();
-        const Entry* const entries = from.data();
+    parallel_for(from.size(), part, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t* const place = places[begin / part].data();
+        const std::uint64_t* const entries = from.data();
         for (std::size_t i = begin; i < end; ++i) to[place[digit(entries[i])]++] = entries[i];
     });
 }
 
-/// Computes the codes of all references, in their order.
-void find_codes(std::span<const BuildReference> references, std::uint64_t* codes, Entry* entries) {
-    const RangeSummary all = summarize(references);
-    Float4 lo{}, scale{};
-    for (int k = 0; k < 3; ++k) {
-        lo[k] = all.centers.lo[k];
-        const float extent = all.centers.hi[k] - lo[k];
-        const float s = 2097151.0f / extent;
-        scale[k] = extent > 0.0f && s < 1e37f ? s : 0.0f;
-    }
-    const Float4 most{2097151.0f, 2097151.0f, 2097151.0f, 2097151.0f};
-    parallel_for(references.size(), kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        using Int4 = std::int32_t __attribute__((vector_size(16)));
-        const BuildReference* const r = references.data();
-        for (std::size_t i = begin; i < end; ++i) {
-            const Float4 place = lesser((Box4(r[i]).center2() - lo) * scale, most);
-            const Int4 cell = __builtin_convertvector(place, Int4);
-            const std::uint64_t code = spread(static_cast<std::uint32_t>(cell[0])) << 2 |
-                                       spread(static_cast<std::uint32_t>(cell[1])) << 1 |
-                                       spread(static_cast<std::uint32_t>(cell[2]));
-            codes[i] = code;
-            entries[i] = code >> (kCodeBits - kKeyBits) << kKeyBits | i;
-        }
+constexpr std::size_t kPointsAtOnce = 8192;
+
+Box4 box_of(std::span<const Float4> points) {
+    std::vector<Box4> parts((points.size() - 1) / kPointsAtOnce + 1);
+    parallel_for(points.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+        Box4 box;
+        for (std::size_t i = begin; i < end; ++i) box.include_point(points.data()[i]);
+        parts[begin / kPointsAtOnce] = box;
     });
-}
-
-/// Start indices of the runs of entries with the same key that begin in each chunk, and the end.
-std::vector<std::size_t> starts_of_runs(const Entry* entries, std::size_t size) {
-    std::vector<std::size_t> starts;
-    for (std::size_t begin = 0; begin < size; begin += kRadixChunk) {
-        std::size_t i = std::max(begin, starts.empty() ? 0 : starts.back());
-        while (i > 0 && i < size && entries[i] >> kKeyBits == entries[i - 1] >> kKeyBits) ++i;
-        starts.push_back(i);
-    }
-    starts.push_back(size);
-    return starts;
-}
-
-/// Sorts a long run of entries with the same key by the rest of their codes, digit by digit.
-void sort_long_run(Entry* first, std::size_t size, const std::uint64_t* codes) {
-    constexpr std::uint64_t kRest = (std::uint64_t{1} << (kCodeBits - kKeyBits)) - 1;
-    static_assert(kCodeBits - kKeyBits <= 3 * kDigitBits);
-    const auto other = make_huge_array<Entry>(size);
-    parallel_for(size, kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto number = static_cast<std::uint32_t>(first[i]);
-            other[i] = (codes[number] & kRest) << kKeyBits | number;
-        }
-    });
-    sort_by_digit({other.get(), size}, first, kKeyBits);
-    sort_by_digit({first, size}, other.get(), kKeyBits + kDigitBits);
-    sort_by_digit({other.get(), size}, first, kKeyBits + 2 * kDigitBits);
-}
-
-/// Sorts each run of entries with the same key by the rest of their codes.
-void sort_runs(Entry* first, const Entry* end, const std::uint64_t* codes) {
-    const auto number = [](Entry e) { return static_cast<std::uint32_t>(e); };
-    while (first < end) {
-        Entry* last = first + 1;
-        while (last < end && *last >> kKeyBits == *first >> kKeyBits) ++last;
-        const auto size = static_cast<std::size_t>(last - first);
-        if (size > kRadixChunk) {
-            sort_long_run(first, size, codes);
-        } else if (size > 1) {
-            std::sort(first, last, [&](Entry a, Entry b) {
-                const std::uint64_t ca = codes[number(a)], cb = codes[number(b)];
-                return ca != cb ? ca < cb : a < b;
-            });
-        }
-        first = last;
-    }
+    Box4 all;
+    for (const Box4& part : parts) all.include(part);
+    return all;
 }
 
 }  // namespace
 
-void sort_along_curve(std::span<const BuildReference> references, std::span<BuildReference> sorted,
-                      std::span<std::uint64_t> codes) {
-    if (references.empty()) return;
-    const std::size_t size = references.size();
-    const auto unsorted_codes = make_huge_array<std::uint64_t>(size);
-    auto entries = make_huge_array<Entry>(size), other = make_huge_array<Entry>(size);
-    find_codes(references, unsorted_codes.get(), entries.get());
-    for (int shift = kKeyBits; shift < 2 * kKeyBits; shift += kDigitBits) {
-        sort_by_digit({entries.get(), size}, other.get(), shift);
-        entries.swap(other);
+CurveGrid::CurveGrid(const Box4& box) : lo_(box.lo) {
+    float side[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const float extent = box.hi[axis] - box.lo[axis];
+        const bool some = extent > 0.0f && extent < 1e30f && 2048.0f / extent < 1e37f;
+        side[axis] = some ? extent : 0.0f;
     }
-    const std::vector<std::size_t> starts = starts_of_runs(entries.get(), size);
-    parallel_for(starts.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
+    // The axes from the highest bit of the code to the lowest.
+    std::array<int, 32> axes;
+    int bits[3]{}, all = 0;
+    while (all < 32) {
+        int longest = -1;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (side[axis] == 0.0f || bits[axis] == kAxisBits) continue;
+            if (longest < 0 || side[axis] > side[longest]) longest = axis;
+        }
+        if (longest < 0) break;
+        side[longest] *= 0.5f;
+        ++bits[longest];
+        axes[static_cast<std::size_t>(all++)] = longest;
+    }
+    std::uint32_t bit_of[3][kAxisBits];
+    int left[3] = {bits[0], bits[1], bits[2]};
+    for (int i = 0; i < all; ++i) {
+        const int axis = axes[static_cast<std::size_t>(i)];
+        bit_of[axis][--left[axis]] = 1u << (31 - i);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto cells = static_cast<float>(1u << bits[axis]);
+        if (bits[axis] > 0) scale_[axis] = cells / (box.hi[axis] - box.lo[axis]);
+        most_[axis] = cells - 1.0f;
+        const auto fill = [&](std::uint32_t* codes, int first, int count) {
+            codes[0] = 0;
+            for (int bit = 0; bit < count; ++bit) {
+                const std::uint32_t value =
+                    first + bit < bits[axis] ? bit_of[axis][first + bit] : 0;
+                for (std::uint32_t i = 0; i < 1u << bit; ++i)
+                    codes[i + (1u << bit)] = codes[i] | value;
+            }
+        };
+        fill(low_[axis], 0, kLowBits);
+        fill(high_[axis], kLowBits, kAxisBits - kLowBits);
+    }
+    most_[3] = 0.0f;
+}
+
+CurveOrder::CurveOrder(std::span<const Float4> points, HugeRoom& room)
+    : size_(points.size()), entries_(room.take<Entry>(points.size())) {
+    if (points.empty()) return;
+    Entry* other = room.take<Entry>(size_);
+    const CurveGrid grid(box_of(points));
+    parallel_for(size_, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+        Entry* const to = entries_;
         for (std::size_t i = begin; i < end; ++i) {
-            sort_runs(entries.get() + starts[i], entries.get() + starts[i + 1],
-                      unsorted_codes.get());
+            to[i] = std::uint64_t{grid.code(points.data()[i])} << 32 | i;
         }
     });
-    parallel_for(size, kRadixChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto number = static_cast<std::uint32_t>(entries[i]);
-            codes.data()[i] = unsorted_codes[number];
-            sorted.data()[i] = references.data()[number];
+    sort(entries_, other, size_);
+    const std::vector<Run> crowded = crowded_cells();
+    if (crowded.empty()) return;
+    rest_ = make_huge_array<std::uint32_t>(size_);
+    parallel_for(size_, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+        std::fill(rest_.get() + begin, rest_.get() + end, 0u);
+    });
+    parallel_for(crowded.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) divide_cell(crowded[i], points);
+    });
+}
+
+/// Sorts by the upper halves; `other` has as much room. Exchanges the two.
+void CurveOrder::sort(Entry*& entries, Entry*& other, std::size_t size) {
+    if (size < kLeastForDigits) {
+        std::sort(entries, entries + size);
+        return;
+    }
+    for (int shift = 32; shift < 64; shift += kDigitBits) {
+        sort_by_digit({entries, size}, other, shift);
+        std::swap(entries, other);
+    }
+}
+
+std::vector<CurveOrder::Run> CurveOrder::crowded_cells() const {
+    std::vector<std::vector<Run>> parts((size_ - 1) / kPointsAtOnce + 1);
+    const auto cell = [this](std::size_t i) { return entries_[i] >> 32; };
+    parallel_for(size_, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+        // A run belongs to the part that it begins in.
+        for (std::size_t i = begin; i < end && i + kCurveLeafSize < size_; ++i) {
+            if (cell(i) != cell(i + kCurveLeafSize) || (i > 0 && cell(i - 1) == cell(i))) continue;
+            std::size_t last = i + kCurveLeafSize + 1;
+            while (last < size_ && cell(last) == cell(i)) ++last;
+            parts[begin / kPointsAtOnce].push_back({i, last});
+            i = last - 1;
         }
     });
+    std::vector<Run> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// Sorts the points of a cell by the places in a grid over them.
+void CurveOrder::divide_cell(Run run, std::span<const Float4> points) {
+    const std::size_t count = run.end - run.begin;
+    Box4 box;
+    for (std::size_t i = run.begin; i < run.end; ++i) box.include_point(points[index(i)]);
+    const CurveGrid grid(box);
+    const auto room = make_huge_array<Entry>(2 * count);
+    Entry *inner = room.get(), *other = inner + count;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t number = index(run.begin + i);
+        inner[i] = std::uint64_t{grid.code(points[number])} << 32 | number;
+    }
+    sort(inner, other, count);
+    const Entry cell = entries_[run.begin] >> 32 << 32;
+    for (std::size_t i = 0; i < count; ++i) {
+        entries_[run.begin + i] = cell | static_cast<std::uint32_t>(inner[i]);
+        rest_[run.begin + i] = static_cast<std::uint32_t>(inner[i] >> 32);
+    }
 }
 
 }  // namespace alhazen

@@ -1,21 +1,83 @@
 #pragma once
-/// Sorts references along a space-filling curve through their centers.
+/// Sorts points along a space-filling curve.
 ///
 /// Source: Morton, "A Computer Oriented Geodetic Data Base", IBM 1966 (the curve); Lauterbach et
 /// al., "Fast BVH Construction on GPUs", CGF 28(2), 2009 (its use).
-/// Differs: the first 32 bits of the codes are sorted by digits; the remaining bits only in long
-/// runs of equal ones, so that few codes are compared.
+/// Differs: the grid is halved along the longest side of its cells, not along the axes in turn;
+/// a cell with more points than a block holds is divided anew, by a grid of its own.
 /// Complexity and threads: O(n), parallel. The result is the same for every number of threads.
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include "alhazen/accel/wide_bvh/build/build_types.h"
+#include "alhazen/accel/wide_bvh/build/box4.h"
+#include "alhazen/base/huge_room.h"
 
 namespace alhazen {
 
-/// Writes the references in the order of the curve, and their codes on it, 21 bits per axis; those
-/// with the same code stay in their order. All have the same size.
-void sort_along_curve(std::span<const BuildReference> references, std::span<BuildReference> sorted,
-                      std::span<std::uint64_t> codes);
+/// A regular grid of 2^32 cells at most over a box, and the places of its cells on the curve.
+class CurveGrid {
+  public:
+    explicit CurveGrid(const Box4& box);
+
+    /// Precondition: the point is in the box.
+    [[nodiscard]] std::uint32_t code(Float4 point) const {
+        using Int4 = std::int32_t __attribute__((vector_size(16)));
+        const Int4 cell = __builtin_convertvector(lesser((point - lo_) * scale_, most_), Int4);
+        std::uint32_t code = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::uint32_t>(cell[axis]);
+            code |= low_[axis][i % kLow] | high_[axis][i / kLow];
+        }
+        return code;
+    }
+
+  private:
+    static constexpr int kAxisBits = 11, kLowBits = 6;
+    static constexpr std::uint32_t kLow = 1u << kLowBits;
+
+    Float4 lo_, scale_{}, most_;
+    /// The bits of the code by the low and the high bits of the cell's number along an axis.
+    std::uint32_t low_[3][kLow], high_[3][1u << (kAxisBits - kLowBits)];
+};
+
+/// Cells with more points are divided anew.
+inline constexpr std::size_t kCurveLeafSize = 8;
+
+/// Points in the order of the curve; those at the same place are in the order of their indices.
+class CurveOrder {
+  public:
+    /// Takes room_bytes(points.size()) of the room, which must outlive it.
+    CurveOrder(std::span<const Float4> points, HugeRoom& room);
+    [[nodiscard]] static std::size_t room_bytes(std::size_t points) {
+        return 2 * HugeRoom::bytes_for<Entry>(points);
+    }
+
+    /// The place of the i-th point on the curve; ascending.
+    [[nodiscard]] std::uint64_t place(std::size_t i) const {
+        const std::uint64_t cell = entries_[i] >> 32 << 32;
+        return rest_ == nullptr ? cell : cell | rest_[i];
+    }
+    /// The index of the i-th point.
+    [[nodiscard]] std::uint32_t index(std::size_t i) const {
+        return static_cast<std::uint32_t>(entries_[i]);
+    }
+
+  private:
+    /// A cell, and below it the index of a point.
+    using Entry = std::uint64_t;
+    struct Run {
+        std::size_t begin, end;
+    };
+
+    static void sort(Entry*& entries, Entry*& other, std::size_t size);
+    [[nodiscard]] std::vector<Run> crowded_cells() const;
+    void divide_cell(Run run, std::span<const Float4> points);
+
+    std::size_t size_;
+    Entry* entries_;
+    HugeArray<std::uint32_t> rest_;  ///< [entry] place within a crowded cell; null if there is none
+};
 
 }  // namespace alhazen

@@ -1,0 +1,42 @@
+#pragma once
+/// The bounded primitives of a table for the builder along a curve, and the leaves of a layout that
+/// they are put into.
+///
+/// Differs from the leaves of other builders: a leaf has one box, made of the vertices in double
+/// and rounded once.
+
+#include "alhazen/accel/wide_bvh/build/curve_builder.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_writer.h"
+#include "alhazen/primitives/bounded_primitives.h"
+
+namespace alhazen {
+
+class TableCurve final : public CurvePrimitives {
+  public:
+    /// Keeps references.
+    TableCurve(const BoundedPrimitives& bounded, LeafWriter& writer);
+
+    [[nodiscard]] std::uint32_t size() const override {
+        return static_cast<std::uint32_t>(bounded_.size());
+    }
+    [[nodiscard]] std::uint32_t common_kind() const override;
+    [[nodiscard]] std::uint32_t kind(std::uint32_t index) const override;
+    void centers(std::uint32_t begin, std::uint32_t end, Float4* to) const override;
+    void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
+        writer_.resize(blocks);
+    }
+    void fill(std::span<const CurveLeaf> leaves, const std::uint32_t* indices, std::uint32_t first,
+              BuildReference* boxes, float* areas) const override;
+
+  private:
+    void fill_triangles(std::span<const CurveLeaf> leaves, const std::uint32_t* indices,
+                        std::uint32_t first, BuildReference* boxes, float* areas) const;
+    void fill_shapes(const CurveLeaf& leaf, const std::uint32_t* indices, std::uint32_t number,
+                     BuildReference& box, float& area) const;
+
+    const BoundedPrimitives& bounded_;
+    LeafWriter& writer_;
+    bool only_triangles_;
+};
+
+}  // namespace alhazen
