@@ -13,7 +13,7 @@ class HugeRoom {
   public:
     /// Throws std::bad_alloc, like `take`.
     explicit HugeRoom(std::size_t bytes)
-        : memory_(make_huge_array<std::byte>(bytes)), size_(bytes) {}
+        : memory_(make_huge_array<Line>(lines_of(bytes))), size_(bytes) {}
 
     /// Memory for an array of values that are written before they are read; beside the room if this
     /// is used up.
@@ -22,10 +22,11 @@ class HugeRoom {
         static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= kAlignment);
         const std::size_t bytes = bytes_for<T>(count);
         if (bytes > size_ - used_) {
-            others_.push_back(make_huge_array<std::byte>(bytes));
+            others_.push_back(make_huge_array<Line>(lines_of(bytes)));
             return reinterpret_cast<T*>(others_.back().get());
         }
-        auto* const first = reinterpret_cast<T*>(memory_.get() + used_);
+        auto* const first =
+            reinterpret_cast<T*>(reinterpret_cast<std::byte*>(memory_.get()) + used_);
         used_ += bytes;
         return first;
     }
@@ -40,10 +41,14 @@ class HugeRoom {
 
   private:
     static constexpr std::size_t kAlignment = 64;
+    struct alignas(kAlignment) Line {
+        std::byte bytes[kAlignment];
+    };
+    [[nodiscard]] static std::size_t lines_of(std::size_t bytes) { return bytes / kAlignment + 1; }
 
-    HugeArray<std::byte> memory_;
+    HugeArray<Line> memory_;
     std::size_t size_, used_ = 0;
-    std::vector<HugeArray<std::byte>> others_;
+    std::vector<HugeArray<Line>> others_;
 };
 
 }  // namespace alhazen

@@ -85,8 +85,16 @@ class LaneHits {
         put(load_lanes<N>(v), v_);
         const auto narrow = lanes_of_bits<float, N>(won);
         const auto put_bits = [&](const Lanes<float, N>& bits, std::uint32_t* row) HWY_ATTR {
-            float* const to = reinterpret_cast<float*>(row) + at;
-            store_lanes(select_lanes(narrow, bits, load_lanes<N>(to)), to);
+            if constexpr (kPlain) {
+                alignas(64) float values[N];
+                store_lanes(bits, values);
+                for (std::size_t i = 0; i < N; ++i) {
+                    if ((won >> i & 1) != 0) row[at + i] = std::bit_cast<std::uint32_t>(values[i]);
+                }
+            } else {
+                float* const to = reinterpret_cast<float*>(row) + at;
+                store_lanes(select_lanes(narrow, bits, load_lanes<N>(to)), to);
+            }
         };
         put_bits(id, id_);
         put_bits(Lanes<float, N>(0.0f), part_);
@@ -113,6 +121,9 @@ class LaneHits {
     }
 
   private:
+    /// Loads and stores of plain C++ may not take one type for another.
+    static constexpr bool kPlain = HWY_TARGET == HWY_SCALAR;
+
     template <class T>
     using Row = T[kPacketLanes];
     template <class T>
@@ -131,7 +142,7 @@ class LaneHits {
                                 std::size_t count) {
         if (column.empty()) return;
         Number* const to = &column[first];
-        if (HWY_UNLIKELY(count < kPacketLanes)) {
+        if (kPlain || HWY_UNLIKELY(count < kPacketLanes)) {
             for (std::size_t i = 0; i < count; ++i) to[i] = Number{row[i]};
             return;
         }

@@ -259,7 +259,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             if (!block.ids[lane].used() || !(s[lane] <= s_max)) continue;
             if (!scene.sees(block.ids[lane].id())) continue;
-            s_max = s[lane];
+            s_max = s[lane] + 0.0f;  // the stack compares bits: no -0
             nearest = lane;
         }
         if (nearest == kLaneCount) return false;

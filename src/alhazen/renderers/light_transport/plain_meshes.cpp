@@ -1,5 +1,6 @@
 #include "alhazen/renderers/light_transport/plain_meshes.h"
 
+#include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 
 namespace alhazen {
@@ -47,7 +48,8 @@ const PlainMaterial* PlainMeshes::material_of(MaterialId id) {
     const auto number = static_cast<std::size_t>(id);
     if (materials_[number]) return materials_[number].get();
     const Material& material = scene_.materials[number];
-    if (reads_textures(material)) return nullptr;
+    // Boundaries of volumes may coincide with other faces.
+    if (reads_textures(material) || may_bound_volume(material)) return nullptr;
     const MaterialSample sample = evaluate(material, scene_.textures, SurfaceLookup{});
     const bool is_seen = sample.coverage >= 1.0 && !sample.single_sided;
     if (!is_seen || sample.unlit || !sample.emission.is_black()) return nullptr;
