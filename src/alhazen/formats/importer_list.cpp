@@ -87,6 +87,9 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
     // A byte order mark carries no information: all text formats are ASCII or UTF-8.
     std::string_view bytes = file;
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    if (is_empty_file(bytes)) {
+        throw Error(ErrorKind::Scene, "the file is empty", {path.string(), 0, 0});
+    }
     const ImportSource source{bytes, path, options};
     const Importer& importer = find_importer(source);
     if (!options.view_script.empty() && !importer.reads_view_scripts()) {

@@ -20,9 +20,28 @@ TEST(ControlCharacters, ThoseBeyondAsciiAreEscapedAndLettersAreNot) {
               "\\xc2\\x9b31m");
     for (const char* text : {"Gr\xc3\xbc\xc3\x9f"
                              "e",
-                             "\xc2\xa0", "\xe2\x82\xac", "\xc2", "\xff"}) {
+                             "\xc2\xa0", "\xe2\x82\xac", "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"}) {
         EXPECT_EQ(escape_controls(text), text);
     }
+}
+
+TEST(ControlCharacters, BytesThatAreNotUtf8AreEscaped) {
+    const std::pair<const char*, const char*> kTexts[] = {
+        {"Gr\xfcn", "Gr\\xfcn"},
+        {"\xc2", "\\xc2"},
+        {"\xff", "\\xff"},
+        {"\x9b", "\\x9b"},
+        {"\xe2\x82", "\\xe2\\x82"},
+        {"\xe2\x82z", "\\xe2\\x82z"},
+        {"\xc0\xaf", "\\xc0\\xaf"},                    // overlong
+        {"\xe0\x9f\xbf", "\\xe0\\x9f\\xbf"},           // overlong
+        {"\xed\xa0\x80", "\\xed\\xa0\\x80"},           // a surrogate
+        {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},  // above U+10FFFF
+        {"\xff\xc3\xbc", "\\xff\xc3\xbc"},
+    };
+    for (const auto& [text, shown] : kTexts) EXPECT_EQ(escape_controls(text), shown);
+    const Error error(ErrorKind::Scene, "no 'Gr\xfcn'");
+    EXPECT_STREQ(error.what(), "no 'Gr\\xfcn'");
 }
 
 TEST(ControlCharacters, OfNamesDoNotReachMessages) {

@@ -79,6 +79,39 @@ TEST(Bmp, PalettesOfOneFourAndEightBitsAreLookedUp) {
     EXPECT_EQ(reds(8, std::string("\x00\x7f\xff\0", 4), 3), (std::vector<int>{0, 127, 255}));
 }
 
+TEST(Bmp, RunLengthCodesOfFourAndEightBitsAreRead) {
+    const auto reds = [](int bits, std::int32_t width, std::int32_t height, std::string runs) {
+        std::string palette;
+        for (std::uint32_t i = 0; i < 1u << bits; ++i) put(palette, i * 0x10000, 4);  // red = index
+        const Image image = decode({.width = width,
+                                    .height = height,
+                                    .bits = bits,
+                                    .compression = bits == 8 ? 1u : 2u,
+                                    .palette = palette,
+                                    .pixels = std::move(runs)});
+        std::vector<int> result;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                result.push_back(int(image.rgb(x, y).r * 255 + 0.5));
+            }
+        }
+        return result;
+    };
+    using std::string_literals::operator""s;
+    // A run, three literal bytes and one that pads, the end of the line; a move; the end.
+    EXPECT_EQ(reds(8, 5, 3, "\x02\x07\0\x03\x01\x02\xff\0\0\0\0\x02\x03\x01\x01\x09\0\x01"s),
+              (std::vector<int>{0, 0, 0, 9, 0, 0, 0, 0, 0, 0, 7, 7, 1, 2, 255}));
+    // Alternating halves of a byte; five literal ones take four bytes.
+    EXPECT_EQ(reds(4, 8, 1, "\x03\x1f\0\x05\x23\x45\x60\0\0\x01"s),
+              (std::vector<int>{1, 15, 1, 2, 3, 4, 5, 6}));
+    // The end of the bitmap may be missing behind the last row.
+    EXPECT_EQ(reds(8, 1, 1, "\x01\x05\0\0"s), (std::vector<int>{5}));
+    for (const std::string& damaged :
+         {"\x03\x05\0\x01"s, "\x01\x05"s, "\0\x04\x01\x02"s, "\0\x02\x05\0\x01\x01"s, ""s}) {
+        EXPECT_EQ(error_of([&] { (void)reds(8, 2, 2, damaged); }), ErrorKind::Scene);
+    }
+}
+
 TEST(Bmp, AnIndexBeyondThePaletteIsAnError) {
     Bitmap bitmap{.width = 1, .height = 1, .bits = 8, .palette = std::string(8, '\0')};
     bitmap.palette_entries = 2;
@@ -120,8 +153,9 @@ TEST(Bmp, WhatIsNotSupportedIsSaid) {
         }
         return std::string("nothing was thrown");
     };
-    EXPECT_EQ(message({.bits = 8, .compression = 1}),
-              "test.bmp: run-length coded BMP pictures are not supported");
+    EXPECT_NE(message({.bits = 4, .compression = 1}).find("need 8 or 4 bits"), std::string::npos);
+    EXPECT_NE(message({.height = -2, .bits = 8, .compression = 1}).find("rows that go up"),
+              std::string::npos);
     EXPECT_NE(message({.bits = 5}).find("expected 1, 4, 8, 16, 24 or 32"), std::string::npos);
     EXPECT_NE(message({.width = 0}).find("empty"), std::string::npos);
     EXPECT_NE(message({.width = -5}).find("empty"), std::string::npos);

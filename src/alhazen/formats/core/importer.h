@@ -45,6 +45,11 @@ struct ImportSource {
     const ImportOptions& options;
 };
 
+/// True for a file of nothing but white space.
+[[nodiscard]] inline bool is_empty_file(std::string_view bytes) {
+    return bytes.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
 class Importer {
   public:
     virtual ~Importer() = default;

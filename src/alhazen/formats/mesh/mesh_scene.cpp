@@ -40,7 +40,9 @@ void add_mesh(SceneDescription& scene, TriangleMesh mesh, std::string name, Mate
 
 void report_no_faces(const ImportSource& source, std::size_t points, Diagnostics& diagnostics) {
     diagnostics.error({source.path.string(), 0, 0},
-                      "the file has " + std::to_string(points) + " points but no faces");
+                      points == 0
+                          ? "the file has no points and no faces"
+                          : "the file has " + std::to_string(points) + " points but no faces");
 }
 
 bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics) {
@@ -48,7 +50,7 @@ bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics) {
     const FileLocation start{source.path.string(), 1, 1};
     if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
         diagnostics.error(start, "the file is UTF-16 text; expected ASCII or UTF-8");
-    } else if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    } else if (is_empty_file(bytes)) {
         diagnostics.error(start, "the file is empty");
     } else if (bytes.substr(0, 65536).find('\0') != std::string_view::npos) {
         diagnostics.error(start, "the file is not text");

@@ -16,6 +16,10 @@ namespace {
 
 TriangleMesh read_any(const ImportSource& source, Diagnostics& diagnostics) {
     const std::string file = source.path.string();
+    if (is_empty_file(source.bytes)) {
+        diagnostics.error({file, 0, 0}, "the file is empty");
+        return {};
+    }
     const bool stl = looks_like_stl(source.bytes);
     if (!stl && (looks_like_ply(source.bytes) || has_suffix(source.path, ".ply"))) {
         return read_ply(source.bytes, file, source.options, diagnostics);

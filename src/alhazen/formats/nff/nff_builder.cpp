@@ -25,6 +25,15 @@ bool is_planar(const std::vector<Vec3>& vertices, const Vec3& unit_normal) {
     return off <= 1e-4 * reach;
 }
 
+/// True if some three of the vertices, the first among them, span an area.
+bool has_area(const std::vector<Vec3>& vertices) {
+    for (std::size_t i = 2; i < vertices.size(); ++i) {
+        const Vec3 normal = cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
+        if (length_squared(normal) > 0.0) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 NffBuilder::NffBuilder(SceneDescription& scene, const ImportOptions& options,
@@ -121,6 +130,10 @@ void NffBuilder::add_cone(const Vec3& base, double base_radius, const Vec3& apex
 
 void NffBuilder::add_polygon(const std::vector<Vec3>& vertices, const std::vector<Vec3>& normals,
                              const FileLocation& where) {
+    if (!has_area(vertices)) {
+        ++degenerate_;
+        return;
+    }
     if (vertices.size() == 3 || !normals.empty()) return add_triangles(vertices, normals, where);
     std::vector<std::uint32_t> loop(vertices.size());
     std::iota(loop.begin(), loop.end(), 0u);
@@ -183,6 +196,10 @@ void NffBuilder::add_camera(const NffView& view) {
     if (!(length_squared(look) > 0.0)) {
         return diagnostics_.error(view.location, "'from' and 'at' of the view are the same point");
     }
+    if (!(length_squared(cross(look, *view.up)) > 0.0)) {
+        return diagnostics_.error(view.location,
+                                  "'up' of the view must not be zero, nor along the view");
+    }
     if (!(*view.angle_deg > 0.0 && *view.angle_deg < 180.0)) {
         return diagnostics_.error(view.location,
                                   "the angle of the view must be in (0, 180) degrees");
@@ -191,6 +208,9 @@ void NffBuilder::add_camera(const NffView& view) {
     const double height = view.resolution->y;
     if (!(width >= 1.0 && height >= 1.0 && width <= 65536.0 && height <= 65536.0)) {
         return diagnostics_.error(view.location, "the resolution must be 1 to 65536 pixels a side");
+    }
+    if (width != std::floor(width) || height != std::floor(height)) {
+        return diagnostics_.error(view.location, "the resolution must be two whole numbers");
     }
     scene_.picture.width = int(width);
     scene_.picture.height = int(height);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 
 #include "alhazen/formats/text/text_cursor.h"
 
@@ -129,7 +130,8 @@ class MtlReader {
         for (; !cursor_.at_end(); cursor_.skip_line()) {
             if (!cursor_.skip_blanks() || cursor_.peek() == '#') continue;
             start_ = cursor_.location(file_);
-            const std::string keyword = lower(cursor_.word().substr(0, 32));
+            word_ = cursor_.word().substr(0, 32);
+            const std::string keyword = lower(word_);
             if (keyword == "newmtl") {
                 if (materials_.size() == kMaxMtlMaterials) {
                     diagnostics_.warning(start_, "more than " + std::to_string(kMaxMtlMaterials) +
@@ -146,10 +148,13 @@ class MtlReader {
                 read_statement(keyword, materials_.back());
             }
         }
+        if (!unused_.empty()) diagnostics_.warning(first_unused_, list_unused());
         return std::move(materials_);
     }
 
   private:
+    static constexpr std::size_t kMaxListed = 20;
+
     void read_statement(const std::string& keyword, MtlMaterial& m) {
         struct Color {
             std::string_view keyword;
@@ -164,13 +169,17 @@ class MtlReader {
         struct Number {
             std::string_view keyword;
             std::optional<double> MtlMaterial::*field;
+            double most;
         };
-        static constexpr std::array<Number, 6> kNumbers{{{"ns", &MtlMaterial::ns},
-                                                         {"ni", &MtlMaterial::ni},
-                                                         {"d", &MtlMaterial::d},
-                                                         {"tr", &MtlMaterial::tr},
-                                                         {"pr", &MtlMaterial::pr},
-                                                         {"pm", &MtlMaterial::pm}}};
+        static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+        static constexpr std::array<Number, 8> kNumbers{{{"ns", &MtlMaterial::ns, kNoLimit},
+                                                         {"ni", &MtlMaterial::ni, kNoLimit},
+                                                         {"d", &MtlMaterial::d, 1},
+                                                         {"tr", &MtlMaterial::tr, 1},
+                                                         {"pr", &MtlMaterial::pr, 1},
+                                                         {"pm", &MtlMaterial::pm, 1},
+                                                         {"pc", &MtlMaterial::pc, 1},
+                                                         {"pcr", &MtlMaterial::pcr, 1}}};
         struct Map {
             std::string_view keyword;
             MtlMap MtlMaterial::*field;
@@ -192,18 +201,23 @@ class MtlReader {
             if (color.keyword == keyword) return read_color(m.*color.field);
         }
         for (const Number& number : kNumbers) {
-            if (number.keyword == keyword) return read_number(m.*number.field);
+            if (number.keyword == keyword) return read_number(m.*number.field, number.most);
         }
         for (const Map& map : kMaps) {
             if (map.keyword == keyword) return read_map(m.*map.field);
         }
         if (keyword == "illum") {
             std::optional<double> model;
-            read_number(model);
+            read_number(model, 10);
             if (model && *model >= 0 && *model <= 10) m.illum = int(*model);
         } else if (keyword == "disp" || keyword == "map_disp" || keyword == "decal" ||
                    keyword == "refl" || keyword == "map_tr" || keyword == "map_ps") {
             warn_once(1, "displacement, decals, reflection maps, map_Tr and map_Ps are ignored");
+        } else if (keyword == "ps" || keyword == "aniso" || keyword == "anisor") {
+            double value = 0;  // exporters write 0 for none
+            if (!cursor_.skip_blanks() || !cursor_.number(value) || value != 0) unused("");
+        } else {
+            unused("");
         }
     }
 
@@ -220,7 +234,7 @@ class MtlReader {
         for (; count < 3; ++count) value[count] = value[count - 1];
         color = value;
     }
-    void read_number(std::optional<double>& number) {
+    void read_number(std::optional<double>& number, double most) {
         cursor_.skip_blanks();
         // "d -halo 0.5": the halo does not apply to triangle surfaces; its factor is read as d.
         if (cursor_.peek() == '-') {
@@ -231,7 +245,9 @@ class MtlReader {
             }
         }
         double value = 0;
+        TextCursor ahead = cursor_;
         if (!cursor_.number(value)) return bad_number();
+        if (value < 0 || value > most) unused(ahead.word());
         number = value;
     }
     void read_map(MtlMap& map) {
@@ -241,6 +257,24 @@ class MtlReader {
         if (!MapReader(map).read(cursor_.rest_of_line())) {
             warn_once(3, "the base of -mm and the channel z of -imfchan are ignored");
         }
+        if (map.file.empty()) unused("(no file)");
+    }
+
+    /// Lists the current statement, with `detail`, as one that is unknown or out of its range.
+    void unused(std::string_view detail) {
+        std::string text = "'" + std::string(word_);
+        if (!detail.empty()) text += " " + std::string(detail.substr(0, 32));
+        text += "'";
+        if (unused_.empty()) first_unused_ = start_;
+        if (std::find(unused_.begin(), unused_.end(), text) != unused_.end()) return;
+        if (unused_.size() <= kMaxListed) unused_.push_back(std::move(text));
+    }
+    [[nodiscard]] std::string list_unused() const {
+        std::string list = "unknown or out of range:";
+        for (std::size_t i = 0; i < unused_.size() && i < kMaxListed; ++i) {
+            list += (i == 0 ? " " : ", ") + unused_[i];
+        }
+        return list + (unused_.size() > kMaxListed ? " and others" : "");
     }
 
     void bad_number() {
@@ -257,7 +291,10 @@ class MtlReader {
     const std::string& file_;
     Diagnostics& diagnostics_;
     FileLocation start_;
+    std::string_view word_;  ///< the keyword of the current statement
     std::vector<MtlMaterial> materials_;
+    std::vector<std::string> unused_;  ///< at most one more than are listed
+    FileLocation first_unused_;
     std::array<bool, 4> warned_{};
 };
 

@@ -2,9 +2,9 @@
 /// Reads a material library (MTL) without interpreting it.
 ///
 /// Source: "Material Library File (.mtl)", Alias/Wavefront, 1995; Exocortex, "Extending the
-/// Wavefront MTL format for Physically Based Rendering", 2014 (Pr, Pm, norm and their maps).
-/// Differs: known statements are never errors: those without effect on the image are ignored,
-/// unreadable ones are warnings. Spectral curves and CIE XYZ colours are warnings.
+/// Wavefront MTL format for Physically Based Rendering", 2014 (Pr, Pm, Pc, Pcr, norm and maps).
+/// Differs: no finding is an error. Spectral curves, CIE XYZ colours and unreadable numbers are
+/// warnings; one more lists what is unknown or out of its range.
 /// Conventions: names extend to the end of their line; of equal names the first is used.
 
 #include <optional>
@@ -32,7 +32,7 @@ struct MtlMap {
 struct MtlMaterial {
     std::string name;
     std::optional<Rgb> ka, kd, ks, ke, tf;
-    std::optional<double> ns, ni, d, tr, pr, pm;
+    std::optional<double> ns, ni, d, tr, pr, pm, pc, pcr;
     std::optional<int> illum;
     MtlMap map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_pr, map_pm, normal, map_bump;
     FileLocation location;

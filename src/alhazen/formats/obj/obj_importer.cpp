@@ -71,9 +71,13 @@ SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& di
         const std::string& name = group.empty() ? material : group;
         return name.empty() ? source.path.stem().string() : name;
     };
+    const auto use = [&](std::uint32_t material) {
+        return materials.use(statements.materials[material],
+                             {file, int(statements.material_lines[material]), 0});
+    };
     for (ObjPart& part : parts) {
         const std::string& material = statements.materials[part.material];
-        add_mesh(scene, std::move(part.mesh), name_of(part.name, material), materials.use(material),
+        add_mesh(scene, std::move(part.mesh), name_of(part.name, material), use(part.material),
                  {file, int(std::min<std::uint32_t>(part.line, 0x7FFFFFFF)), 0});
     }
     for (ObjSurface& surface : surfaces) {
@@ -81,7 +85,7 @@ SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& di
         Part part;
         part.what = std::move(surface.shape);
         part.name = name_of(statements.names[surface.name], material);
-        part.material = materials.use(material);
+        part.material = use(surface.material);
         part.location = surface.location;
         scene.objects.front().parts.push_back(std::move(part));
     }

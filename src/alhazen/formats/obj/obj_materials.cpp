@@ -56,7 +56,7 @@ ObjMaterials::ObjMaterials(const ImportSource& source, SceneDescription& scene,
       folder_(folder_of(source.path)),
       roots_(scene_roots(source.options, folder_)),
       textures_(scene, picture_findings_, roots_, source.options.image_limits),
-      finder_(roots_, folder_) {}
+      finder_(roots_, folder_, PictureFinder::Elsewhere::BesideTheScene) {}
 
 void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
     for (const ObjLibrary& library : libraries) {
@@ -101,13 +101,13 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
     return true;
 }
 
-MaterialId ObjMaterials::use(const std::string& name) {
+MaterialId ObjMaterials::use(const std::string& name, const FileLocation& where) {
     if (name.empty()) return grey();
     const auto [entry, fresh] = used_.try_emplace(name);
     if (!fresh) return entry->second;
     const auto found = entry_of_.find(name);
     if (found == entry_of_.end()) {
-        diagnostics_.warning({source_.path.string(), 0, 0},
+        diagnostics_.warning(where,
                              "no material library has '" + name.substr(0, 200) + "'; it is grey");
         entry->second = grey();
     } else {
@@ -142,7 +142,8 @@ MaterialId ObjMaterials::add(const MtlMaterial& m) {
     set_reflection(m, out);
     set_light_through(m, out);
     out.normal_map = normal_map(m);
-    if (m.pr || m.pm || !m.map_pr.file.empty() || !m.map_pm.file.empty()) {
+    if (m.pr || m.pm || m.pc.value_or(0.0) > 0.0 || !m.map_pr.file.empty() ||
+        !m.map_pm.file.empty()) {
         set_metallic_roughness(m, out);
     }
     scene_.materials.push_back({std::move(out), m.location});
@@ -198,6 +199,8 @@ void ObjMaterials::set_metallic_roughness(const MtlMaterial& m, Material& out) {
     mr.base_color = out.diffuse;
     mr.metallic = scalar(m.pm.value_or(m.map_pm.file.empty() ? 0.0 : 1.0), m.map_pm);
     mr.roughness = scalar(m.pr.value_or(1.0), m.map_pr);
+    mr.coat.strength.value = std::clamp(m.pc.value_or(0.0), 0.0, 1.0);
+    mr.coat.roughness.value = std::clamp(m.pcr.value_or(0.0), 0.0, 1.0);
     mr.transmission.value = out.transmissive.color.max();
     mr.thickness.value = mr.transmission.value > 0.0 ? 1.0 : 0.0;
     if (!m.ni || !(*m.ni >= 1.0)) out.index.value = 1.5;
@@ -232,11 +235,22 @@ bool ObjMaterials::is_normal_map(const std::shared_ptr<const StoredImage>& pictu
     return known->second;
 }
 
+std::optional<std::string> ObjMaterials::find_picture(const std::string& written) {
+    const auto find = [&](const std::string& name) {
+        std::optional<std::string> found;
+        if (!current_folder_.empty()) found = finder_.find(current_folder_ + "/" + name);
+        return found ? found : finder_.find(name);
+    };
+    if (auto found = find(written)) return found;
+    const std::size_t comment = written.find(" #");
+    if (comment == std::string::npos) return std::nullopt;
+    const std::size_t last = written.find_last_not_of(" \t", comment);
+    return last == std::string::npos ? std::nullopt : find(written.substr(0, last + 1));
+}
+
 TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
     if (map.file.empty()) return kNoTexture;
-    std::optional<std::string> found;
-    if (!current_folder_.empty()) found = finder_.find(current_folder_ + "/" + map.file);
-    if (!found) found = finder_.find(map.file);
+    const std::optional<std::string> found = find_picture(map.file);
     if (!found) {
         diagnostics_.warning(map.location, "the picture '" + map.file.substr(0, 200) +
                                                "' does not exist or lies outside the scene's "

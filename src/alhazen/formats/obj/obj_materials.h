@@ -27,8 +27,9 @@ class ObjMaterials {
 
     /// Reads the files of the `mtllib` lines.
     void load(const std::vector<ObjLibrary>& libraries);
-    /// The material of this `usemtl` name; added to the scene at its first use.
-    MaterialId use(const std::string& name);
+    /// The material of this `usemtl` name, first given at `where`; added to the scene at its first
+    /// use.
+    MaterialId use(const std::string& name, const FileLocation& where);
 
   private:
     /// False if the file does not exist.
@@ -43,6 +44,8 @@ class ObjMaterials {
     /// used unchanged, height images are converted to normals.
     NormalMap normal_map(const MtlMaterial& m);
     bool is_normal_map(const std::shared_ptr<const StoredImage>& picture);
+    /// The picture of this name; none if there is no such file. A comment may follow the name.
+    std::optional<std::string> find_picture(const std::string& written);
     TextureId texture(const MtlMap& map, bool is_color);
     ColorInput color(const Rgb& value, const MtlMap& map);
     ScalarInput scalar(double value, const MtlMap& map);

@@ -17,9 +17,9 @@ constexpr std::int64_t kMaxIndex = 0x7FFFFFFE;
 constexpr std::size_t kMaxLibraries = 1000;
 
 /// Statements without effect on the image.
-constexpr std::array<std::string_view, 13> kIgnored{
-    "l",      "p",      "mg",         "t",        "bevel",     "c_interp", "lod",
-    "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj", "call"};
+constexpr std::array<std::string_view, 12> kIgnored{
+    "l",   "p",      "mg",     "t",          "bevel",    "c_interp",
+    "lod", "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj"};
 
 /// Assigns numbers to distinct strings.
 class NameTable {
@@ -116,8 +116,11 @@ class StatementReader {
             read_smoothing();
         } else if (keyword == "usemtl") {
             run_.material = materials_.number_of(rest_of_line());
+            result_.material_lines.resize(result_.materials.size(), line_of(start));
         } else if (keyword == "mtllib") {
             read_library();
+        } else if (keyword == "call") {
+            warn_of_call(start);
         } else if (free_form_.read(keyword, start, cursor_,
                                    {result_.positions.size(), run_.name, run_.material})) {
             (void)room_in(result_.free_form.points.size() + result_.free_form.knots.size());
@@ -214,7 +217,7 @@ class StatementReader {
         }
         result_.runs.push_back(run_);
     }
-    /// Reads v, v/vt, v//vn or v/vt/vn.
+    /// Reads v, v/vt, v//vn or v/vt/vn. A comment may follow without a blank.
     bool read_corner(ObjCorner& corner) {
         if (!read_index(corner.position, result_.positions.size())) return false;
         if (cursor_.take('/')) {
@@ -247,7 +250,8 @@ class StatementReader {
         return true;
     }
     [[nodiscard]] bool at_word_end() const {
-        return cursor_.at_end() || TextCursor::is_space(cursor_.peek());
+        const char next = cursor_.peek();
+        return cursor_.at_end() || TextCursor::is_space(next) || next == '#';
     }
 
     /// Reads an object or group name. An object ends the previous group; a group within an object
@@ -269,7 +273,7 @@ class StatementReader {
         }
     }
     void read_library() {
-        const std::uint32_t line = std::uint32_t(std::min<std::int64_t>(cursor_.line(), INT_MAX));
+        const std::uint32_t line = line_of(cursor_);
         std::string names = rest_of_line();
         if (names.empty()) return;
         if (result_.libraries.size() < kMaxLibraries) {
@@ -280,6 +284,17 @@ class StatementReader {
                                                             std::to_string(kMaxLibraries) +
                                                             " mtllib lines; the rest is ignored");
         }
+    }
+    static std::uint32_t line_of(const TextCursor& at) {
+        return std::uint32_t(std::min<std::int64_t>(at.line(), INT_MAX));
+    }
+    /// Reports the first statement that includes a file.
+    void warn_of_call(const TextCursor& start) {
+        if (warned_of_call_) return;
+        warned_of_call_ = true;
+        diagnostics_.warning(start.location(file_),
+                             "the file of 'call " + rest_of_line().substr(0, 200) +
+                                 "' is not read, nor are those of other 'call' statements");
     }
     /// The rest of the line without surrounding blanks; `#` does not start a comment, since it may
     /// be part of a name.
@@ -326,6 +341,7 @@ class StatementReader {
     int errors_ = 0;
     bool known_ = false;
     bool warned_ = false;
+    bool warned_of_call_ = false;
     bool too_many_libraries_ = false;
 };
 

@@ -75,9 +75,10 @@ struct ObjStatements {
     std::vector<Vec3> normals;
     ObjCorners corners;
     std::vector<ObjFace> faces;
-    std::vector<ObjRun> runs;            ///< of at least one face
-    std::vector<std::string> names;      ///< the first is empty
-    std::vector<std::string> materials;  ///< the first is empty
+    std::vector<ObjRun> runs;                      ///< of at least one face
+    std::vector<std::string> names;                ///< the first is empty
+    std::vector<std::string> materials;            ///< the first is empty
+    std::vector<std::uint32_t> material_lines{0};  ///< [material] of its first `usemtl`
     std::vector<ObjLibrary> libraries;
     ObjFreeForm free_form;
 

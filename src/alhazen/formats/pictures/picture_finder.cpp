@@ -74,6 +74,7 @@ std::optional<std::string> PictureFinder::search(const std::string& written) {
         if (candidate.empty()) continue;
         if (auto found = exact(candidate)) return found;
         if (auto found = with_other_capitals(candidate)) return found;
+        if (elsewhere_ == Elsewhere::Refused) break;
     }
     return std::nullopt;
 }

@@ -3,9 +3,9 @@
 /// folders.
 ///
 /// Conventions: tries, in this order, the name itself (backslashes as slashes), the name ignoring
-/// case, and its last component next to the scene file, also ignoring case. Nothing outside `roots`
-/// is accessed. After kMaxNames different names the search stops, which bounds the time of crafted
-/// name lists.
+/// case, and, if so asked, its last component next to the scene file, also ignoring case. Nothing
+/// outside `roots` is accessed. After kMaxNames different names the search stops, which bounds the
+/// time of crafted name lists.
 
 #include <filesystem>
 #include <map>
@@ -17,8 +17,12 @@ namespace alhazen {
 
 class PictureFinder {
   public:
-    PictureFinder(std::vector<std::filesystem::path> roots, std::filesystem::path folder)
-        : roots_(std::move(roots)), folder_(std::move(folder)) {}
+    /// Whether a file in another folder than the one written counts.
+    enum class Elsewhere { Refused, BesideTheScene };
+
+    PictureFinder(std::vector<std::filesystem::path> roots, std::filesystem::path folder,
+                  Elsewhere elsewhere = Elsewhere::Refused)
+        : roots_(std::move(roots)), folder_(std::move(folder)), elsewhere_(elsewhere) {}
 
     static constexpr std::size_t kMaxNames = 10'000;
 
@@ -32,6 +36,7 @@ class PictureFinder {
 
     std::vector<std::filesystem::path> roots_;
     std::filesystem::path folder_;
+    Elsewhere elsewhere_;
     std::map<std::string, std::optional<std::string>> found_;
     /// Lower-case name -> name of the files in a folder, for the folders visited.
     std::map<std::filesystem::path, std::map<std::string, std::string>> listings_;

@@ -22,8 +22,8 @@ RayMaterials::RayMaterials(RayContext& context)
     : context_(context),
       folder_(folder_of(context.scene.path)),
       textures_(context.scene, context.diagnostics,
-                scene_roots(context.options, default_root(folder_)), context.options.image_limits) {
-}
+                scene_roots(context.options, default_root(folder_)), context.options.image_limits),
+      finder_(scene_roots(context.options, default_root(folder_)), folder_) {}
 
 RayMaterial RayMaterials::read(TextNode value, const RayMaterial& enclosing) {
     if (value.broken()) return enclosing;
@@ -139,7 +139,8 @@ std::optional<TextureId> RayMaterials::read_map(TextNode value, std::string_view
     // Coordinates are in [0, 1]; clamping prevents bleeding between opposite edges.
     ImageTexture settings;
     settings.wrap_u = settings.wrap_v = Wrap::Clamp;
-    const auto id = textures_.load(file, folder_, settings, file, list.first().location());
+    const auto id = textures_.load(finder_.find(file).value_or(file), folder_, settings, file,
+                                   list.first().location());
     if (id) maps_.emplace(file, *id);
     return id;
 }

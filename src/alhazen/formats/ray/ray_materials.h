@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "alhazen/formats/pictures/picture_finder.h"
 #include "alhazen/formats/pictures/texture_table.h"
 #include "alhazen/formats/ray/ray_context.h"
 #include "alhazen/formats/text/block_reader.h"
@@ -49,6 +50,7 @@ class RayMaterials {
     RayContext& context_;
     std::filesystem::path folder_;
     TextureTable textures_;
+    PictureFinder finder_;
     std::map<std::string, TextureId> maps_;
     std::map<std::string, RayMaterial> by_name_;
 };

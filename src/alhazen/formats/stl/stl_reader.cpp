@@ -46,11 +46,31 @@ bool begins_with_solid(std::string_view bytes) {
     return cursor.skip_to_word() && is_word(cursor.word(), "solid");
 }
 
+/// Moves to the first "facet normal" with something behind it on this line; false, not moved, if
+/// there is none. Files of one line have it behind the name of a solid.
+bool skip_to_facet_in_line(TextCursor& cursor) {
+    TextCursor at = cursor;
+    const std::int64_t line = at.line();
+    while (at.skip_blanks() && at.line() == line) {
+        const TextCursor start = at;
+        if (!is_word(at.word(), "facet")) continue;
+        TextCursor ahead = at;
+        if (ahead.skip_blanks() && is_word(ahead.word(), "normal") && ahead.skip_blanks() &&
+            ahead.line() == line) {
+            cursor = start;
+            return true;
+        }
+    }
+    return false;
+}
+
 /// True for "solid" followed by a statement of ascii STL.
 bool is_ascii(std::string_view bytes) {
     if (!begins_with_solid(bytes)) return false;
     TextCursor cursor(bytes.substr(0, 65536));
     cursor.skip_to_word();
+    cursor.word();
+    if (skip_to_facet_in_line(cursor)) return true;
     cursor.skip_line();
     if (!cursor.skip_to_word()) return false;
     const std::string_view word = cursor.word();
@@ -155,7 +175,7 @@ class StlReader {
             const TextCursor start = cursor;
             const std::string_view word = cursor.word();
             if (is_word(word, "solid")) {
-                std::string_view name = cursor.rest_of_line();
+                std::string_view name = rest_before_facet(cursor);
                 while (!name.empty() && TextCursor::is_blank(name.front())) name.remove_prefix(1);
                 while (!name.empty() && TextCursor::is_blank(name.back())) name.remove_suffix(1);
                 begin_solid(std::string(name), start.location(file_).line, 64);
@@ -164,7 +184,7 @@ class StlReader {
                 if (!read_facet(cursor)) skip_facet(cursor);
                 check_count(facets_);
             } else if (is_word(word, "endsolid")) {
-                cursor.skip_line();
+                skip_end(cursor);
             } else {
                 error(start.location(file_),
                       "expected facet or endsolid, found " + start.shown_word());
@@ -173,6 +193,25 @@ class StlReader {
         }
         // Solids without facets are invisible.
         std::erase_if(solids_, [](const StlSolid& s) { return s.mesh.triangles.empty(); });
+    }
+    /// The rest of the line, at most up to a facet in it.
+    static std::string_view rest_before_facet(TextCursor& cursor) {
+        TextCursor name = cursor;
+        if (!skip_to_facet_in_line(cursor)) return cursor.rest_of_line();
+        return name.characters(name.bytes_left() - cursor.bytes_left());
+    }
+    /// Skips the name behind `endsolid`: up to the end of the line, or to the next solid of a file
+    /// of one line.
+    static void skip_end(TextCursor& cursor) {
+        TextCursor facet = cursor;
+        if (!skip_to_facet_in_line(facet)) return cursor.skip_line();
+        for (TextCursor at = cursor; at.skip_blanks() && at.bytes_left() > facet.bytes_left();) {
+            const TextCursor start = at;
+            if (!is_word(at.word(), "solid")) continue;
+            cursor = start;
+            return;
+        }
+        cursor = facet;
     }
     bool read_facet(TextCursor& cursor) {
         std::array<Vec3, 4> v;

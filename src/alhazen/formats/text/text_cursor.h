@@ -79,6 +79,12 @@ class TextCursor {
         return false;
     }
 
+    /// Returns the next `count` characters without a line end; the cursor moves past them.
+    /// Precondition: there are as many.
+    std::string_view characters(std::size_t count) {
+        next_ += count;
+        return {next_ - count, count};
+    }
     /// Reads the characters up to the next white space.
     std::string_view word() {
         const char* const begin = next_;

@@ -31,6 +31,14 @@ constexpr std::array<CubeFace, 6> kCubeFaces{{
     {{1, 0, 0}, {0, 0, 1}},   // bottom, -y
 }};
 
+/// The uniforms of the course's shaders; those that are not read have no effect on a trace.
+constexpr std::array<std::string_view, 14> kUniforms{
+    "Diffuse",       "DiffuseMap",         "Specular",
+    "Emissive",      "Shininess",          "Transmittence",
+    "Transmittance", "IndexOfRefraction",  "AmbientColor",
+    "Color",         "LinearAttenuation",  "QuadraticAttenuation",
+    "ShadowBias",    "ConstantAttenuation"};
+
 /// The keys in order, for messages: "a, b, c".
 template <class Map>
 std::string names_of(const Map& map) {
@@ -63,18 +71,26 @@ UwAssets::UwAssets(const YAML::Node& document, const ImportSource& source, Scene
       root_(find_course_root(folder_of(source.path))),
       texture_files_(scene, diagnostics, scene_roots(source.options, root_),
                      source.options.image_limits),
-      materials_(table_of(YamlValues::find(document, "Materials"))),
-      textures_(table_of(YamlValues::find(document, "Textures"))),
-      meshes_(table_of(YamlValues::find(document, "Meshes"))),
-      shaders_(table_of(YamlValues::find(document, "ShaderPrograms"))) {}
+      finder_(scene_roots(source.options, root_), root_),
+      materials_(table_of(document, "Materials")),
+      textures_(table_of(document, "Textures")),
+      meshes_(table_of(document, "Meshes")),
+      shaders_(table_of(document, "ShaderPrograms")) {}
 
-UwAssets::Table UwAssets::table_of(const YAML::Node& map) {
+UwAssets::Table UwAssets::table_of(const YAML::Node& document, const char* key) {
+    const YAML::Node map = YamlValues::find(document, key);
     Table table;
+    values_.check_keys(map, key);
     if (!map.IsDefined() || !map.IsMap()) return table;
     for (const auto& entry : map) {
         if (entry.first.IsScalar()) table.emplace(entry.first.Scalar(), entry.second);
     }
     return table;
+}
+
+std::string UwAssets::path_of(const YAML::Node& asset) {
+    const std::string written = values_.text(asset, "Path");
+    return finder_.find(written).value_or(written);
 }
 
 MaterialId UwAssets::material(const YAML::Node& component) {
@@ -111,13 +127,19 @@ bool UwAssets::is_textured(MaterialId material) const {
 }
 
 MaterialId UwAssets::make_material(const std::string& name, const YAML::Node& node) {
+    values_.check_keys(node, "material", {"Shader", "Uniforms"});
     const std::string shader = values_.text(node, "Shader");
     const auto program = shaders_.find(shader);
+    if (program != shaders_.end()) {
+        values_.check_keys(program->second, "shader program",
+                           {"Vertex", "Fragment", "Geometry", "Trace Compatible"});
+    }
     if (program != shaders_.end() && !values_.flag(program->second, "Trace Compatible", true)) {
         values_.warning(node, "the material '" + name + "' has the shader '" + shader +
                                   "', which is not made for tracing");
     }
     const YAML::Node uniforms = YamlValues::find(node, "Uniforms");
+    values_.check_keys(uniforms, "Uniforms", kUniforms);
     Material m;
     m.name = name;
     m.emission = color_input(uniforms, "Emissive");
@@ -126,7 +148,10 @@ MaterialId UwAssets::make_material(const std::string& name, const YAML::Node& no
     m.ambient = m.diffuse;
     m.specular = color_input(uniforms, "Specular");
     m.reflective = m.specular;
-    m.transmissive = color_input(uniforms, "Transmittence");  // spelling of the format
+    // The first is the spelling of the format.
+    m.transmissive = color_input(uniforms, YamlValues::find(uniforms, "Transmittence").IsDefined()
+                                               ? "Transmittence"
+                                               : "Transmittance");
     m.shininess.value = values_.number(uniforms, "Shininess", 0.0);
     m.index.value = values_.number(uniforms, "IndexOfRefraction", 1.0);
     const MaterialId id{std::uint32_t(scene_.materials.size())};
@@ -138,6 +163,8 @@ ColorInput UwAssets::color_input(const YAML::Node& uniforms, const char* name) {
     const YAML::Node uniform = YamlValues::find(uniforms, name);
     ColorInput input;
     if (!uniform.IsDefined()) return input;
+    // Scenes of the course have "ColorMap" in places where it has no effect.
+    values_.check_keys(uniform, name, {"Color", "Color Map", "ColorMap", "Use Texture"});
     if (values_.flag(uniform, "Use Texture", false)) {
         const std::string map = values_.text(uniform, "Color Map");
         if (map.empty()) {
@@ -157,13 +184,14 @@ std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::
     }
     std::optional<TextureId> id;
     if (const auto found = textures_.find(name); found != textures_.end()) {
+        values_.check_keys(found->second, "texture", {"Path", "Bilinear"});
         ImageTexture settings;
         const bool bilinear = values_.flag(found->second, "Bilinear", true);
         settings.filter = bilinear ? TextureFilter::Bilinear : TextureFilter::Nearest;
         // Texel i lies at i / width; but without interpolation it fills [i, i + 1).
         settings.corner_texels = bilinear;
         settings.uv_transform = kRowsFromTheTop;
-        id = texture_files_.load(values_.text(found->second, "Path"), root_, settings, name,
+        id = texture_files_.load(path_of(found->second), root_, settings, name,
                                  values_.location(found->second));
     } else {
         values_.error(user, "unknown texture '" + name + "'; " + names_of(textures_));
@@ -200,10 +228,11 @@ std::optional<MeshIndex> UwAssets::mesh(const std::string& name, const YAML::Nod
         return id;
     }
     const std::size_t errors_before = diagnostics_.error_count();
+    values_.check_keys(found->second, "mesh", {"Path"});
     TriangleMesh mesh;
     try {
-        const std::filesystem::path file = resolve_inside(
-            scene_roots(source_.options, root_), root_, values_.text(found->second, "Path"));
+        const std::filesystem::path file =
+            resolve_inside(scene_roots(source_.options, root_), root_, path_of(found->second));
         mesh = read_mesh(file, source_.options, diagnostics_);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::Resource) throw;

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/pictures/picture_finder.h"
 #include "alhazen/formats/pictures/texture_table.h"
 #include "alhazen/formats/uw_yaml/uw_yaml_document.h"
 
@@ -36,7 +37,9 @@ class UwAssets {
 
   private:
     using Table = std::unordered_map<std::string, YAML::Node>;
-    static Table table_of(const YAML::Node& map);
+    Table table_of(const YAML::Node& document, const char* key);
+    /// The file named by `Path`, relative to the root; as written if there is none.
+    std::string path_of(const YAML::Node& asset);
     MaterialId make_material(const std::string& name, const YAML::Node& node);
     ColorInput color_input(const YAML::Node& uniforms, const char* name);
     std::optional<TextureId> texture(const std::string& name, const YAML::Node& user);
@@ -47,6 +50,7 @@ class UwAssets {
     Diagnostics& diagnostics_;
     std::filesystem::path root_;
     TextureTable texture_files_;
+    PictureFinder finder_;
     Table materials_, textures_, meshes_, shaders_;
     std::unordered_map<std::string, MaterialId> made_materials_;
     std::unordered_map<std::string, std::optional<TextureId>> made_textures_;

@@ -102,6 +102,34 @@ YAML::Node YamlValues::find(const YAML::Node& map, const char* key) {
     return YAML::Node(YAML::NodeType::Undefined);
 }
 
+void YamlValues::warn_once(const YAML::Node& key, const std::string& message) {
+    if (warned_.size() < 1000 && warned_.insert(message).second) warning(key, message);
+}
+
+void YamlValues::check_keys(const YAML::Node& map, const std::string& what,
+                            std::span<const std::string_view> known, const char* of_two) {
+    if (!map.IsDefined() || map.IsNull()) return;
+    if (!checked_.emplace(map.Mark().pos, what).second) return;
+    if (!map.IsMap()) return error(map, "'" + what + "' must be a map");
+    std::set<std::string> seen;
+    for (const auto& entry : map) {
+        const YAML::Node& key = entry.first;
+        if (!key.IsScalar()) {
+            warn_once(key, "a key of '" + what + "' that is no text is ignored");
+            continue;
+        }
+        const std::string& name = key.Scalar();
+        const std::string shown = "'" + name.substr(0, 60) + "'";
+        if (name == "<<") {
+            error(key, "merge keys (<<) are not supported; repeat what they merge");
+        } else if (!seen.insert(name).second) {
+            warn_once(key, shown + " is given twice in '" + what + "'; " + of_two);
+        } else if (!known.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
+            warn_once(key, "the key " + shown + " of '" + what + "' is not known; ignored");
+        }
+    }
+}
+
 double YamlValues::number(const YAML::Node& map, const char* key, double missing) {
     const YAML::Node node = find(map, key);
     if (!node.IsDefined()) return missing;
@@ -138,6 +166,8 @@ Vec3 YamlValues::vector(const YAML::Node& map, const char* key, double missing) 
     const YAML::Node node = find(map, key);
     if (node.IsDefined() && !node.IsMap()) {
         error(node, std::string("'") + key + "' must have X, Y and Z");
+    } else {
+        check_keys(node, key, {"X", "Y", "Z"});
     }
     return {number(node, "X", missing), number(node, "Y", missing), number(node, "Z", missing)};
 }
@@ -146,6 +176,8 @@ Rgb YamlValues::color(const YAML::Node& map, const char* key) {
     const YAML::Node node = find(map, key);
     if (node.IsDefined() && !node.IsMap()) {
         error(node, std::string("'") + key + "' must have R, G and B");
+    } else {
+        check_keys(node, key, {"R", "G", "B", "A"});
     }
     return {number(node, "R", 0.0), number(node, "G", 0.0), number(node, "B", 0.0)};
 }

@@ -9,9 +9,13 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <initializer_list>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "alhazen/base/diagnostics.h"
 #include "alhazen/imaging/image/rgb.h"
@@ -48,9 +52,24 @@ class YamlValues {
     /// {R, G, B, A}, of which A is ignored; the default of each channel is 0.
     [[nodiscard]] Rgb color(const YAML::Node& map, const char* key);
 
+    /// Reports what is wrong with the keys of a map: a warning for those that are not among `known`
+    /// (none: any key is) and for those given twice, an error for merge keys and for a node that is
+    /// no map. `what` names the map; each key of it is reported once in a file.
+    void check_keys(const YAML::Node& map, const std::string& what,
+                    std::span<const std::string_view> known = {},
+                    const char* of_two = "the first counts");
+    void check_keys(const YAML::Node& map, const std::string& what,
+                    std::initializer_list<std::string_view> known) {
+        check_keys(map, what, std::span(known.begin(), known.size()));
+    }
+
   private:
+    void warn_once(const YAML::Node& key, const std::string& message);
+
     std::string file_;
     Diagnostics& diagnostics_;
+    std::set<std::string> warned_;
+    std::set<std::pair<int, std::string>> checked_;  ///< by position: aliases repeat a map
 };
 
 }  // namespace alhazen

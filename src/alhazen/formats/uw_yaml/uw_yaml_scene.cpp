@@ -13,6 +13,41 @@ constexpr std::size_t kMaxVisits = 200'000;
 /// Half the thickness of the format's plane, which has two sheets: light crosses two surfaces.
 constexpr double kPlaneHalfThickness = 1e-5;
 
+/// Keys of which some have no effect on a trace.
+constexpr std::array<std::string_view, 9> kSceneKeys{
+    "Name",   "Animation Length", "Animation FPS",  "Textures", "Cubemaps",
+    "Meshes", "Materials",        "ShaderPrograms", "Root"};
+constexpr std::array<std::string_view, 9> kCameraKeys{"FOV",
+                                                      "Near Plane",
+                                                      "Far Plane",
+                                                      "Perspective Camera?",
+                                                      "Orthographic View Width",
+                                                      "Render Width (px)",
+                                                      "Render Height (px)",
+                                                      "Trace",
+                                                      "Trace Debugger"};
+constexpr std::array<std::string_view, 18> kTraceKeys{"Maximum Recursion Depth",
+                                                      "Shadows",
+                                                      "Enable Shadows",
+                                                      "Reflections",
+                                                      "Refractions",
+                                                      "Monte Carlo",
+                                                      "Samples Per Pixel",
+                                                      "Aperture Size",
+                                                      "Focus Distance",
+                                                      "Caustics",
+                                                      "Diffuse Reflection",
+                                                      "Difference Threshold",
+                                                      "Enable BVH Acceleration",
+                                                      "Maximum Samples",
+                                                      "Minimum Samples",
+                                                      "Random Single Branching",
+                                                      "Sample Count Type",
+                                                      "Std. Error Threshold"};
+constexpr std::array<std::string_view, 5> kTraceDebuggerKeys{
+    "Show Diffuse Reflection Rays", "Show Reflection Rays", "Show Refraction Rays",
+    "Show Shadow Rays", "Show Surface Normals"};
+
 double radians(double degrees) {
     return degrees * kRadiansPerDegree;
 }
@@ -29,6 +64,8 @@ UwSceneReader::UwSceneReader(const YAML::Node& document, const ImportSource& sou
 
 void UwSceneReader::read() {
     scene_.objects.emplace_back();
+    values_.check_keys(document_, "the scene", kSceneKeys);
+    values_.check_keys(YamlValues::find(document_, "Cubemaps"), "Cubemaps");
     scene_.objects[0].name = values_.text(document_, "Name");
     const YAML::Node root = YamlValues::find(document_, "Root");
     if (!root.IsDefined() || !root.IsMap()) {
@@ -57,8 +94,11 @@ void UwSceneReader::read_node(const YAML::Node& node, const Affine& world_from_p
     }
     if (!node.IsMap()) return values_.error(node, "a node must be a map with Name and Components");
     if (!values_.flag(node, "Enabled", true)) return;
+    values_.check_keys(node, "a node", {"Name", "Enabled", "Components", "Children"});
     const YAML::Node components = YamlValues::find(node, "Components");
+    values_.check_keys(components, "Components", {}, "both count, except of Transform the first");
     const YAML::Node transform = YamlValues::find(components, "Transform");
+    values_.check_keys(transform, "Transform", {"Translation", "Rotation", "Scale"});
     const Vec3 angles = values_.vector(transform, "Rotation", 0.0);
     const Affine parent_from_node =
         Affine::translate(values_.vector(transform, "Translation", 0.0)) *
@@ -81,14 +121,15 @@ void UwSceneReader::read_node(const YAML::Node& node, const Affine& world_from_p
         }
     }
     const YAML::Node children = YamlValues::find(node, "Children");
-    if (!children.IsDefined() || !children.IsSequence()) return;
+    if (!children.IsDefined() || children.IsNull()) return;
+    if (!children.IsSequence()) return values_.error(children, "'Children' must be a list");
     for (const auto& child : children) read_node(child, place.world_from_node, depth + 1);
 }
 
 UwSceneReader::ReadComponent UwSceneReader::reader_of(const std::string& component) {
     static const std::array<std::pair<std::string_view, ReadComponent>, 14> kReaders{{
         {"Transform", &UwSceneReader::nothing},  // read before all others
-        {"EnvironmentMap", &UwSceneReader::nothing},
+        {"EnvironmentMap", &UwSceneReader::environment_map},
         {"Sphere", &UwSceneReader::sphere},
         {"Cylinder", &UwSceneReader::cylinder},
         {"Cone", &UwSceneReader::cone},
@@ -108,6 +149,12 @@ UwSceneReader::ReadComponent UwSceneReader::reader_of(const std::string& compone
     return nullptr;
 }
 
+void UwSceneReader::environment_map(const Place&, const YAML::Node& component) {
+    // For the rasteriser of the course.
+    values_.check_keys(component, "EnvironmentMap",
+                       {"Near Plane", "Far Plane", "Render Material", "Resolution (px)"});
+}
+
 void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
                              std::variant<AnyShape, MeshIndex, ObjectIndex> what,
                              const Affine& node_from_part) {
@@ -122,6 +169,7 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
 }
 
 void UwSceneReader::sphere(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "Sphere", {"Material", "Quality", "Roundness"});
     Sphere sphere;
     sphere.radius = 0.5;
     // Poles lie on z in this library, on y in the format. As in the spheres that the course's
@@ -131,6 +179,7 @@ void UwSceneReader::sphere(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::cylinder(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "Cylinder", {"Material", "Subdivisions"});
     Cylinder cylinder;
     cylinder.base = {0, -0.5, 0};
     cylinder.top = {0, 0.5, 0};
@@ -139,6 +188,7 @@ void UwSceneReader::cylinder(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::cone(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "Cone", {"Material", "Subdivisions"});
     Cone cone;
     cone.base = {0, -0.5, 0};
     cone.top = {0, 0.5, 0};
@@ -147,6 +197,7 @@ void UwSceneReader::cone(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::plane(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "Plane", {"Material", "Subdivisions"});
     Rectangle front;
     front.corner = {-0.5, -0.5, kPlaneHalfThickness};
     Rectangle back;
@@ -157,6 +208,7 @@ void UwSceneReader::plane(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::ring(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "Ring", {"Material", "Width", "Subdivisions"});
     const double width = values_.number(component, "Width", 0.5);
     if (!(width > 0.0)) return values_.error(component, "the Width of a Ring must be positive");
     Disc disc;
@@ -167,6 +219,7 @@ void UwSceneReader::ring(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::triangle_mesh(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "TriangleMesh", {"Mesh", "Material", "LoopSubdivision"});
     const std::string name = values_.text(component, "Mesh");
     if (values_.number(component, "LoopSubdivision", 0.0) > 0.0) {
         values_.warning(component, "'LoopSubdivision' of '" + place.name + "' is ignored");
@@ -197,6 +250,9 @@ void UwSceneReader::particle_system(const Place& place, const YAML::Node& compon
 }
 
 void UwSceneReader::point_light(const Place& place, const YAML::Node& component) {
+    values_.check_keys(
+        component, "light",
+        {"Color", "Ambient", "Const Atten", "Linear Atten", "Quad Atten", "Radius (Trace)"});
     PointLight light;
     light.position = place.world_from_node.translation;
     light.color = values_.color(component, "Color");
@@ -216,6 +272,8 @@ void UwSceneReader::area_light(const Place& place, const YAML::Node& component) 
 }
 
 void UwSceneReader::directional_light(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "DirectionalLight",
+                       {"Color", "Ambient", "Intensity Multiplier", "Angular Size (Trace)"});
     const Vec3 to_light = place.world_from_node.vector({0, 1, 0});
     if (!(length_squared(to_light) > 0.0) || !is_finite(to_light)) {
         return values_.error(component, "the transform of '" + place.name + "' has no y direction");
@@ -232,6 +290,9 @@ void UwSceneReader::directional_light(const Place& place, const YAML::Node& comp
 }
 
 void UwSceneReader::camera(const Place& place, const YAML::Node& component) {
+    values_.check_keys(component, "Camera", kCameraKeys);
+    values_.check_keys(YamlValues::find(component, "Trace Debugger"), "Trace Debugger",
+                       kTraceDebuggerKeys);
     const double fov = values_.number(component, "FOV", 50.0);
     const double width = values_.number(component, "Render Width (px)", 512.0);
     const double height = values_.number(component, "Render Height (px)", 512.0);
@@ -266,6 +327,7 @@ void UwSceneReader::camera(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::trace_settings(const YAML::Node& trace) {
+    values_.check_keys(trace, "Trace", kTraceKeys);
     ShadingConventions& shading = scene_.conventions.shading;
     const double depth = values_.number(trace, "Maximum Recursion Depth", shading.max_depth);
     if (depth >= 0.0 && depth <= 1000.0) {

@@ -35,6 +35,7 @@ class UwSceneReader {
     void count_visit(const YAML::Node& node);
 
     void nothing(const Place&, const YAML::Node&) {}
+    void environment_map(const Place& place, const YAML::Node& component);
     void sphere(const Place& place, const YAML::Node& component);
     void cylinder(const Place& place, const YAML::Node& component);
     void cone(const Place& place, const YAML::Node& component);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "alhazen/imaging/codecs/byte_reader.h"
 
@@ -10,7 +11,8 @@ namespace alhazen {
 namespace {
 
 constexpr std::uint32_t kFileHeaderBytes = 14, kCoreHeaderBytes = 12, kInfoHeaderBytes = 40;
-constexpr std::uint32_t kUncompressed = 0, kBitFields = 3, kAlphaBitFields = 6;
+constexpr std::uint32_t kUncompressed = 0, kRuns8 = 1, kRuns4 = 2, kBitFields = 3,
+                        kAlphaBitFields = 6;
 
 struct Header {
     std::int64_t width = 0, height = 0;
@@ -23,10 +25,15 @@ struct Header {
     std::uint32_t pixels_at = 0;
 };
 
+bool has_runs(const Header& header) {
+    return header.compression == kRuns8 || header.compression == kRuns4;
+}
+
 using Palette = std::vector<std::array<std::uint8_t, 3>>;
 using Codes = std::vector<std::uint8_t>;
 
 void read_masks(ByteReader& reader, Header& header, std::uint32_t header_bytes) {
+    if (has_runs(header)) return;
     if (header.compression == kUncompressed) {
         if (header.bits == 16) header.masks = {0x7c00, 0x03e0, 0x001f, 0};
         if (header.bits == 32) header.masks = {0xff0000, 0xff00, 0xff, 0};
@@ -66,8 +73,11 @@ void read_info_header(ByteReader& reader, Header& header) {
 }
 
 void check_kind(const Header& header, const std::string& name) {
-    if (header.compression == 1 || header.compression == 2) {
-        bad_image(name, "run-length coded BMP pictures are not supported");
+    if (has_runs(header)) {
+        if (header.bits != (header.compression == kRuns8 ? 8 : 4) || header.top_down) {
+            bad_image(name, "damaged BMP: run-length codes need 8 or 4 bits and rows that go up");
+        }
+        return;
     }
     if (header.compression != kUncompressed && header.compression != kBitFields &&
         header.compression != kAlphaBitFields) {
@@ -131,6 +141,61 @@ Palette read_palette(ByteReader& reader, const Header& header) {
     return palette;
 }
 
+/// Decodes the palette indices of a run-length coded bitmap: one byte each, bottom row first.
+class RunReader {
+  public:
+    RunReader(ByteReader& reader, const Header& header)
+        : reader_(reader),
+          width_(std::size_t(header.width)),
+          height_(std::size_t(header.height)),
+          half_bytes_(header.compression == kRuns4),
+          indices_(width_ * height_, '\0') {}
+
+    std::string read() {
+        while (y_ < height_) {
+            const std::size_t count = reader_.u8(), code = reader_.u8();
+            if (count != 0) {
+                const char same[] = {char(code)};
+                for (std::size_t i = 0; i < count; ++i) {
+                    put(index_in({same, 1}, half_bytes_ ? i % 2 : 0));
+                }
+            } else if (code == kEndOfBitmap) {
+                break;
+            } else if (code == kEndOfLine) {
+                x_ = 0;
+                ++y_;
+            } else if (code == kMove) {
+                x_ += reader_.u8();
+                y_ += reader_.u8();
+            } else {
+                const std::string_view literal =
+                    reader_.take(half_bytes_ ? (code + 3) / 4 * 2 : (code + 1) / 2 * 2);
+                for (std::size_t i = 0; i < code; ++i) put(index_in(literal, i));
+            }
+        }
+        return std::move(indices_);
+    }
+
+  private:
+    static constexpr std::size_t kEndOfLine = 0, kEndOfBitmap = 1, kMove = 2;
+
+    /// Index `i` of a run of codes.
+    [[nodiscard]] char index_in(std::string_view codes, std::size_t i) const {
+        if (!half_bytes_) return codes[i];
+        const auto both = std::uint8_t(codes[i / 2]);
+        return char(i % 2 == 0 ? both >> 4 : both & 15);
+    }
+    void put(char index) {
+        if (x_ >= width_) bad_image(reader_.name(), "damaged BMP: a run leaves its row");
+        indices_[y_ * width_ + x_++] = index;
+    }
+
+    ByteReader& reader_;
+    std::size_t width_, height_, x_ = 0, y_ = 0;
+    bool half_bytes_;
+    std::string indices_;
+};
+
 void append_palette_row(Codes& codes, std::string_view row, const Header& header,
                         const Palette& palette, const std::string& name) {
     const unsigned per_byte = 8 / header.bits, mask = (1u << header.bits) - 1;
@@ -172,11 +237,21 @@ void append_bgr_row(Codes& codes, std::string_view row, std::int64_t width) {
 
 StoredImage decode_bmp(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     ByteReader reader(bytes, name);
-    const Header header = read_header(reader, limits);
+    Header header = read_header(reader, limits);
     const Palette palette = read_palette(reader, header);
-    const std::uint64_t row_bytes = (std::uint64_t(header.width) * header.bits + 31) / 32 * 4;
+    std::uint64_t row_bytes = (std::uint64_t(header.width) * header.bits + 31) / 32 * 4;
     reader.seek(header.pixels_at);
-    const std::string_view rows = reader.take(row_bytes * std::uint64_t(header.height));
+    std::string indices;
+    std::string_view rows;
+    if (has_runs(header)) {
+        check_image_memory(sample_bytes(header.width, header.height, 3 + 1, 1), limits, name);
+        indices = RunReader(reader, header).read();
+        header.bits = 8;
+        row_bytes = std::uint64_t(header.width);
+        rows = indices;
+    } else {
+        rows = reader.take(row_bytes * std::uint64_t(header.height));
+    }
     const bool masked = header.bits == 16 || header.bits == 32;
     const int channels = header.masks[3] != 0 ? 4 : 3;
     // Masked channels may have any number of bits, which requires floats.

@@ -133,6 +133,34 @@ TEST(Nff, PolygonsThatAreBentAreCutIntoTriangles) {
     EXPECT_TRUE(mentions(found, "1 primitives without extent"));
 }
 
+TEST(Nff, PolygonsAndPatchesWithoutAreaAreLeftOut) {
+    Diagnostics found;
+    const SceneDescription scene =
+        import_text(kView + kFill +
+                        "p 3\n0 0 0\n1 1 1\n3 3 3\np 3\n0 0 0\n1 0 0\n0 1 0\n"
+                        "pp 4\n0 0 0 0 0 1\n1 0 0 0 0 1\n2 0 0 0 0 1\n1 0 0 0 0 1\n"
+                        "pp 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n",
+                    "a.nff", found);
+    EXPECT_EQ(count(scene), (Counts{0, 0, 0, 0, 1, 1}));
+    EXPECT_EQ(text_of(found), "a.nff: warning: 2 primitives without extent are ignored\n");
+}
+
+TEST(Nff, TheViewMustHaveADirectionForUpAndWholePixels) {
+    const auto finding = [](std::string view, const char* from, const char* to) {
+        view.replace(view.find(from), std::string(from).size(), to);
+        Diagnostics found;
+        import_text(view + kFill + "s 0 0 0 1\n", "a.nff", found);
+        return text_of(found);
+    };
+    const std::string up =
+        "a.nff:1:1: error: 'up' of the view must not be zero, nor along the view\n";
+    EXPECT_EQ(finding(kView, "up 0 1 0", "up 0 0 0"), up);
+    EXPECT_EQ(finding(kView, "up 0 1 0", "up 0 0 -3"), up);
+    EXPECT_EQ(finding(kView, "resolution 200 100", "resolution 200 100.5"),
+              "a.nff:1:1: error: the resolution must be two whole numbers\n");
+    EXPECT_EQ(finding(kView, "resolution 200 100", "resolution 2e2 1e2"), "");
+}
+
 TEST(Nff, FindingsNameLineAndColumn) {
     const auto expect = [](const std::string& text, const char* part) {
         Diagnostics found;

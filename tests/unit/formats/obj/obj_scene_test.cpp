@@ -317,6 +317,55 @@ TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
     EXPECT_EQ(found.error_count(), 0u);
 }
 
+TEST(ObjScene, WhatALibraryHasThatIsUnknownOrOutOfRangeIsListedOnce) {
+    const auto finding = [](const std::string& mtl) {
+        Diagnostics found;
+        (void)material_of(mtl, found);
+        return text_of(found).substr(text_of(found).find("a.mtl"));
+    };
+    EXPECT_EQ(finding("Kd 1 0 0\nKdd 1 0 0\nmap_Kd\nNs -5\nillum 11\nKdd 2\nd 1.5\nPs .5\n"),
+              "a.mtl:3:1: warning: unknown or out of range: 'Kdd', 'map_Kd (no file)', 'Ns -5', "
+              "'illum 11', 'd 1.5', 'Ps'\n");
+    std::string many;
+    for (int i = 0; i < 1000; ++i) many += "X" + std::to_string(i) + " 1\n";
+    EXPECT_NE(finding(many).find("'X18', 'X19' and others\n"), std::string::npos);
+    EXPECT_EQ(material_of("Kd 1 0 0\nPs 0\naniso 0\nanisor 0.0\nPc 0\n").metallic_roughness,
+              std::nullopt);
+    const Material coated = material_of("Kd 1 0 0\nPc .5\nPcr .25\n");
+    ASSERT_TRUE(coated.metallic_roughness);
+    EXPECT_EQ(coated.metallic_roughness->coat.strength.value, 0.5);
+    EXPECT_EQ(coated.metallic_roughness->coat.roughness.value, 0.25);
+}
+
+TEST(ObjScene, ACommentMayFollowAFaceOrThePictureOfALibrary) {
+    const TemporaryFolder folder;
+    write_image(folder.path() / "t.png", Image(2, 2, 3));
+    write_image(folder.path() / "t #2.png", Image(2, 2, 3));
+    folder.write("a.mtl", "newmtl a\nmap_Kd t.png  # note\nnewmtl b\nmap_Kd t #2.png\n");
+    Diagnostics found;
+    const SceneDescription scene =
+        scene_of("mtllib a.mtl\n" + kSquare +
+                     "vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1#c\nusemtl b\nf 1/1 2/1 3/1 # c\n"
+                     "f 1 2 3# c\n",
+                 found, folder.path());
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(scene.textures.size(), 2u);
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].mesh->triangles.size(), 2u);
+    EXPECT_EQ(scene.meshes[1].mesh->triangles.size(), 2u);
+}
+
+TEST(ObjScene, MissingMaterialsAndIncludedFilesAreToldOfAtTheirLines) {
+    Diagnostics found;
+    (void)scene_of(kSquare + "usemtl a\nf 1 2 3\ncall more.obj\nusemtl b\nf 1 3 4\ncall x.obj\n",
+                   found);
+    EXPECT_EQ(text_of(found),
+              "nowhere/a.obj:7:1: warning: the file of 'call more.obj' is not read, nor are those "
+              "of other 'call' statements\n"
+              "nowhere/a.obj:5: warning: no material library has 'a'; it is grey\n"
+              "nowhere/a.obj:8: warning: no material library has 'b'; it is grey\n");
+}
+
 TEST(ObjScene, FilesOutsideOfTheScenesFolderAreNotRead) {
     const TemporaryFolder folder;
     folder.write("secret.mtl", "newmtl a\nKd 1 0 0\n");

@@ -269,6 +269,28 @@ TEST(Obj, AConcavePolygonKeepsItsArea) {
     EXPECT_NEAR(area(mesh), 0.5 * length(sum), 1e-12);
 }
 
+TEST(ImporterList, EmptyFilesAreToldOfInEveryFormat) {
+    const testing::TemporaryFolder folder;
+    for (const char* suffix : {".alhazen", ".ray", ".yaml", ".nff", ".gltf", ".glb", ".obj", ".ply",
+                               ".stl", ".asc", ".g", ".bpt", ".rib", ".txt"}) {
+        for (const char* text : {"", "\xEF\xBB\xBF", " \r\n\t\n"}) {
+            const auto file = folder.write(std::string("a") + suffix, text);
+            Diagnostics found;
+            try {
+                (void)import_scene(file, {}, found);
+                ADD_FAILURE() << suffix;
+            } catch (const Error& error) {
+                EXPECT_EQ(error.what(), file.string() + ": the file is empty");
+            }
+        }
+    }
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.txt"}) {
+        Diagnostics found;
+        (void)read_mesh(folder.write(name, "\n"), {}, found);
+        EXPECT_EQ(text_of(found), (folder.path() / name).string() + ": error: the file is empty\n");
+    }
+}
+
 TEST(MeshIo, FilesAreRecognisedByContentAndOthersRefused) {
     const testing::TemporaryFolder folder;
     const std::string obj = kCorners + "f 1 2 3 4\n";

@@ -4,16 +4,20 @@
 
 #include <random>
 
+#include "alhazen/imaging/codecs/image_io.h"
 #include "ray_scene.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_near;
 using testing::import_ray;
+using testing::import_ray_file;
 using testing::Imported;
 using testing::kSquareMesh;
 using testing::material_of;
+using testing::TemporaryFolder;
 
 TEST(RayImporter, RecognisesTheHeaderEvenAfterAComment) {
     const ImportOptions options;
@@ -124,6 +128,30 @@ TEST(RayImporter, ReportsAMissingTextureWhereItIsNamed) {
     EXPECT_EQ(import_ray("box { material = { diffuse = map(\"../../../x.png\") } }").errors(), 1u);
     EXPECT_EQ(import_ray("box { material = { diffuse = map(\"\") } }").errors(), 1u);
     EXPECT_EQ(import_ray("box { material = { diffuse = map(3) } }").errors(), 1u);
+}
+
+TEST(RayImporter, FindsTexturesWithNamesOfAnotherMachine) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "scenes/art");
+    write_image(folder.path() / "scenes/art/Stone.png", Image(2, 2, 3));
+    const auto import = [&](const std::string& name) {
+        return import_ray_file(folder.write(
+            "scenes/a.ray",
+            "SBT-raytracer 1.0\nbox { material = { diffuse = map(\"" + name + "\"); } }"));
+    };
+    for (const char* name : {"art/Stone.png", "art\\Stone.png", "art/stone.PNG",
+                             "../scenes/art/STONE.png", "..\\scenes\\art\\stone.png"}) {
+        const Imported i = import(name);
+        EXPECT_EQ(i.messages(), "") << name;
+        EXPECT_EQ(i.scene.textures.size(), 1u) << name;
+    }
+    // Nothing outside the parent folder of the scene's.
+    write_image(folder.path() / "out.png", Image(2, 2, 3));
+    std::filesystem::create_directories(folder.path() / "scenes/deep");
+    const Imported i = import_ray_file(folder.write(
+        "scenes/deep/a.ray",
+        "SBT-raytracer 1.0\nbox { material = { diffuse = map(\"..\\..\\OUT.png\"); } }"));
+    EXPECT_EQ(i.errors(), 1u) << i.messages();
 }
 
 TEST(RayImporter, RefusesDeepNestingWithOneError) {

@@ -168,7 +168,7 @@ TEST(Rib, GeometryLeftOutIsCountedAndAWrongCountIsAnError) {
                    "ReadArchive \"b.rib\" Disk 0 0 360 Cone 1 0 360 Shpere 1 2\n");
     EXPECT_EQ(
         read.messages(),
-        "a.rib:3:34: warning: ignored: Shpere\n"
+        "a.rib:3:47: warning: ignored: Shpere\n"
         "a.rib:2:1: warning: geometry left out: 1 Cone without extent, 1 Disk without extent, "
         "1 Polygon, 1 ReadArchive, 2 partial Sphere\n");
     EXPECT_TRUE(

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -56,6 +57,26 @@ TEST(Stl, SolidsOfAnAsciiFileKeepTheirNames) {
     EXPECT_EQ(solids[1].mesh.triangles.size(), 2u);
     EXPECT_EQ(solids[1].mesh.positions.size(), 3u);
     EXPECT_EQ(text_of(found), "");
+}
+
+TEST(Stl, AFileMayBeOneLine) {
+    std::string text = "solid a b\n" + kFacet + kFacet + "endsolid a b\nsolid c\n" + kFacet +
+                       "endsolid\nsolid\n" + kFacet;
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    Diagnostics found;
+    const auto solids = solids_of(text, found);
+    EXPECT_EQ(text_of(found), "");
+    ASSERT_EQ(solids.size(), 3u);
+    EXPECT_EQ(solids[0].name, "a b");
+    EXPECT_EQ(solids[0].mesh.triangles.size(), 2u);
+    EXPECT_EQ(solids[1].name, "c");
+    EXPECT_EQ(solids[2].name, "");
+    EXPECT_EQ(solids[2].mesh.triangles.size(), 1u);
+    EXPECT_TRUE(looks_like_stl(text));
+    // A name may have the words of a facet.
+    const auto named = solids_of("solid my facet normal\n" + kFacet + "endsolid\n", found);
+    ASSERT_EQ(named.size(), 1u);
+    EXPECT_EQ(named[0].name, "my facet normal");
 }
 
 TEST(Stl, CapitalsLineEndsAndAMissingEndDoNotMatter) {
@@ -223,7 +244,7 @@ TEST(Stl, ScenesHaveAPartForEachSolidAndZUp) {
     EXPECT_EQ(scene.objects[0].parts[0].name, "one");
     EXPECT_EQ(scene.objects[0].parts[1].name, "b");
     (void)import_text("solid nothing\nendsolid\n", "c.stl", found);
-    EXPECT_TRUE(mentions(found, "no faces")) << text_of(found);
+    EXPECT_TRUE(mentions(found, "error: the file has no points and no faces")) << text_of(found);
 }
 
 TEST(Stl, RandomDamageNeverDoesMoreThanFindings) {

@@ -217,6 +217,59 @@ TEST(UwYaml, WhatCannotBeDrawnIsAWarningThatNamesIt) {
     EXPECT_EQ(scene.lights.size(), 1u);
 }
 
+TEST(UwYaml, UnknownAndRepeatedKeysAreWarningsAndMergeKeysAreErrors) {
+    const auto finding = [](const std::string& text) {
+        Diagnostics found;
+        import_text(text, "a.yaml", found);
+        return text_of(found);
+    };
+    const auto of_components = [&](const std::string& components) {
+        return finding(scene_of(components));
+    };
+    // The first component is in line 16.
+    EXPECT_EQ(of_components("        Sphere: {Material: Red One, Radius: 2}\n"),
+              "a.yaml:16:37: warning: the key 'Radius' of 'Sphere' is not known; ignored\n");
+    EXPECT_EQ(of_components("        Transform: {Translate: {X: 2}, Scale: {x: 2}}\n"),
+              "a.yaml:16:21: warning: the key 'Translate' of 'Transform' is not known; ignored\n"
+              "a.yaml:16:48: warning: the key 'x' of 'Scale' is not known; ignored\n");
+    EXPECT_EQ(of_components("        PointLight: {Colour: {R: 1}}\n        Camera: {Fov: 40, "
+                            "Trace: {Depth: 1}, Trace Debugger: {Show: 1}}\n"),
+              "a.yaml:16:22: warning: the key 'Colour' of 'light' is not known; ignored\n"
+              "a.yaml:17:18: warning: the key 'Fov' of 'Camera' is not known; ignored\n"
+              "a.yaml:17:63: warning: the key 'Show' of 'Trace Debugger' is not known; ignored\n"
+              "a.yaml:17:35: warning: the key 'Depth' of 'Trace' is not known; ignored\n");
+    EXPECT_EQ(of_components("        Sphere: {Material: Red One, Material: Blue}\n"),
+              "a.yaml:16:37: warning: 'Material' is given twice in 'Sphere'; the first counts\n");
+    EXPECT_EQ(of_components("        PointLight: {Color: {R: 1}, <<: {Ambient: {R: 1}}}\n"),
+              "a.yaml:16:37: error: merge keys (<<) are not supported; repeat what they merge\n");
+    // Once for each name, whatever its number of places.
+    const std::string sphere = "        Sphere: {Material: Red One}\n";
+    EXPECT_EQ(finding(scene_of(sphere, "    -   {Nam: a}\n    -   {Nam: b}\n") + "Lights: {}\n"),
+              "a.yaml:20:1: warning: the key 'Lights' of 'the scene' is not known; ignored\n"
+              "a.yaml:18:10: warning: the key 'Nam' of 'a node' is not known; ignored\n");
+    std::string text = scene_of(sphere);
+    text.replace(text.find("Shininess"), 9, "Shinines");
+    EXPECT_EQ(finding(text),
+              "a.yaml:10:13: warning: the key 'Shinines' of 'Uniforms' is not known; ignored\n");
+    text = scene_of(sphere);
+    text.replace(text.find("Color: {R: 0.75"), 5, "Colour");
+    EXPECT_EQ(finding(text),
+              "a.yaml:6:23: warning: the key 'Colour' of 'Diffuse' is not known; ignored\n");
+    EXPECT_NE(finding(scene_of(sphere, "        5\n")).find("'Children' must be a list"),
+              std::string::npos);
+    EXPECT_NE(of_components("            [1]\n").find("'Components' must be a map"),
+              std::string::npos);
+}
+
+TEST(UwYaml, TransmittanceMayBeSpeltBothWays) {
+    std::string text = scene_of("        Sphere: {Material: Red One}\n");
+    text.replace(text.find("Transmittence"), 13, "Transmittance");
+    Diagnostics found;
+    const SceneDescription scene = import_text(text, "a.yaml", found);
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(scene.materials.at(0).material.transmissive.color, (Rgb{0, 0.9, 0}));
+}
+
 TEST(UwYaml, FindingsNameLineAndColumn) {
     const auto expect = [](const std::string& components, const char* part) {
         Diagnostics found;
@@ -292,6 +345,7 @@ TEST(UwYaml, FilesAreLookedForFromTheFolderThatHoldsAssets) {
     };
     Diagnostics found;
     EXPECT_EQ(import_mesh("assets/meshes/one.obj", found), 1u) << text_of(found);
+    EXPECT_EQ(import_mesh("assets\\meshes\\One.OBJ", found), 1u) << text_of(found);
     EXPECT_EQ(found.error_count(), 0u);
     for (const char* path :
          {"../secret.obj", "/etc/passwd", "assets/../../x.obj", "assets/none.obj", "\"\""}) {
