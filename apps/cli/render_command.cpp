@@ -232,7 +232,8 @@ int run(const RenderArguments& args) {
     check_spectral(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
-        throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
+        throw Error(ErrorKind::Usage,
+                    "--tables is for renderers in scan lines: lane_carpenter, clark");
     }
     check_environment(args.environment, options.renderer);
     check_accelerator(args.scene.accelerator);
@@ -432,8 +433,9 @@ void add_render(CLI::App& app, int& exit_status) {
     command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")
         ->type_name("FILE");
     command
-        ->add_option("--tables", args->tables,
-                     "Draw the tables of lane_carpenter over the scan lines as an animated SVG")
+        ->add_option(
+            "--tables", args->tables,
+            "Draw the tables of lane_carpenter or clark over the scan lines as an animated SVG")
         ->type_name("FILE");
     command
         ->add_option(
