@@ -29,8 +29,8 @@ struct Apart {
     Doubles length, speed;
 
     HWY_INLINE Apart(const CsgLanesSolid& solid, const RayLanes& rays) : length(0.0), speed(0.0) {
-        const Vec3Lanes away = load_vectors(rays.origin) - solid.center;
-        const Vec3Lanes d = load_vectors(rays.direction);
+        const Vec3Lanes away = load_ray_vectors(rays.origin) - solid.center;
+        const Vec3Lanes d = load_ray_vectors(rays.direction);
         length = Doubles(solid.apart) * (Doubles(solid.size) + largest(away.x, away.y, away.z));
         speed = largest(d.x, d.y, d.z);
     }
@@ -59,7 +59,7 @@ HWY_INLINE LaneMask<double> far_outside(const CsgLanesSolid::Leaf& leaf, const V
 HWY_INLINE bool settled_by_first(const CsgLanesSolid& solid, const RayLanes& rays,
                                  const LaneSpans& first, std::uint32_t& hit) {
     const Apart apart(solid, rays);
-    const Vec3Lanes o = load_vectors(rays.origin), d = load_vectors(rays.direction);
+    const Vec3Lanes o = load_ray_vectors(rays.origin), d = load_ray_vectors(rays.direction);
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     // A crossing slightly behind the end may count as one with a crossing before it.
     const LaneMask<double> beyond =

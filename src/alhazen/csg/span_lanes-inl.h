@@ -37,7 +37,7 @@ namespace span_lanes {
 struct Vec3Lanes {
     Doubles x, y, z;
 };
-HWY_INLINE Vec3Lanes load_vectors(const double (&rows)[3][kRayLanes]) {
+HWY_INLINE Vec3Lanes load_ray_vectors(const double (&rows)[3][kRayLanes]) {
     return {load_lanes(rows[0]), load_lanes(rows[1]), load_lanes(rows[2])};
 }
 HWY_INLINE Vec3Lanes operator-(const Vec3Lanes& a, const Vec3& b) {
@@ -96,8 +96,8 @@ struct LaneSpans {
 
 HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint32_t wanted,
                            LaneSpans& spans) {
-    const Vec3Lanes d = load_vectors(rays.direction);
-    const Vec3Lanes f = load_vectors(rays.origin) - sphere.center;
+    const Vec3Lanes d = load_ray_vectors(rays.direction);
+    const Vec3Lanes f = load_ray_vectors(rays.origin) - sphere.center;
     const Doubles a = dot(d, d), radius(sphere.radius), zero(0.0);
     const auto line = span_lanes::sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
     const std::uint32_t met = wanted & bits_of(line.discriminant >= zero);
@@ -157,8 +157,8 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
                            LaneSpans& spans) {
     spans.unsure = wanted;
     if (!kFusesExactly) return;
-    const Vec3Lanes d = load_vectors(rays.direction);
-    Vec3Lanes o = load_vectors(rays.origin) - f.center;
+    const Vec3Lanes d = load_ray_vectors(rays.direction);
+    Vec3Lanes o = load_ray_vectors(rays.origin) - f.center;
     const Doubles zero(0.0);
     // Shifts distant origins to the line's nearest point.
     const LaneMask<double> far = dot(o, o) > Doubles(16.0 * f.bounding_radius_squared);

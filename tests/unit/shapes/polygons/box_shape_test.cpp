@@ -34,13 +34,15 @@ TEST(BoxShape, HitsNameTheFaceThatWasCrossed) {
     }
 }
 
-TEST(BoxShape, RaysInThePlaneOfAFaceAreOutsideWhateverTheSignOfZero) {
+// `keeps_face`: in the upper face inside, in the lower one outside.
+TEST(BoxShape, OfTwoOppositeFacesOneHoldsItsRaysWhateverTheSignOfZero) {
     for (const double zero : {0.0, -0.0}) {
         for (const double face : {0.0, -0.0, 1.0}) {
             ShapeHit hits[2];
-            EXPECT_EQ(kCube.intersect(line({-1, face, 0.5}, {1, zero, zero}), hits), 0);
-            EXPECT_EQ(kCube.intersect(line({-1, face, 0.5}, {1, zero, 0.1}), hits), 0);
-            EXPECT_EQ(kCube.intersect(line({0.5, 0.5, face}, {1, 1, zero}), hits), 0);
+            const int expected = face > 0.5 ? 2 : 0;
+            EXPECT_EQ(kCube.intersect(line({-1, face, 0.5}, {1, zero, zero}), hits), expected);
+            EXPECT_EQ(kCube.intersect(line({-1, face, 0.5}, {1, zero, 0.1}), hits), expected);
+            EXPECT_EQ(kCube.intersect(line({0.5, 0.5, face}, {1, 1, zero}), hits), expected);
         }
     }
 }

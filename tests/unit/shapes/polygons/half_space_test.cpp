@@ -34,12 +34,15 @@ TEST(HalfSpace, LinesAlongItsFaceAreInsideOrOutsideForGood) {
     const struct {
         double z;
         bool inside;
-    } cases[] = {{1.999, true}, {2.0, false}, {2.001, false}};
+    } cases[] = {{1.999, true}, {2.0, true}, {2.001, false}};
     for (const auto& c : cases) {
         const Ray along = line({3, 4, c.z}, {1, -2, 0});
         EXPECT_EQ(below.intersect(along, &hit), 0);
         EXPECT_EQ(below.inside_at_minus_infinity(along), c.inside) << c.z;
     }
+    // The other side of the plane does not hold its lines.
+    const HalfSpace above = made({0, 0, 2}, {0, 0, -1});
+    EXPECT_FALSE(above.inside_at_minus_infinity(line({3, 4, 2}, {1, -2, 0})));
 }
 
 TEST(HalfSpace, BeginsInsideWhereTheSignOfTheDistanceSaysSo) {
