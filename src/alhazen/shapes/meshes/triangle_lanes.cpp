@@ -171,9 +171,9 @@ TriangleLanes::TriangleLanes() {
 
 void TriangleLanes::set(std::size_t lane, const TriangleMesh& mesh, std::size_t triangle,
                         const ShapeHit& hit, bool is_mirrored) {
-    const auto [i0, i1, i2] = mesh.triangles[triangle];
+    const auto& corner = mesh.triangles[triangle];
     const auto put = [&](const std::vector<Vec3>& of, Vectors(&to)[3]) {
-        const Vec3 &a = of[i0], &b = of[i1], &c = of[i2];
+        const Vec3 &a = of[corner[0]], &b = of[corner[1]], &c = of[corner[2]];
         for (int k = 0; k < 3; ++k) {
             to[0][k][lane] = a[k];
             to[1][k][lane] = b[k];
@@ -191,9 +191,8 @@ void TriangleLanes::set(std::size_t lane, const TriangleMesh& mesh, std::size_t 
     }
     if (mesh.uvs.empty()) return;
     mapped |= bit;
-    const std::array<std::uint32_t, 3> vertices{i0, i1, i2};
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec2& from = mesh.uvs[vertices[i]];
+        const Vec2& from = mesh.uvs[corner[i]];
         uvs[i][0][lane] = from.x;
         uvs[i][1][lane] = from.y;
     }
