@@ -1,6 +1,6 @@
 // Vertices of path tracing in lanes have the bits of those one by one.
 
-#include "alhazen/renderers/light_transport/vertex_lanes.h"
+#include "alhazen/renderers/path_tracing/vertex_lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "alhazen/renderers/core/path_record.h"
-#include "alhazen/renderers/light_transport/plain_meshes.h"
+#include "alhazen/renderers/path_tracing/plain_meshes.h"
 #include "alhazen/simd/targets.h"
 #include "support/light_pictures.h"
 #include "support/random.h"

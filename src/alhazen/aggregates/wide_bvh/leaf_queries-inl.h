@@ -19,7 +19,7 @@
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
-#include "alhazen/aggregates/wide_bvh/triangle_tests-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_tests-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/primitives/unused_shear.h"
 

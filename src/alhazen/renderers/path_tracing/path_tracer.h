@@ -14,12 +14,12 @@
 #include "alhazen/renderers/light_transport/light_layers.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
-#include "alhazen/renderers/light_transport/plain_meshes.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
-#include "alhazen/renderers/light_transport/vertex_lanes.h"
 #include "alhazen/renderers/manifold/manifold_light.h"
+#include "alhazen/renderers/path_tracing/plain_meshes.h"
+#include "alhazen/renderers/path_tracing/vertex_lanes.h"
 
 namespace alhazen {
 

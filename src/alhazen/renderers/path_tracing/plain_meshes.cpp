@@ -1,4 +1,4 @@
-#include "alhazen/renderers/light_transport/plain_meshes.h"
+#include "alhazen/renderers/path_tracing/plain_meshes.h"
 
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/shading/materials/texture_inputs.h"

@@ -1,10 +1,10 @@
-#include "alhazen/renderers/light_transport/vertex_lanes.h"
+#include "alhazen/renderers/path_tracing/vertex_lanes.h"
 
 #include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/renderers/light_transport/vertex_lanes.cpp"
+#define HWY_TARGET_INCLUDE "alhazen/renderers/path_tracing/vertex_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
 #include "alhazen/math/constants.h"
