@@ -58,9 +58,12 @@ def traced_in_place(rays: object) -> bool:
 
 
 def aligned_rays(*shape: int) -> _numpy.ndarray:
-    """A float64 array (*shape, 8) for rays that are traced in place: t_min is 0, t_max infinite, all else 0."""
+    """A float64 array (*shape, 8) for rays that are traced in place: t_min is 0, t_max infinite, all else 0.
+    Raises ValueError for a negative size."""
     count = 8
     for n in shape:
+        if n < 0:
+            raise ValueError(f"aligned_rays: a size of {n} rays")
         count *= n
     memory = _numpy.zeros(count + 8)
     begin = (-memory.ctypes.data % 64) // 8

@@ -171,6 +171,12 @@ class Arrays(unittest.TestCase):
         self.assertFalse(alhazen.traced_in_place(rays[..., :6]))
         np.testing.assert_array_equal(self.scene.intersect(rays)["t_hit"], self.scene.intersect(shifted)["t_hit"])
 
+    def test_aligned_rays_have_no_negative_size(self):
+        self.assertEqual(alhazen.aligned_rays(0).shape, (0, 8))
+        for shape in ((-1,), (-1, -2), (3, -1)):
+            with self.assertRaisesRegex(ValueError, "a size of -1 rays"):
+                alhazen.aligned_rays(*shape)
+
     def test_wrong_arrays_are_errors(self):
         for rays in (np.zeros((3, 5)), np.zeros((3, 6), complex), np.zeros(0), 1.0, [["a"] * 6], np.zeros((2, 7))):
             with self.assertRaisesRegex(alhazen.UsageError, "rays: expected"):

@@ -18,12 +18,14 @@ void prepare_heap() {
     (void)mallopt(M_MMAP_THRESHOLD, 16 << 20);
     (void)mallopt(M_TRIM_THRESHOLD, 2 * kHeapBytes);
     (void)mallopt(M_TOP_PAD, kHeapBytes);
+    auto* const before = static_cast<std::byte*>(sbrk(0));
     void* volatile block =
         std::malloc(kDefaultPad);  // volatile: keeps the compiler from removing both calls
     std::free(block);
     (void)mallopt(M_TOP_PAD, kDefaultPad);
     auto* const end = static_cast<std::byte*>(sbrk(0));
-    prefer_huge_pages(end - kHeapBytes, kHeapBytes);
+    // The break stays where it is if the heap has other memory, or may not grow.
+    if (end > before) prefer_huge_pages(before, static_cast<std::size_t>(end - before));
 #endif
 }
 

@@ -293,6 +293,8 @@ bool make_ready(Emitter& e) {
         const double near = length(x) + length(y);
         const double far = near + std::sqrt(kMargin / kLeastSolidAngle * e.area);
         e.far_squared = far * far;
+        constexpr double kRounding = 1e-12;
+        e.in_plane = kRounding * (max_component(abs(corner_of(e))) + near);
     }
     return e.area > 0.0 && std::isfinite(e.area) && is_finite(corner_of(e)) &&
            is_finite(axis_z(e)) && e.radiance.is_finite();

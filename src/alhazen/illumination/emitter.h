@@ -11,6 +11,7 @@
 /// Complexity: O(1); O(log n) for a polygon of n triangles. Threads: const functions may be called
 /// from many.
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -63,19 +64,24 @@ struct Emitter {
     /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the
     /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle.
     double far_squared = std::numeric_limits<double>::infinity();
+    /// The same forms: nearer to its plane a point may lie in it, but for rounding.
+    double in_plane = -1;
     Rgb radiance;                          ///< mean over the surface
     std::optional<Illuminant> illuminant;  ///< its spectrum, if known
     std::shared_ptr<const EmitterParts> parts;
     std::shared_ptr<const EmittingPatch> patch;
 };
 
-/// Sets `area`, `right_angled`, `sides` and `far_squared`. False if the area is 0 or some value is
-/// not finite.
+/// Sets `area`, `right_angled`, `sides`, `far_squared` and `in_plane`. False if the area is 0 or
+/// some value is not finite.
 [[nodiscard]] bool make_ready(Emitter& emitter);
 
-/// True if a point is certain to be in the range where the emitter is sampled by area.
+/// True if a point is certain to be where the emitter is sampled by area: far away, or in its
+/// plane, where rounding alone decides between a solid angle of 0 and of half of all directions.
 [[nodiscard]] inline bool is_far(const Emitter& emitter, const Vec3& from) {
-    return length_squared(emitter.world_from_own.translation - from) > emitter.far_squared;
+    const Vec3 offset = emitter.world_from_own.translation - from;
+    return length_squared(offset) > emitter.far_squared ||
+           std::abs(dot(offset, emitter.world_from_own.linear.z_axis)) <= emitter.in_plane;
 }
 
 /// A point of an emitter as seen from another point.

@@ -37,7 +37,8 @@ bool is_invertible(const Affine& m) {
         return is_finite(t.linear.x_axis) && is_finite(t.linear.y_axis) &&
                is_finite(t.linear.z_axis) && is_finite(t.translation);
     };
-    return finite(m) && determinant(m.linear) != 0.0 && finite(inverse(m));
+    const double det = determinant(m.linear);
+    return finite(m) && std::isfinite(det) && det != 0.0 && finite(inverse(m));
 }
 
 }  // namespace alhazen

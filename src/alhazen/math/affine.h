@@ -54,7 +54,8 @@ inline Affine operator*(const Affine& a, const Affine& b) {
 }
 /// Not finite for a singular transform.
 [[nodiscard]] Affine inverse(const Affine& m);
-/// True if every entry is finite and the linear part has an inverse with finite entries.
+/// True if every entry is finite and the linear part has an inverse with finite entries, and a
+/// determinant that neither overflows nor underflows.
 [[nodiscard]] bool is_invertible(const Affine& m);
 
 }  // namespace alhazen

@@ -1,5 +1,7 @@
 // TBB is started by the first call with several tasks and several threads: loading and starting it
-// takes longer than rendering a small picture.
+// takes longer than rendering a small picture. Arenas are kept and used again: TBB frees one only
+// when a worker next looks for work, and until then every new one lengthens the list it looks
+// through.
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -8,6 +10,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
@@ -20,6 +26,43 @@ struct Arena {
     explicit Arena(int most) : threads(most), tasks(most) {}
     int threads;
     tbb::task_arena tasks;  ///< starts TBB when it is entered
+};
+
+/// The arenas that no limit uses.
+class ArenaPool {
+  public:
+    /// Never destroyed: limits may outlive static objects.
+    static ArenaPool& instance() {
+        static auto* const pool = new ArenaPool;
+        return *pool;
+    }
+
+    [[nodiscard]] std::unique_ptr<Arena> take(int threads) {
+        {
+            const std::lock_guard lock(mutex_);
+            const auto found = std::find_if(free_.begin(), free_.end(), [&](const auto& arena) {
+                return arena->threads == threads;
+            });
+            if (found != free_.end()) {
+                std::unique_ptr<Arena> arena = std::move(*found);
+                free_.erase(found);
+                return arena;
+            }
+        }
+        return std::make_unique<Arena>(threads);
+    }
+    void give_back(std::unique_ptr<Arena> arena) {
+        const std::lock_guard lock(mutex_);
+        if (free_.size() < kMostFree) free_.push_back(std::move(arena));
+    }
+
+  private:
+    static constexpr std::size_t kMostFree = 64;
+
+    ArenaPool() { free_.reserve(kMostFree); }
+
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Arena>> free_;
 };
 
 /// Sets the arena that the calls of a thread will enter, for the lifetime of the object.
@@ -65,8 +108,9 @@ int most_threads(int wanted) {
 }  // namespace
 
 struct ThreadLimit::Impl {
-    explicit Impl(int threads) : arena(threads) {}
-    Arena arena;
+    explicit Impl(int threads) : arena(ArenaPool::instance().take(threads)) {}
+    ~Impl() { ArenaPool::instance().give_back(std::move(arena)); }
+    std::unique_ptr<Arena> arena;
 };
 
 ThreadLimit::ThreadLimit(int threads)
@@ -78,7 +122,7 @@ ThreadLimit::~ThreadLimit() {
 }
 
 void ThreadLimit::run(const std::function<void()>& work) {
-    const Ahead ahead(&impl_->arena);
+    const Ahead ahead(impl_->arena.get());
     work();
 }
 

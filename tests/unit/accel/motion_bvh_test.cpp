@@ -57,6 +57,14 @@ TEST(MotionBvh, VisitsAllThatARayMeetsAtItsTime) {
                 const double time = i < 2 ? i : 0.5 * (1 + number(random));
                 Ray ray{center + 2 * size * Vec3{number(random), number(random), number(random)},
                         {number(random), number(random), i % 5 == 0 ? 0.0 : number(random)}};
+                // Along an axis and along planes, from either side of zero.
+                if (i % 5 == 1) ray.direction.z = -0.0;
+                if (i % 7 == 3) {
+                    ray.direction = {i % 2 == 0 ? 1.0 : -1.0, -0.0, i % 3 == 0 ? -0.0 : 0.0};
+                    ray.origin =
+                        center + Vec3{-2 * size * ray.direction.x, 0.3 * size * number(random),
+                                      0.3 * size * number(random)};
+                }
                 if (i % 4 == 0) ray.t_max = size;
                 std::multiset<std::uint32_t> visited, in_any_order;
                 tree.traverse<MotionBvh::Order::NearFirst>(

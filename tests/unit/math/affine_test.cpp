@@ -79,6 +79,9 @@ TEST(Affine, SingularTransformsAreRecognised) {
     EXPECT_FALSE(is_invertible(Affine::translate({std::nan(""), 0, 0})));
     EXPECT_FALSE(is_invertible(Affine::scale({1e-200, 1e-200, 1})));
     EXPECT_TRUE(is_invertible(Affine::scale({1e-50, 1e-50, 1e-50})));
+    // The determinant overflows: the adjugate over it would be zero.
+    EXPECT_FALSE(is_invertible(Affine::scale({1e103, 1e103, 1e103})));
+    EXPECT_TRUE(is_invertible(Affine::scale({1e100, 1e100, 1e100})));
 }
 
 TEST(Vec3, PerpendicularIsUnitAndPerpendicular) {

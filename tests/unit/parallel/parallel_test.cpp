@@ -1,6 +1,7 @@
 #include "alhazen/parallel/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -54,6 +55,49 @@ TEST(Parallel, InvokeRunsBoth) {
     std::atomic<int> sum{0};
     parallel_invoke([&] { sum += 1; }, [&] { sum += 2; });
     EXPECT_EQ(sum, 3);
+}
+
+/// The most memory that the process has had so far, in bytes.
+std::size_t most_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+TEST(Parallel, LimitsMadeAgainAndAgainTakeNoMemory) {
+    const auto limits = [](int count) {
+        for (int i = 0; i < count; ++i) {
+            std::atomic<int> sum{0};
+            ThreadLimit(2).run([&] { parallel_for(4, 1, [&](auto, auto) { ++sum; }); });
+            ASSERT_EQ(sum, 4);
+        }
+    };
+    limits(10);
+    const std::size_t before = most_memory();
+    limits(3000);
+    // An arena takes 7 KB.
+    EXPECT_LT(most_memory(), before + (4 << 20));
+}
+
+TEST(Parallel, LimitsInUseAreApart) {
+    ThreadLimit(2).run([] {
+        std::atomic<int> sum{0};
+        parallel_for(8, 1, [&](auto, auto) {
+            ThreadLimit(2).run([&] { parallel_for(8, 1, [&](auto, auto) { ++sum; }); });
+        });
+        EXPECT_EQ(sum, 64);
+    });
+    std::vector<std::jthread> threads;
+    std::atomic<int> sum{0};
+    for (int i = 0; i < 8; ++i) {
+        threads.emplace_back([&] {
+            for (int k = 0; k < 20; ++k) {
+                ThreadLimit(2).run([&] { parallel_for(8, 1, [&](auto, auto) { ++sum; }); });
+            }
+        });
+    }
+    threads.clear();
+    EXPECT_EQ(sum, 8 * 20 * 8);
 }
 
 /// Counts the threads inside a region and their maximum.

@@ -205,7 +205,7 @@ MotionBvh::RaySlabs MotionBvh::slabs(const Ray& ray, double time) const {
                                    ? largest / d
                                    : std::copysign(1.0 / kLeastDirection, d);
         const double aside = std::copysign(margin, d);
-        slabs.near_side[k] = d < 0.0;
+        slabs.near_side[k] = std::signbit(d);  // as copysign: -0 points down
         slabs.inverse[k] = static_cast<float>(inverse);
         slabs.near[k] = static_cast<float>((origin[k] + aside) * inverse);
         slabs.far[k] = static_cast<float>((origin[k] - aside) * inverse);

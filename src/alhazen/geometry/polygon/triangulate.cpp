@@ -65,7 +65,7 @@ std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::
 }
 
 /// Ear clipping makes better-shaped triangles and accepts any polygon; the sweep is always fast.
-constexpr std::size_t kMostForEars = 4096;
+constexpr std::size_t kMostForEars = 1024;
 
 /// True if no corner turns right and the turns add up to one revolution (a star turns left at every
 /// corner, but makes several revolutions).

@@ -1,7 +1,7 @@
 #pragma once
 /// Triangulates a planar polygon, convex or not, on its own vertices.
 ///
-/// Source: the ear clipping of ear_clipper.h and, for concave polygons of more than 4096 vertices,
+/// Source: the ear clipping of ear_clipper.h and, for concave polygons of more than 1024 vertices,
 /// the sweep of sweep_triangulation.h.
 /// Differs: a convex polygon becomes a fan; a large polygon that the sweep rejects, because it
 /// touches or crosses itself, is triangulated by ear clipping.
@@ -9,7 +9,7 @@
 /// keep its orientation. n vertices always give n - 2 triangles, even if the polygon touches or
 /// crosses itself, so that edges shared with neighbours stay shared. A polygon with a non-finite
 /// coordinate becomes a fan.
-/// Complexity and threads: O(n) for convex polygons, O(n log n) for simple ones of more than 4096
+/// Complexity and threads: O(n) for convex polygons, O(n log n) for simple ones of more than 1024
 /// vertices, a bounded number of steps per vertex for all others (ear_clipper.h); no shared state.
 
 #include <array>

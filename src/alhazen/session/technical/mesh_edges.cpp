@@ -136,7 +136,8 @@ class MeshEdgeFinder {
                 is_edge || dot(n, m) < kCrease || (facing(n, a) > 0.0) != (facing(m, a) > 0.0);
         } else {
             const auto differ = [&](std::uint32_t u, std::uint32_t v) {
-                return dot(mesh_.normals[u], mesh_.normals[v]) < kCrease;
+                const Vec3 &p = mesh_.normals[u], &q = mesh_.normals[v];
+                return dot(p, q) < kCrease * length(p) * length(q);
             };
             is_edge = is_edge || (differ(sides[0].at_lo, sides[1].at_lo) &&
                                   differ(sides[0].at_hi, sides[1].at_hi));

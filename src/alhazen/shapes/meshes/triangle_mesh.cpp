@@ -146,8 +146,13 @@ void TriangleMesh::generate_normals(NormalWeights weights) {
 
 void TriangleMesh::transform(const Affine& to_from) {
     for (Vec3& position : positions) position = to_from.point(position);
-    const Mat3 from_to = inverse(to_from.linear);
-    for (Vec3& normal : normals) normal = unit_or(transpose_times(from_to, normal), {});
+    // Normals keep their proportions: interpolated ones are those of the mesh, transformed.
+    Mat3 from_to = inverse(to_from.linear);
+    const double largest =
+        std::max({max_component(abs(from_to.x_axis)), max_component(abs(from_to.y_axis)),
+                  max_component(abs(from_to.z_axis))});
+    from_to = {from_to.x_axis / largest, from_to.y_axis / largest, from_to.z_axis / largest};
+    for (Vec3& normal : normals) normal = transpose_times(from_to, normal);
     // A mirrored frame reverses the orientation.
     const float turn = determinant(to_from.linear) < 0.0 ? -1.0f : 1.0f;
     for (VertexTangent& tangent : tangents) {

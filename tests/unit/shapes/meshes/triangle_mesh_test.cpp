@@ -191,11 +191,32 @@ TEST(TriangleMesh, NormalsStayPerpendicularUnderTransforms) {
         ASSERT_EQ(mesh.triangles, triangles);
         const Vec3 e1 = mesh.positions[1] - mesh.positions[0];
         const Vec3 e2 = mesh.positions[2] - mesh.positions[0];
-        ASSERT_NEAR(dot(mesh.normals[0], e1), 0.0, 1e-12 * length(e1)) << "seed 71, case " << i;
-        ASSERT_NEAR(dot(mesh.normals[0], e2), 0.0, 1e-12 * length(e2)) << "seed 71, case " << i;
-        ASSERT_NEAR(length(mesh.normals[0]), 1.0, 1e-14) << "seed 71, case " << i;
+        const Vec3 normal = normalize(mesh.normals[0]);
+        ASSERT_NEAR(dot(normal, e1), 0.0, 1e-12 * length(e1)) << "seed 71, case " << i;
+        ASSERT_NEAR(dot(normal, e2), 0.0, 1e-12 * length(e2)) << "seed 71, case " << i;
         // The normal keeps its side; a reflection reverses the winding.
-        ASSERT_EQ(dot(mesh.normals[0], cross(e1, e2)) < 0.0, mirror) << "seed 71, case " << i;
+        ASSERT_EQ(dot(normal, cross(e1, e2)) < 0.0, mirror) << "seed 71, case " << i;
+    }
+}
+
+TEST(TriangleMesh, InterpolatedNormalsOfATransformedMeshAreTransformedOnes) {
+    Random random(73);
+    for (int i = 0; i < 200; ++i) {
+        TriangleMesh mesh{.positions = {{}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}};
+        mesh.normals = {random.unit_vector(), random.unit_vector(), random.unit_vector()};
+        for (Vec3& normal : mesh.normals) normal.z = std::abs(normal.z);
+        TriangleMesh moved = mesh;
+        const double size = std::exp2(random.uniform(-200, 200));
+        const Affine move = Affine::rotate(random.unit_vector(), i) *
+                            Affine::scale({size, size * random.uniform(0.1, 4), -3 * size});
+        moved.transform(move);
+        const double u = random.uniform(), v = random.uniform() * (1 - u);
+        const auto interpolated = [&](const TriangleMesh& m) {
+            return (1 - u - v) * m.normals[0] + u * m.normals[1] + v * m.normals[2];
+        };
+        const Vec3 expected = size * transpose_times(inverse(move.linear), interpolated(mesh));
+        ASSERT_LT(length(normalize(expected) - normalize(interpolated(moved))), 1e-14)
+            << "seed 73, case " << i;
     }
 }
 

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "alhazen/illumination/emitter.h"
+#include "support/random.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+/// A triangle or rectangle of random size and direction at a random place.
+Emitter random_emitter(Random& random, EmitterForm form) {
+    Emitter e;
+    e.form = form;
+    e.two_sided = true;
+    e.radiance = {1, 1, 1};
+    const double size = random.log_uniform(1e-3, 1e3);
+    const Vec3 u = random.unit_vector();
+    e.world_from_own.translation = random.log_uniform(1e-2, 1e3) * random.unit_vector();
+    e.world_from_own.linear.x_axis = size * u;
+    e.world_from_own.linear.y_axis = size * random.log_uniform(0.1, 10) * perpendicular(u);
+    e.world_from_own.linear.z_axis =
+        normalize(cross(e.world_from_own.linear.x_axis, e.world_from_own.linear.y_axis));
+    EXPECT_TRUE(make_ready(e));
+    return e;
+}
+
+TEST(FlatEmitters, DoNotLightThemselves) {
+    Random random(91);
+    for (const EmitterForm form : {EmitterForm::Triangle, EmitterForm::Rectangle}) {
+        for (int i = 0; i < 500; ++i) {
+            const Emitter e = random_emitter(random, form);
+            const Mat3& own = e.world_from_own.linear;
+            for (int k = 0; k < 20; ++k) {
+                const double x = random.uniform(0.05, 0.45), y = random.uniform(0.05, 0.45);
+                const Vec3 exact = e.world_from_own.translation + x * own.x_axis + y * own.y_axis;
+                // Off the plane by the rounding of a few operations.
+                const double off = 8 * 0x1p-53 * random.uniform(-1, 1);
+                const Vec3 from = exact + off * max_component(abs(exact)) * own.z_axis;
+                double light = 0;
+                constexpr int kDraws = 16;
+                for (int n = 0; n < kDraws; ++n) {
+                    const EmitterSample s = sample(e, from, {random.uniform(), random.uniform()});
+                    if (!(s.density > 0.0)) continue;
+                    light += 1.0 / s.density / kDraws;
+                }
+                // Half of all directions would be 6.28.
+                ASSERT_LT(light, 1e-3) << "case " << i << ", point " << k;
+            }
+        }
+    }
+}
+
+TEST(FlatEmitters, LightWhatLiesJustBesideTheirPlane) {
+    Random random(92);
+    for (const EmitterForm form : {EmitterForm::Triangle, EmitterForm::Rectangle}) {
+        for (int i = 0; i < 500; ++i) {
+            const Emitter e = random_emitter(random, form);
+            const Mat3& own = e.world_from_own.linear;
+            const double scale = max_component(abs(e.world_from_own.translation)) +
+                                 length(own.x_axis) + length(own.y_axis);
+            const Vec3 from = e.world_from_own.translation + 0.3 * (own.x_axis + own.y_axis) +
+                              1e-11 * scale * own.z_axis;
+            const EmitterSample s = sample(e, from, {0.3, 0.7});
+            ASSERT_GT(s.density, 0.0);
+            const EmitterHit hit{s.to_light, s.distance, own.z_axis, s.parameters};
+            ASSERT_NEAR(density(e, from, hit) / s.density, 1.0, 1e-9);
+            if (1e-11 * scale < 1e-6 * length(own.x_axis)) {
+                ASSERT_NEAR(1.0 / s.density, 6.283, 0.01) << "case " << i;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
