@@ -131,6 +131,36 @@ void for_primitives(const WideBvhLayout& layout, F&& f) {
     }
 }
 
+// Blocks hold the spheres that float holds unrounded, and say which.
+TEST(BuildReferences, BlocksHoldSpheresOfFloatUnrounded) {
+    RandomEngine random(53);
+    TableBuilder builder;
+    const auto in_float = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    for (int i = 0; i < 300; ++i) {
+        Vec3 center = uniform_point(random, 4);
+        double radius = uniform(random, 0.01, 0.2);
+        if (i % 3 != 1) center = {in_float(center.x), in_float(center.y), in_float(center.z)};
+        if (i % 3 != 2) radius = in_float(radius);
+        builder.add_sphere(center, radius);
+    }
+    const PrimitiveTable table = builder.finish();
+    const auto& spheres = std::get<ShapeColumn<Sphere>>(table.columns).shapes;
+    const WideBvhLayout layout = build_wide_bvh(table, BoundedPrimitives(table));
+    std::size_t count = 0;
+    for (const SphereBlock& block : layout.spheres) {
+        for (std::size_t lane = 0; lane < used_lanes(block); ++lane) {
+            const std::size_t i = table.index(block.ids[lane].id());
+            ASSERT_EQ(block.ids[lane].exact(), i % 3 == 0) << i;
+            if (!block.ids[lane].exact()) continue;
+            const Sphere held = block.sphere(lane, layout.frame);
+            EXPECT_EQ(held.center, spheres[i].center);
+            EXPECT_EQ(held.radius, spheres[i].radius);
+            ++count;
+        }
+    }
+    EXPECT_EQ(count, 100u);
+}
+
 TEST(BuildReferences, BoxesOfLeavesBuiltAlongACurveContainThoseOfTheTable) {
     for (const double size : {1e-30, 1.0, 3e7, 1e100}) {
         for (const double shift : {0.0, -5.0, 1e5}) {

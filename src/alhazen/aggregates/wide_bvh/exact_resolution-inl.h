@@ -17,7 +17,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
@@ -60,6 +62,14 @@ HWY_INLINE Verdict resolve_triangle(const Ray& ray, const std::uint32_t (&axis)[
     if (!ray.covers(s.t)) return Verdict::Missed;
     hit = {s.t, s.u, s.v, 0};
     return Verdict::Hit;
+}
+
+/// The sphere of a used lane: from the block, which is at hand, where that holds it unrounded.
+HWY_INLINE Sphere sphere_of(const WideBvhScene& scene, const SphereBlock& block, std::size_t lane) {
+    const BlockId id = block.ids[lane];
+    if (HWY_LIKELY(id.exact())) return block.sphere(lane, scene.layout->frame);
+    return std::get<ShapeColumn<Sphere>>(scene.table->columns)
+        .shapes[static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<Sphere>())];
 }
 
 struct SphereCrossings {

@@ -11,6 +11,8 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_HITS_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -105,7 +107,11 @@ class LaneHits {
         const std::uint32_t count = static_cast<std::uint32_t>(hits.size());
         const std::uint32_t every = count == 32 ? ~0u : (1u << count) - 1;
         if (HWY_LIKELY(all)) {
-            for (std::size_t i = 0; i < count; ++i) write(i, hits[i]);
+            std::size_t i = 0;
+            if constexpr (kParts<double, 4> == 1 && !kPlain) {
+                for (; i + 4 <= count; i += 4) write_four(i, &hits[i]);
+            }
+            for (; i < count; ++i) write(i, hits[i]);
             return;
         }
         for (std::uint32_t rest = changed_ & every; rest != 0; rest &= rest - 1) {
@@ -152,6 +158,30 @@ class LaneHits {
             hn::StoreU(hn::Load(d, row + i), d, reinterpret_cast<T*>(to) + i);
         }
     }
+    /// Four hits, the parameters of each by one store.
+    HWY_INLINE void write_four(std::size_t i, Hit* hits) const {
+#if HWY_TARGET != HWY_SCALAR
+        static_assert(offsetof(ShapeHit, u) == 8 && offsetof(ShapeHit, v) == 16 &&
+                      offsetof(ShapeHit, part) == 24 && sizeof(ShapeHit) == 32);
+        const hn::CappedTag<double, 4> d;
+        const hn::RebindToUnsigned<decltype(d)> wide;
+        const auto t = hn::Load(d, t_ + i), u = hn::Load(d, u_ + i), v = hn::Load(d, v_ + i);
+        const auto part = hn::BitCast(
+            d, hn::PromoteTo(wide, hn::Load(hn::Rebind<std::uint32_t, decltype(d)>(), part_ + i)));
+        const auto tu_even = hn::InterleaveLower(d, t, u), tu_odd = hn::InterleaveUpper(d, t, u);
+        const auto vp_even = hn::InterleaveLower(d, v, part);
+        const auto vp_odd = hn::InterleaveUpper(d, v, part);
+        hn::StoreU(hn::ConcatLowerLower(d, vp_even, tu_even), d, &hits[0].t);
+        hn::StoreU(hn::ConcatLowerLower(d, vp_odd, tu_odd), d, &hits[1].t);
+        hn::StoreU(hn::ConcatUpperUpper(d, vp_even, tu_even), d, &hits[2].t);
+        hn::StoreU(hn::ConcatUpperUpper(d, vp_odd, tu_odd), d, &hits[3].t);
+        HWY_UNROLL(4)
+        for (std::size_t k = 0; k < 4; ++k) {
+            hits[k].primitive = PrimitiveId{id_[i + k]};
+            hits[k].path.clear();
+        }
+#endif
+    }
     HWY_INLINE void write(std::size_t i, Hit& hit) const {
         hit.t = t_[i];
         hit.u = u_[i];
@@ -172,6 +202,11 @@ struct HitArraySink {
     bool unset;
 
     HWY_INLINE std::uint32_t begin(std::size_t first, std::size_t count, LaneHits& found) const {
+        // They lie far apart, and are written when the packet is done.
+        if (HWY_LIKELY(count == kPacketLanes)) {
+            HWY_UNROLL(32)
+            for (std::size_t i = 0; i < kPacketLanes; ++i) hwy::Prefetch(&hits[first + i]);
+        }
         for (std::size_t i = 0; i < count && !unset; ++i) {
             if (hits[first + i].found()) found.set_earlier(i, hits[first + i]);
         }

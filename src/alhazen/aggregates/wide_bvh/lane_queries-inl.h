@@ -183,10 +183,12 @@ class LaneLeaves {
                 if (!scene_.sees(id)) continue;
                 std::uint32_t rest = filter_lanes(block, lane, packet_, lanes);
                 stats.primitives(static_cast<std::uint64_t>(std::popcount(lanes & ~rest)));
+                if (rest == 0) continue;
+                const Sphere sphere = sphere_of(scene_, block, lane);
                 for (; rest != 0; rest &= rest - 1) {
                     const auto i = static_cast<std::size_t>(std::countr_zero(rest));
                     float s_max = packet_.s_max[i];
-                    if (derived().sphere(i, id, s_max, stats)) lanes &= ~(1u << i);
+                    if (derived().sphere(i, id, sphere, s_max, stats)) lanes &= ~(1u << i);
                 }
             }
         }
@@ -198,10 +200,6 @@ class LaneLeaves {
         packet_.lay_out(i / kRayLanes, rays_);
         scratch = packet_.rays[i / kRayLanes].ray(i % kRayLanes);
         return scratch;
-    }
-    [[nodiscard]] HWY_INLINE const Sphere& sphere_of(PrimitiveId id) const {
-        return std::get<ShapeColumn<Sphere>>(scene_.table->columns)
-            .shapes[static_cast<std::uint32_t>(id) - scene_.table->first(column_of<Sphere>())];
     }
     /// Exact resolution: see PacketResolution.
     template <class Hits, class Stats>
@@ -291,10 +289,11 @@ class ClosestLanes : public LaneLeaves<ClosestLanes> {
         return false;
     }
     template <class Stats>
-    HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
+    HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, const Sphere& sphere, float& s_max,
+                           Stats stats) {
         SphereCrossings met;
         Ray scratch;
-        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere_of(id), met);
+        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere, met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
@@ -424,10 +423,11 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
         return false;
     }
     template <class Stats>
-    HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
+    HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, const Sphere& sphere, float& s_max,
+                           Stats stats) {
         SphereCrossings met;
         Ray scratch;
-        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere_of(id), met);
+        const Verdict verdict = resolve_sphere(ray_of(i, scratch), sphere, met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;

@@ -158,7 +158,7 @@ struct LeafQuery {
                     continue;
                 }
                 if constexpr (std::is_same_v<Block, SphereBlock>) {
-                    if (visit_sphere(id, stats)) return true;
+                    if (visit_sphere(*blocks, lane, stats)) return true;
                 } else {
                     if (query().shape(id, stats)) return true;
                 }
@@ -169,13 +169,11 @@ struct LeafQuery {
 
     /// The first crossing with a sphere, or both.
     template <class Stats>
-    HWY_NOINLINE bool visit_sphere(BlockId id, Stats stats) {
+    HWY_NOINLINE bool visit_sphere(const SphereBlock& block, std::size_t lane, Stats stats) {
+        const BlockId id = block.ids[lane];
         if (!scene.sees(id.id())) return false;
-        const auto& spheres = std::get<ShapeColumn<Sphere>>(scene.table->columns).shapes;
-        const std::uint32_t place =
-            static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<Sphere>());
         SphereCrossings met;
-        const Verdict verdict = resolve_sphere(ray, spheres[place], met);
+        const Verdict verdict = resolve_sphere(ray, sphere_of(scene, block, lane), met);
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return query().shape(id, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;

@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
@@ -28,8 +29,8 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The query that `traverse` takes. `Leaves` has `triangles(lane, block number, found, s_max,
-/// stats)`, `sphere(lane, id, s_max, stats)` and `shape`, with the same parameters, for all other
-/// primitives. These may lower `s_max`, and return true to stop.
+/// stats)`, `sphere(lane, id, sphere, s_max, stats)` and, for all other primitives, `shape(lane,
+/// id, s_max, stats)`. These may lower `s_max`, and return true to stop.
 template <class Leaves>
 struct LoneRay {
     SlabRay slabs;
@@ -116,7 +117,8 @@ struct LoneRay {
                     continue;
                 }
                 if constexpr (std::is_same_v<Block, SphereBlock>) {
-                    if (scene.sees(id.id()) && leaves.sphere(lane, id.id(), s_max, stats))
+                    if (scene.sees(id.id()) &&
+                        leaves.sphere(lane, id.id(), sphere_of(scene, *blocks, i), s_max, stats))
                         return true;
                 } else {
                     if (leaves.shape(lane, id.id(), s_max, stats)) return true;

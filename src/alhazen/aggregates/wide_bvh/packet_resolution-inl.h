@@ -76,7 +76,10 @@ class PacketResolution {
   private:
     using Reals = Lanes<double, kRays>;
     using Corners = Reals[3][3];
-    using Ids = Lanes<float, kRays>;  ///< bits of PrimitiveId
+    using Ids = Lanes<float, kRays>;                 ///< bits of PrimitiveId
+    using LocalCorners = Lanes<float, kRays>[3][3];  ///< [corner][axis], in the local frame
+    /// Whether a register holds a row of a block.
+    static constexpr bool kHoldsRow = HWY_TARGET != HWY_SCALAR && kParts<float, kRays> == 1;
 
     HWY_INLINE void take_rays(const RayLanes* groups, PairLanes<kRays>& pairs) const {
         const auto row = [&](const auto& of) HWY_ATTR {
@@ -140,27 +143,13 @@ class PacketResolution {
     HWY_INLINE bool take_corners_of_blocks(std::uint32_t lanes, const TrianglePlace* places,
                                            Corners& corners, Ids& ids) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        using F = Lanes<float, kRays>;
-        F local[3][3] = {};
-        ids = F(0.0f);
-        const bool taken =
-            for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
-                const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
-                const std::size_t lane = place % kBlockWidth;
-                if (!block.ids[lane].exact()) return false;
-                const auto mask = lanes_of_bits<float, kRays>(same);
-                ids = select_lanes(mask, bits_as_lanes(block.ids[lane].id()), ids);
-                HWY_UNROLL(3)
-                for (std::size_t i = 0; i < 3; ++i) {
-                    HWY_UNROLL(3)
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        local[i][k] =
-                            select_lanes(mask, F(block.vertex[i][axes[k]][lane]), local[i][k]);
-                    }
-                }
-                return true;
-            });
-        if (!taken) return false;
+        LocalCorners local = {};
+        ids = Ids(0.0f);
+        if constexpr (kHoldsRow) {
+            if (!take_rows(lanes, places, axes, local, ids)) return false;
+        } else {
+            if (!take_one_by_one(lanes, places, axes, local, ids)) return false;
+        }
         const LocalFrame& frame = scene_.layout->frame;
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -172,11 +161,84 @@ class PacketResolution {
         }
         return true;
     }
+    /// Triangle by triangle.
+    HWY_INLINE bool take_one_by_one(std::uint32_t lanes, const TrianglePlace* places,
+                                    const std::size_t (&axes)[3], LocalCorners& local,
+                                    Ids& ids) const {
+        return for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
+            const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
+            const std::size_t lane = place % kBlockWidth;
+            if (!block.ids[lane].exact()) return false;
+            const auto mask = lanes_of_bits<float, kRays>(same);
+            ids = select_lanes(mask, bits_as_lanes(block.ids[lane].id()), ids);
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                HWY_UNROLL(3)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    local[i][k] =
+                        select_lanes(mask, Ids(block.vertex[i][axes[k]][lane]), local[i][k]);
+                }
+            }
+            return true;
+        });
+    }
+    /// Block by block: a row of eight triangles is permuted into the lanes.
+    HWY_INLINE bool take_rows(std::uint32_t lanes, const TrianglePlace* places,
+                              const std::size_t (&axes)[3], LocalCorners& local, Ids& ids) const {
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to permute
+        const LaneTag<float, kRays> d;
+        const hn::RebindToUnsigned<decltype(d)> du;
+        static_assert(kBlockWidth == 8);
+        const auto place = hn::LoadU(du, places);
+        const auto number = hn::ShiftRight<3>(place);
+        const auto lane = hn::IndicesFromVec(d, hn::And(place, hn::Set(du, kBlockWidth - 1)));
+        std::uint32_t others = ((1u << kRays) - 1) & ~lanes;
+        for (std::uint32_t rest = lanes; rest != 0;) {
+            const TrianglePlace first = places[std::countr_zero(rest)] / kBlockWidth;
+            const TriangleBlock& block = scene_.layout->triangles[first];
+            LaneMask<TrianglePlace, kRays> in_block;
+            in_block.part[0] = hn::Eq(number, hn::Set(du, first));
+            const std::uint32_t same = rest & bits_of(in_block);
+            rest &= ~same;
+            const auto mask = lanes_of_bits<float, kRays>(same | others).part[0];
+            others = 0;
+            const auto take = [&](const float* row, Ids& to) HWY_ATTR {
+                to.part[0] =
+                    hn::IfThenElse(mask, hn::TableLookupLanes(row_of_block(row), lane), to.part[0]);
+            };
+            take(reinterpret_cast<const float*>(block.ids), ids);
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                HWY_UNROLL(3)
+                for (std::size_t k = 0; k < 3; ++k) take(block.vertex[i][axes[k]], local[i][k]);
+            }
+        }
+        const auto bits = hn::BitCast(du, ids.part[0]);
+        LaneMask<TrianglePlace, kRays> exact;
+        exact.part[0] = hn::TestBit(bits, hn::Set(du, BlockId::kExactBit));
+        if (HWY_UNLIKELY((lanes & ~bits_of(exact)) != 0)) return false;
+        ids.part[0] = hn::BitCast(d, hn::And(bits, hn::Set(du, BlockId::kLimit)));
+#endif
+        return true;
+    }
+    /// A row of a block in the first lanes.
+    static HWY_INLINE hn::Vec<LaneTag<float, kRays>> row_of_block(const float* row) {
+        const LaneTag<float, kBlockWidth> d;
+#if HWY_CAP_GE512
+        if constexpr (kRays > kBlockWidth) {
+            return hn::ZeroExtendVector(LaneTag<float, kRays>(), hn::Load(d, row));
+        }
+#endif
+        if constexpr (kRays == kBlockWidth) return hn::Load(d, row);
+    }
     /// Corners from the mesh where the block holds rounded ones.
     HWY_INLINE void take_corners(std::uint32_t lanes, const TrianglePlace* places, Corners& corners,
                                  Ids& ids) const {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
         ids = Ids(0.0f);
+        for (auto& corner : corners) {
+            for (Reals& along : corner) along = Reals(0.0);
+        }
         (void)for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
             Vec3 exact[3];
             std::array<const Vec3*, 3> from{&exact[0], &exact[1], &exact[2]};

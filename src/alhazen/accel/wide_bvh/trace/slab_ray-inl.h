@@ -88,7 +88,9 @@ HWY_INLINE bool make_ray_nearby(const LocalFrame& frame, const DistanceBound& bo
     const F2 range =
         min_lanes(as_floats(load_unaligned<2>(&ray.t_min) * D2(frame.scale)), F2(1e37f));
     const F2 step = load_lanes<2>(kStep);
-    store_lanes(max_lanes(mul_sub(range, load_lanes<2>(kWider), step), F2(0.0f)), &slabs.s_min);
+    // Two members, addressed relative to the whole object.
+    float* const ends = reinterpret_cast<float*>(&slabs) + offsetof(SlabRay, s_min) / sizeof(float);
+    store_lanes(max_lanes(mul_sub(range, load_lanes<2>(kWider), step), F2(0.0f)), ends);
     axes.sure = mul_add(range, load_lanes<2>(kNarrower), step);
     return true;
 }

@@ -6,6 +6,7 @@
 ///
 /// Conventions: lanes are in ascending order of id; the used lanes come first.
 
+#include <bit>
 #include <cstdint>
 
 #include "alhazen/accel/wide_bvh/build/build_options.h"
@@ -13,6 +14,7 @@
 #include "alhazen/accel/wide_bvh/nodes/local_frame.h"
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/geometry/hit.h"
+#include "alhazen/shapes/quadrics/sphere.h"
 
 namespace alhazen {
 
@@ -39,15 +41,16 @@ class BlockId {
     /// True if the primitive is opaque.
     [[nodiscard]] bool opaque() const { return (bits_ & kOpaqueBit) != 0; }
 
-    /// True if a block of triangles holds the vertices unrounded.
+    /// True if a block of triangles or spheres holds the primitive unrounded.
     [[nodiscard]] bool exact() const { return (bits_ & kExactBit) != 0; }
 
     /// Bound of the ids that fit.
     static constexpr std::uint32_t kLimit = 0x3FFFFFFFu;
+    /// The bit of `exact`, for code that reads ids in lanes.
+    static constexpr std::uint32_t kExactBit = 1u << 30;
 
   private:
     static constexpr std::uint32_t kOpaqueBit = 1u << 31;
-    static constexpr std::uint32_t kExactBit = 1u << 30;
     std::uint32_t bits_;
 };
 
@@ -81,6 +84,13 @@ struct alignas(64) SphereBlock {
     float radius[kBlockWidth];     ///< includes the rounding of the center
     BlockId ids[kBlockWidth];
     std::uint32_t lanes = 0;  ///< bits of the used lanes; the others repeat the first
+
+    /// The sphere of a lane that is exact: the radius is one step above its own.
+    [[nodiscard]] Sphere sphere(std::size_t lane, const LocalFrame& frame) const {
+        const auto bits = std::bit_cast<std::uint32_t>(radius[lane]) - 1;
+        return {frame.world({center[0][lane], center[1][lane], center[2][lane]}),
+                frame.inverse_scale * std::bit_cast<float>(bits)};
+    }
 };
 static_assert(sizeof(SphereBlock) == 192);
 

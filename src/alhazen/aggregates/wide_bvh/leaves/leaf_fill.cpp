@@ -12,6 +12,13 @@
 namespace alhazen {
 namespace {
 
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+bool same_bits(const Vec3& a, const Vec3& b) {
+    return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+
 #ifdef __SSE2__
 
 /// Writes triangles into the lanes of a block.
@@ -53,11 +60,6 @@ class LaneWriter {
 };
 
 #else
-
-bool same_bits(const Vec3& a, const Vec3& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
-}
 
 /// Writes triangles into the lanes of a block.
 class LaneWriter {
@@ -108,15 +110,16 @@ double set_point(float (&rows)[3][kBlockWidth], std::size_t lane, const Vec3& p)
     return moved;
 }
 
-/// Calls `fill(lane, id)` for every lane; unused lanes repeat the first.
+/// Calls `fill(lane, id)` for every lane, which returns BlockId::exact; unused lanes repeat the
+/// first.
 template <class Block, class Fill>
 void fill_lanes(Block& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 Fill&& fill) {
     for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
         const bool used = lane < ids.size();
         const PrimitiveId id = ids[used ? lane : 0];
-        fill(lane, id);
-        block.ids[lane] = used ? BlockId{id, table.is_opaque(id), false} : BlockId::none();
+        const bool exact = fill(lane, id);
+        block.ids[lane] = used ? BlockId{id, table.is_opaque(id), exact} : BlockId::none();
     }
 }
 
@@ -173,6 +176,8 @@ void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const Prim
         const Sphere& sphere = spheres[table.index(id)];
         const double moved = set_point(block.center, lane, frame.local(sphere.center));
         block.radius[lane] = round_up(kMore * (sphere.radius * frame.scale) + moved);
+        const Sphere held = block.sphere(lane, frame);
+        return same_bits(held.center, sphere.center) && same_bits(held.radius, sphere.radius);
     });
     block.lanes = (1u << ids.size()) - 1;
 }
@@ -192,6 +197,7 @@ void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const Pri
         const double steep = bounds.slope * (4 * kExactTestSlack);
         block.half_height[lane] = round_up(kMore * height + 1.01 * (moved + away));
         block.radius[lane] = round_up(kMore * radius + 1.01 * (moved + 2.0 * away) + steep);
+        return false;
     });
     block.lanes = (1u << ids.size()) - 1;
 }
@@ -257,6 +263,7 @@ void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const Primiti
             set_point(block.direction[slab], lane, bounds.direction[slab]);
             block.half[slab][lane] = round_up(half_of(bounds, block, lane, slab, frame));
         }
+        return false;
     });
     for (std::size_t lane = ids.size(); lane < kBlockWidth; ++lane) {
         for (auto& half : block.half) half[lane] = -std::numeric_limits<float>::infinity();

@@ -44,7 +44,7 @@ HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const AxisLanes& 
     static_assert(offsetof(TriangleFilterRay, sx) == offsetof(TriangleFilterRay, origin) + 16);
     static_assert(offsetof(TriangleFilterRay, sure_max) ==
                   offsetof(TriangleFilterRay, sure_min) + sizeof(float));
-    float* origin = reinterpret_cast<float*>(&filter);
+    float* const origin = reinterpret_cast<float*>(&filter);
     store_lanes(turned(axes.origin), origin);
     store_lanes(turned(axes.direction) * AxisLanes::F(sz), origin + 4);
     std::memcpy(&filter.kx, kTurned[kz], sizeof(kTurned[kz]));
@@ -55,7 +55,7 @@ HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const AxisLanes& 
     filter.edge_slack = 5.12f * error;
     filter.edge_slack_min = 2.12f * error * error;
     filter.s_slack = (14.2f * e * axes.reach + 4.0f * axes.delta) * std::abs(sz);
-    store_lanes(axes.sure, &filter.sure_min);
+    store_lanes(axes.sure, origin + offsetof(TriangleFilterRay, sure_min) / sizeof(float));
     if (HWY_UNLIKELY(!axes.regular)) {
         filter.edge_slack = filter.near_error = std::numeric_limits<float>::infinity();
     }
