@@ -10,8 +10,8 @@
 #define HWY_TARGET_INCLUDE "alhazen/csg/csg_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/csg/span_lanes-inl.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/shapes/span_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -454,13 +454,14 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRaysAtManyShapesWithoutATestInLane
 
 TEST(CoherentBatch, TheTraversalFollowsWhatTheTreeHolds) {
     const auto traversal = [](std::size_t triangles, std::size_t spheres, std::size_t frustums,
-                              std::size_t others, bool any_hit, std::size_t registers) {
+                              std::size_t others, bool any_hit, std::size_t registers,
+                              bool others_alone = false) {
         WideBvhLayout layout;
         layout.triangles.resize(triangles);
         layout.spheres.resize(spheres);
         layout.frustums.resize(frustums);
         layout.others.resize(others);
-        return coherent_traversal(layout, any_hit, registers);
+        return coherent_traversal(layout, any_hit, registers, others_alone);
     };
     constexpr std::size_t kAvx512 = 1, kAvx2 = 2, kSse4 = 4;
     for (const std::size_t registers : {kAvx512, kAvx2, kSse4}) {
@@ -474,8 +475,13 @@ TEST(CoherentBatch, TheTraversalFollowsWhatTheTreeHolds) {
         EXPECT_EQ(traversal(64, 64, 0, 1, false, registers), CoherentTraversal::Frusta);
         EXPECT_EQ(traversal(64, 64, 0, 1, true, registers), CoherentTraversal::Frusta);
         EXPECT_EQ(traversal(3, 0, 2, 0, true, registers), CoherentTraversal::Lanes);
-        EXPECT_EQ(traversal(2, 1, 3, 0, true, registers), CoherentTraversal::Alone);
-        EXPECT_EQ(traversal(0, 0, 3, 0, true, registers), CoherentTraversal::Alone);
+        const CoherentTraversal scalar =
+            registers == kSse4 ? CoherentTraversal::Alone : CoherentTraversal::Lanes;
+        EXPECT_EQ(traversal(2, 1, 3, 0, true, registers), scalar);
+        EXPECT_EQ(traversal(0, 0, 3, 0, true, registers), scalar);
+        EXPECT_EQ(traversal(64, 64, 0, 1, false, registers, true), closest);
+        EXPECT_EQ(traversal(0, 0, 0, 3, false, registers, true), scalar);
+        EXPECT_EQ(traversal(0, 0, 0, 3, true, registers, true), scalar);
     }
 }
 

@@ -178,5 +178,63 @@ TEST(CoherentShapes, GroupsWithoutAUsableRayMeetNothing) {
     compare("refused rays", maker.compile().aggregate->primitives(), rays);
 }
 
+/// Spheres and, if `mixed`, cylinders, cones and discs above a large ground.
+PrimitiveTable bodies_on_a_ground(std::uint64_t seed, bool mixed) {
+    RandomStream random(seed);
+    SceneMaker maker;
+    maker.material({});
+    const auto point = [&] {
+        return Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    };
+    maker.add(Polygon{.vertices = {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}}});
+    for (int i = 0; i < 900; ++i) {
+        const Vec3 at = point(), top = at + 0.1 * point();
+        const double radius = random.uniform(0.001, 0.05);
+        const int kind = mixed ? i % 6 : 0;
+        const bool capped = i % 4 == 1;
+        if (kind == 0) maker.add(Sphere{at, radius});
+        if (kind == 1 || kind == 2) {
+            maker.add(Cylinder{.base = at, .top = top, .radius = radius, .capped = capped});
+        }
+        if (kind == 3 || kind == 4) {
+            maker.add(Cone{.base = at,
+                           .top = top,
+                           .base_radius = kind == 3 ? radius : 0.0,
+                           .top_radius = kind == 3 ? (i % 5) * 0.02 : radius,
+                           .capped = capped});
+        }
+        if (kind == 5) maker.add(Disc{.center = at, .normal = point(), .radius = radius});
+    }
+    return maker.compile().aggregate->primitives();
+}
+
+TEST(CoherentShapes, BodiesOnAGroundAreHitAsByTheList) {
+    for (std::uint64_t seed = 11; seed < 14; ++seed) {
+        const PrimitiveTable table = bodies_on_a_ground(seed, seed != 13);
+        const std::string name = "bodies on a ground " + std::to_string(seed);
+        compare(name, table, eye_rays({0.1, 0.2, 4}, {0, 0, -1}, 0.4, 45));
+        compare(name + " from inside", table, eye_rays({0.1, 0.2, 0.3}, {-1, 0.2, 0.3}, 0.4, 24));
+        compare(name + " from afar", table, eye_rays({300, 200, 400}, {-3, -2, -4}, 0.002, 24));
+        compare(name + " in shadow", table,
+                shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 24));
+        compare(name + " along an axis", table, eye_rays({0, 0, 4}, {0, 0, -1}, 0.0, 16), false);
+    }
+}
+
+TEST(CoherentShapes, AGroundDoesNotKeepRaysFromPackets) {
+    const Rays rays = eye_rays({0.1, 0.2, 4}, {0, 0, -1}, 0.2, 32);
+    for (const std::string& target : simd_targets()) {
+        if (target.find("AVX") == std::string::npos) continue;  // others have no lane packets here
+        const SimdTargetOverride use(target);
+        const auto tree = make_aggregate("wide_bvh", bodies_on_a_ground(14, true));
+        std::vector<Hit> hits(rays.size());
+        TraversalStats any, coherent;
+        tree->closest_batch(rays, hits, &any);
+        tree->closest_batch(rays, hits, &coherent, Coherence::Coherent);
+        EXPECT_GT(coherent.node_visits, 0u) << target;
+        EXPECT_LT(3 * coherent.node_visits, any.node_visits) << target;
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -143,12 +143,13 @@ HWY_INLINE void run_lanes(const WideBvhScene& scene, const GivenRays& rays, cons
 
 /// Whether a tree has packets in lanes, for any hit or for closest hits.
 template <bool kAnyHit>
-HWY_INLINE bool has_lane_packets(const WideBvhLayout& layout) {
+HWY_INLINE bool has_lane_packets(const WideBvhScene& scene) {
     constexpr std::size_t kRegisters = kParts<float, 16>;
     if constexpr (!kAnyHit && kRegisters > kMostLaneRegisters) return false;
     // Packets need vertices in the leaves.
-    return !layout.is_indexed() &&
-           coherent_traversal(layout, kAnyHit, kRegisters) == CoherentTraversal::Lanes;
+    return !scene.layout->is_indexed() &&
+           coherent_traversal(*scene.layout, kAnyHit, kRegisters, scene.others_alone) ==
+               CoherentTraversal::Lanes;
 }
 
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
@@ -160,13 +161,13 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
     const WideBvhLayout& layout = *scene.layout;
     constexpr bool kAnyHit = !InLanes::kOrdered;
     if constexpr (kAnyHit || kParts<float, 16> <= kMostLaneRegisters) {
-        if (has_lane_packets<kAnyHit>(layout)) {
+        if (has_lane_packets<kAnyHit>(scene)) {
             return run_lanes<InLanes>(scene, GivenRays(rays), sink, stats, otherwise);
         }
     }
     clear_unset(sink);
-    if (layout.is_indexed() ||
-        coherent_traversal(layout, kAnyHit, kParts<float, 16>) == CoherentTraversal::Alone) {
+    if (layout.is_indexed() || coherent_traversal(layout, kAnyHit, kParts<float, 16>,
+                                                  scene.others_alone) == CoherentTraversal::Alone) {
         return otherwise(0, rays.size());
     }
     const PrefetchTable prefetch_table = prefetch_table_of(layout);

@@ -89,7 +89,7 @@ struct Kernels {
                                 [[maybe_unused]] const HitColumns& hits,
                                 [[maybe_unused]] TraversalStats* stats) {
         if constexpr (kParts<float, 16> <= kMostLaneRegisters) {
-            if (!has_lane_packets<false>(*scene.layout)) return false;
+            if (!has_lane_packets<false>(scene)) return false;
             const auto otherwise = [&](std::size_t i, std::size_t) {
                 Hit hit;
                 closest(scene, rays.ray(i), hit, stats);
@@ -103,7 +103,7 @@ struct Kernels {
     }
     static bool occluded_columns(const WideBvhScene& scene, const RayColumns& rays,
                                  std::span<bool> result, TraversalStats* stats) {
-        if (!has_lane_packets<true>(*scene.layout)) return false;
+        if (!has_lane_packets<true>(scene)) return false;
         std::fill(result.begin(), result.end(), false);
         const auto otherwise = [&](std::size_t i, std::size_t) {
             result[i] = occluded(scene, rays.ray(i), stats);

@@ -1,4 +1,4 @@
-/// The filters of triangles and spheres with the rays of a packet in lanes (lane_packet-inl.h): one
+/// The filters of triangles and shapes with the rays of a packet in lanes (lane_packet-inl.h): one
 /// of them against all rays of a set.
 ///
 /// Source: triangle_filter.h and shape_filters.h, whose bounds they have; errors that depend on the
@@ -14,9 +14,9 @@
 #endif
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_crossing-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
-#include "alhazen/aggregates/wide_bvh/leaves/shape_filters.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -85,17 +85,41 @@ HWY_INLINE bool filter_lanes(const TriangleBlock& block, std::size_t lane, const
     return true;
 }
 
-/// Bits of the rays of `lanes` that may hit a sphere: shape_candidates of a SphereBlock, with rays
-/// in the lanes.
+/// Bits of the rays of `lanes` whose range overlaps the part of the ray that a filter left.
+HWY_INLINE std::uint32_t reaching(const Chord<PacketFloats>& chord, const LanePacket& packet,
+                                  std::uint32_t lanes) {
+    using F = PacketFloats;
+    const F sz = load_row(packet.reciprocal[packet.kz]);
+    const F a = chord.first * sz, b = chord.last * sz;
+    const F slack = F(packet.place_error) * abs(sz);
+    return lanes & ~bits_of((chord.first > chord.last) |
+                            (min_lanes(a, b) - slack > load_row(packet.s_max)) |
+                            (max_lanes(a, b) + slack < load_row(packet.s_min)));
+}
+
+/// The i-th of three rows of a block, for all rays, along their axes.
+HWY_INLINE AxisRows<PacketFloats> for_rays(const float (&rows)[3][kBlockWidth], std::size_t i,
+                                           const LanePacket& packet) {
+    return {PacketFloats(rows[packet.kx][i]), PacketFloats(rows[packet.ky][i]),
+            PacketFloats(rows[packet.kz][i])};
+}
+HWY_INLINE AxisRows<PacketFloats> from_center(const float (&center)[3][kBlockWidth], std::size_t i,
+                                              const LanePacket& packet) {
+    const AxisRows<PacketFloats> c = for_rays(center, i, packet);
+    return {load_row(packet.origin[packet.kx]) - c.x, load_row(packet.origin[packet.ky]) - c.y,
+            load_row(packet.origin[packet.kz]) - c.z};
+}
+HWY_INLINE AxisRows<PacketFloats> slopes_of(const LanePacket& packet) {
+    return {load_row(packet.slope[0]), load_row(packet.slope[1]), PacketFloats(1.0f)};
+}
+
+/// Bits of the rays of `lanes` that may hit a shape: shape_candidates with rays in the lanes.
 HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
                                       const LanePacket& packet, std::uint32_t lanes) {
     using F = PacketFloats;
-    const std::size_t kx = packet.kx, ky = packet.ky, kz = packet.kz;
-    const F sx = load_row(packet.slope[0]), sy = load_row(packet.slope[1]);
-    const F x = load_row(packet.origin[kx]) - F(block.center[kx][i]);
-    const F y = load_row(packet.origin[ky]) - F(block.center[ky][i]);
-    const F z = load_row(packet.origin[kz]) - F(block.center[kz][i]);
-    const F inverse = F(1.0f) / mul_add(sx, sx, mul_add(sy, sy, F(1.0f)));
+    const auto [sx, sy, sz] = slopes_of(packet);
+    const auto [x, y, z] = from_center(block.center, i, packet);
+    const F inverse = F(1.0f) / mul_add(sx, sx, mul_add(sy, sy, sz));
     const F middle = -(mul_add(x, sx, mul_add(y, sy, z)) * inverse);
     // Where it passes the center.
     const F nx = mul_add(middle, sx, x), ny = mul_add(middle, sy, y), nz = z + middle;
@@ -104,11 +128,33 @@ HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
     lanes &= ~bits_of(room < F(0.0f));
     if (lanes == 0) return 0;
     const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
-    const F sz = load_row(packet.reciprocal[kz]);
-    const F a = (middle - half) * sz, b = (middle + half) * sz;
-    const F slack = F(packet.place_error) * abs(sz);
-    return lanes & ~bits_of((min_lanes(a, b) - slack > load_row(packet.s_max)) |
-                            (max_lanes(a, b) + slack < load_row(packet.s_min)));
+    return reaching({middle - half, middle + half}, packet, lanes);
+}
+HWY_INLINE std::uint32_t filter_lanes(const FrustumBlock& block, std::size_t i,
+                                      const LanePacket& packet, std::uint32_t lanes) {
+    using F = PacketFloats;
+    const float slack = kRoundSlack * packet.edge_slack;
+    Chord<F> chord;
+    std::uint32_t missed;
+    if (!frustum_chord(from_center(block.center, i, packet), slopes_of(packet),
+                       for_rays(block.axis, i, packet), F(block.half_height[i] + slack),
+                       F(block.radius[i] + slack), lanes, missed, chord)) {
+        return 0;
+    }
+    return reaching(chord, packet, lanes & ~missed);
+}
+HWY_INLINE std::uint32_t filter_lanes(const BoxBlock& block, std::size_t i,
+                                      const LanePacket& packet, std::uint32_t lanes) {
+    using F = PacketFloats;
+    const float slack = kSlabSlack * packet.edge_slack;
+    const AxisRows<F> direction[3] = {for_rays(block.direction[0], i, packet),
+                                      for_rays(block.direction[1], i, packet),
+                                      for_rays(block.direction[2], i, packet)};
+    const F half[3] = {F(block.half[0][i] + slack), F(block.half[1][i] + slack),
+                       F(block.half[2][i] + slack)};
+    return reaching(
+        box_chord(from_center(block.center, i, packet), slopes_of(packet), direction, half), packet,
+        lanes);
 }
 
 }  // namespace HWY_NAMESPACE

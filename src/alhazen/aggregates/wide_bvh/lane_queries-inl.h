@@ -1,5 +1,5 @@
-/// The queries of the wide BVH aggregate by packets of rays in lanes: triangles and spheres against
-/// all rays of a set, all else ray by ray.
+/// The queries of the wide BVH aggregate by packets of rays in lanes: the filter of a triangle or a
+/// shape (lane_shapes-inl.h) against all rays of a set.
 ///
 /// Source: traverse_lanes-inl.h, lane_filter-inl.h.
 /// Conventions: included once per target (see simd/lanes-inl.h).
@@ -17,6 +17,7 @@
 #include <new>
 #include <span>
 #include <tuple>
+#include <type_traits>
 
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
@@ -25,7 +26,7 @@
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_hits-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_pinhole-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_shapes-inl.h"
 #include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
@@ -39,24 +40,31 @@ namespace HWY_NAMESPACE {
 /// and the rays that it may be hit by, returning those that need no more; `triangles`, `sphere` and
 /// `shape` for one ray (lone_ray-inl.h); and `left()` when a leaf has limited rays.
 template <class Derived>
-class LaneLeaves {
+class LaneLeaves : public LaneShapes<Derived> {
+    using Base = LaneShapes<Derived>;
+
   public:
     /// `in_turn`: null if rays that go on alone do not wait for memory.
     HWY_INLINE LaneLeaves(const WideBvhScene& scene, const PrefetchTable* in_turn,
                           const GivenRays& rays, LanePacket& packet)
-        : scene_(scene),
-          rays_(rays),
-          packet_(packet),
-          in_turn_(in_turn),
-          resolution_(scene, packet, rays) {}
+        : Base(scene, rays, packet), in_turn_(in_turn), resolution_(scene, packet, rays) {}
 
     template <class Stats>
     HWY_INLINE void visit(NodeRef ref, std::uint32_t lanes, Stats stats) {
-        const auto type = static_cast<LeafType>(ref.kind());
-        if (type == LeafType::Spheres) return visit_spheres(ref, lanes, stats);
-        if (type != LeafType::Triangles) return go_alone(ref, lanes, stats);
+        const WideBvhLayout& layout = *scene_.layout;
+        const std::uint32_t count = ref.count();
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles:
+                break;
+            case LeafType::Spheres:
+                return Base::visit_shapes(&layout.spheres[ref.offset()], count, lanes, stats);
+            case LeafType::Frustums:
+                return Base::visit_shapes(&layout.frustums[ref.offset()], count, lanes, stats);
+            case LeafType::Others:
+                return Base::visit_shapes(&layout.others[ref.offset()], count, lanes, stats);
+        }
         bool changed = false;
-        for (std::uint32_t i = 0; i < ref.count() && lanes != 0; ++i) {
+        for (std::uint32_t i = 0; i < count && lanes != 0; ++i) {
             changed |= visit_triangles(ref.offset() + i, lanes, stats);
         }
         if (changed) derived().left();
@@ -114,7 +122,7 @@ class LaneLeaves {
     }
 
   protected:
-    HWY_INLINE Derived& derived() { return static_cast<Derived&>(*this); }
+    using Base::derived, Base::packet_, Base::rays_, Base::scene_;
 
     /// Rays that need no more leave `lanes`.
     template <class Stats>
@@ -159,48 +167,6 @@ class LaneLeaves {
         }
         return changed;
     }
-    /// Each sphere against all rays, the nearest first where that matters.
-    template <class Stats>
-    HWY_NOINLINE void visit_spheres(NodeRef ref, std::uint32_t lanes, Stats stats) {
-        for (std::uint32_t n = 0; n < ref.count() && lanes != 0; ++n) {
-            const SphereBlock& block = scene_.layout->spheres[ref.offset() + n];
-            const BlockBoxes boxes(block);
-            Floats entries;
-            std::uint32_t met = block.lanes & packet_.meet_boxes(boxes.rows(), entries);
-            HWY_ALIGN float entry[kBlockWidth];
-            store_lanes(entries, entry);
-            while (met != 0 && lanes != 0) {
-                auto lane = static_cast<std::size_t>(std::countr_zero(met));
-                if constexpr (Derived::kOrdered) {
-                    for (std::uint32_t others = met & (met - 1); others != 0;
-                         others &= others - 1) {
-                        const auto other = static_cast<std::size_t>(std::countr_zero(others));
-                        if (entry[other] < entry[lane]) lane = other;
-                    }
-                }
-                met &= ~(1u << lane);
-                const PrimitiveId id = block.ids[lane].id();
-                if (!scene_.sees(id)) continue;
-                std::uint32_t rest = filter_lanes(block, lane, packet_, lanes);
-                stats.primitives(static_cast<std::uint64_t>(std::popcount(lanes & ~rest)));
-                if (rest == 0) continue;
-                const Sphere sphere = sphere_of(scene_, block, lane);
-                for (; rest != 0; rest &= rest - 1) {
-                    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                    float s_max = packet_.s_max[i];
-                    if (derived().sphere(i, id, sphere, s_max, stats)) lanes &= ~(1u << i);
-                }
-            }
-        }
-        derived().left();
-    }
-    /// The i-th ray; `scratch` may hold it.
-    [[nodiscard]] HWY_INLINE const Ray& ray_of(std::size_t i, Ray& scratch) {
-        if (rays_.columns() == nullptr) return rays_.ray(i, scratch);
-        packet_.lay_out(i / kRayLanes, rays_);
-        scratch = packet_.rays[i / kRayLanes].ray(i % kRayLanes);
-        return scratch;
-    }
     /// Exact resolution: see PacketResolution.
     template <class Hits, class Stats>
     HWY_INLINE void resolve(std::uint32_t lanes, const TrianglePlace* places, Hits&& hits,
@@ -215,10 +181,6 @@ class LaneLeaves {
             resolution_.resolve(n, here, places + n * kTogether, hits, stats);
         }
     }
-
-    const WideBvhScene& scene_;
-    GivenRays rays_;
-    LanePacket& packet_;
 
   private:
     /// A ray that is to go on alone in a subtree, and the query that does.
@@ -303,6 +265,16 @@ class ClosestLanes : public LaneLeaves<ClosestLanes> {
         s_max = std::min(s_max, parameter().above(met.t[0]));
         limit(i, s_max);
         return false;
+    }
+    HWY_INLINE std::uint32_t crossed(std::size_t g, PrimitiveId id, const GroupHits& hits) {
+        for_each_lane(hits.hit, [&](std::size_t lane) HWY_ATTR {
+            const std::size_t i = g * kRayLanes + lane;
+            const ShapeHit& hit = hits.of_ray[lane];
+            if (!hits_.wins(i, hit.t, id)) return;
+            hits_.offer(i, id, hit);
+            limit(i, parameter().above(hit.t));
+        });
+        return 0;
     }
     template <class Stats>
     HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float& s_max, Stats stats) {
@@ -433,6 +405,10 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
         if (verdict == Verdict::Missed) return false;
         stats.primitive_hits(1);
         return drop(i);
+    }
+    HWY_INLINE std::uint32_t crossed(std::size_t g, PrimitiveId, const GroupHits& hits) {
+        for_each_lane(hits.hit, [&](std::size_t lane) { drop(g * kRayLanes + lane); });
+        return hits.hit << (g * kRayLanes);
     }
     template <class Stats>
     HWY_NOINLINE bool shape(std::size_t i, PrimitiveId id, float&, Stats stats) {

@@ -150,8 +150,17 @@ struct LeafQuery {
             std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
             // The query counts the shapes that it tests.
             stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
-            for (; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            while (rest != 0) {
+                auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                if constexpr (Query::kOrdered) {
+                    // The nearest first: its hit may lie before the others.
+                    for (std::uint32_t others = rest & (rest - 1); others != 0;
+                         others &= others - 1) {
+                        const auto other = static_cast<std::size_t>(std::countr_zero(others));
+                        if (found.lo[other] < found.lo[lane]) lane = other;
+                    }
+                }
+                rest &= ~(1u << lane);
                 const BlockId id = blocks->ids[lane];
                 if (found.lo[lane] > s_max || !id.used()) {
                     stats.primitives(1);

@@ -32,7 +32,7 @@
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
-#include "alhazen/aggregates/wide_bvh/lane_crossing-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/lane_crossing-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
 

@@ -45,6 +45,17 @@ bool suits_packets(const PrimitiveTable& table, std::span<const PrimitiveId> unb
     return kLanePrimitivesPerScalar * scalar <= in_lanes;
 }
 
+/// See Schedules::others_alone. Hits inside instances need a path, which lane packets have not.
+bool are_alone(const PrimitiveTable& table, const WideBvhLayout& layout) {
+    for (const BoxBlock& block : layout.others) {
+        for (const BlockId id : block.ids) {
+            if (!id.used()) continue;
+            if (table.kind(id.id()) == kInstanceKind || takes_lanes(table, id.id())) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 StreamOverride::StreamOverride() {
@@ -56,8 +67,9 @@ StreamOverride::~StreamOverride() {
 
 Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {
+    others_alone_ = are_alone(table, layout);
     const ScheduledTree tree{layout.memory_bytes(), treeless,
-                             layout.others.empty() || suits_packets(table, unbounded), has_packets};
+                             others_alone_ || suits_packets(table, unbounded), has_packets};
     waits_ = tree.bytes > kMaxSingleTreeBytes;
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
         batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);

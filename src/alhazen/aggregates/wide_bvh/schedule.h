@@ -44,18 +44,20 @@ enum class CoherentTraversal {
 };
 
 /// The traversal of a tree whose schedule is Packets. `registers`: of sixteen floats. Lane packets
-/// test solids and algebraic surfaces ray by ray, frustum packets eight rays at a time; both test
-/// cylinders, cones and discs ray by ray.
+/// test solids and algebraic surfaces ray by ray, frustum packets eight rays at a time; with fused
+/// instructions lane packets test cylinders and cones eight rays at a time, else both test them ray
+/// by ray. `others_alone`: see Schedules.
 [[nodiscard]] inline CoherentTraversal coherent_traversal(const WideBvhLayout& layout, bool any_hit,
-                                                          std::size_t registers) {
-    if (!layout.others.empty()) return CoherentTraversal::Frusta;
+                                                          std::size_t registers,
+                                                          bool others_alone = false) {
+    if (!layout.others.empty() && !others_alone) return CoherentTraversal::Frusta;
+    if (registers <= kMostLaneRegisters) return CoherentTraversal::Lanes;
     const std::size_t lanes = layout.triangles.size() + layout.spheres.size();
-    const std::size_t scalars = layout.frustums.size();
+    const std::size_t scalars = layout.frustums.size() + layout.others.size();
     // Shadow rays end early: packets gain nothing where two fifths of the blocks are scalar.
     if (any_hit) {
         return 3 * scalars <= 2 * lanes ? CoherentTraversal::Lanes : CoherentTraversal::Alone;
     }
-    if (registers <= kMostLaneRegisters) return CoherentTraversal::Lanes;
     return kLanePrimitivesPerScalar * scalars <= lanes ? CoherentTraversal::Frusta
                                                        : CoherentTraversal::Alone;
 }
@@ -99,10 +101,13 @@ class Schedules {
     }
     /// Whether rays that leave a packet in lanes wait for memory, one by one.
     [[nodiscard]] bool waits() const { return waits_; }
+    /// Whether none of the shapes without a block of their own is an instance or has a packet test
+    /// that counts (`takes_lanes`): frustum packets would gain nothing.
+    [[nodiscard]] bool others_alone() const { return others_alone_; }
 
   private:
     std::array<Schedule, 2> batches_{Schedule::Stream, Schedule::Stream};  ///< [coherence]
-    bool waits_ = false;
+    bool waits_ = false, others_alone_ = false;
 };
 
 }  // namespace alhazen

@@ -72,6 +72,7 @@ class WideBvhAggregate final : public Aggregate {
     [[nodiscard]] WideBvhScene batch_scene(RayMask mask) const {
         WideBvhScene seen = scene(mask);
         seen.waits = schedules_.waits();
+        seen.others_alone = schedules_.others_alone();
         return seen;
     }
     /// Traces a part of a batch. Precondition: `hits` are empty, if not `unset`.

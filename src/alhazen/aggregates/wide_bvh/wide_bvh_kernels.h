@@ -25,6 +25,7 @@ class WideBvhScene {
     const WideBvhLayout* layout;
     RayMask mask;
     PacketFailures* failures = nullptr;  ///< null: each batch starts without failures
+    bool others_alone = false;           ///< see Schedules
     bool waits = false;  ///< rays that leave a packet in lanes are traced several in turn
 
     [[nodiscard]] bool sees(PrimitiveId id) const {

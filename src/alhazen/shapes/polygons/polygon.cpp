@@ -4,10 +4,13 @@
 
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/polygons/polygon_cells.h"
 
 namespace alhazen {
 
 namespace {
+
+constexpr double kLeastQuotient = 1e-280;
 
 /// Newell's normal: the sum over the edges of (a - origin) x (b - origin); its length is twice the
 /// area.
@@ -75,16 +78,59 @@ bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
     return inside;
 }
 
-/// Clamps `t` to the range where the line is in `box`. For a ray nearly in the polygon's plane t is
-/// mostly rounding; this keeps the hit on the polygon.
-double clamped_to_box(double t, const Ray& ray, const Box3& box) {
-    double lo = -kInfinity, hi = kInfinity;
+/// Where the cells place a ray that meets the plane at t; NearEdge: `surrounds_ray` decides.
+/// `size`: as in `intersect`.
+///
+/// The sheared vertices of surrounds_ray are those that the ray sees at points within e1 =
+/// gamma_4 (|point - o| + R) of the vertices along each axis, R the reach of the bounds. Such a
+/// point is within off_plane + gamma_6 R + 2 e1 of the plane, and moves by that over the cosine
+/// times d along the ray. The crossing at t is off by gamma_16 (size_x + size_y + size_z) over the
+/// cosine times d, and by the rounding of o + t d. Together that is less than along_ray |d| /
+/// |cosine| and what `room` has less than the margin, even if the cosine is off by half; where it
+/// is off by more, the former exceeds the margin along one of the axes. While point and edges are
+/// off by less than the margin no edge passes over the point, so that the number of edges on one
+/// side of it keeps its parity.
+PolygonCells::Place place_in_cells(const Polygon& polygon, const Ray& ray, double t, double cosine,
+                                   const Vec3& size) {
+    const PolygonCells& cells = *polygon.cells;
+    const double slack = gamma_bound(16) * (size.x + size.y + size.z + cells.reach());
+    const double along_ray = PolygonCells::kAlongRay * (polygon.off_plane + slack);
+    double at[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+        const int axis = cells.axes()[k];
+        const double o = ray.origin[axis], d = ray.direction[axis];
+        at[k] = o + t * d;
+        const double room =
+            cells.margin()[k] - PolygonCells::kAcross * (slack + gamma_bound(16) * std::abs(o));
+        // Written so that NaN is near an edge.
+        if (!(along_ray * std::abs(d) <= room * std::abs(cosine))) {
+            return PolygonCells::Place::NearEdge;
+        }
+    }
+    // Else products above may have underflowed.
+    if (!(std::abs(cosine) > PolygonCells::kLeastCosine)) return PolygonCells::Place::NearEdge;
+    return cells.place_of(at[0], at[1]);
+}
+
+/// The part of the line in the slabs of `box` along the axes whose bits are set.
+Interval range_in_box(const Ray& ray, const Box3& box, std::uint32_t axes) {
+    Interval range{-kInfinity, kInfinity};
     for (int k = 0; k < 3; ++k) {
         const double d = ray.direction[k];
-        if (d == 0.0) continue;
-        lo = std::max(lo, ((d > 0.0 ? box.lo[k] : box.hi[k]) - ray.origin[k]) / d);
-        hi = std::min(hi, ((d > 0.0 ? box.hi[k] : box.lo[k]) - ray.origin[k]) / d);
+        if ((axes >> k & 1) == 0 || d == 0.0) continue;
+        range.lo = std::max(range.lo, ((d > 0.0 ? box.lo[k] : box.hi[k]) - ray.origin[k]) / d);
+        range.hi = std::min(range.hi, ((d > 0.0 ? box.hi[k] : box.lo[k]) - ray.origin[k]) / d);
     }
+    return range;
+}
+
+/// Clamps `t` to the range where the line is in `box`. For a ray nearly in the polygon's plane t is
+/// mostly rounding; this keeps the hit on the polygon. `near_faces`: along the other axes the line
+/// is in the box at t for certain, by more than the quotients are off.
+double clamped_to_box(double t, const Ray& ray, const Box3& box, std::uint32_t near_faces) {
+    const Interval near = range_in_box(ray, box, near_faces);
+    if (near.lo < t && t <= near.hi) return t;
+    const auto [lo, hi] = range_in_box(ray, box, 7);
     if (!(lo <= hi)) return 0.5 * lo + 0.5 * hi;
     return t > lo ? std::min(t, hi) : lo;  // NaN (edge on) becomes lo
 }
@@ -105,6 +151,7 @@ void Polygon::prepare() {
         off_plane = std::max(off_plane, std::abs(distance));
     }
     bounds = padded(bounds, gamma_bound(16));
+    cells = PolygonCells::make(vertices, loop_ends, normal, bounds);
 }
 
 void Polygon::validate(const FileLocation& where, Diagnostics& diagnostics) const {
@@ -164,16 +211,23 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
     const double t_slack =
         (off_plane + gamma_bound(16) * (size.x + size.y + size.z)) / std::abs(cosine);
     if (t + t_slack < ray.t_min || t - t_slack > ray.t_max) return 0;
+    // Quotients that underflow may be off by more.
+    std::uint32_t near_faces = std::abs(t) > kLeastQuotient ? 0 : 7;
     for (int k = 0; k < 3; ++k) {
         const double p = ray.origin[k] + t * ray.direction[k];
         const double slack = t_slack * std::abs(ray.direction[k]) +
                              gamma_bound(16) * (std::abs(ray.origin[k]) + size[k]);
         if (p + slack < bounds.lo[k] || p - slack > bounds.hi[k]) return 0;
+        const bool within = (bounds.lo[k] < p - slack) & (p + slack < bounds.hi[k]);
+        near_faces |= std::uint32_t{!within} << k;
     }
     // Most rays that start this near to the polygon leave it.
-    if (!ray.covers(t) && !ray.covers(clamped_to_box(t, ray, bounds))) return 0;
-    if (!surrounds_ray(*this, ray)) return 0;
-    return report_crossing(ray, {clamped_to_box(t, ray, bounds), 0, 0, 0}, hits);
+    if (!ray.covers(t) && !ray.covers(clamped_to_box(t, ray, bounds, near_faces))) return 0;
+    const PolygonCells::Place place =
+        cells ? place_in_cells(*this, ray, t, cosine, size) : PolygonCells::Place::NearEdge;
+    if (place == PolygonCells::Place::Outside) return 0;
+    if (place == PolygonCells::Place::NearEdge && !surrounds_ray(*this, ray)) return 0;
+    return report_crossing(ray, {clamped_to_box(t, ray, bounds, near_faces), 0, 0, 0}, hits);
 }
 
 ShapeSurface Polygon::surface(const Ray& ray, const ShapeHit& hit) const {

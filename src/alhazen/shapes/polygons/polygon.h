@@ -12,10 +12,15 @@
 /// from the first vertex along the first edge. Vertices need not be coplanar; a hit lies in the
 /// mean plane.
 /// Complexity: O(vertices) for a ray that crosses the plane within the polygon's box, else O(1).
+/// Polygons of many corners have cells (polygon_cells.h): O(1) except near an edge, the same hits.
+
+#include <memory>
 
 #include "alhazen/shapes/core/shape.h"
 
 namespace alhazen {
+
+class PolygonCells;
 
 struct Polygon {
     static constexpr const char* kName = "polygon";
@@ -29,6 +34,7 @@ struct Polygon {
     Vec3 u_axis{1, 0, 0};                  ///< derived: unit, in the plane, along the first edge
     Box3 bounds{};         ///< derived: of the vertices and their projections to the plane
     double off_plane = 0;  ///< derived: largest distance of a vertex from the plane
+    std::shared_ptr<const PolygonCells> cells;  ///< derived: null with few corners
 
     static constexpr auto kFields =
         std::make_tuple(field("vertices", &Polygon::vertices, Unit::Compound, Check::Shape),

@@ -5,6 +5,7 @@
 
 #include "alhazen/shapes/core/first_hit.h"
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/polygons/polygon_cells.h"
 #include "alhazen/simd/dispatch.h"
 
 // Compiles the rest of this file once per target.
@@ -39,15 +40,23 @@ struct RayRows {
     }
 };
 
+/// The crossings with the plane, with the terms of their error bounds.
+struct PlaneCrossings {
+    Doubles t, cosine;
+    std::array<Doubles, 3> size;
+};
+
 /// Computes the crossings with the plane. Returns the rays that the polygon's box does not exclude.
-std::uint32_t meet_plane(const Polygon& polygon, const RayRows& rays, Doubles& t) {
+std::uint32_t meet_plane(const Polygon& polygon, const RayRows& rays, PlaneCrossings& met) {
     const Vec3& n = polygon.normal;
     const auto along = [&](const std::array<Doubles, 3>& v) {
         return Doubles(n.x) * v[0] + Doubles(n.y) * v[1] + Doubles(n.z) * v[2];
     };
-    std::array<Doubles, 3> to_plane, size;
+    std::array<Doubles, 3> to_plane;
+    auto& [t, cosine, size] = met;
     for (int k = 0; k < 3; ++k) to_plane.data()[k] = Doubles(polygon.point[k]) - rays.o.data()[k];
-    const Doubles cosine = along(rays.d), gamma(gamma_bound(16));
+    const Doubles gamma(gamma_bound(16));
+    cosine = along(rays.d);
     t = along(to_plane) / cosine;
     for (std::size_t k = 0; k < 3; ++k) {
         size.data()[k] = abs(to_plane.data()[k]) + abs(t) * abs(rays.d.data()[k]);
@@ -126,15 +135,48 @@ std::uint32_t surrounded(const Polygon& polygon, const RayRows& rays, int kz, st
     return inside;
 }
 
+/// `place_in_cells` of polygon.cpp in lanes. Returns the rays of `among` that are inside; takes
+/// those that are outside, or inside, from `among`.
+std::uint32_t decide_by_cells(const Polygon& polygon, const RayRows& rays,
+                              const PlaneCrossings& met, std::uint32_t& among) {
+    const PolygonCells& cells = *polygon.cells;
+    const Doubles gamma(gamma_bound(16)), across(PolygonCells::kAcross);
+    const Doubles slack =
+        gamma * (met.size[0] + met.size[1] + met.size[2] + Doubles(cells.reach()));
+    const Doubles along_ray =
+        Doubles(PolygonCells::kAlongRay) * (Doubles(polygon.off_plane) + slack);
+    const Doubles cosine = abs(met.cosine);
+    std::uint32_t sure = among & bits_of(cosine > Doubles(PolygonCells::kLeastCosine));
+    alignas(64) double at[2][kRayLanes];
+    for (std::size_t k = 0; k < 2; ++k) {
+        const int axis = cells.axes().data()[k];
+        const Doubles o = rays.o.data()[axis], d = rays.d.data()[axis];
+        const Doubles room = Doubles(cells.margin().data()[k]) - across * (slack + gamma * abs(o));
+        sure &= bits_of(along_ray * abs(d) <= room * cosine);
+        store_lanes(o + met.t * d, at[k]);
+    }
+    std::uint32_t inside = 0;
+    for_each_lane(sure, [&](std::size_t i) {
+        const PolygonCells::Place place = cells.place_of(at[0][i], at[1][i]);
+        if (place == PolygonCells::Place::NearEdge) return;
+        among &= ~(1u << i);
+        inside |= std::uint32_t{place == PolygonCells::Place::Inside} << i;
+    });
+    return inside;
+}
+
 void polygon_hits(const RayLanes& lanes, const Polygon& polygon, std::uint32_t wanted,
                   PolygonHitLanes& out) {
     out.hit = out.unsure = 0;
     const RayRows rays(lanes);
-    Doubles t;
-    std::uint32_t left = wanted & meet_plane(polygon, rays, t);
+    PlaneCrossings met;
+    std::uint32_t left = wanted & meet_plane(polygon, rays, met);
     if (left == 0) return;
-    const Doubles at = clamped_to_box(t, rays, polygon.bounds);
+    const Doubles at = clamped_to_box(met.t, rays, polygon.bounds);
     left &= rays.covers(at) & bits_of(abs(at) < Doubles(std::numeric_limits<double>::infinity()));
+    if (left == 0) return;
+    store_lanes(at, out.t);
+    if (polygon.cells) out.hit = decide_by_cells(polygon, rays, met, left);
     if (left == 0) return;
     const auto axis_of = [&](std::size_t i) {
         return dominant_axis({lanes.direction[0][i], lanes.direction[1][i], lanes.direction[2][i]});
@@ -144,8 +186,7 @@ void polygon_hits(const RayLanes& lanes, const Polygon& polygon, std::uint32_t w
     for_each_lane(left, [&](std::size_t i) { others |= std::uint32_t{axis_of(i) != kz} << i; });
     out.unsure = others;
     const std::uint32_t inside = surrounded(polygon, rays, kz, left & ~others, out.unsure);
-    out.hit = inside & left & ~out.unsure;
-    store_lanes(at, out.t);
+    out.hit |= inside & left & ~out.unsure;
 }
 
 }  // namespace

@@ -27,11 +27,14 @@ class BlockBoxes {
         const Floats half[3] = {radius, radius, radius};
         set(block.center, half, radius);
     }
-    /// The ball around each frustum.
+    /// Around each cylinder: along an axis it reaches the radius beyond the ends of its own axis.
     HWY_INLINE explicit BlockBoxes(const FrustumBlock& block) {
-        const Floats radius = load_lanes(block.half_height) + load_lanes(block.radius);
-        const Floats half[3] = {radius, radius, radius};
-        set(block.center, half, radius);
+        const Floats height = load_lanes(block.half_height), radius = load_lanes(block.radius);
+        Floats half[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            half[axis] = mul_add(height, abs(load_lanes(block.axis[axis])), radius);
+        }
+        set(block.center, half, height + radius);
     }
     /// For slabs that are not orthogonal (sheared shapes), the box around the ball.
     HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {

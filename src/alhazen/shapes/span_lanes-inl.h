@@ -1,18 +1,19 @@
-/// Finds where eight lines in lanes enter and leave a closed convex shape.
+/// Finds where eight lines in lanes enter and leave a closed convex shape, or cross the side of an
+/// open frustum.
 ///
 /// Source: sphere_roots.h, frustum.cpp, box_shape.cpp; the same operations in the same order.
 /// Differs: rare cases (a cone steeper than the line, a line along an axis, numbers out of range)
 /// are left to the scalar version.
-/// Conventions: included once per target (see simd/lanes-inl.h); ignores the limits of the rays;
-/// frustums have their caps. `unsure` lanes need the scalar version; for the other wanted lanes
+/// Conventions: included once per target (see simd/lanes-inl.h); ignores the limits of the rays.
+/// `unsure` lanes need the scalar version; for the other wanted lanes
 /// entry and exit are bit-identical to the two crossings that `intersect` writes for the whole
 /// line, or there are none.
 
-#if defined(ALHAZEN_CSG_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_CSG_SPAN_LANES_INL_H_
-#undef ALHAZEN_CSG_SPAN_LANES_INL_H_
+#if defined(ALHAZEN_SHAPES_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SHAPES_SPAN_LANES_INL_H_
+#undef ALHAZEN_SHAPES_SPAN_LANES_INL_H_
 #else
-#define ALHAZEN_CSG_SPAN_LANES_INL_H_
+#define ALHAZEN_SHAPES_SPAN_LANES_INL_H_
 #endif
 
 #include <algorithm>
@@ -151,49 +152,73 @@ HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, std::uint3
     spans.exit_part = exit_part;
 }
 
-/// As frustum.cpp: `localise`, `inside_side` for lines flatter than the cone, and
-/// `intersect_solid`.
+/// Lines in the frame of a frustum, as FrustumLine of frustum.cpp, with their crossings of the
+/// infinite side.
+struct FrustumLines {
+    Doubles shift, oz, dz, radius, growth, a, b;
+    Doubles first, last;    ///< in ascending order, without `shift`
+    std::uint32_t crossed;  ///< the lines that cross it
+    std::uint32_t unsure;   ///< not flatter than the cone; not in `crossed`
+
+    /// As `localise` and `roots`.
+    HWY_INLINE FrustumLines(const RayLanes& rays, const Frustum& f, std::uint32_t wanted) {
+        crossed = 0;
+        unsure = wanted;
+        if (!kFusesExactly) return;
+        const Vec3Lanes d = load_ray_vectors(rays.direction);
+        Vec3Lanes o = load_ray_vectors(rays.origin) - f.center;
+        const Doubles zero(0.0);
+        // Shifts distant origins to the line's nearest point.
+        const LaneMask<double> far = dot(o, o) > Doubles(16.0 * f.bounding_radius_squared);
+        const Doubles by = -dot(o, d) / dot(d, d);
+        shift = select_lanes(far, by, zero);
+        o = {select_lanes(far, o.x + by * d.x, o.x), select_lanes(far, o.y + by * d.y, o.y),
+             select_lanes(far, o.z + by * d.z, o.z)};
+        const Doubles ox = dot(f.x_axis, o), oy = dot(f.y_axis, o);
+        const Doubles dx = dot(f.x_axis, d), dy = dot(f.y_axis, d);
+        oz = dot(f.axis, o);
+        dz = dot(f.axis, d);
+        const Doubles slope(f.slope);
+        radius = Doubles(f.middle_radius) + slope * oz;
+        growth = slope * dz;
+        a = dx * dx + dy * dy - growth * growth;
+        const Doubles wx = difference_of_products(radius, dx, growth, ox);
+        const Doubles wy = difference_of_products(radius, dy, growth, oy);
+        const Doubles w = sqrt(wx * wx + wy * wy);
+        const Doubles moment = abs(difference_of_products(ox, dy, oy, dx));
+        const Doubles discriminant = (w - moment) * (w + moment);
+        const std::uint32_t flat = wanted & bits_of(a > zero);
+        unsure = wanted & ~flat;
+        crossed = flat & bits_of(discriminant >= zero);
+        if (crossed == 0) return;
+        b = ox * dx + oy * dy - radius * growth;
+        const Doubles across = sqrt(ox * ox + oy * oy);
+        const Doubles c = (across - radius) * (across + radius);
+        const Doubles s = sqrt(discriminant);
+        const LaneMask<double> safe = (Doubles(4.0) * abs(b) < s) | !((s < zero) | (s > zero));
+        const Doubles q = -(b + copysign(s, b));
+        const Doubles t0 = select_lanes(safe, -b - s, q) / a;
+        const Doubles t1 = select_lanes(safe, -b + s, c) / select_lanes(safe, a, q);
+        const LaneMask<double> swapped = t1 < t0;
+        first = select_lanes(swapped, t1, t0);
+        last = select_lanes(swapped, t0, t1);
+    }
+};
+
+/// As frustum.cpp: `inside_side` for lines flatter than the cone, and `intersect_solid`.
 HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t wanted,
                            LaneSpans& spans) {
-    spans.unsure = wanted;
-    if (!kFusesExactly) return;
-    const Vec3Lanes d = load_ray_vectors(rays.direction);
-    Vec3Lanes o = load_ray_vectors(rays.origin) - f.center;
-    const Doubles zero(0.0);
-    // Shifts distant origins to the line's nearest point.
-    const LaneMask<double> far = dot(o, o) > Doubles(16.0 * f.bounding_radius_squared);
-    const Doubles by = -dot(o, d) / dot(d, d);
-    const Doubles shift = select_lanes(far, by, zero);
-    o = {select_lanes(far, o.x + by * d.x, o.x), select_lanes(far, o.y + by * d.y, o.y),
-         select_lanes(far, o.z + by * d.z, o.z)};
-    const Doubles ox = dot(f.x_axis, o), oy = dot(f.y_axis, o), oz = dot(f.axis, o);
-    const Doubles dx = dot(f.x_axis, d), dy = dot(f.y_axis, d), dz = dot(f.axis, d);
-    const Doubles slope(f.slope);
-    const Doubles radius = Doubles(f.middle_radius) + slope * oz, growth = slope * dz;
-    const Doubles a = dx * dx + dy * dy - growth * growth;
-    const Doubles wx = difference_of_products(radius, dx, growth, ox);
-    const Doubles wy = difference_of_products(radius, dy, growth, oy);
-    const Doubles w = sqrt(wx * wx + wy * wy);
-    const Doubles moment = abs(difference_of_products(ox, dy, oy, dx));
-    const Doubles discriminant = (w - moment) * (w + moment);
-    const std::uint32_t flat = wanted & bits_of(a > zero);
-    spans.unsure = wanted & ~flat;
-    std::uint32_t maybe = flat & bits_of(discriminant >= zero);
+    const FrustumLines line(rays, f, wanted);
+    spans.unsure = line.unsure;
+    std::uint32_t maybe = line.crossed;
     if (maybe == 0) return;
-    const Doubles b = ox * dx + oy * dy - radius * growth;
-    const Doubles across = sqrt(ox * ox + oy * oy);
-    const Doubles c = (across - radius) * (across + radius);
+    const Doubles zero(0.0);
     // Selects the nappe of the roots' middle.
-    maybe &= ~bits_of(radius + (-b / a) * growth < zero);
-    const Doubles s = sqrt(discriminant);
-    const LaneMask<double> safe = (Doubles(4.0) * abs(b) < s) | !((s < zero) | (s > zero));
-    const Doubles q = -(b + copysign(s, b));
-    const Doubles t0 = select_lanes(safe, -b - s, q) / a;
-    const Doubles t1 = select_lanes(safe, -b + s, c) / select_lanes(safe, a, q);
-    const LaneMask<double> swapped = t1 < t0;
-    Doubles entry = select_lanes(swapped, t1, t0), exit = select_lanes(swapped, t0, t1);
+    maybe &= ~bits_of(line.radius + (-line.b / line.a) * line.growth < zero);
+    Doubles entry = line.first, exit = line.last;
     maybe &= bits_of(entry <= exit);
     // Clips to the caps.
+    const Doubles &oz = line.oz, &dz = line.dz;
     const LaneMask<double> up = dz > zero, level = !(up | (dz < zero));
     const Doubles half(f.half_height);
     const Doubles slab_entry = (copysign(half, -dz) - oz) / dz;
@@ -207,9 +232,62 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
     maybe &= bits_of(entry <= exit);
     if (maybe == 0) return;
     const Doubles base(1.0), top(2.0);
-    spans.set(shift + entry, shift + exit, maybe);
+    spans.set(line.shift + entry, line.shift + exit, maybe);
     spans.entry_part = select_lanes(by_cap, select_lanes(up, base, top), zero);
     spans.exit_part = select_lanes(to_cap, select_lanes(up, top, base), zero);
+}
+
+/// The first crossings of rays with a shape, within their limits.
+struct LaneCrossings {
+    Doubles t, part;           ///< valid for the rays that hit; parts are integers
+    std::uint32_t hit = 0;     ///< the rays that hit
+    std::uint32_t unsure = 0;  ///< left to the scalar version; not in `hit`
+};
+
+/// The first crossings of `spans` within the limits of the rays.
+HWY_INLINE void take_spans(const RayLanes& rays, const LaneSpans& spans, LaneCrossings& found) {
+    found.unsure = spans.unsure;
+    if (spans.met == 0) return;
+    const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
+    const LaneMask<double> enters = (t_min <= spans.entry) & (spans.entry <= t_max);
+    const LaneMask<double> leaves = (t_min <= spans.exit) & (spans.exit <= t_max);
+    found.hit = spans.met & bits_of(enters | leaves);
+    found.t = select_lanes(enters, spans.entry, spans.exit);
+    found.part = select_lanes(enters, spans.entry_part, spans.exit_part);
+}
+
+/// As Sphere::intersect.
+HWY_INLINE void find_first_crossings(const RayLanes& rays, const Sphere& sphere,
+                                     std::uint32_t wanted, LaneCrossings& found) {
+    LaneSpans spans;
+    find_spans(rays, sphere, wanted, spans);
+    take_spans(rays, spans, found);
+}
+
+/// As Frustum::intersect.
+HWY_INLINE void find_first_crossings(const RayLanes& rays, const Frustum& f, bool capped,
+                                     std::uint32_t wanted, LaneCrossings& found) {
+    if (capped) {
+        LaneSpans spans;
+        find_spans(rays, f, wanted, spans);
+        return take_spans(rays, spans, found);
+    }
+    const FrustumLines line(rays, f, wanted);
+    found.unsure = line.unsure;
+    if (line.crossed == 0) return;
+    const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
+    const Doubles half(f.half_height), far(kFarNumber);
+    const auto met = [&](const Doubles& root, const Doubles& t) HWY_ATTR {
+        const Doubles z = line.oz + root * line.dz;
+        return (-half <= z) & (z < half) & (t_min <= t) & (t <= t_max);
+    };
+    const Doubles entry = line.shift + line.first, exit = line.shift + line.last;
+    const std::uint32_t finite = bits_of((abs(entry) < far) & (abs(exit) < far));
+    found.unsure |= line.crossed & ~finite;
+    const LaneMask<double> enters = met(line.first, entry);
+    found.hit = line.crossed & finite & bits_of(enters | met(line.last, exit));
+    found.t = select_lanes(enters, entry, exit);
+    found.part = Doubles(0.0);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,0 +1,206 @@
+/// The shapes in the leaves of a packet of rays in lanes: the filter of each against all rays, then
+/// the test in double, eight rays at a time or one by one.
+///
+/// Source: lane_filter-inl.h, shapes/span_lanes-inl.h, shapes/polygons/polygon_lanes.h: the bits
+/// are those of single rays. Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LANE_SHAPES_INL_H_
+#endif
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+#include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/shapes/polygons/polygon_lanes.h"
+#include "alhazen/shapes/span_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The first crossings of eight rays with a shape.
+struct GroupHits {
+    ShapeHit of_ray[kRayLanes];
+    std::uint32_t hit = 0, unsure = 0;  ///< as in LaneCrossings
+
+    HWY_INLINE void set(const LaneCrossings& found) {
+        hit = found.hit;
+        unsure = found.unsure;
+        if (hit == 0) return;
+        alignas(64) double t[kRayLanes], part[kRayLanes];
+        store_lanes(found.t, t);
+        store_lanes(found.part, part);
+        for_each_lane(hit, [&](std::size_t i) {
+            of_ray[i] = {t[i], 0, 0, static_cast<std::uint32_t>(part[i])};
+        });
+    }
+};
+
+/// `Derived` offers `crossed(group, id, hits)` for eight rays, `sphere` and `shape` for one
+/// (lone_ray-inl.h), which return those that need no more; and `left()` when a leaf has limited
+/// rays.
+template <class Derived>
+class LaneShapes {
+  public:
+    HWY_INLINE LaneShapes(const WideBvhScene& scene, const GivenRays& rays, LanePacket& packet)
+        : scene_(scene), rays_(rays), packet_(packet) {}
+
+  protected:
+    HWY_INLINE Derived& derived() { return static_cast<Derived&>(*this); }
+
+    /// Each shape against all rays, the nearest first where that matters.
+    template <class Block, class Stats>
+    HWY_NOINLINE void visit_shapes(const Block* blocks, std::uint32_t count, std::uint32_t lanes,
+                                   Stats stats) {
+        for (std::uint32_t n = 0; n < count && lanes != 0; ++n) {
+            const Block& block = blocks[n];
+            const BlockBoxes boxes(block);
+            Floats entries;
+            std::uint32_t met = packet_.meet_boxes(boxes.rows(), entries);
+            HWY_ALIGN float entry[kBlockWidth];
+            store_lanes(entries, entry);
+            while (met != 0 && lanes != 0) {
+                auto lane = static_cast<std::size_t>(std::countr_zero(met));
+                if constexpr (Derived::kOrdered) {
+                    for (std::uint32_t others = met & (met - 1); others != 0;
+                         others &= others - 1) {
+                        const auto other = static_cast<std::size_t>(std::countr_zero(others));
+                        if (entry[other] < entry[lane]) lane = other;
+                    }
+                }
+                met &= ~(1u << lane);
+                const PrimitiveId id = block.ids[lane].id();
+                if (!block.ids[lane].used() || !scene_.sees(id)) continue;
+                const std::uint32_t rest = filter_lanes(block, lane, packet_, lanes);
+                stats.primitives(static_cast<std::uint64_t>(std::popcount(lanes & ~rest)));
+                if constexpr (std::is_same_v<Block, SphereBlock>) {
+                    if (rest == 0) continue;
+                    lanes &= ~meet_sphere(id, sphere_of(scene_, block, lane), rest, stats);
+                } else if constexpr (std::is_same_v<Block, FrustumBlock>) {
+                    lanes &= ~meet_frustum(id, rest, stats);
+                } else {
+                    lanes &= ~meet_other(id, rest, stats);
+                }
+            }
+        }
+        derived().left();
+    }
+    /// Tests a shape ray by ray. Returns the rays that need no more, as the two below.
+    template <class Stats>
+    HWY_INLINE std::uint32_t meet_alone(PrimitiveId id, std::uint32_t lanes, Stats stats) {
+        std::uint32_t done = 0;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+            float s_max = packet_.s_max[i];
+            if (derived().shape(i, id, s_max, stats)) done |= 1u << i;
+        }
+        return done;
+    }
+    template <class Stats>
+    HWY_NOINLINE std::uint32_t meet_sphere(PrimitiveId id, const Sphere& sphere,
+                                           std::uint32_t lanes, Stats stats) {
+        std::uint32_t done = meet_together(
+            id, lanes,
+            [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) HWY_ATTR {
+                LaneCrossings found;
+                find_first_crossings(rays, sphere, wanted, found);
+                hits.set(found);
+            },
+            stats);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+            float s_max = packet_.s_max[i];
+            if (derived().sphere(i, id, sphere, s_max, stats)) done |= 1u << i;
+        }
+        return done;
+    }
+    template <class Stats>
+    HWY_NOINLINE std::uint32_t meet_frustum(PrimitiveId id, std::uint32_t lanes, Stats stats) {
+        std::uint32_t done = 0;
+        const auto meet = [&](const auto& shapes) HWY_ATTR {
+            const auto& shape = shapes[scene_.table->index(id)];
+            done = meet_together(
+                id, lanes,
+                [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) HWY_ATTR {
+                    LaneCrossings found;
+                    find_first_crossings(rays, shape.frustum, shape.capped, wanted, found);
+                    hits.set(found);
+                },
+                stats);
+        };
+        const std::uint32_t kind = kFusesExactly ? scene_.table->kind(id) : kKindCount;
+        const auto& columns = scene_.table->columns;
+        if (kind == column_of<Cylinder>()) meet(std::get<ShapeColumn<Cylinder>>(columns).shapes);
+        if (kind == column_of<Cone>()) meet(std::get<ShapeColumn<Cone>>(columns).shapes);
+        return done | meet_alone(id, lanes, stats);
+    }
+    template <class Stats>
+    HWY_NOINLINE std::uint32_t meet_other(PrimitiveId id, std::uint32_t lanes, Stats stats) {
+        std::uint32_t done = 0;
+        if (scene_.table->kind(id) == column_of<Polygon>()) {
+            const auto& column = std::get<ShapeColumn<Polygon>>(scene_.table->columns);
+            const std::uint32_t i = scene_.table->index(id);
+            if (column.placements[i] == kNoPlacement) {
+                done = meet_together(
+                    id, lanes,
+                    [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) {
+                        hits.hit = first_hits(column.shapes[i], rays, wanted, hits.of_ray);
+                    },
+                    stats);
+            }
+        }
+        return done | meet_alone(id, lanes, stats);
+    }
+    /// The groups of which several rays may meet a shape; leaves all other rays in `lanes`.
+    template <class Test, class Stats>
+    HWY_INLINE std::uint32_t meet_together(PrimitiveId id, std::uint32_t& lanes, Test&& test,
+                                           Stats stats) {
+        std::uint32_t done = 0;
+        for (std::size_t g = 0; g < kLaneGroups; ++g) {
+            const std::uint32_t here = lanes >> (g * kRayLanes) & kAllRayLanes;
+            if (std::popcount(here) < kLeastTogether) continue;
+            packet_.lay_out(g, rays_);
+            GroupHits hits;
+            test(packet_.rays[g], here, hits);
+            const std::uint32_t decided = here & ~hits.unsure;
+            stats.primitives(static_cast<std::uint64_t>(std::popcount(decided)));
+            stats.primitive_hits(static_cast<std::uint64_t>(std::popcount(hits.hit)));
+            if (hits.hit != 0) done |= derived().crossed(g, id, hits);
+            lanes &= ~(decided << (g * kRayLanes));
+        }
+        return done;
+    }
+    /// The i-th ray; `scratch` may hold it.
+    [[nodiscard]] HWY_INLINE const Ray& ray_of(std::size_t i, Ray& scratch) {
+        if (rays_.columns() == nullptr) return rays_.ray(i, scratch);
+        packet_.lay_out(i / kRayLanes, rays_);
+        scratch = packet_.rays[i / kRayLanes].ray(i % kRayLanes);
+        return scratch;
+    }
+
+    const WideBvhScene& scene_;
+    GivenRays rays_;
+    LanePacket& packet_;
+
+  private:
+    /// Fewer rays are as fast one by one.
+    static constexpr int kLeastTogether = 3;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
