@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -26,38 +25,46 @@ double sine_of_difference(double cosine_a, double sine_a, double cosine_b, doubl
     return cosine_a > cosine_b ? 0.0 : sine_a * cosine_b - cosine_a * sine_b;
 }
 
-}  // namespace
-
-double importance(const LightTree::Node& n, const LitPoint& at) {
-    const Vec3 lo{n.lo[0], n.lo[1], n.lo[2]}, hi{n.hi[0], n.hi[1], n.hi[2]};
-    const Vec3 offset = 0.5 * (lo + hi) - at.point;
-    const double radius2 = 0.25 * length_squared(hi - lo), squared = length_squared(offset);
+/// The importance of a sibling.
+double importance_of(const LightTree::Siblings& n, std::size_t i, const LitPoint& at) {
+    const Vec3 offset = Vec3{n.center[0][i], n.center[1][i], n.center[2][i]} - at.point;
+    const double radius2 = n.radius2[i], squared = length_squared(offset);
+    const double intensity = std::abs(n.intensity[i]);
     // Inside the sphere around the node all directions are possible.
-    if (!(squared > radius2)) return n.intensity / std::max(radius2, 1e-300);
+    if (!(squared > radius2)) return intensity / std::max(radius2, 1e-300);
     const double distance = std::sqrt(squared);
     const Vec3 to_light = offset / distance;
-    const double sine_b = std::min(1.0, std::sqrt(radius2) / distance);
+    const double sine_b = std::min(1.0, n.radius[i] / distance);
     const double cosine_b = std::sqrt(1.0 - sine_b * sine_b);
 
-    double cosine_w = -(n.axis[0] * to_light.x + n.axis[1] * to_light.y + n.axis[2] * to_light.z);
-    if (n.two_sided) cosine_w = std::abs(cosine_w);
+    double cosine_w =
+        -(n.axis[0][i] * to_light.x + n.axis[1][i] * to_light.y + n.axis[2][i] * to_light.z);
+    if (n.intensity[i] < 0.0f) cosine_w = std::abs(cosine_w);
     cosine_w = std::clamp(cosine_w, -1.0, 1.0);
     const double sine_w = sine_of(cosine_w);
-    const double cosine_o = n.cosine_spread, sine_o = sine_of(cosine_o);
+    const double cosine_o = n.cosine_spread[i], sine_o = sine_of(cosine_o);
     const double cosine_x = cosine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
     const double sine_x = sine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
     const double cosine_out = cosine_of_difference(cosine_x, sine_x, cosine_b, sine_b);
-    if (cosine_out <= n.cosine_reach) return 0.0;
+    if (cosine_out <= n.cosine_reach[i]) return 0.0;
     // Lights other than surfaces have no cosine.
-    const double sent = n.cosine_reach < 0.0 ? 1.0 : cosine_out;
+    const double sent = n.cosine_reach[i] < 0.0 ? 1.0 : cosine_out;
 
-    if (at.in_volume) return n.intensity * sent / squared;
+    if (at.in_volume) return intensity * sent / squared;
     double cosine_i = dot(at.normal, to_light);
     if (at.both_sides) cosine_i = std::abs(cosine_i);
     cosine_i = std::clamp(cosine_i, -1.0, 1.0);
     const double received = cosine_of_difference(cosine_i, sine_of(cosine_i), cosine_b, sine_b);
     if (!(received > 0.0)) return 0.0;
-    return n.intensity * sent * received / squared;
+    return intensity * sent * received / squared;
+}
+
+}  // namespace
+
+double importance(const LightTree::Node& n, const LitPoint& at) {
+    LightTree::Siblings two{};
+    two.set(0, n);
+    return importance_of(two, 0, at);
 }
 
 #if defined(__SSE2__)
@@ -97,48 +104,39 @@ Pair sine_of_difference(Pair cosine_a, Pair sine_a, Pair cosine_b, Pair sine_b) 
     return _mm_andnot_pd(_mm_cmpgt_pd(cosine_a, cosine_b), sine_a * cosine_b - cosine_a * sine_b);
 }
 
-/// The first twelve floats of two nodes, in lanes.
-struct NodeNumbers {
-    Pair of[12];
+/// Two successive pairs of floats as doubles.
+struct TwoPairs {
+    Pair first, second;
 };
-NodeNumbers numbers_of(const LightTree::Node* two) {
-    static_assert(offsetof(LightTree::Node, intensity) == 11 * sizeof(float));
-    NodeNumbers numbers;
-    for (int i = 0; i < 12; i += 4) {
-        const __m128 first = _mm_loadu_ps(two[0].lo + i), second = _mm_loadu_ps(two[1].lo + i);
-        const __m128 lower = _mm_unpacklo_ps(first, second), upper = _mm_unpackhi_ps(first, second);
-        numbers.of[i] = _mm_cvtps_pd(lower);
-        numbers.of[i + 1] = _mm_cvtps_pd(_mm_movehl_ps(lower, lower));
-        numbers.of[i + 2] = _mm_cvtps_pd(upper);
-        numbers.of[i + 3] = _mm_cvtps_pd(_mm_movehl_ps(upper, upper));
-    }
-    return numbers;
+TwoPairs two_pairs(const float* floats) {
+    const __m128 four = _mm_loadu_ps(floats);
+    return {_mm_cvtps_pd(four), _mm_cvtps_pd(_mm_movehl_ps(four, four))};
 }
 
 }  // namespace
 
-std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at) {
-    const NodeNumbers numbers = numbers_of(two);
-    const auto& [lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, axis_x, axis_y, axis_z, spread, reach,
-                 intensity] = numbers.of;
-    const Pair half = both(0.5);
-    const Pair x = half * (lo_x + hi_x) - both(at.point.x);
-    const Pair y = half * (lo_y + hi_y) - both(at.point.y);
-    const Pair z = half * (lo_z + hi_z) - both(at.point.z);
-    const Pair size_x = hi_x - lo_x, size_y = hi_y - lo_y, size_z = hi_z - lo_z;
-    const Pair radius2 = both(0.25) * (size_x * size_x + size_y * size_y + size_z * size_z);
+std::array<double, 2> importances(const LightTree::Siblings& two, const LitPoint& at) {
+    const auto number = [](const double(&of)[2]) { return _mm_loadu_pd(of); };
+    static_assert(offsetof(LightTree::Siblings, intensity) ==
+                  offsetof(LightTree::Siblings, axis) + 10 * sizeof(float));
+    const auto [axis_x, axis_y] = two_pairs(two.axis[0]);
+    const auto [axis_z, spread] = two_pairs(two.axis[2]);
+    const auto [reach, signed_intensity] = two_pairs(two.cosine_reach);
+    const Pair x = number(two.center[0]) - both(at.point.x);
+    const Pair y = number(two.center[1]) - both(at.point.y);
+    const Pair z = number(two.center[2]) - both(at.point.z);
+    const Pair radius2 = number(two.radius2), intensity = magnitude(signed_intensity);
     const Pair true_squared = x * x + y * y + z * z;
     // Inside the sphere around the node all directions are possible.
     const Pair outside = _mm_cmpgt_pd(true_squared, radius2);
     const Pair squared = chosen(outside, true_squared, both(1.0));
     const Pair distance = _mm_sqrt_pd(squared);
     const Pair to_x = x / distance, to_y = y / distance, to_z = z / distance;
-    const Pair sine_b = smaller(_mm_sqrt_pd(radius2) / distance, both(1.0));
+    const Pair sine_b = smaller(number(two.radius) / distance, both(1.0));
     const Pair cosine_b = _mm_sqrt_pd(both(1.0) - sine_b * sine_b);
 
     Pair cosine_w = _mm_xor_pd(both(-0.0), axis_x * to_x + axis_y * to_y + axis_z * to_z);
-    const Pair two_sided = _mm_castsi128_pd(
-        _mm_set_epi64x(-std::int64_t{two[1].two_sided}, -std::int64_t{two[0].two_sided}));
+    const Pair two_sided = _mm_cmplt_pd(signed_intensity, both(0.0));
     cosine_w = clamped_cosine(chosen(two_sided, magnitude(cosine_w), cosine_w));
     const Pair sine_w = sine_of(cosine_w), sine_o = sine_of(spread);
     const Pair cosine_x = cosine_of_difference(cosine_w, sine_w, spread, sine_o);
@@ -166,8 +164,8 @@ std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at
 
 #else
 
-std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at) {
-    return {importance(two[0], at), importance(two[1], at)};
+std::array<double, 2> importances(const LightTree::Siblings& two, const LitPoint& at) {
+    return {importance_of(two, 0, at), importance_of(two, 1, at)};
 }
 
 #endif

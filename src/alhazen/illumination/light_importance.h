@@ -12,7 +12,6 @@ namespace alhazen {
 
 [[nodiscard]] double importance(const LightTree::Node& node, const LitPoint& at);
 
-/// The importances of two successive nodes.
-[[nodiscard]] std::array<double, 2> importances(const LightTree::Node* two, const LitPoint& at);
+[[nodiscard]] std::array<double, 2> importances(const LightTree::Siblings& two, const LitPoint& at);
 
 }  // namespace alhazen

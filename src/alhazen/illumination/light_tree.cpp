@@ -83,9 +83,11 @@ double cost_of(const Cluster& c) {
     return c.intensity * directions * area;
 }
 
-class TreeBuilder {
+}  // namespace
+
+class LightTreeBuilder {
   public:
-    explicit TreeBuilder(const std::vector<TreeLight>& lights) : lights_(lights) {
+    explicit LightTreeBuilder(const std::vector<TreeLight>& lights) : lights_(lights) {
         for (std::size_t i = 0; i < lights.size(); ++i) {
             if (lights[i].intensity > 0.0 && std::isfinite(lights[i].intensity)) {
                 order_.push_back(static_cast<std::uint32_t>(i));
@@ -93,35 +95,43 @@ class TreeBuilder {
         }
     }
 
-    void build(std::vector<LightTree::Node>& nodes) {
+    void build(LightTree& tree) {
+        tree.leaves_.assign(lights_.size(), LightTree::kNone);
+        tree.empty_ = order_.empty();
         if (order_.empty()) return;
-        nodes.reserve(2 * order_.size());
-        nodes.emplace_back().parent = LightTree::kNone;
+        const std::size_t pairs = order_.size() - 1;
+        tree.pairs_.resize(pairs);
+        tree.links_.resize(2 * pairs);
+        tree.parents_.resize(pairs);
+        std::uint32_t made = 0;
         // Not recursive: a tree of equal lights may be deep.
-        std::vector<Task> waiting{{0, 0, order_.size()}};
+        std::vector<Task> waiting{{LightTree::kNone, 0, order_.size()}};
         while (!waiting.empty()) {
             const Task task = waiting.back();
             waiting.pop_back();
-            set_node(nodes[task.node], bound(task));
+            const bool is_root = task.node == LightTree::kNone;
+            LightTree::Link& link = is_root ? tree.root_ : tree.links_[task.node];
+            if (!is_root) {
+                tree.pairs_[task.node / 2].set(task.node % 2, node_of(bound(task)));
+            }
             if (task.end - task.begin == 1) {
-                nodes[task.node].leaf = true;
-                nodes[task.node].content = order_[task.begin];
+                const std::uint32_t light = order_[task.begin];
+                link = LightTree::Link::to_light(light);
+                tree.leaves_[light] = task.node;
                 continue;
             }
             const std::size_t middle = divide(task);
-            const auto children = static_cast<std::uint32_t>(nodes.size());
-            nodes[task.node].leaf = false;
-            nodes[task.node].content = children;
-            nodes.resize(nodes.size() + 2);
-            nodes[children].parent = nodes[children + 1].parent = task.node;
-            waiting.push_back({children + 1, middle, task.end});
-            waiting.push_back({children, task.begin, middle});
+            link = LightTree::Link::to_siblings(made);
+            tree.parents_[made] = task.node;
+            waiting.push_back({2 * made + 1, middle, task.end});
+            waiting.push_back({2 * made, task.begin, middle});
+            ++made;
         }
     }
 
   private:
     struct Task {
-        std::uint32_t node;
+        std::uint32_t node;  ///< kNone: the root
         std::size_t begin, end;
     };
     struct Bin {
@@ -170,7 +180,8 @@ class TreeBuilder {
         return all.cluster;
     }
 
-    static void set_node(LightTree::Node& node, const Cluster& c) {
+    static LightTree::Node node_of(const Cluster& c) {
+        LightTree::Node node;
         constexpr float kInf = std::numeric_limits<float>::infinity();
         for (int k = 0; k < 3; ++k) {
             node.lo[k] = std::nextafter(static_cast<float>(c.box.lo[k]), -kInf);
@@ -183,6 +194,7 @@ class TreeBuilder {
         node.cosine_reach = static_cast<float>(c.cosine_reach);
         node.intensity = static_cast<float>(std::clamp(c.intensity, 1e-37, 1e37));
         node.two_sided = c.two_sided;
+        return node;
     }
 
     /// Orders the lights of the task by the sides of a split; returns the end of the first side.
@@ -255,49 +267,55 @@ class TreeBuilder {
     std::vector<std::uint32_t> order_;
 };
 
-}  // namespace
+void LightTree::Siblings::set(std::size_t sibling, const Node& node) {
+    const Vec3 lo{node.lo[0], node.lo[1], node.lo[2]}, hi{node.hi[0], node.hi[1], node.hi[2]};
+    const Vec3 middle = 0.5 * (lo + hi);
+    for (int k = 0; k < 3; ++k) {
+        center[k][sibling] = middle[k];
+        axis[k][sibling] = node.axis[k];
+    }
+    radius2[sibling] = 0.25 * length_squared(hi - lo);
+    radius[sibling] = std::sqrt(radius2[sibling]);
+    cosine_spread[sibling] = node.cosine_spread;
+    cosine_reach[sibling] = node.cosine_reach;
+    intensity[sibling] = node.two_sided ? -node.intensity : node.intensity;
+}
 
 LightTree::LightTree(const std::vector<TreeLight>& lights) {
-    TreeBuilder(lights).build(nodes_);
-    leaves_.assign(lights.size(), kNone);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        if (nodes_[i].leaf) leaves_[nodes_[i].content] = static_cast<std::uint32_t>(i);
-    }
+    LightTreeBuilder(lights).build(*this);
 }
 
 ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
-    if (nodes_.empty()) return {};
+    if (empty_) return {};
     double probability = 1.0;
-    const Node* node = nodes_.data();
-    while (!node->leaf) {
-        const Node* children = nodes_.data() + node->content;
-        const auto [first, second] = importances(children, at);
+    Link link = root_;
+    while (!link.is_leaf()) {
+        const std::uint32_t pair = link.target();
+        const auto [first, second] = importances(pairs_[pair], at);
         const double sum = first + second;
         if (!(sum > 0.0)) return {};
         const double share = first / sum;
         if (choice < share) {
             choice = std::min(choice / share, 0x1.fffffffffffffp-1);
             probability *= share;
-            node = children;
+            link = links_[2 * pair];
         } else {
             choice = std::min((choice - share) / (1.0 - share), 0x1.fffffffffffffp-1);
             probability *= second / sum;
-            node = children + 1;
+            link = links_[2 * pair + 1];
         }
     }
-    return {node->content, probability};
+    return {link.target(), probability};
 }
 
 double LightTree::probability(const LitPoint& at, std::size_t light) const {
-    std::uint32_t i = leaves_[light];
-    if (i == kNone) return 0.0;
+    if (empty_ || (leaves_[light] == kNone && !pairs_.empty())) return 0.0;
+    if (pairs_.empty()) return root_.target() == light ? 1.0 : 0.0;
     double probability = 1.0;
-    while (nodes_[i].parent != kNone) {
-        const std::uint32_t first = nodes_[nodes_[i].parent].content;
-        const auto [one, two] = importances(&nodes_[first], at);
+    for (std::uint32_t node = leaves_[light]; node != kNone; node = parents_[node / 2]) {
+        const auto [one, two] = importances(pairs_[node / 2], at);
         if (!(one + two > 0.0)) return 0.0;
-        probability *= (i == first ? one : two) / (one + two);
-        i = nodes_[i].parent;
+        probability *= (node % 2 == 0 ? one : two) / (one + two);
     }
     return probability;
 }

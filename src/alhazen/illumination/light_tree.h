@@ -10,9 +10,10 @@
 /// axis only. The energy of a light is its largest intensity.
 /// Conventions: every light that may reach a point has a probability above 0. Leaves hold one
 /// light.
-/// Complexity: O(n log n) to build, 128 bytes a light; O(depth) for a choice or a probability.
+/// Complexity: O(n log n) to build, 144 bytes a light; O(depth) for a choice or a probability.
 /// Threads: const functions may be called from many.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -45,17 +46,53 @@ class LightTree {
         float cosine_spread;  ///< as in EmitterBounds
         float cosine_reach;
         float intensity;
-        std::uint32_t parent;   ///< kNone: the root
-        std::uint32_t content;  ///< the first of two successive children; of a leaf the light
-        bool leaf, two_sided;
+        bool two_sided;
+    };
+    /// The numbers of two siblings that an importance depends on, [sibling].
+    struct alignas(64) Siblings {
+        double center[3][2];
+        double radius2[2], radius[2];  ///< of the sphere around the box; the first squared
+        float axis[3][2];
+        float cosine_spread[2];
+        float cosine_reach[2];
+        float intensity[2];  ///< negative: that of two-sided lights
+
+        void set(std::size_t sibling, const Node& node);
     };
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+    /// What a node leads to: a pair of siblings, or a light.
+    class Link {
+      public:
+        Link() = default;
+        [[nodiscard]] static Link to_siblings(std::uint32_t pair) { return Link(pair); }
+        [[nodiscard]] static Link to_light(std::uint32_t light) { return Link(light | kLight); }
+
+        [[nodiscard]] bool is_leaf() const { return (bits_ & kLight) != 0; }
+        /// The number of the light or of the pair.
+        [[nodiscard]] std::uint32_t target() const { return bits_ & ~kLight; }
+
+      private:
+        explicit Link(std::uint32_t bits) : bits_(bits) {}
+        static constexpr std::uint32_t kLight = 0x80000000u;
+        std::uint32_t bits_ = 0;
+    };
+
+    [[nodiscard]] bool empty() const { return empty_; }
+    [[nodiscard]] Link root() const { return root_; }
+    [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
+    /// Node 2 k + i is sibling i of pair k.
+    [[nodiscard]] const std::vector<Link>& links() const { return links_; }
 
   private:
-    std::vector<Node> nodes_;
-    std::vector<std::uint32_t> leaves_;  ///< [light], or kNone
+    friend class LightTreeBuilder;
+
+    bool empty_ = true;
+    Link root_;
+    std::vector<Siblings> pairs_;
+    std::vector<Link> links_;             ///< [node]
+    std::vector<std::uint32_t> parents_;  ///< [pair]: a node, or kNone
+    std::vector<std::uint32_t> leaves_;   ///< [light]: a node, or kNone
 };
 
 }  // namespace alhazen

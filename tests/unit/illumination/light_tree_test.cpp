@@ -73,7 +73,10 @@ TEST(LightTree, TwoNodesInLanesAreAsOneByOne) {
         if (i % 11 == 0) at.point = {near.lo[0], near.hi[1], near.lo[2]};
         if (i % 11 == 1) at.point = {near.lo[0], near.lo[1], 0.5 * (near.lo[2] + near.hi[2])};
         if (i % 11 == 2) at.point = at.point + 1e9 * at.normal;
-        const std::array<double, 2> lanes = importances(two, at);
+        LightTree::Siblings siblings;
+        siblings.set(0, two[0]);
+        siblings.set(1, two[1]);
+        const std::array<double, 2> lanes = importances(siblings, at);
         for (const std::size_t k : {0, 1}) {
             const double alone = importance(two[k], at);
             ASSERT_EQ(lanes[k], alone) << i;

@@ -4,13 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "alhazen/renderers/core/path_record.h"
 #include "alhazen/renderers/path_tracing/plain_meshes.h"
+#include "alhazen/renderers/path_tracing/rough_lanes.h"
+#include "alhazen/sampling/random.h"
+#include "alhazen/shading/microfacets/local_directions.h"
 #include "alhazen/simd/targets.h"
 #include "support/light_pictures.h"
 #include "support/random.h"
@@ -146,6 +152,124 @@ TEST(VertexLanes, PicturesHaveTheBitsOfVerticesOneByOne) {
             }
         }
     }
+}
+
+Vec3 random_above(RandomStream& random) {
+    const double z = random.below(5) == 0 ? random.uniform(0, 1e-3) : random.uniform(1e-6, 1);
+    const double angle = random.uniform(0, 2 * kPi), radius = std::sqrt(1 - z * z);
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+Spectrum random_spectrum(RandomStream& random) {
+    const double b = random.uniform(0, 1);
+    return {random.below(4) == 0 ? 0.0 : random.uniform(0, 1), random.uniform(0, 1), b, b};
+}
+
+/// A rough reflection; some are black or brighter than numbers can be.
+Bsdf random_rough(RandomStream& random) {
+    const double alpha = random.below(4) == 0 ? 1.0 : random.uniform(1e-3, 1);
+    const bool brushed = random.below(2) == 0;
+    const double angle = random.uniform(0, 2 * kPi);
+    const SchlickTerm term{random_spectrum(random),
+                           Spectrum::all(random.below(3) == 0 ? random.uniform(0.1, 1) : 1.0)};
+    const double weights[] = {1.0, random.uniform(0, 1), 1e308};
+    Bsdf bsdf;
+    bsdf.add(Spectrum::all(weights[random.below(3)]),
+             RoughReflection({brushed ? random.uniform(1e-3, 1) : alpha, alpha}, term,
+                             brushed ? Vec2{std::cos(angle), std::sin(angle)} : Vec2{1, 0}));
+    return bsdf;
+}
+
+TEST(RoughLanes, HaveTheBitsOfBsdfsOneByOne) {
+    RandomStream makes(3);
+    std::vector<Bsdf> bsdfs;
+    std::vector<std::unique_ptr<const RoughLobe>> lobes;
+    while (bsdfs.size() < 40) {
+        bsdfs.push_back(random_rough(makes));
+        lobes.push_back(RoughLobe::of(bsdfs.back()));
+        ASSERT_NE(lobes.back(), nullptr);
+    }
+    constexpr std::size_t kMost = RoughLanes::kMost;
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        RandomStream random(11);
+        RoughLanes rough;
+        auto v = std::make_unique<VertexLanes>();
+        const auto put = [](const auto& of, std::size_t lane, auto& to) {
+            for (int k = 0; k < static_cast<int>(std::size(to)); ++k) to[k][lane] = of[k];
+        };
+        int sampled = 0, absorbed = 0;
+        for (int i = 0; i < 3000; ++i) {
+            std::array<Vec3, kMost> views, lights, matt;
+            std::array<std::size_t, kMost> used;
+            std::array<Vec2, kMost> u;
+            std::array<double, kMost> choices;
+            const auto own = static_cast<std::uint32_t>(random.below(256));
+            v->lit = static_cast<std::uint32_t>(random.below(256));
+            v->sampled = 255;
+            for (std::size_t lane = 0; lane < kMost; ++lane) {
+                views[lane] = random_above(random);
+                lights[lane] = random_above(random);
+                u[lane] = {random.uniform(0, 1),
+                           random.below(20) == 0 ? 0.0 : random.uniform(0, 1)};
+                matt[lane] = cosine_direction(u[lane]);
+                choices[lane] = random.uniform(0, 1);
+                used[lane] = random.below(bsdfs.size());
+                put(views[lane], lane, v->view);
+                put(lights[lane], lane, v->to_light);
+                put(matt[lane], lane, v->next);
+                v->u[0][lane] = u[lane].x;
+                v->u[1][lane] = u[lane].y;
+                v->density[lane] = v->next_density[lane] = 0.5;
+                put(Spectrum::all(0.25), lane, v->value);
+                put(Spectrum::all(0.75), lane, v->next_weight);
+                if ((own >> lane & 1u) != 0) rough.set(lane, *lobes[used[lane]], choices[lane]);
+            }
+            rough.scatter(*v);
+            for (std::size_t lane = 0; lane < kMost; ++lane) {
+                const Bsdf& bsdf = bsdfs[used[lane]];
+                const bool is_own = (own >> lane & 1u) != 0;
+                Spectrum value = Spectrum::all(0.25), weight = Spectrum::all(0.75);
+                double density = 0.5, next_density = 0.5;
+                Vec3 next = matt[lane];
+                const auto expect_same = [&](double found, double expected, const char* what) {
+                    EXPECT_EQ(std::bit_cast<std::uint64_t>(found),
+                              std::bit_cast<std::uint64_t>(expected))
+                        << target << " " << i << " " << lane << " " << what;
+                };
+                if (is_own) {
+                    const auto drawn =
+                        bsdf.sample(views[lane], choices[lane], u[lane], Transport::Radiance);
+                    ASSERT_EQ((v->sampled >> lane & 1u) != 0, drawn.has_value()) << target << i;
+                    ++(drawn ? sampled : absorbed);
+                    value =
+                        lights[lane].z * bsdf.value(views[lane], lights[lane], Transport::Radiance);
+                    density = bsdf.density(views[lane], lights[lane]);
+                    if (drawn) {
+                        next = drawn->direction;
+                        weight = drawn->weight;
+                        next_density = drawn->density;
+                    }
+                }
+                for (int k = 0; k < 4 && (!is_own || (v->lit >> lane & 1u) != 0); ++k) {
+                    expect_same(v->value[k][lane], value[k], "value");
+                    expect_same(v->density[lane], density, "density");
+                }
+                if ((v->sampled >> lane & 1u) == 0) continue;
+                for (int k = 0; k < 4; ++k)
+                    expect_same(v->next_weight[k][lane], weight[k], "weight");
+                for (int k = 0; k < 3; ++k) expect_same(v->next[k][lane], next[k], "next");
+                expect_same(v->next_density[lane], next_density, "next density");
+            }
+            ASSERT_FALSE(::testing::Test::HasFailure());
+        }
+        EXPECT_GT(sampled, 5000);
+        EXPECT_GT(absorbed, 1000);
+    }
+    Bsdf other;
+    other.add(Spectrum::all(1), Lambert{Spectrum::all(0.5)});
+    EXPECT_EQ(RoughLobe::of(other), nullptr);
+    EXPECT_EQ(RoughLobe::of(Bsdf()), nullptr);
 }
 
 TEST(PlainMeshes, AreThoseWhosePointsScatterAlike) {

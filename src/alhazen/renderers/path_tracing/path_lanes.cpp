@@ -77,9 +77,18 @@ void PathTracer::scatter_lanes() {
     draws_.draw();
     const LightDraws::Results& lights = draws_.results();
     v.scatter(lights);
+    bool any_rough = false;
     for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
-        if (!of_lanes_[lane].material->is_matt) scatter_rough(lane);
+        const auto& [path, material] = of_lanes_[lane];
+        if (material->is_matt) continue;
+        if (const auto& rough = material->rough[v.entering >> lane & 1u]) {
+            any_rough = true;
+            rough_.set(lane, *rough, choices(*path, true).x);
+        } else {
+            scatter_other(lane);
+        }
     }
+    if (any_rough) rough_.scatter(v);
     v.weigh(lights);
     const std::uint32_t used = (1u << in_lanes_) - 1;
     for_each_lane(v.lit & used, [&](std::size_t lane) {
@@ -95,7 +104,7 @@ void PathTracer::scatter_lanes() {
     in_lanes_ = 0;
 }
 
-void PathTracer::scatter_rough(std::size_t lane) {
+void PathTracer::scatter_other(std::size_t lane) {
     VertexLanes& v = lanes_;
     const auto& [path, material] = of_lanes_[lane];
     const Bsdf& bsdf = material->bsdfs[v.entering >> lane & 1u];

@@ -19,6 +19,7 @@
 #include "alhazen/renderers/light_transport/scattering_media.h"
 #include "alhazen/renderers/manifold/manifold_light.h"
 #include "alhazen/renderers/path_tracing/plain_meshes.h"
+#include "alhazen/renderers/path_tracing/rough_lanes.h"
 #include "alhazen/renderers/path_tracing/vertex_lanes.h"
 
 namespace alhazen {
@@ -91,8 +92,8 @@ class PathTracer {
     void scatter_lanes();
     /// Draws the random numbers of the lanes; adds their points to `draws_`.
     void draw_numbers();
-    /// Sets the values and the sample of a BSDF that is not matt.
-    void scatter_rough(std::size_t lane);
+    /// Sets the values and the sample of a BSDF that is neither matt nor a single rough reflection.
+    void scatter_other(std::size_t lane);
     /// Continues a path along the direction of its lane.
     void leave_lane(std::size_t lane);
     /// Adds direct light at the waiting vertices and scatters their paths.
@@ -200,6 +201,7 @@ class PathTracer {
     bool uses_lanes_;  ///< plain vertices are handled in lanes
     PlainMeshes plain_;
     VertexLanes lanes_;
+    RoughLanes rough_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
     std::size_t in_lanes_ = 0;
     LightDraws draws_;

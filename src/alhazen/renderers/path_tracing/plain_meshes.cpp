@@ -62,6 +62,7 @@ const PlainMaterial* PlainMeshes::material_of(MaterialId id) {
         bsdf = bsdf_of(material, scene_.textures, SurfaceLookup{},
                        {.eta = own > 0.0 && !sample.thin ? eta : 0.0, .from_inside = !entering});
         if (!only_reflects_wide(bsdf)) return nullptr;
+        plain->rough[entering ? 1 : 0] = RoughLobe::of(bsdf);
     }
     const std::optional<Spectrum> behind = matt_value(plain->bsdfs[0]);
     const std::optional<Spectrum> front = matt_value(plain->bsdfs[1]);

@@ -12,15 +12,17 @@
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/primitives/primitive_table.h"
+#include "alhazen/renderers/path_tracing/rough_lanes.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/bsdf/bsdf.h"
 
 namespace alhazen {
 
 struct PlainMaterial {
-    std::array<Bsdf, 2> bsdfs;  ///< [ShadingPoint::entering]
-    bool is_matt = false;       ///< one diffuse reflection, the same from both sides
-    Spectrum matt;              ///< its value, without cosine; else black
+    std::array<Bsdf, 2> bsdfs;                              ///< [ShadingPoint::entering]
+    std::array<std::unique_ptr<const RoughLobe>, 2> rough;  ///< of `bsdfs`; null: other lobes
+    bool is_matt = false;  ///< one diffuse reflection, the same from both sides
+    Spectrum matt;         ///< its value, without cosine; else black
 };
 
 class PlainMeshes {

@@ -262,6 +262,12 @@ std::optional<BsdfSample> Bsdf::sample_matt(const Vec3& view, const Vec3& direct
     return BsdfSample{direction, weight, density};
 }
 
+Bsdf::RoughAlone Bsdf::rough_alone() const {
+    if (!chosen_alone_) return {};
+    const Part& only = parts_[0];
+    return {&std::get<RoughReflection>(only.lobe), only.weight};
+}
+
 Spectrum Bsdf::albedo(const Vec3& view) const {
     if (!(view.z > 0.0)) return {};
     Spectrum sum;

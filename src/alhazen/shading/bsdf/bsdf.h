@@ -73,6 +73,13 @@ class Bsdf {
     /// `sample` for a direction of `cosine_direction`; valid if `is_only_matt`.
     [[nodiscard]] std::optional<BsdfSample> sample_matt(const Vec3& view,
                                                         const Vec3& direction) const;
+    /// The lobe and its weight if the BSDF is a single uncovered rough reflection with Schlick's
+    /// term, which `sample` takes for every view; else null.
+    struct RoughAlone {
+        const RoughReflection* lobe = nullptr;
+        Spectrum weight;
+    };
+    [[nodiscard]] RoughAlone rough_alone() const;
     /// Share of the light from all directions that is scattered to `view`, or a close
     /// approximation.
     [[nodiscard]] Spectrum albedo(const Vec3& view) const;

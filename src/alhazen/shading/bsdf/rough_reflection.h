@@ -41,6 +41,13 @@ class RoughReflection {
     };
     [[nodiscard]] OneFacet one_facet(const Vec3& view, const Vec3& direction) const;
     [[nodiscard]] const FresnelTerm& fresnel() const { return fresnel_; }
+    [[nodiscard]] const Ggx& ggx() const { return ggx_; }
+    [[nodiscard]] const Vec2& axis() const { return axis_; }
+    /// The alpha whose albedos, and their mean over the hemisphere, give the matt lobe.
+    [[nodiscard]] double mean_alpha() const { return mean_alpha_; }
+    [[nodiscard]] double mean_single() const { return mean_single_; }
+    /// Colour of the multiple scattering.
+    [[nodiscard]] const Spectrum& several() const { return several_; }
 
   private:
     [[nodiscard]] Vec3 turned(const Vec3& v) const {

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kCosines = 44, kAlphas = 32, kMeans = 257;
+constexpr int kAlphas = 32, kMeans = 257;
 
 /// A slice of a table at one alpha, made at the second request, and recent results.
 struct AlphaSlice {
@@ -22,7 +22,7 @@ struct AlphaSlice {
     std::uint32_t next = 0;      ///< the result to be replaced next
     std::array<double, 2> mu{};  ///< 0: none
     std::array<double, 2> answer{};
-    std::array<double, kCosines> values{};
+    std::array<double, AlbedoTable::kCosines> values{};
 };
 
 AlphaSlice& slice_of(std::uint64_t table, double alpha) {
@@ -40,7 +40,7 @@ std::uint64_t new_id() {
 }  // namespace
 
 AlbedoTable::AlbedoTable(const Function& albedo, Axis axis) : id_(new_id()), axis_(axis) {
-    table_ = CubicTable<2>({kCosines, kAlphas}, [&](const std::array<double, 2>& p) {
+    table_ = CubicTable<2>({int{kCosines}, kAlphas}, [&](const std::array<double, 2>& p) {
         const double alpha = AlbedoAxes::alpha_of(p[1]);
         return albedo(axis == Axis::Shadow ? AlbedoAxes::mu_of(p[0], alpha)
                                            : std::max(p[0] * p[0], AlbedoAxes::kLeastMu),
@@ -61,7 +61,7 @@ double AlbedoTable::at(double mu, double alpha) const {
         slice.table = id_;
         slice.alpha = a;
         slice.is_made = false;
-        return std::clamp(table_.at({place_of(m, a), AlbedoAxes::y_of(a)}), 0.0, 1.0);
+        return std::clamp(table_.at({place_of(axis_, m, a), AlbedoAxes::y_of(a)}), 0.0, 1.0);
     }
     if (!slice.is_made) {
         table_.get_slice(AlbedoAxes::y_of(a), slice.values);
@@ -72,11 +72,22 @@ double AlbedoTable::at(double mu, double alpha) const {
         if (slice.mu[i] == m) return slice.answer[i];
     }
     const double found = std::clamp(
-        CubicTable<2>::at(std::span<const double>(slice.values), place_of(m, a)), 0.0, 1.0);
+        CubicTable<2>::at(std::span<const double>(slice.values), place_of(axis_, m, a)), 0.0, 1.0);
     slice.mu[slice.next] = m;
     slice.answer[slice.next] = found;
     slice.next = 1 - slice.next;
     return found;
+}
+
+AlbedoTable::Slice::Slice(const AlbedoTable& table, double alpha)
+    : axis_(table.axis_), alpha_(std::clamp(alpha, AlbedoAxes::kLeastAlpha, 1.0)) {
+    table.table_.get_slice(AlbedoAxes::y_of(alpha_), values_);
+}
+
+double AlbedoTable::Slice::at(double mu) const {
+    const double m = std::clamp(mu, AlbedoAxes::kLeastMu, 1.0);
+    return std::clamp(
+        CubicTable<2>::at(std::span<const double>(values_), place_of(axis_, m, alpha_)), 0.0, 1.0);
 }
 
 double AlbedoTable::mean(double alpha) const {

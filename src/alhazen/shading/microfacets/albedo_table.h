@@ -12,7 +12,9 @@
 /// that it uses repeatedly.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -43,16 +45,30 @@ class AlbedoTable {
     /// `Shadow`: for functions smooth in mu / (mu + alpha); `Angle`: smooth in the square root of
     /// mu.
     enum class Axis { Shadow, Angle };
+    static constexpr std::size_t kCosines = 44;
 
     explicit AlbedoTable(const Function& albedo, Axis axis = Axis::Shadow);
 
     [[nodiscard]] double at(double mu, double alpha) const;
+
+    /// The table at one alpha.
+    class Slice {
+      public:
+        Slice(const AlbedoTable& table, double alpha);
+        /// The bits of AlbedoTable::at.
+        [[nodiscard]] double at(double mu) const;
+
+      private:
+        Axis axis_;
+        double alpha_;
+        std::array<double, kCosines> values_;
+    };
     /// Cosine-weighted mean over the hemisphere.
     [[nodiscard]] double mean(double alpha) const;
 
   private:
-    [[nodiscard]] double place_of(double mu, double alpha) const {
-        return axis_ == Axis::Shadow ? AlbedoAxes::x_of(mu, alpha) : std::sqrt(mu);
+    [[nodiscard]] static double place_of(Axis axis, double mu, double alpha) {
+        return axis == Axis::Shadow ? AlbedoAxes::x_of(mu, alpha) : std::sqrt(mu);
     }
 
     std::uint64_t id_;  ///< unique to the table

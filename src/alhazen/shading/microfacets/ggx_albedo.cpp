@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/shading/microfacets/albedo_table.h"
 #include "alhazen/shading/microfacets/ggx.h"
 #include "alhazen/shading/microfacets/local_directions.h"
 #include "alhazen/shading/microfacets/meridian.h"
@@ -61,6 +60,10 @@ SplitAlbedo ggx_albedo(double mu, double alpha) {
 
 double ggx_albedo_sum(double mu, double alpha) {
     return ggx_tables().sum.at(mu, alpha);
+}
+
+AlbedoTable::Slice ggx_albedo_sums(double alpha) {
+    return {ggx_tables().sum, alpha};
 }
 
 SplitAlbedo ggx_mean_albedo(double alpha) {

@@ -10,6 +10,8 @@
 /// Conventions: mu is the cosine of the view, 0..1; alpha the roughness of Ggx, 0..1.
 /// Complexity and threads: the first call takes some tenths of a second; any thread may make it.
 
+#include "alhazen/shading/microfacets/albedo_table.h"
+
 namespace alhazen {
 
 /// Albedo with Schlick's Fresnel term: f0 * at_f0 + f90 * at_f90.
@@ -22,6 +24,8 @@ struct SplitAlbedo {
 [[nodiscard]] SplitAlbedo ggx_albedo(double mu, double alpha);
 /// The albedo with a Fresnel term of 1.
 [[nodiscard]] double ggx_albedo_sum(double mu, double alpha);
+/// `ggx_albedo_sum` of one alpha.
+[[nodiscard]] AlbedoTable::Slice ggx_albedo_sums(double alpha);
 /// Cosine-weighted mean over the hemisphere.
 [[nodiscard]] SplitAlbedo ggx_mean_albedo(double alpha);
 
