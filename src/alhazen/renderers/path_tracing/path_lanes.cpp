@@ -1,7 +1,5 @@
 // Vertices of PathTracer in lanes: from the hits to shadow rays and next rays.
 
-#include <bit>
-
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
 namespace alhazen {
@@ -17,12 +15,6 @@ Spectrum spectrum_of(const VertexLanes::Spectra& of, std::size_t lane) {
 template <class V, std::size_t N>
 void put(const V& v, std::size_t lane, VertexLanes::Numbers (&to)[N]) {
     for (std::size_t k = 0; k < N; ++k) to[k][lane] = v[static_cast<int>(k)];
-}
-
-/// Calls f(lane) for each of `lanes`.
-template <class F>
-void for_each_lane(std::uint32_t lanes, const F& f) {
-    for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
 }
 
 }  // namespace
@@ -48,6 +40,7 @@ bool PathTracer::takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit) 
 
 void PathTracer::draw_numbers() {
     using enum PathRandomness::BouncePair;
+    LightCallLanes& calls = draws_.calls();
     // Most paths of a batch have the same number of bounces.
     int bounce = -1;
     const Vec2 *places = nullptr, *directions = nullptr;
@@ -61,9 +54,9 @@ void PathTracer::draw_numbers() {
         }
         const Vec2 place = places ? places[sample] : random_.draw(sample, bounce, kLight);
         const Vec2 u = directions ? directions[sample] : random_.draw(sample, bounce, kDirection);
-        const double choice = choices(path, chooses_light_).y;
-        draws_.add({vector_of(lanes_.triangles.point, lane), vector_of(lanes_.z, lane)}, choice,
-                   place, kColorChannels);
+        if (chooses_light_) calls.choice[lane] = choices(path, true).y;
+        calls.u[0][lane] = place.x;
+        calls.u[1][lane] = place.y;
         lanes_.u[0][lane] = u.x;
         lanes_.u[1][lane] = u.y;
     }
@@ -72,24 +65,23 @@ void PathTracer::draw_numbers() {
 void PathTracer::scatter_lanes() {
     if (in_lanes_ == 0) return;
     VertexLanes& v = lanes_;
-    v.find_frames();
+    v.find_frames(in_lanes_, draws_.calls());
     draw_numbers();
-    draws_.draw();
-    const LightDraws::Results& lights = draws_.results();
+    draws_.draw(in_lanes_);
+    const LightDrawLanes& lights = draws_.results();
     v.scatter(lights);
     for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
         if (!of_lanes_[lane].material->is_matt) scatter_rough(lane);
     }
     v.weigh(lights);
-    const std::uint32_t used = (1u << in_lanes_) - 1;
-    for_each_lane(v.lit & used, [&](std::size_t lane) {
+    for_each_lane(v.lit, [&](std::size_t lane) {
         const EyePath& path = *of_lanes_[lane].path;
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
                          LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
         shadows_.add(shadow, path.time, path.media, kColorChannels, shown, light_[path.sample]);
     });
-    for_each_lane(v.sampled & used, [&](std::size_t lane) { leave_lane(lane); });
+    for_each_lane(v.sampled, [&](std::size_t lane) { leave_lane(lane); });
     draws_.clear();
     v.triangles.clear();
     in_lanes_ = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "alhazen/renderers/light_transport/matt_directions.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
@@ -27,8 +26,9 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       most_waiting_(job.path != nullptr || layers != nullptr || settings.polarization ||
                             manifold != nullptr
                         ? 1
-                        : LightDraws::kMost),
+                        : kMostWaiting),
       uses_lanes_(most_waiting_ > 1 && !random_.is_spectral()),
+      escapes_later_(uses_lanes_ && lights.has_sky_picture()),
       plain_(scene_),
       draws_(lights),
       faces_(scene_),
@@ -44,6 +44,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     ids_ = ids;
     // After an exception in a bounce they still refer to the paths of the last batch.
     waiting_ = in_lanes_ = 0;
+    escaped_.clear();
     draws_.clear();
     lanes_.triangles.clear();
     random_.begin(ids);
@@ -101,7 +102,9 @@ void PathTracer::bounce(bool first) {
                 const Medium* const medium = path.media.here();
                 const bool scatters = medium != nullptr && media_.in(*medium) != nullptr;
                 if (scatters && cross_medium(path, *medium, rays_[k], kEndless, sum)) return;
-                return escape(path, rays_[k], sum);
+                if (!escapes_later_) return escape(path, rays_[k], sum);
+                escaped_.push_back(static_cast<std::uint32_t>(k));
+                return;
             }
             ++counters_[path.kind].hit;
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
@@ -109,6 +112,7 @@ void PathTracer::bounce(bool first) {
         [&](std::size_t k, const Hit& hit) {
             return takes_into_lane(paths_[alive_[k]], rays_[k], hit);
         });
+    escape_all();
     scatter_lanes();
     scatter_all();
     shadows_.finish();
@@ -198,8 +202,8 @@ void PathTracer::scatter_all() {
 }
 
 void PathTracer::draw_directions(std::span<const Vertex> vertices) {
-    std::array<Vec2, LightDraws::kMost> matt;
-    std::array<std::size_t, LightDraws::kMost> places;
+    std::array<Vec2, kMostWaiting> matt;
+    std::array<std::size_t, kMostWaiting> places;
     std::size_t count = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const EyePath& path = *vertices[i].path;
@@ -214,8 +218,7 @@ void PathTracer::draw_directions(std::span<const Vertex> vertices) {
             directions_[i] = scatter.sample(choice, u, Transport::Radiance);
         }
     }
-    static_assert(LightDraws::kMost == kMostMattDirections);
-    std::array<Vec3, LightDraws::kMost> found;
+    std::array<Vec3, kMostWaiting> found;
     set_matt_directions(std::span(matt).first(count), found.data());
     for (std::size_t k = 0; k < count; ++k) {
         directions_[places[k]] = vertices[places[k]].scatter.sample_matt(found[k]);

@@ -12,6 +12,7 @@
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/light_layers.h"
+#include "alhazen/renderers/light_transport/matt_directions.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
@@ -134,6 +135,10 @@ class PathTracer {
                                     Spectrum& sum);
     void scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray, Spectrum& sum);
     void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
+    /// Ends the paths of `escaped_`; the sky is looked up for several of them together.
+    void escape_all();
+    /// Adds the light of the environment to a path that leaves the scene.
+    void add_far_light(const EyePath& path, const Illumination::FarLight& far, Spectrum& sum);
     /// Continues straight through an uncovered part of the surface.
     void pass(EyePath& path, const Ray& ray, const ShadingPoint& point);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
@@ -195,15 +200,18 @@ class PathTracer {
     BsdfCache bsdfs_;
     ScatterPoint passed_;
     /// Vertices that wait for each other: their lights are sampled together.
-    std::array<Vertex, LightDraws::kMost> vertices_;
+    static constexpr std::size_t kMostWaiting = kMostMattDirections;
+    std::array<Vertex, kMostWaiting> vertices_;
     std::size_t waiting_ = 0, most_waiting_;
-    bool uses_lanes_;  ///< plain vertices are handled in lanes
+    bool uses_lanes_;                     ///< plain vertices are handled in lanes
+    bool escapes_later_;                  ///< paths wait in `escaped_`
+    std::vector<std::uint32_t> escaped_;  ///< [alive] that leave the scene
     PlainMeshes plain_;
     VertexLanes lanes_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
     std::size_t in_lanes_ = 0;
     LightDraws draws_;
-    std::array<std::optional<Scattered>, LightDraws::kMost> directions_;  ///< [waiting vertex]
+    std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
     ShadingPoint opaque_face_;  ///< an opaque coincident face that is hit instead
     ScatteringMedia media_;
