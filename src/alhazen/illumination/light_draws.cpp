@@ -22,6 +22,13 @@ void fetch(const Emitter& emitter) {
 
 }  // namespace
 
+LightDraws::LightDraws(const Illumination& lights) : lights_(lights) {
+    const Illumination::Data& d = *lights.data_;
+    if (d.options.choice == LightChoice::Tree && d.tree.nodes().size() == 1) {
+        sole_ = d.tree.choose({}, 0.0);
+    }
+}
+
 void LightDraws::add(const LitPoint& at, double choice, const Vec2& u, const Wavelengths& waves) {
     const std::size_t lane = size_++;
     calls_.at.set(lane, at);
@@ -140,7 +147,11 @@ void LightDraws::choose_near(std::uint32_t lanes, ChosenLight* chosen) {
 void LightDraws::draw_near(std::uint32_t lanes) {
     const Illumination::Data& d = *lights_.data_;
     std::array<ChosenLight, kMost> chosen;
-    choose_near(lanes, chosen.data());
+    if (sole_.probability > 0.0) {
+        chosen.fill(sole_);
+    } else {
+        choose_near(lanes, chosen.data());
+    }
     if (d.near_count() > kInCache) {
         for_each_lane(lanes, [&](std::size_t lane) {
             const ChosenLight& one = chosen[lane];

@@ -22,7 +22,7 @@ class LightDraws {
     static constexpr std::size_t kMost = LightCallLanes::kMost;
 
     /// `lights` must outlive the object, unchanged.
-    explicit LightDraws(const Illumination& lights) : lights_(lights) {}
+    explicit LightDraws(const Illumination& lights);
 
     [[nodiscard]] std::size_t size() const { return size_; }
     /// Adds a call of `Illumination::draw`; at most kMost before `clear`. `waves` must stay valid
@@ -63,6 +63,7 @@ class LightDraws {
     std::size_t size_ = 0;
     std::array<SkyDraw, kMost> sky_draws_;
     std::array<Environment::Search, kMost> searches_;  ///< [sky draw]
+    ChosenLight sole_;  ///< the near light if there is only one; else with probability 0
     RectangleLanes rectangles_;
     std::array<std::size_t, kMost> rectangle_lights_ = {};  ///< [lane]
     LightDrawLanes results_;

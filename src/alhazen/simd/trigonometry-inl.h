@@ -57,14 +57,20 @@ HWY_INLINE std::uint32_t lanes_rounded(const Pairs<N>& x) {
     return bits_of((with_margin <= x.high) & (with_margin >= x.high));
 }
 
+/// Even and odd powers apart: half as many steps depend on each other.
 template <std::size_t N, std::size_t kCount>
 HWY_INLINE Lanes<double, N> polynomial(const Lanes<double, N>& x,
                                        const double (&coefficients)[kCount]) {
-    Lanes<double, N> sum(coefficients[kCount - 1]);
-    for (std::size_t i = kCount - 1; i-- > 0;) {
-        sum = mul_add(sum, x, Lanes<double, N>(coefficients[i]));
+    using D = Lanes<double, N>;
+    const D squared = x * x;
+    D last(coefficients[kCount - 1]), other(coefficients[kCount - 2]);
+    ALHAZEN_UNROLL
+    for (std::size_t i = kCount - 2; i-- > 0;) {
+        const D next = mul_add(last, squared, D(coefficients[i]));
+        last = other;
+        other = next;
     }
-    return sum;
+    return mul_add(last, x, other);
 }
 
 /// The product with the constant `constant` + `constant_low`.

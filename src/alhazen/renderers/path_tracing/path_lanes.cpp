@@ -28,14 +28,36 @@ bool PathTracer::takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit) 
     path.cone = path.cone.from(hit.t);
     ++path.met;
     if (path.scatterings >= settings_.depth) return true;
-    const std::size_t lane = in_lanes_++;
-    of_lanes_[lane] = {&path, place.material};
-    lanes_.triangles.set(lane, *place.mesh->mesh, place.triangle, hit, place.mesh->mirrored);
-    put(ray.direction, lane, lanes_.ray);
-    put(path.throughput, lane, lanes_.throughput);
-    put(place.material->matt, lane, lanes_.matt);
+    __builtin_prefetch(&place.mesh->mesh->triangles[place.triangle]);
+    of_lanes_[in_lanes_++] = {.path = &path,
+                              .material = place.material,
+                              .mesh = place.mesh,
+                              .triangle = place.triangle,
+                              .ray = &ray,
+                              .u = hit.u,
+                              .v = hit.v};
     if (in_lanes_ == VertexLanes::kMost) scatter_lanes();
     return true;
+}
+
+void PathTracer::fill_lanes() {
+    const std::span<const LaneVertex> vertices = std::span(of_lanes_).first(in_lanes_);
+    // Large meshes are not in the cache.
+    for (const LaneVertex& vertex : vertices) {
+        const TriangleMesh& mesh = *vertex.mesh->mesh;
+        for (const std::uint32_t corner : mesh.triangles[vertex.triangle]) {
+            __builtin_prefetch(&mesh.positions[corner]);
+        }
+    }
+    for (std::size_t lane = 0; const LaneVertex& vertex : vertices) {
+        ShapeHit hit;
+        hit.u = vertex.u;
+        hit.v = vertex.v;
+        lanes_.triangles.set(lane, *vertex.mesh->mesh, vertex.triangle, hit, vertex.mesh->mirrored);
+        put(vertex.ray->direction, lane, lanes_.ray);
+        put(vertex.path->throughput, lane, lanes_.throughput);
+        put(vertex.material->matt, lane++, lanes_.matt);
+    }
 }
 
 void PathTracer::draw_numbers() {
@@ -65,6 +87,7 @@ void PathTracer::draw_numbers() {
 void PathTracer::scatter_lanes() {
     if (in_lanes_ == 0) return;
     VertexLanes& v = lanes_;
+    fill_lanes();
     v.find_frames(in_lanes_, draws_.calls());
     draw_numbers();
     draws_.draw(in_lanes_);
@@ -79,7 +102,7 @@ void PathTracer::scatter_lanes() {
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
                          LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
-        shadows_.add(shadow, path.time, path.media, kColorChannels, shown, light_[path.sample]);
+        shadows_.add(shadow, path.time, outside_, kColorChannels, shown, light_[path.sample]);
     });
     for_each_lane(v.sampled, [&](std::size_t lane) { leave_lane(lane); });
     draws_.clear();
@@ -89,7 +112,8 @@ void PathTracer::scatter_lanes() {
 
 void PathTracer::scatter_rough(std::size_t lane) {
     VertexLanes& v = lanes_;
-    const auto& [path, material] = of_lanes_[lane];
+    EyePath* const path = of_lanes_[lane].path;
+    const PlainMaterial* const material = of_lanes_[lane].material;
     const Bsdf& bsdf = material->bsdfs[v.entering >> lane & 1u];
     const Vec3 view = vector_of(v.view, lane);
     if ((v.lit >> lane & 1u) != 0) {

@@ -45,6 +45,8 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     // After an exception in a bounce they still refer to the paths of the last batch.
     waiting_ = in_lanes_ = 0;
     escaped_.clear();
+    next_kinds_ = {};
+    next_kinds_[static_cast<std::size_t>(RayKind::Eye)] = rays.size();
     draws_.clear();
     lanes_.triangles.clear();
     random_.begin(ids);
@@ -89,7 +91,10 @@ void PathTracer::bounce(bool first) {
     joined_.clear();
     joined_.reserve(joins_apart() ? alive_.size() : 0);
     joined_to_eye_.clear();
-    for (const std::uint32_t i : alive_) ++counters_[paths_[i].kind].cast;
+    for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
+        counters_[static_cast<RayKind>(kind)].cast += next_kinds_[kind];
+    }
+    next_kinds_ = {};
     visible_.find(
         rays_, first ? Coherence::Coherent : Coherence::Any,
         [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },

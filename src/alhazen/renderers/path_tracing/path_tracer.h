@@ -83,6 +83,10 @@ class PathTracer {
     struct LaneVertex {
         EyePath* path = nullptr;
         const PlainMaterial* material = nullptr;
+        const PlacedMesh* mesh = nullptr;
+        std::uint32_t triangle = 0;  ///< of the mesh
+        const Ray* ray = nullptr;
+        double u = 0, v = 0;  ///< of the hit
     };
 
     void bounce(bool first);
@@ -90,7 +94,9 @@ class PathTracer {
     [[nodiscard]] bool takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit);
     /// Adds direct light at the vertices in lanes and scatters their paths.
     void scatter_lanes();
-    /// Draws the random numbers of the lanes; adds their points to `draws_`.
+    /// Fills the lanes with their triangles, rays and materials.
+    void fill_lanes();
+    /// Draws the random numbers of the lanes.
     void draw_numbers();
     /// Sets the values and the sample of a BSDF that is not matt.
     void scatter_rough(std::size_t lane);
@@ -163,6 +169,7 @@ class PathTracer {
     [[nodiscard]] FirstScattering first_along(const Vertex& vertex, const Vec3& direction) const;
     [[nodiscard]] bool survives_roulette(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
+        ++next_kinds_[static_cast<std::size_t>(path.kind)];
         next_alive_.push_back(path.sample);
         next_rays_.push_back(ray);
     }
@@ -210,6 +217,7 @@ class PathTracer {
     VertexLanes lanes_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
     std::size_t in_lanes_ = 0;
+    const MediumStack outside_;  ///< around vertices in lanes
     LightDraws draws_;
     std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
@@ -230,8 +238,9 @@ class PathTracer {
     std::vector<Wavelengths> waves_;  ///< [sample of the batch]; not spectral: not yet drawn
     std::vector<Spectrum> light_;     ///< [sample of the batch]
     std::vector<EyePath> paths_;      ///< [sample of the batch]
-    std::vector<std::uint32_t> alive_, next_alive_;  ///< samples with an active path
-    std::vector<Ray> rays_, next_rays_;              ///< [alive]
+    std::vector<std::uint32_t> alive_, next_alive_;           ///< samples with an active path
+    std::vector<Ray> rays_, next_rays_;                       ///< [alive]
+    std::array<std::size_t, kRayKindCount> next_kinds_ = {};  ///< [kind] number of next rays
 };
 
 }  // namespace alhazen

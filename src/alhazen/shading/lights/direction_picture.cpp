@@ -35,7 +35,8 @@ std::size_t first_above(const Entries& entries, std::size_t least, std::size_t m
     const auto* found = begin + least;
     for (std::size_t left = most - least; left > 0;) {
         const std::size_t half = (left + 1) / 2;
-        found += found[half - 1] <= wanted ? half : 0;
+        // A mask: compilers make a branch of a choice.
+        found += half & (std::size_t{0} - std::size_t{found[half - 1] <= wanted});
         left -= half;
     }
     return static_cast<std::size_t>(found - begin);
