@@ -77,7 +77,7 @@ Vec2 weights_at(const Emitter& e, const Vec3& p) {
 }
 
 EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u) {
-    if (is_far(e, from)) return seen_by_area(e, from, point_of(e, u));
+    if (is_sampled_by_area(e, from)) return seen_by_area(e, from, point_of(e, u));
     const SphericalTriangle seen = triangle_from(e, from);
     if (!(seen.solid_angle() > kLeastSolidAngle)) return seen_by_area(e, from, point_of(e, u));
     const Vec3 direction = seen.direction(u), corner = corner_of(e) - from;
@@ -90,7 +90,7 @@ EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u)
 }
 
 EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u) {
-    if (e.right_angled && !is_far(e, from)) {
+    if (e.right_angled && !is_sampled_by_area(e, from)) {
         const SphericalRectangle seen(corner_of(e) - from, e.sides);
         if (seen.solid_angle() > kLeastSolidAngle) {
             if (!e.two_sided && !(dot(corner_of(e) - from, axis_z(e)) < 0.0)) return {};
@@ -322,13 +322,13 @@ double density(const Emitter& e, const Vec3& from, const EmitterHit& hit) {
     if (!e.two_sided && !(dot(hit.direction, hit.normal) < 0.0)) return 0.0;
     switch (e.form) {
         case EmitterForm::Triangle: {
-            if (is_far(e, from)) break;
+            if (is_sampled_by_area(e, from)) break;
             const double solid = triangle_from(e, from).solid_angle();
             if (solid > kLeastSolidAngle) return 1.0 / solid;
             break;
         }
         case EmitterForm::Rectangle:
-            if (e.right_angled && !is_far(e, from)) {
+            if (e.right_angled && !is_sampled_by_area(e, from)) {
                 const SphericalRectangle seen(corner_of(e) - from, e.sides);
                 if (seen.solid_angle() > kLeastSolidAngle) return 1.0 / seen.solid_angle();
             }

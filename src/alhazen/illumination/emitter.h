@@ -78,7 +78,7 @@ struct Emitter {
 
 /// True if a point is certain to be where the emitter is sampled by area: far away, or in its
 /// plane, where rounding alone decides between a solid angle of 0 and of half of all directions.
-[[nodiscard]] inline bool is_far(const Emitter& emitter, const Vec3& from) {
+[[nodiscard]] inline bool is_sampled_by_area(const Emitter& emitter, const Vec3& from) {
     const Vec3 offset = emitter.world_from_own.translation - from;
     return length_squared(offset) > emitter.far_squared ||
            std::abs(dot(offset, emitter.world_from_own.linear.z_axis)) <= emitter.in_plane;

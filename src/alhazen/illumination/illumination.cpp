@@ -1,6 +1,7 @@
 #include "alhazen/illumination/illumination.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/base/overloaded.h"
@@ -286,6 +287,24 @@ Illumination::FarLight Illumination::far_light(const LitPoint& at, const Vec3& d
     if (!data_->environment) return {};
     const Environment::Sight sight = sight_for(*data_->environment, at, direction);
     return {waves.emission(sight.radiance), data_->probability_of_environment() * sight.density};
+}
+
+bool Illumination::has_sky_picture() const {
+    return data_->environment && data_->environment->has_picture();
+}
+
+void Illumination::find_far_lights(std::span<const Vec3> directions, FarLight* lights) const {
+    constexpr std::size_t kAtOnce = 16;
+    std::array<Environment::Sight, kAtOnce> sights;
+    const double probability = data_->probability_of_environment();
+    for (std::size_t done = 0; done < directions.size(); done += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, directions.size() - done);
+        data_->environment->find_sights(directions.subspan(done, count), sights.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            lights[done + i] = {kColorChannels.emission(sights[i].radiance),
+                                probability * sights[i].density};
+        }
+    }
 }
 
 }  // namespace alhazen

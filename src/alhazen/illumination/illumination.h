@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "alhazen/illumination/lit_point.h"
 #include "alhazen/primitives/surface.h"
@@ -104,6 +105,10 @@ class Illumination {
     };
     [[nodiscard]] FarLight far_light(const LitPoint& at, const Vec3& direction,
                                      const Wavelengths& waves) const;
+    /// True if the environment is a picture: `far_light` is then the same at all points.
+    [[nodiscard]] bool has_sky_picture() const;
+    /// `far_light` of each direction, for colour channels. Precondition: `has_sky_picture`.
+    void find_far_lights(std::span<const Vec3> directions, FarLight* lights) const;
 
     /// Samples a ray from a light into the scene.
     [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction,

@@ -1,10 +1,17 @@
 #include "alhazen/illumination/light_draws.h"
 
+#include <algorithm>
+#include <bit>
+#include <limits>
+
 #include "alhazen/illumination/illumination_data.h"
 
 namespace alhazen {
 
 namespace {
+
+/// Lights that stay in the cache.
+constexpr std::size_t kInCache = 64;
 
 /// Prefetches an emitter: of many lights most are not in the cache.
 void fetch(const Emitter& emitter) {
@@ -15,112 +22,173 @@ void fetch(const Emitter& emitter) {
 
 }  // namespace
 
+LightDraws::LightDraws(const Illumination& lights) : lights_(lights) {
+    const Illumination::Data& d = *lights.data_;
+    if (d.options.choice == LightChoice::Tree && d.tree.nodes().size() == 1) {
+        sole_ = d.tree.choose({}, 0.0);
+    }
+}
+
 void LightDraws::add(const LitPoint& at, double choice, const Vec2& u, const Wavelengths& waves) {
-    const Illumination::Data& d = *lights_.data_;
-    const std::size_t i = size_++;
-    if (choice >= d.near_share) {
-        const ChosenLight chosen = d.choose_far(choice);
-        if (chosen.probability > 0.0 && d.is_environment(chosen.light) &&
-            d.environment->searches(u)) {
-            sky_draws_[sky_++] = {i, chosen, at, &waves, d.environment->begin(u)};
-        } else {
-            results_.set(i, d.draw_far(chosen, at, u, waves));
-        }
-        return;
-    }
-    near_points_.set(near_, at);
-    near_choices_.of[near_] = choice / d.near_share;
-    near_draws_[near_++] = {i, u, &waves};
+    const std::size_t lane = size_++;
+    calls_.at.set(lane, at);
+    calls_.choice[lane] = choice;
+    calls_.u[0][lane] = u.x;
+    calls_.u[1][lane] = u.y;
+    waves_[lane] = &waves;
+    if (waves.is_spectral()) spectral_ |= 1u << lane;
 }
 
-void LightDraws::draw_near() {
-    const Illumination::Data& d = *lights_.data_;
-    std::array<ChosenLight, kMost> chosen;
-    d.choose_near(near_points_, near_choices_, near_, chosen.data());
-    for (const ChosenLight& one : std::span(chosen).first(near_)) {
-        if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
-    }
-    for (std::size_t k = 0; k < near_; ++k) {
-        const auto& [draw, u, waves] = near_draws_[k];
-        const std::size_t light = chosen[k].light;
-        const double probability = d.near_share * chosen[k].probability;
-        if (!(probability > 0.0)) {
-            results_.set(draw, {});
-        } else if (!d.is_emitter(light) || !RectangleLanes::takes(d.emitter(light)) ||
-                   is_far(d.emitter(light), near_points_.point_of(k))) {
-            results_.set(draw, d.draw_near(light, probability, near_points_[k], u, *waves));
-        } else {
-            rectangles_.set(in_lanes_, d.emitter(light), near_points_.point_of(k), u);
-            waiting_[in_lanes_++] = {draw, light, probability, waves};
-        }
-    }
-}
-
-void LightDraws::draw_sky() {
-    const Illumination::Data& d = *lights_.data_;
-    const std::span<SkyDraw> draws = std::span(sky_draws_).first(sky_);
-    for (const SkyDraw& draw : draws) d.environment->approach(draw.search);
-    for (SkyDraw& draw : draws) d.environment->find(draw.search);
-    for (const SkyDraw& draw : draws) {
-        const LitPoint& at = draw.at;
-        const Vec3 direction = d.environment->direction(draw.search);
-        const bool counts = at.both_sides || at.in_volume || dot(direction, at.normal) > 0.0;
-        results_.set(draw.draw,
-                     counts ? d.draw_sky(draw.chosen, at, direction, *draw.waves) : LightDraw{});
-    }
-}
-
-void LightDraws::draw_rectangles() {
-    const Illumination::Data& d = *lights_.data_;
-    rectangles_.draw();
-    const RectangleLanes::Numbers& n = rectangles_.numbers();
-    for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
-        const Waiting& w = waiting_[lane];
-        const bool in_lane = ((n.drawn & n.shining) >> lane & 1u) != 0 && !w.waves->is_spectral();
-        const Rgb* const radiance = in_lane ? d.constant_radiance(w.light) : nullptr;
-        if (radiance == nullptr) {
-            const EmitterSample sample = rectangles_.sampled(lane);
-            results_.set(w.draw, d.draw_of_emitter(w.light, w.probability, rectangles_.from(lane),
-                                                   sample, *w.waves));
-            continue;
-        }
-        // As `draw_of_emitter`.
-        for (int k = 0; k < 3; ++k) results_.to_light[k][w.draw] = n.to_light[k][lane];
-        results_.distance[w.draw] = n.distance[lane];
-        results_.density[w.draw] = w.probability * n.density[lane];
-        results_.set(w.draw, w.waves->emission(*radiance), false, {w.light, {}});
-    }
+void LightDraws::draw(std::size_t count) {
+    size_ = count;
+    spectral_ = 0;
+    waves_.fill(&kColorChannels);
+    draw();
 }
 
 void LightDraws::draw() {
-    draw_sky();
-    draw_near();
-    if (in_lanes_ > 0) draw_rectangles();
+    const double near_share = lights_.data_->near_share;
+    const std::uint32_t all = (1u << size_) - 1;
+    std::uint32_t near = near_share < 1.0 ? 0 : all;
+    if (near_share > 0.0 && near_share < 1.0) {
+        for (std::size_t lane = 0; lane < size_; ++lane) {
+            near |= std::uint32_t{calls_.choice[lane] < near_share} << lane;
+        }
+    }
+    if (near != all) draw_far(all & ~near);
+    if (near != 0) draw_near(near);
 }
 
-void LightDraws::Results::set(std::size_t lane, const LightDraw& draw) {
-    for (int k = 0; k < 3; ++k) to_light[k][lane] = draw.to_light[k];
-    distance[lane] = draw.distance;
-    density[lane] = draw.density;
-    set(lane, draw.radiance, draw.singular, draw.place);
+void LightDraws::draw_far(std::uint32_t lanes) {
+    const Illumination::Data& d = *lights_.data_;
+    std::size_t sky = 0;
+    for_each_lane(lanes, [&](std::size_t lane) {
+        const ChosenLight chosen = d.choose_far(calls_.choice[lane]);
+        const Vec2 u = calls_.u_of(lane);
+        if (chosen.probability > 0.0 && d.is_environment(chosen.light) &&
+            d.environment->searches(u)) {
+            searches_[sky] = d.environment->begin(u);
+            sky_draws_[sky++] = {lane, chosen};
+        } else {
+            results_.set(lane, d.draw_far(chosen, calls_.at[lane], u, *waves_[lane]));
+        }
+    });
+    if (sky > 0) draw_sky(sky);
 }
 
-void LightDraws::Results::set(std::size_t lane, const Spectrum& light, bool is_singular,
-                              const PlaceInLight& place) {
-    for (int k = 0; k < Spectrum::kCount; ++k) radiance[k][lane] = light[k];
-    const std::uint32_t bit = 1u << lane;
-    singular = is_singular ? singular | bit : singular & ~bit;
-    places[lane] = place;
+void LightDraws::draw_sky(std::size_t count) {
+    const Illumination::Data& d = *lights_.data_;
+    const Environment& sky = *d.environment;
+    const std::span<Environment::Search> searches = std::span(searches_).first(count);
+    for (const Environment::Search& search : searches) sky.approach(search);
+    for (Environment::Search& search : searches) sky.find(search);
+    std::array<Vec3, kMost> directions;
+    sky.find_directions(searches, directions.data());
+    // Those that count come first.
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const SkyDraw draw = sky_draws_[i];
+        const LitPoint at = calls_.at[draw.lane];
+        if (at.both_sides || at.in_volume || dot(directions[i], at.normal) > 0.0) {
+            directions[counted] = directions[i];
+            sky_draws_[counted++] = draw;
+        } else {
+            results_.set(draw.lane, {});
+        }
+    }
+    std::array<Environment::Sight, kMost> sights;
+    sky.find_sights(std::span(directions).first(counted), sights.data());
+    for (std::size_t i = 0; i < counted; ++i) {
+        const auto& [lane, chosen] = sky_draws_[i];
+        results_.set(lane, {.to_light = directions[i],
+                            .distance = std::numeric_limits<double>::infinity(),
+                            .radiance = waves_[lane]->emission(sights[i].radiance),
+                            .density = chosen.probability * sights[i].density,
+                            .place = {d.near_count() + chosen.light, {}}});
+    }
 }
 
-LightDraw LightDraws::operator[](std::size_t i) const {
-    const Results& r = results_;
-    return {.to_light = {r.to_light[0][i], r.to_light[1][i], r.to_light[2][i]},
-            .distance = r.distance[i],
-            .radiance = {r.radiance[0][i], r.radiance[1][i], r.radiance[2][i], r.radiance[3][i]},
-            .density = r.density[i],
-            .singular = (r.singular >> i & 1u) != 0,
-            .place = r.places[i]};
+void LightDraws::choose_near(std::uint32_t lanes, ChosenLight* chosen) {
+    const Illumination::Data& d = *lights_.data_;
+    constexpr std::size_t kPart = LitPointLanes::kMost;
+    constexpr std::uint32_t kWhole = (1u << kPart) - 1;
+    LitPointLanes points;
+    ChoiceLanes choices;
+    for (std::size_t first = 0; first < kMost; first += kPart) {
+        const std::uint32_t part = lanes >> first & kWhole;
+        if (part == 0) continue;
+        const auto count = static_cast<std::size_t>(std::popcount(part));
+        if ((part & (part + 1)) == 0) {
+            // No gaps.
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::copy_n(calls_.at.point[k] + first, kPart, points.point[k]);
+                std::copy_n(calls_.at.normal[k] + first, kPart, points.normal[k]);
+            }
+            points.both_sides = calls_.at.both_sides >> first & kWhole;
+            points.in_volume = calls_.at.in_volume >> first & kWhole;
+            for (std::size_t i = 0; i < kPart; ++i) {
+                choices.of[i] = calls_.choice[first + i] / d.near_share;
+            }
+            d.choose_near(points, choices, count, chosen + first);
+            continue;
+        }
+        std::size_t next = 0;
+        for_each_lane(part, [&](std::size_t i) {
+            points.set(next, calls_.at[first + i]);
+            choices.of[next++] = calls_.choice[first + i] / d.near_share;
+        });
+        std::array<ChosenLight, kPart> close;
+        d.choose_near(points, choices, count, close.data());
+        next = 0;
+        for_each_lane(part, [&](std::size_t i) { chosen[first + i] = close[next++]; });
+    }
+}
+
+void LightDraws::draw_near(std::uint32_t lanes) {
+    const Illumination::Data& d = *lights_.data_;
+    std::array<ChosenLight, kMost> chosen;
+    if (sole_.probability > 0.0) {
+        chosen.fill(sole_);
+    } else {
+        choose_near(lanes, chosen.data());
+    }
+    if (d.near_count() > kInCache) {
+        for_each_lane(lanes, [&](std::size_t lane) {
+            const ChosenLight& one = chosen[lane];
+            if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
+        });
+    }
+    std::uint32_t rectangles = 0;
+    for_each_lane(lanes, [&](std::size_t lane) {
+        const std::size_t light = chosen[lane].light;
+        const double probability = d.near_share * chosen[lane].probability;
+        if (!(probability > 0.0)) return results_.set(lane, {});
+        if (!d.is_emitter(light) || !RectangleLanes::takes(d.emitter(light)) ||
+            is_sampled_by_area(d.emitter(light), calls_.at.point_of(lane))) {
+            return results_.set(lane, d.draw_near(light, probability, calls_.at[lane],
+                                                  calls_.u_of(lane), *waves_[lane]));
+        }
+        rectangles_.set(lane, d.emitter(light), d.constant_radiance(light), probability);
+        rectangle_lights_[lane] = light;
+        rectangles |= 1u << lane;
+    });
+    if (rectangles != 0) draw_rectangles(rectangles);
+}
+
+void LightDraws::draw_rectangles(std::uint32_t lanes) {
+    const Illumination::Data& d = *lights_.data_;
+    const RectangleLanes::Drawn drawn = rectangles_.draw(lanes, calls_, results_);
+    for_each_lane(lanes, [&](std::size_t lane) {
+        const bool shines = (drawn.shining >> lane & 1u) != 0;
+        results_.places[lane] = {shines ? rectangle_lights_[lane] : 0, {}};
+    });
+    const std::uint32_t rest =
+        lanes & (~drawn.sampled | (drawn.shining & (drawn.varying | spectral_)));
+    for_each_lane(rest, [&](std::size_t lane) {
+        const EmitterSample sample = rectangles_.sampled(lane, calls_, results_);
+        results_.set(lane, d.draw_of_emitter(rectangle_lights_[lane], rectangles_.probability(lane),
+                                             calls_.at.point_of(lane), sample, *waves_[lane]));
+    });
 }
 
 }  // namespace alhazen

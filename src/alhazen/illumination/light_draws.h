@@ -1,15 +1,17 @@
 #pragma once
-/// `Illumination::draw` for eight points at once: choices in a light tree and rectangles in lanes,
-/// searches in a picture of the environment by turns, other lights one by one.
+/// `Illumination::draw` for up to sixteen points at once: choices in a light tree and rectangles in
+/// lanes, searches in a picture of the environment by turns, other lights one by one.
 ///
 /// Differs from it: directions to the picture of the environment from below a point that counts
 /// light of one side have density 0, without a search for their radiance.
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "alhazen/illumination/illumination.h"
-#include "alhazen/illumination/light_tree_lanes.h"
+#include "alhazen/illumination/light_chooser.h"
+#include "alhazen/illumination/light_lanes.h"
 #include "alhazen/illumination/rectangle_lanes.h"
 #include "alhazen/shading/lights/environment.h"
 
@@ -17,74 +19,54 @@ namespace alhazen {
 
 class LightDraws {
   public:
-    static constexpr std::size_t kMost = RectangleLanes::kMost;
-    static_assert(kMost == LitPointLanes::kMost);
+    static constexpr std::size_t kMost = LightCallLanes::kMost;
 
     /// `lights` must outlive the object, unchanged.
-    explicit LightDraws(const Illumination& lights) : lights_(lights) {}
+    explicit LightDraws(const Illumination& lights);
 
     [[nodiscard]] std::size_t size() const { return size_; }
     /// Adds a call of `Illumination::draw`; at most kMost before `clear`. `waves` must stay valid
     /// until `draw`.
     void add(const LitPoint& at, double choice, const Vec2& u, const Wavelengths& waves);
+    /// The arguments of `draw(count)`, of which the caller fills the first `count` lanes.
+    [[nodiscard]] LightCallLanes& calls() { return calls_; }
     void draw();
-    /// Results of `Illumination::draw` in lanes: lane i is that of the i-th `add`.
-    struct Results {
-        using Numbers = double[kMost];  ///< [lane]
-        alignas(64) Numbers to_light[3] = {};
-        alignas(64) Numbers distance = {}, density = {};
-        alignas(64) Numbers radiance[Spectrum::kCount] = {};
-        std::uint32_t singular = 0;  ///< bits of lanes
-        std::array<PlaceInLight, kMost> places;
-
-        void set(std::size_t lane, const LightDraw& draw);
-        /// Sets what is not the direction.
-        void set(std::size_t lane, const Spectrum& light, bool is_singular,
-                 const PlaceInLight& place);
-    };
-    /// Valid after `draw`.
-    [[nodiscard]] const Results& results() const { return results_; }
-    /// The result of the i-th `add`; valid after `draw`.
-    [[nodiscard]] LightDraw operator[](std::size_t i) const;
-    void clear() { size_ = near_ = sky_ = in_lanes_ = 0; }
+    /// As `draw` after `count` calls of `add`, for colour channels.
+    void draw(std::size_t count);
+    /// Lane i is the result of the i-th `add`. Valid after `draw`.
+    [[nodiscard]] const LightDrawLanes& results() const { return results_; }
+    [[nodiscard]] LightDraw operator[](std::size_t i) const { return results_[i]; }
+    void clear() {
+        size_ = 0;
+        spectral_ = 0;
+    }
 
   private:
-    /// A draw of a near light that is not yet chosen.
-    struct NearDraw {
-        std::size_t draw;
-        Vec2 u;
-        const Wavelengths* waves;
-    };
     /// A draw in a picture of the environment.
     struct SkyDraw {
-        std::size_t draw;
+        std::size_t lane;
         ChosenLight chosen;
-        LitPoint at;
-        const Wavelengths* waves;
-        Environment::Search search;
-    };
-    /// A draw of a rectangle, waiting in its lane.
-    struct Waiting {
-        std::size_t draw, light;
-        double probability;
-        const Wavelengths* waves;
     };
 
-    /// Draws near lights; rectangles are put into their lanes.
-    void draw_near();
-    void draw_sky();
-    /// Samples the rectangles.
-    void draw_rectangles();
+    void draw_far(std::uint32_t lanes);
+    void draw_sky(std::size_t count);
+    void draw_near(std::uint32_t lanes);
+    /// Chooses a near light for each of `lanes`: chosen[lane].
+    void choose_near(std::uint32_t lanes, ChosenLight* chosen);
+    /// Samples the rectangles that are set in `lanes`.
+    void draw_rectangles(std::uint32_t lanes);
 
     const Illumination& lights_;
-    std::array<NearDraw, kMost> near_draws_;
-    LitPointLanes near_points_;  ///< [near draw]
-    ChoiceLanes near_choices_;   ///< [near draw]
+    LightCallLanes calls_;
+    std::array<const Wavelengths*, kMost> waves_;  ///< [lane]
+    std::uint32_t spectral_ = 0;                   ///< lanes whose wavelengths are spectral
+    std::size_t size_ = 0;
     std::array<SkyDraw, kMost> sky_draws_;
+    std::array<Environment::Search, kMost> searches_;  ///< [sky draw]
+    ChosenLight sole_;  ///< the near light if there is only one; else with probability 0
     RectangleLanes rectangles_;
-    std::array<Waiting, kMost> waiting_;  ///< [lane]
-    Results results_;
-    std::size_t size_ = 0, near_ = 0, sky_ = 0, in_lanes_ = 0;
+    std::array<std::size_t, kMost> rectangle_lights_ = {};  ///< [lane]
+    LightDrawLanes results_;
 };
 
 }  // namespace alhazen

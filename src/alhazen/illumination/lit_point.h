@@ -19,9 +19,10 @@ struct LitPoint {
     }
 };
 
-/// Eight of them in lanes.
-struct LitPointLanes {
-    static constexpr std::size_t kMost = 8;
+/// Several of them in lanes.
+template <std::size_t kLanes>
+struct LitPoints {
+    static constexpr std::size_t kMost = kLanes;
 
     void set(std::size_t lane, const LitPoint& at) {
         for (int k = 0; k < 3; ++k) {
@@ -45,5 +46,6 @@ struct LitPointLanes {
     alignas(64) double point[3][kMost] = {}, normal[3][kMost] = {};  ///< [axis][lane]
     std::uint32_t both_sides = 0, in_volume = 0;                     ///< bits of lanes
 };
+using LitPointLanes = LitPoints<8>;
 
 }  // namespace alhazen

@@ -1,20 +1,21 @@
 #pragma once
-/// Sampling of rectangular emitters by solid angle, for eight points in lanes.
+/// Sampling of rectangular emitters by solid angle, for points in lanes.
 ///
-/// Conventions: the bits are those of SphericalRectangle. Lanes that the kernel does not handle
-/// (solid angles up to kLeastSolidAngle, rectangles edge on, NaNs) are sampled by `sample`.
-/// Threads: used by one thread.
+/// Conventions: the bits are those of SphericalRectangle and of Illumination::draw. Lanes that the
+/// kernel does not handle (solid angles up to kLeastSolidAngle, rectangles edge on, NaNs) are left
+/// to `sample`. Threads: used by one thread.
 
 #include <cstddef>
 #include <cstdint>
 
 #include "alhazen/illumination/emitter.h"
+#include "alhazen/illumination/light_lanes.h"
 
 namespace alhazen {
 
 class RectangleLanes {
   public:
-    static constexpr std::size_t kMost = 8;
+    static constexpr std::size_t kMost = LightCallLanes::kMost;
 
     /// Fills all lanes with a unit square.
     RectangleLanes();
@@ -23,37 +24,45 @@ class RectangleLanes {
     [[nodiscard]] static bool takes(const Emitter& e) {
         return e.form == EmitterForm::Rectangle && e.right_angled;
     }
-    /// Fills a lane. `e` must outlive the object, unchanged.
-    void set(std::size_t lane, const Emitter& e, const Vec3& from, const Vec2& u);
-    /// Samples all lanes.
-    void draw();
-    /// The result of `sample` for the arguments of `set`; valid after `draw`.
-    [[nodiscard]] EmitterSample sampled(std::size_t lane) const;
-    /// The point of `set`.
-    [[nodiscard]] const Vec3& from(std::size_t lane) const { return from_[lane]; }
-    /// The same in lanes, where `drawn`.
-    struct Numbers;
-    [[nodiscard]] const Numbers& numbers() const { return numbers_; }
+    /// Fills a lane with an emitter that was chosen with `probability`. `e` must outlive the
+    /// object, unchanged. `radiance`: of all its points; null: it varies.
+    void set(std::size_t lane, const Emitter& e, const Rgb* radiance, double probability) {
+        if (emitters_[lane] != &e) set_emitter(lane, e, radiance);
+        numbers_.probability[lane] = probability;
+    }
+    [[nodiscard]] double probability(std::size_t lane) const { return numbers_.probability[lane]; }
+
+    /// Lanes, as bits.
+    struct Drawn {
+        std::uint32_t sampled = 0;  ///< by the kernel
+        std::uint32_t shining = 0;  ///< of these: the emitter shines on the point
+        std::uint32_t varying = 0;  ///< lanes without `radiance`
+    };
+    /// Samples the emitters of `lanes` for colour channels. Sets the results of the lanes that are
+    /// `sampled`, except for their places; where an emitter does not shine they are 0.
+    Drawn draw(std::uint32_t lanes, const LightCallLanes& calls, LightDrawLanes& results);
+    /// The result of `sample` for a lane; valid after `draw`.
+    [[nodiscard]] EmitterSample sampled(std::size_t lane, const LightCallLanes& calls,
+                                        const LightDrawLanes& results) const;
 
     /// Input and output of the kernels, [coordinate][lane].
     struct Numbers {
-        alignas(64) double corner[3][kMost] = {};  ///< relative to the point of view
+        alignas(64) double corner[3][kMost] = {};
         alignas(64) double x[3][kMost] = {}, y[3][kMost] = {}, z[3][kMost] = {};
         alignas(64) double normal[3][kMost] = {};  ///< outer
         alignas(64) double width[kMost] = {}, height[kMost] = {};
-        alignas(64) double u[2][kMost] = {};
-        // Results.
-        alignas(64) double to_light[3][kMost] = {};
-        alignas(64) double distance[kMost] = {}, density[kMost] = {};
-        std::uint32_t two_sided = 0;  ///< bits of lanes; input
-        std::uint32_t drawn = 0;      ///< bits of the lanes that the kernel has sampled
-        std::uint32_t shining = 0;    ///< bits of the lanes whose emitter shines on the point
+        alignas(64) double radiance[Spectrum::kCount][kMost] = {};
+        alignas(64) double probability[kMost] = {};
+        alignas(64) double density[kMost] = {};  ///< result, without the probability
+        std::uint32_t two_sided = 0;             ///< bits of lanes
+        Drawn drawn;                             ///< `varying` is an input
     };
 
   private:
+    void set_emitter(std::size_t lane, const Emitter& e, const Rgb* radiance);
+
     Numbers numbers_;
     const Emitter* emitters_[kMost] = {};  ///< null: the lane is empty
-    Vec3 from_[kMost];
 };
 
 }  // namespace alhazen

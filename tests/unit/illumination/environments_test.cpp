@@ -1,12 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/shading/lights/clear_sky.h"
 #include "alhazen/shading/lights/environment.h"
 #include "alhazen/shading/lights/studio.h"
+#include "alhazen/simd/targets.h"
 #include "support/light_checks.h"
 #include "support/scene_maker.h"
 
@@ -130,6 +135,56 @@ TEST(Environments, APictureIsSeenTheRightWayRound) {
     settings.rotation = kPi / 2;  // anticlockwise from above: x becomes y where z is up
     const Environment turned(settings, {0, 0, 1});
     EXPECT_NEAR(turned.radiance({-in_z.y, in_z.x, in_z.z}).r, 1.0, 1e-9);
+}
+
+bool same_bits(const Vec3& a, const Vec3& b) {
+    return std::bit_cast<std::array<std::uint64_t, 3>>(a) ==
+           std::bit_cast<std::array<std::uint64_t, 3>>(b);
+}
+
+TEST(Environments, ManyDirectionsHaveTheBitsOfEach) {
+    for (const EnvironmentKind kind : {EnvironmentKind::Picture, EnvironmentKind::Sky}) {
+        const Environment sky(settings_of(kind), kUp);
+        ASSERT_TRUE(sky.has_picture());
+        for (const std::string& target : simd_targets()) {
+            const SimdTargetOverride forced(target);
+            RandomStream random(11);
+            for (std::size_t count = 0; count < 40; ++count) {
+                std::vector<Environment::Search> searches;
+                std::vector<Vec3> expected;
+                while (searches.size() < count) {
+                    const auto number = [&] {
+                        return random.below(5) == 0 ? static_cast<double>(random.below(16)) / 16.0
+                                                    : random.uniform();
+                    };
+                    const double x = number(), y = number();
+                    if (!sky.searches({x, y})) continue;
+                    searches.push_back(sky.begin({x, y}));
+                    sky.find(searches.back());
+                    expected.push_back(sky.direction(searches.back()));
+                }
+                std::vector<Vec3> found(count);
+                sky.find_directions(searches, found.data());
+                for (std::size_t i = 0; i < count; ++i) {
+                    ASSERT_TRUE(same_bits(found[i], expected[i])) << target << " " << i;
+                }
+                // Zenith, nadir, front and back are among them, and the sun.
+                if (sky.sun()) found.push_back(sky.sun()->direction);
+                for (const double one : {1.0, -1.0}) {
+                    found.push_back({one, 0, 0});
+                    found.push_back({0, one, 0});
+                    found.push_back({0, 0, one});
+                }
+                std::vector<Environment::Sight> sights(found.size());
+                sky.find_sights(found, sights.data());
+                for (std::size_t i = 0; i < found.size(); ++i) {
+                    const Environment::Sight sight = sky.sight(found[i]);
+                    ASSERT_EQ(sights[i].radiance, sight.radiance) << target << " " << i;
+                    ASSERT_EQ(sights[i].density, sight.density) << target << " " << i;
+                }
+            }
+        }
+    }
 }
 
 TEST(Environments, TexelsThatAreNoRadiancesAreBlackAndCounted) {

@@ -1,4 +1,4 @@
-// Lights sampled for eight points at once have the bits of those sampled one by one.
+// Lights sampled for many points at once have the bits of those sampled one by one.
 
 #include "alhazen/illumination/light_draws.h"
 
@@ -40,6 +40,16 @@ Scene lamps(bool one) {
         maker.add(rectangle({2, -2, -1}, {0, 0, 0.75}, {0, 3, 0}), shining(false));
         maker.add(rectangle({40, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}), shining(true));
         maker.add(Sphere{{0.3, 2, 1}, 0.4}, shining(true));
+        Image image(4, 4, 3);
+        for (std::size_t i = 0; i < image.samples.size(); ++i) {
+            image.samples[i] = static_cast<float>(i * 7 % 11);
+        }
+        ImageTexture texture;
+        texture.image = std::make_shared<const StoredImage>(stored(image));
+        maker.description().textures.push_back({"picture", texture, {}});
+        Material pictured;
+        pictured.emission = {.color = {1, 2, 1}, .texture = TextureId{0}};
+        maker.add(rectangle({-2, 2, 0.5}, {1, 0, 0.5}, {0, 1, 0}), maker.material(pictured));
         TriangleMesh mesh;
         mesh.positions = {{-1, -1, -3}, {1, -1, -3.5}, {0.2, 1.5, -2.5}};
         mesh.triangles = {{0, 1, 2}};
@@ -73,7 +83,7 @@ Vec3 random_point(RandomStream& random, bool on_grid) {
     return p;
 }
 
-TEST(LightDraws, EightAtOnceHaveTheBitsOfThoseOneByOne) {
+TEST(LightDraws, ManyAtOnceHaveTheBitsOfThoseOneByOne) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         for (const bool one : {true, false}) {
@@ -82,10 +92,13 @@ TEST(LightDraws, EightAtOnceHaveTheBitsOfThoseOneByOne) {
                 if (sky) scene.environment = clear_sky_with_sun();
                 const Illumination lights(scene);
                 LightDraws draws(lights);
+                const Wavelengths four = Wavelengths::drawn(0.3);
                 RandomStream random(31);
                 std::size_t shone = 0, below = 0;
                 for (int batch = 0; batch < 4000; ++batch) {
                     draws.clear();
+                    // The caller fills the lanes itself.
+                    const bool in_lanes = batch % 3 == 0;
                     // Some lanes stay empty.
                     const std::size_t count = 1 + random.below(LightDraws::kMost);
                     std::vector<LightDraw> expected;
@@ -99,10 +112,24 @@ TEST(LightDraws, EightAtOnceHaveTheBitsOfThoseOneByOne) {
                         const double choice = random.uniform(0, 1);
                         const Vec2 u{random.uniform(0, 1),
                                      random.below(9) == 0 ? 0.0 : random.uniform(0, 1)};
-                        expected.push_back(lights.draw(at, choice, u, kColorChannels));
-                        draws.add(at, choice, u, kColorChannels);
+                        const bool is_spectral = !in_lanes && random.below(4) == 0;
+                        const Wavelengths& waves = is_spectral ? four : kColorChannels;
+                        expected.push_back(lights.draw(at, choice, u, waves));
+                        if (!in_lanes) {
+                            draws.add(at, choice, u, waves);
+                            continue;
+                        }
+                        LightCallLanes& calls = draws.calls();
+                        calls.at.set(i, at);
+                        calls.choice[i] = choice;
+                        calls.u[0][i] = u.x;
+                        calls.u[1][i] = u.y;
                     }
-                    draws.draw();
+                    if (in_lanes) {
+                        draws.draw(count);
+                    } else {
+                        draws.draw();
+                    }
                     ASSERT_EQ(draws.size(), count);
                     for (std::size_t i = 0; i < count; ++i) {
                         const LightDraw &a = draws[i], &b = expected[i];

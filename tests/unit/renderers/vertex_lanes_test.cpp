@@ -16,6 +16,7 @@
 #include "alhazen/renderers/path_tracing/plain_meshes.h"
 #include "alhazen/renderers/path_tracing/rough_lanes.h"
 #include "alhazen/sampling/random.h"
+#include "alhazen/shading/lights/environment.h"
 #include "alhazen/shading/microfacets/local_directions.h"
 #include "alhazen/simd/targets.h"
 #include "support/light_pictures.h"
@@ -63,7 +64,9 @@ Material plastic(double index) {
 
 /// A room of meshes: matt, rough, smooth, of glass; mapped, mirrored, placed twice; lamps of
 /// rectangles, triangles and points.
-Scene room(bool with_sky) {
+enum class Surroundings { Black, Even, Picture };
+
+Scene room(Surroundings surroundings) {
     SceneMaker maker;
     maker.description().cameras[0].camera = look_along({0, -1, 6.5}, {0, 0, -1}, {0, 1, 0}, 0.9, 1);
     const auto add = [&](TriangleMesh mesh, const Material& m, const Affine& placement = {}) {
@@ -113,7 +116,12 @@ Scene room(bool with_sky) {
     add(quad({2, 1, 2.5}, {0.4, 1, 0}, {1, 0, 0.3}), shining({5, 7, 9}));
     maker.light(PointLight{.position = {-2, -2, 2}, .color = {3, 3, 3}, .attenuation = {0, 0, 1}});
     Scene scene = maker.compile("wide_bvh");
-    if (with_sky) scene.background = {0.3, 0.4, 0.6};
+    if (surroundings == Surroundings::Even) scene.background = {0.3, 0.4, 0.6};
+    if (surroundings == Surroundings::Picture) {
+        EnvironmentSettings sky;
+        sky.kind = EnvironmentKind::Sky;
+        scene.environment = std::make_shared<const Environment>(sky, Vec3{0, 1, 0});
+    }
     return scene;
 }
 
@@ -136,14 +144,16 @@ Film picture(const Scene& scene, const std::string& renderer, bool one_by_one, i
 }
 
 TEST(VertexLanes, PicturesHaveTheBitsOfVerticesOneByOne) {
-    for (const bool with_sky : {false, true}) {
-        const Scene scene = room(with_sky);
+    using enum Surroundings;
+    for (const Surroundings surroundings : {Black, Even, Picture}) {
+        const Scene scene = room(surroundings);
+        const int threads = surroundings == Black ? 1 : 2;
         for (const char* renderer :
              {"path_tracing", "path_tracing:depth=2", "path_tracing:clamp=0.5,roulette=1"}) {
             const Film expected = picture(scene, renderer, true);
             for (const std::string& target : simd_targets()) {
                 const SimdTargetOverride forced(target);
-                const Film found = picture(scene, renderer, false, 1 + with_sky);
+                const Film found = picture(scene, renderer, false, threads);
                 for (int i = 0; i < found.frame_width() * found.frame_height(); ++i) {
                     const int x = i % found.frame_width(), y = i / found.frame_width();
                     ASSERT_EQ(found.at(x, y), expected.at(x, y))
@@ -204,9 +214,9 @@ TEST(RoughLanes, HaveTheBitsOfBsdfsOneByOne) {
             std::array<std::size_t, kMost> used;
             std::array<Vec2, kMost> u;
             std::array<double, kMost> choices;
-            const auto own = static_cast<std::uint32_t>(random.below(256));
-            v->lit = static_cast<std::uint32_t>(random.below(256));
-            v->sampled = 255;
+            const auto own = static_cast<std::uint32_t>(random.below(1u << kMost));
+            v->lit = static_cast<std::uint32_t>(random.below(1u << kMost));
+            v->sampled = (1u << kMost) - 1;
             for (std::size_t lane = 0; lane < kMost; ++lane) {
                 views[lane] = random_above(random);
                 lights[lane] = random_above(random);
@@ -273,7 +283,7 @@ TEST(RoughLanes, HaveTheBitsOfBsdfsOneByOne) {
 }
 
 TEST(PlainMeshes, AreThoseWhosePointsScatterAlike) {
-    const Scene scene = room(false);
+    const Scene scene = room(Surroundings::Black);
     PlainMeshes meshes(scene);
     const PrimitiveTable& table = scene.aggregate->primitives();
     std::vector<std::string> kinds;

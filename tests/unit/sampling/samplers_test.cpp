@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -108,6 +109,43 @@ TEST(Samplers, PointsInLanesAreThoseOneByOne) {
                 variant(trees, std::span(numbers).first(count), lanes.data());
                 EXPECT_EQ(lanes, alone);
             }
+        }
+    }
+}
+
+TEST(Samplers, ShuffledIndicesInLanesAreThoseOfEachSample) {
+    const ShuffledIndices shuffle = shuffled_indices_in_lanes();
+    if (shuffle == nullptr) GTEST_SKIP() << "no products of 64-bit words in lanes";
+    PixelSamples samples;
+    std::array<std::uint64_t, PixelSamples::kMost> found{};
+    for (const int bits : {0, 1, 3, 8, 20}) {
+        for (std::size_t i = 0; i < PixelSamples::kMost; ++i) {
+            samples.first[i] = (mix64(i) >> 24) << bits;
+            samples.key[i] = mix64(i / 5 + 1000);
+            samples.number[i] = (i % 5 + mix64(i / 5)) & ((1u << bits) - 1);
+        }
+        shuffle(samples, PixelSamples::kMost, bits, found.data());
+        for (std::size_t i = 0; i < PixelSamples::kMost; ++i) {
+            const auto number = static_cast<std::uint32_t>(samples.number[i]);
+            std::uint32_t shuffled = number;
+            for (int bit = 0; bit < bits; ++bit) {
+                shuffled ^= flip_of_sample(number, bit, samples.key[i]);
+            }
+            ASSERT_EQ(found[i], samples.first[i] | shuffled) << bits << " " << i;
+        }
+    }
+}
+
+TEST(Samplers, FewSobolPointsAreThoseOfLongRuns) {
+    // Few are shuffled one after the other, many in lanes.
+    constexpr std::uint32_t kCount = 1000;
+    const auto sampler = find_sampler("sobol")->make(3, kCount);
+    std::vector<Vec2> all(kCount), few(3);
+    for (const std::uint32_t pair : {0u, 4u}) {
+        sampler->points({17, 40}, pair, 0, all);
+        for (std::uint32_t first = 0; first + 3 <= kCount; ++first) {
+            sampler->points({17, 40}, pair, first, few);
+            for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(few[k], all[first + k]) << first;
         }
     }
 }

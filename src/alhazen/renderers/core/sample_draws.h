@@ -24,10 +24,14 @@ class SampleDraws {
         ids_ = ids;
         left_.resize(ids.size());
         for (std::uint32_t i = 0; i < ids.size(); ++i) left_[i] = i;
+        runs_.clear();
         for (std::vector<Vec2>& pair : together_) pair.clear();
     }
     /// Limits further draws to the samples `left` of the batch, a subset of those before.
-    void keep(std::span<const std::uint32_t> left) { left_.assign(left.begin(), left.end()); }
+    void keep(std::span<const std::uint32_t> left) {
+        left_.assign(left.begin(), left.end());
+        runs_.clear();
+    }
     [[nodiscard]] Vec2 at(std::uint32_t sample, std::uint32_t pair) {
         if (pair >= together_.size()) {
             return sampler_.at(ids_[sample].pixel, pair, ids_[sample].number);
@@ -44,7 +48,12 @@ class SampleDraws {
   private:
     void draw_all(std::uint32_t pair, std::vector<Vec2>& points) {
         points.resize(ids_.size());
-        runs_.clear();
+        if (runs_.empty()) list_runs();
+        drawn_.resize(left_.size());
+        sampler_.points_of(runs_, pair, drawn_);
+        for (std::size_t i = 0; i < left_.size(); ++i) points[left_[i]] = drawn_[i];
+    }
+    void list_runs() {
         for (const std::uint32_t sample : left_) {
             const SampleId& id = ids_[sample];
             if (!runs_.empty()) {
@@ -56,17 +65,14 @@ class SampleDraws {
             }
             runs_.push_back({id.pixel, id.number, 1});
         }
-        drawn_.resize(left_.size());
-        sampler_.points_of(runs_, pair, drawn_);
-        for (std::size_t i = 0; i < left_.size(); ++i) points[left_[i]] = drawn_[i];
     }
 
     const Sampler& sampler_;
     std::span<const SampleId> ids_;
     std::vector<std::uint32_t> left_;          ///< samples of the batch
     std::vector<std::vector<Vec2>> together_;  ///< [pair][sample]; empty: not yet drawn
-    std::vector<SampleRun> runs_;
-    std::vector<Vec2> drawn_;  ///< [left]
+    std::vector<SampleRun> runs_;              ///< of the samples `left_`; empty: not yet listed
+    std::vector<Vec2> drawn_;                  ///< [left]
 };
 
 }  // namespace alhazen

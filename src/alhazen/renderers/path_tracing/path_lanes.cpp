@@ -1,7 +1,5 @@
 // Vertices of PathTracer in lanes: from the hits to shadow rays and next rays.
 
-#include <bit>
-
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
 namespace alhazen {
@@ -19,12 +17,6 @@ void put(const V& v, std::size_t lane, VertexLanes::Numbers (&to)[N]) {
     for (std::size_t k = 0; k < N; ++k) to[k][lane] = v[static_cast<int>(k)];
 }
 
-/// Calls f(lane) for each of `lanes`.
-template <class F>
-void for_each_lane(std::uint32_t lanes, const F& f) {
-    for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
-}
-
 }  // namespace
 
 bool PathTracer::takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit) {
@@ -36,18 +28,41 @@ bool PathTracer::takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit) 
     path.cone = path.cone.from(hit.t);
     ++path.met;
     if (path.scatterings >= settings_.depth) return true;
-    const std::size_t lane = in_lanes_++;
-    of_lanes_[lane] = {&path, place.material};
-    lanes_.triangles.set(lane, *place.mesh->mesh, place.triangle, hit, place.mesh->mirrored);
-    put(ray.direction, lane, lanes_.ray);
-    put(path.throughput, lane, lanes_.throughput);
-    put(place.material->matt, lane, lanes_.matt);
+    __builtin_prefetch(&place.mesh->mesh->triangles[place.triangle]);
+    of_lanes_[in_lanes_++] = {.path = &path,
+                              .material = place.material,
+                              .mesh = place.mesh,
+                              .triangle = place.triangle,
+                              .ray = &ray,
+                              .u = hit.u,
+                              .v = hit.v};
     if (in_lanes_ == VertexLanes::kMost) scatter_lanes();
     return true;
 }
 
+void PathTracer::fill_lanes() {
+    const std::span<const LaneVertex> vertices = std::span(of_lanes_).first(in_lanes_);
+    // Large meshes are not in the cache.
+    for (const LaneVertex& vertex : vertices) {
+        const TriangleMesh& mesh = *vertex.mesh->mesh;
+        for (const std::uint32_t corner : mesh.triangles[vertex.triangle]) {
+            __builtin_prefetch(&mesh.positions[corner]);
+        }
+    }
+    for (std::size_t lane = 0; const LaneVertex& vertex : vertices) {
+        ShapeHit hit;
+        hit.u = vertex.u;
+        hit.v = vertex.v;
+        lanes_.triangles.set(lane, *vertex.mesh->mesh, vertex.triangle, hit, vertex.mesh->mirrored);
+        put(vertex.ray->direction, lane, lanes_.ray);
+        put(vertex.path->throughput, lane, lanes_.throughput);
+        put(vertex.material->matt, lane++, lanes_.matt);
+    }
+}
+
 void PathTracer::draw_numbers() {
     using enum PathRandomness::BouncePair;
+    LightCallLanes& calls = draws_.calls();
     // Most paths of a batch have the same number of bounces.
     int bounce = -1;
     const Vec2 *places = nullptr, *directions = nullptr;
@@ -61,9 +76,9 @@ void PathTracer::draw_numbers() {
         }
         const Vec2 place = places ? places[sample] : random_.draw(sample, bounce, kLight);
         const Vec2 u = directions ? directions[sample] : random_.draw(sample, bounce, kDirection);
-        const double choice = choices(path, chooses_light_).y;
-        draws_.add({vector_of(lanes_.triangles.point, lane), vector_of(lanes_.z, lane)}, choice,
-                   place, kColorChannels);
+        if (chooses_light_) calls.choice[lane] = choices(path, true).y;
+        calls.u[0][lane] = place.x;
+        calls.u[1][lane] = place.y;
         lanes_.u[0][lane] = u.x;
         lanes_.u[1][lane] = u.y;
     }
@@ -72,10 +87,11 @@ void PathTracer::draw_numbers() {
 void PathTracer::scatter_lanes() {
     if (in_lanes_ == 0) return;
     VertexLanes& v = lanes_;
-    v.find_frames();
+    fill_lanes();
+    v.find_frames(in_lanes_, draws_.calls());
     draw_numbers();
-    draws_.draw();
-    const LightDraws::Results& lights = draws_.results();
+    draws_.draw(in_lanes_);
+    const LightDrawLanes& lights = draws_.results();
     v.scatter(lights);
     bool any_rough = false;
     for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
@@ -90,15 +106,14 @@ void PathTracer::scatter_lanes() {
     }
     if (any_rough) rough_.scatter(v);
     v.weigh(lights);
-    const std::uint32_t used = (1u << in_lanes_) - 1;
-    for_each_lane(v.lit & used, [&](std::size_t lane) {
+    for_each_lane(v.lit, [&](std::size_t lane) {
         const EyePath& path = *of_lanes_[lane].path;
         const Ray shadow{vector_of(v.origin, lane), vector_of(lights.to_light, lane),
                          LeavingRays::kBeyondZero, kBeforeEnd * lights.distance[lane]};
         const Spectrum shown = limited(spectrum_of(v.light, lane), path.scatterings + 1);
-        shadows_.add(shadow, path.time, path.media, kColorChannels, shown, light_[path.sample]);
+        shadows_.add(shadow, path.time, outside_, kColorChannels, shown, light_[path.sample]);
     });
-    for_each_lane(v.sampled & used, [&](std::size_t lane) { leave_lane(lane); });
+    for_each_lane(v.sampled, [&](std::size_t lane) { leave_lane(lane); });
     draws_.clear();
     v.triangles.clear();
     in_lanes_ = 0;
@@ -106,7 +121,8 @@ void PathTracer::scatter_lanes() {
 
 void PathTracer::scatter_other(std::size_t lane) {
     VertexLanes& v = lanes_;
-    const auto& [path, material] = of_lanes_[lane];
+    EyePath* const path = of_lanes_[lane].path;
+    const PlainMaterial* const material = of_lanes_[lane].material;
     const Bsdf& bsdf = material->bsdfs[v.entering >> lane & 1u];
     const Vec3 view = vector_of(v.view, lane);
     if ((v.lit >> lane & 1u) != 0) {

@@ -1,6 +1,8 @@
 // The light that paths of PathTracer bring: what they meet, what is sampled at their vertices, and
 // its layers.
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "alhazen/renderers/light_transport/emission_of.h"
@@ -80,6 +82,28 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Spectrum& sum) {
     } else {
         far = lights_.far_light(path.from, ray.direction, waves(path));
     }
+    add_far_light(path, far, sum);
+}
+
+void PathTracer::escape_all() {
+    constexpr std::size_t kAtOnce = 16;
+    std::array<Vec3, kAtOnce> directions;
+    std::array<Illumination::FarLight, kAtOnce> lights;
+    for (std::size_t done = 0; done < escaped_.size(); done += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, escaped_.size() - done);
+        const std::span<const std::uint32_t> some = std::span(escaped_).subspan(done, count);
+        for (std::size_t i = 0; i < count; ++i) directions[i] = rays_[some[i]].direction;
+        lights_.find_far_lights(std::span(directions).first(count), lights.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            const EyePath& path = paths_[alive_[some[i]]];
+            add_far_light(path, lights[i], light_[path.sample]);
+        }
+    }
+    escaped_.clear();
+}
+
+void PathTracer::add_far_light(const EyePath& path, const Illumination::FarLight& far,
+                               Spectrum& sum) {
     Spectrum light = path.throughput * far.radiance;
     if (light.is_black()) return;
     if (const Medium* medium = path.media.here();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "alhazen/renderers/light_transport/matt_directions.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 #include "alhazen/renderers/light_transport/volume_scattering.h"
 
@@ -27,8 +26,9 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       most_waiting_(job.path != nullptr || layers != nullptr || settings.polarization ||
                             manifold != nullptr
                         ? 1
-                        : LightDraws::kMost),
+                        : kMostWaiting),
       uses_lanes_(most_waiting_ > 1 && !random_.is_spectral()),
+      escapes_later_(uses_lanes_ && lights.has_sky_picture()),
       plain_(scene_),
       draws_(lights),
       faces_(scene_),
@@ -44,6 +44,9 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     ids_ = ids;
     // After an exception in a bounce they still refer to the paths of the last batch.
     waiting_ = in_lanes_ = 0;
+    escaped_.clear();
+    next_kinds_ = {};
+    next_kinds_[static_cast<std::size_t>(RayKind::Eye)] = rays.size();
     draws_.clear();
     lanes_.triangles.clear();
     random_.begin(ids);
@@ -88,7 +91,10 @@ void PathTracer::bounce(bool first) {
     joined_.clear();
     joined_.reserve(joins_apart() ? alive_.size() : 0);
     joined_to_eye_.clear();
-    for (const std::uint32_t i : alive_) ++counters_[paths_[i].kind].cast;
+    for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
+        counters_[static_cast<RayKind>(kind)].cast += next_kinds_[kind];
+    }
+    next_kinds_ = {};
     visible_.find(
         rays_, first ? Coherence::Coherent : Coherence::Any,
         [&](std::size_t k) -> const EyePath& { return paths_[alive_[k]]; },
@@ -101,7 +107,9 @@ void PathTracer::bounce(bool first) {
                 const Medium* const medium = path.media.here();
                 const bool scatters = medium != nullptr && media_.in(*medium) != nullptr;
                 if (scatters && cross_medium(path, *medium, rays_[k], kEndless, sum)) return;
-                return escape(path, rays_[k], sum);
+                if (!escapes_later_) return escape(path, rays_[k], sum);
+                escaped_.push_back(static_cast<std::uint32_t>(k));
+                return;
             }
             ++counters_[path.kind].hit;
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
@@ -109,6 +117,7 @@ void PathTracer::bounce(bool first) {
         [&](std::size_t k, const Hit& hit) {
             return takes_into_lane(paths_[alive_[k]], rays_[k], hit);
         });
+    escape_all();
     scatter_lanes();
     scatter_all();
     shadows_.finish();
@@ -198,8 +207,8 @@ void PathTracer::scatter_all() {
 }
 
 void PathTracer::draw_directions(std::span<const Vertex> vertices) {
-    std::array<Vec2, LightDraws::kMost> matt;
-    std::array<std::size_t, LightDraws::kMost> places;
+    std::array<Vec2, kMostWaiting> matt;
+    std::array<std::size_t, kMostWaiting> places;
     std::size_t count = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const EyePath& path = *vertices[i].path;
@@ -214,8 +223,7 @@ void PathTracer::draw_directions(std::span<const Vertex> vertices) {
             directions_[i] = scatter.sample(choice, u, Transport::Radiance);
         }
     }
-    static_assert(LightDraws::kMost == kMostMattDirections);
-    std::array<Vec3, LightDraws::kMost> found;
+    std::array<Vec3, kMostWaiting> found;
     set_matt_directions(std::span(matt).first(count), found.data());
     for (std::size_t k = 0; k < count; ++k) {
         directions_[places[k]] = vertices[places[k]].scatter.sample_matt(found[k]);

@@ -12,6 +12,7 @@
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/connection_batch.h"
 #include "alhazen/renderers/light_transport/light_layers.h"
+#include "alhazen/renderers/light_transport/matt_directions.h"
 #include "alhazen/renderers/light_transport/path_randomness.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/polarized_path.h"
@@ -83,6 +84,10 @@ class PathTracer {
     struct LaneVertex {
         EyePath* path = nullptr;
         const PlainMaterial* material = nullptr;
+        const PlacedMesh* mesh = nullptr;
+        std::uint32_t triangle = 0;  ///< of the mesh
+        const Ray* ray = nullptr;
+        double u = 0, v = 0;  ///< of the hit
     };
 
     void bounce(bool first);
@@ -90,7 +95,9 @@ class PathTracer {
     [[nodiscard]] bool takes_into_lane(EyePath& path, const Ray& ray, const Hit& hit);
     /// Adds direct light at the vertices in lanes and scatters their paths.
     void scatter_lanes();
-    /// Draws the random numbers of the lanes; adds their points to `draws_`.
+    /// Fills the lanes with their triangles, rays and materials.
+    void fill_lanes();
+    /// Draws the random numbers of the lanes.
     void draw_numbers();
     /// Sets the values and the sample of a BSDF that is neither matt nor a single rough reflection.
     void scatter_other(std::size_t lane);
@@ -135,6 +142,10 @@ class PathTracer {
                                     Spectrum& sum);
     void scatter_in_volume(EyePath& path, const Medium& medium, const Ray& ray, Spectrum& sum);
     void escape(const EyePath& path, const Ray& ray, Spectrum& sum);
+    /// Ends the paths of `escaped_`; the sky is looked up for several of them together.
+    void escape_all();
+    /// Adds the light of the environment to a path that leaves the scene.
+    void add_far_light(const EyePath& path, const Illumination::FarLight& far, Spectrum& sum);
     /// Continues straight through an uncovered part of the surface.
     void pass(EyePath& path, const Ray& ray, const ShadingPoint& point);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
@@ -159,6 +170,7 @@ class PathTracer {
     [[nodiscard]] FirstScattering first_along(const Vertex& vertex, const Vec3& direction) const;
     [[nodiscard]] bool survives_roulette(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
+        ++next_kinds_[static_cast<std::size_t>(path.kind)];
         next_alive_.push_back(path.sample);
         next_rays_.push_back(ray);
     }
@@ -196,16 +208,20 @@ class PathTracer {
     BsdfCache bsdfs_;
     ScatterPoint passed_;
     /// Vertices that wait for each other: their lights are sampled together.
-    std::array<Vertex, LightDraws::kMost> vertices_;
+    static constexpr std::size_t kMostWaiting = kMostMattDirections;
+    std::array<Vertex, kMostWaiting> vertices_;
     std::size_t waiting_ = 0, most_waiting_;
-    bool uses_lanes_;  ///< plain vertices are handled in lanes
+    bool uses_lanes_;                     ///< plain vertices are handled in lanes
+    bool escapes_later_;                  ///< paths wait in `escaped_`
+    std::vector<std::uint32_t> escaped_;  ///< [alive] that leave the scene
     PlainMeshes plain_;
     VertexLanes lanes_;
     RoughLanes rough_;
     std::array<LaneVertex, VertexLanes::kMost> of_lanes_;
     std::size_t in_lanes_ = 0;
+    const MediumStack outside_;  ///< around vertices in lanes
     LightDraws draws_;
-    std::array<std::optional<Scattered>, LightDraws::kMost> directions_;  ///< [waiting vertex]
+    std::array<std::optional<Scattered>, kMostWaiting> directions_;  ///< [waiting vertex]
     CoincidentFaces faces_;
     ShadingPoint opaque_face_;  ///< an opaque coincident face that is hit instead
     ScatteringMedia media_;
@@ -224,8 +240,9 @@ class PathTracer {
     std::vector<Wavelengths> waves_;  ///< [sample of the batch]; not spectral: not yet drawn
     std::vector<Spectrum> light_;     ///< [sample of the batch]
     std::vector<EyePath> paths_;      ///< [sample of the batch]
-    std::vector<std::uint32_t> alive_, next_alive_;  ///< samples with an active path
-    std::vector<Ray> rays_, next_rays_;              ///< [alive]
+    std::vector<std::uint32_t> alive_, next_alive_;           ///< samples with an active path
+    std::vector<Ray> rays_, next_rays_;                       ///< [alive]
+    std::array<std::size_t, kRayKindCount> next_kinds_ = {};  ///< [kind] number of next rays
 };
 
 }  // namespace alhazen

@@ -20,120 +20,134 @@ namespace HWY_NAMESPACE {
 namespace rough_lanes {
 
 /// RoughReflection::turned and turned_back.
-HWY_INLINE LaneVectors turned(const RoughLanes::Numbers& n, const LaneVectors& v) {
-    const Doubles x = load_lanes(n.axis[0]), y = load_lanes(n.axis[1]);
+template <std::size_t N>
+HWY_INLINE VectorLanes<N> turned(const RoughLanes::Numbers& n, const VectorLanes<N>& v) {
+    using D = Lanes<double, N>;
+    const D x = load_lanes<N>(n.axis[0]), y = load_lanes<N>(n.axis[1]);
     return {x * v.x + y * v.y, x * v.y - y * v.x, v.z};
 }
-HWY_INLINE LaneVectors turned_back(const RoughLanes::Numbers& n, const LaneVectors& v) {
-    const Doubles x = load_lanes(n.axis[0]), y = load_lanes(n.axis[1]);
+template <std::size_t N>
+HWY_INLINE VectorLanes<N> turned_back(const RoughLanes::Numbers& n, const VectorLanes<N>& v) {
+    using D = Lanes<double, N>;
+    const D x = load_lanes<N>(n.axis[0]), y = load_lanes<N>(n.axis[1]);
     return {x * v.x - y * v.y, x * v.y + y * v.x, v.z};
 }
 
 /// The functions of Ggx.
+template <std::size_t N>
 struct GgxLanes {
-    Doubles x, y;
+    using D = Lanes<double, N>;
 
-    [[nodiscard]] HWY_INLINE Doubles stretched_length(const LaneVectors& v) const {
+    D x, y;
+
+    [[nodiscard]] HWY_INLINE D stretched_length(const VectorLanes<N>& v) const {
         return sqrt(x * x * v.x * v.x + y * y * v.y * v.y + v.z * v.z);
     }
-    [[nodiscard]] HWY_INLINE Doubles normals(const LaneVectors& m) const {
-        const Doubles a = m.x / x, b = m.y / y;
-        const Doubles s = a * a + b * b + m.z * m.z;
-        return Doubles(1.0) / (Doubles(kPi) * x * y * s * s);
+    [[nodiscard]] HWY_INLINE D normals(const VectorLanes<N>& m) const {
+        const D a = m.x / x, b = m.y / y;
+        const D s = a * a + b * b + m.z * m.z;
+        return D(1.0) / (D(kPi) * x * y * s * s);
     }
-    [[nodiscard]] HWY_INLINE LaneVectors sample_visible(const LaneVectors& v, const Doubles& u0,
-                                                        const Doubles& u1) const {
-        const Doubles zero(0.0), one(1.0);
-        const LaneVectors s = LaneVectors{x * v.x, y * v.y, v.z} / stretched_length(v);
-        const SineCosine angle = sine_cosine_of_lanes(Doubles(2.0 * kPi) * u0);
-        const Doubles z = (one - u1) * (one + s.z) - s.z, rest = one - z * z;
-        const Doubles radius = sqrt(select_lanes(zero < rest, rest, zero));
-        const LaneVectors h = LaneVectors{radius * angle.cosine, radius * angle.sine, z} + s;
-        const LaneVectors facet{x * h.x, y * h.y, select_lanes(h.z < zero, zero, h.z)};
-        const LaneMask<double> none = (abs(h.x) <= zero) & (abs(h.y) <= zero) & (abs(h.z) <= zero);
-        const LaneVectors unit = facet / select_lanes(none, one, sqrt(dot(facet, facet)));
-        return select_lanes(none, LaneVectors{zero, zero, one}, unit);
+    [[nodiscard]] HWY_INLINE VectorLanes<N> sample_visible(const VectorLanes<N>& v, const D& u0,
+                                                           const D& u1) const {
+        const D zero(0.0), one(1.0);
+        const VectorLanes<N> s = VectorLanes<N>{x * v.x, y * v.y, v.z} / stretched_length(v);
+        const SineCosine<N> angle = sine_cosine_of_lanes(D(2.0 * kPi) * u0);
+        const D z = (one - u1) * (one + s.z) - s.z, rest = one - z * z;
+        const D radius = sqrt(select_lanes(zero < rest, rest, zero));
+        const VectorLanes<N> h = VectorLanes<N>{radius * angle.cosine, radius * angle.sine, z} + s;
+        const VectorLanes<N> facet{x * h.x, y * h.y, select_lanes(h.z < zero, zero, h.z)};
+        const LaneMask<double, N> none =
+            (abs(h.x) <= zero) & (abs(h.y) <= zero) & (abs(h.z) <= zero);
+        const VectorLanes<N> unit = facet / select_lanes(none, one, sqrt(dot(facet, facet)));
+        return select_lanes(none, VectorLanes<N>{zero, zero, one}, unit);
     }
 };
 
 /// Value, and density by solid angle.
+template <std::size_t N>
 struct Scattered {
-    Doubles value[4], density;
+    Lanes<double, N> value[4], density;
 };
 
 /// `Bsdf::value` and `Bsdf::density` for directions above the surface; `of_direction`: their
 /// single-scattering albedo.
-HWY_INLINE Scattered evaluate(const RoughLanes::Numbers& n, const LaneVectors& view,
-                              const LaneVectors& direction, const Doubles& of_direction) {
-    const Doubles zero(0.0), half(0.5), one(1.0), most(std::numeric_limits<double>::max());
-    const GgxLanes ggx{load_lanes(n.alpha[0]), load_lanes(n.alpha[1])};
-    const Doubles share = load_lanes(n.of_view);
-    const LaneVectors v = turned(n, view), l = turned(n, direction);
-    const LaneVectors sum = v + l, m = sum / sqrt(dot(sum, sum));
-    const Doubles normals = half * ggx.normals(m), stretched = ggx.stretched_length(v);
-    const Doubles facet = normals / (v.z * ggx.stretched_length(l) + l.z * stretched);
-    const Doubles cosine = dot(v, m);
+template <std::size_t N>
+HWY_INLINE Scattered<N> evaluate(const RoughLanes::Numbers& n, const VectorLanes<N>& view,
+                                 const VectorLanes<N>& direction,
+                                 const Lanes<double, N>& of_direction) {
+    using D = Lanes<double, N>;
+    const D zero(0.0), half(0.5), one(1.0), most(std::numeric_limits<double>::max());
+    const GgxLanes<N> ggx{load_lanes<N>(n.alpha[0]), load_lanes<N>(n.alpha[1])};
+    const D share = load_lanes<N>(n.of_view);
+    const VectorLanes<N> v = turned(n, view), l = turned(n, direction);
+    const VectorLanes<N> sum = v + l, m = sum / sqrt(dot(sum, sum));
+    const D normals = half * ggx.normals(m), stretched = ggx.stretched_length(v);
+    const D facet = normals / (v.z * ggx.stretched_length(l) + l.z * stretched);
+    const D cosine = dot(v, m);
     // std::clamp.
-    const Doubles clamped =
-        select_lanes(cosine < zero, zero, select_lanes(one < cosine, one, cosine));
-    const Doubles x = one - clamped, grazing = x * x * x * x * x;
-    const Doubles lost = one - load_lanes(n.mean_single);
-    const LaneMask<double> loses = lost > zero;
-    const Doubles matt =
-        (one - share) * (one - of_direction) / (Doubles(kPi) * select_lanes(loses, lost, one));
-    const Doubles more = select_lanes(loses, matt, zero);
-    Scattered result;
-    LaneMask<double> finite = more <= more, bright = more < more;
+    const D clamped = select_lanes(cosine < zero, zero, select_lanes(one < cosine, one, cosine));
+    const D x = one - clamped, grazing = x * x * x * x * x;
+    const D lost = one - load_lanes<N>(n.mean_single);
+    const LaneMask<double, N> loses = lost > zero;
+    const D matt = (one - share) * (one - of_direction) / (D(kPi) * select_lanes(loses, lost, one));
+    const D more = select_lanes(loses, matt, zero);
+    Scattered<N> result;
+    LaneMask<double, N> finite = more <= more, bright = more < more;
     for (int i = 0; i < 4; ++i) {
-        const Doubles f0 = load_lanes(n.f0[i]);
-        const Doubles reflectance = f0 + grazing * (load_lanes(n.f90[i]) - f0);
-        const Doubles value = facet * reflectance + more * load_lanes(n.several[i]);
-        result.value[i] = load_lanes(n.weight[i]) * value;
+        const D f0 = load_lanes<N>(n.f0[i]);
+        const D reflectance = f0 + grazing * (load_lanes<N>(n.f90[i]) - f0);
+        const D value = facet * reflectance + more * load_lanes<N>(n.several[i]);
+        result.value[i] = load_lanes<N>(n.weight[i]) * value;
         finite = finite & (abs(result.value[i]) <= most);
         bright = bright | (result.value[i] > zero);
     }
-    const LaneMask<double> usable = finite & bright;
-    for (Doubles& value : result.value) value = select_lanes(usable, value, zero);
-    const Doubles lambert = select_lanes(zero < l.z, l.z, zero) / Doubles(kPi);
-    const Doubles density = share * (normals / (v.z + stretched)) + (one - share) * lambert;
+    const LaneMask<double, N> usable = finite & bright;
+    for (D& value : result.value) value = select_lanes(usable, value, zero);
+    const D lambert = select_lanes(zero < l.z, l.z, zero) / D(kPi);
+    const D density = share * (normals / (v.z + stretched)) + (one - share) * lambert;
     result.density = select_lanes((density > zero) & (density <= most), density, zero);
     return result;
 }
 
 /// Samples the next directions.
+template <std::size_t N>
 HWY_INLINE void sample(const RoughLanes::Numbers& n, VertexLanes& v) {
-    const LaneMask<double> own = lanes_of_bits<double>(n.lanes);
-    const Doubles zero(0.0);
-    const LaneVectors view = turned(n, load_vectors(v.view));
-    const GgxLanes ggx{load_lanes(n.alpha[0]), load_lanes(n.alpha[1])};
-    const LaneMask<double> by_facet = load_lanes(n.choice) < load_lanes(n.of_view);
+    using D = Lanes<double, N>;
+    const LaneMask<double, N> own = lanes_of_bits<double, N>(n.lanes);
+    const D zero(0.0);
+    const VectorLanes<N> view = turned(n, load_vectors<N>(v.view));
+    const GgxLanes<N> ggx{load_lanes<N>(n.alpha[0]), load_lanes<N>(n.alpha[1])};
+    const LaneMask<double, N> by_facet = load_lanes<N>(n.choice) < load_lanes<N>(n.of_view);
     // VertexLanes::scatter has sampled the matt lobe.
-    const LaneVectors matt = load_vectors(v.next);
-    const LaneVectors m = ggx.sample_visible(view, load_lanes(v.u[0]), load_lanes(v.u[1]));
-    const LaneVectors mirrored = Doubles(2.0) * dot(view, m) * m - view;
-    const LaneVectors next = select_lanes(by_facet, mirrored, matt);
+    const VectorLanes<N> matt = load_vectors<N>(v.next);
+    const VectorLanes<N> m = ggx.sample_visible(view, load_lanes<N>(v.u[0]), load_lanes<N>(v.u[1]));
+    const VectorLanes<N> mirrored = D(2.0) * dot(view, m) * m - view;
+    const VectorLanes<N> next = select_lanes(by_facet, mirrored, matt);
     v.sampled &= bits_of(next.z > zero) | ~n.lanes;
     store_vectors(select_lanes(own, turned_back(n, next), matt), v.next);
 }
 
+template <std::size_t N>
 HWY_INLINE void weigh(const RoughLanes::Numbers& n, VertexLanes& v) {
-    const LaneMask<double> own = lanes_of_bits<double>(n.lanes);
-    const Doubles zero(0.0), most(std::numeric_limits<double>::max());
-    const LaneVectors view = load_vectors(v.view), next = load_vectors(v.next);
-    const auto put = [&](const Doubles& of_lane, VertexLanes::Numbers& to) {
-        store_lanes(select_lanes(own, of_lane, load_lanes(to)), to);
+    using D = Lanes<double, N>;
+    const LaneMask<double, N> own = lanes_of_bits<double, N>(n.lanes);
+    const D zero(0.0), most(std::numeric_limits<double>::max());
+    const VectorLanes<N> view = load_vectors<N>(v.view), next = load_vectors<N>(v.next);
+    const auto put = [&](const D& of_lane, VertexLanes::Numbers& to) {
+        store_lanes(select_lanes(own, of_lane, load_lanes<N>(to)), to);
     };
     if ((v.lit & n.lanes) != 0) {
-        const LaneVectors to_light = load_vectors(v.to_light);
-        const Scattered light = evaluate(n, view, to_light, load_lanes(n.of_light));
+        const VectorLanes<N> to_light = load_vectors<N>(v.to_light);
+        const Scattered<N> light = evaluate(n, view, to_light, load_lanes<N>(n.of_light));
         for (int i = 0; i < 4; ++i) put(to_light.z * light.value[i], v.value[i]);
         put(light.density, v.density);
     }
-    const Scattered sampled = evaluate(n, view, next, load_lanes(n.of_next));
-    const Doubles scale = abs(next.z) / sampled.density;
-    LaneMask<double> finite = sampled.density > zero, bright = sampled.density < zero;
+    const Scattered<N> sampled = evaluate(n, view, next, load_lanes<N>(n.of_next));
+    const D scale = abs(next.z) / sampled.density;
+    LaneMask<double, N> finite = sampled.density > zero, bright = sampled.density < zero;
     for (int i = 0; i < 4; ++i) {
-        const Doubles weight = scale * sampled.value[i];
+        const D weight = scale * sampled.value[i];
         finite = finite & (abs(weight) <= most);
         bright = bright | (weight > zero);
         put(weight, v.next_weight[i]);
@@ -145,10 +159,14 @@ HWY_INLINE void weigh(const RoughLanes::Numbers& n, VertexLanes& v) {
 }  // namespace rough_lanes
 
 void sample_rough_of_target(const RoughLanes::Numbers& numbers, VertexLanes& vertices) {
-    rough_lanes::sample(numbers, vertices);
+    with_lane_count(numbers.lanes, [&](auto count) HWY_ATTR {
+        rough_lanes::sample<decltype(count)::value>(numbers, vertices);
+    });
 }
 void weigh_rough_of_target(const RoughLanes::Numbers& numbers, VertexLanes& vertices) {
-    rough_lanes::weigh(numbers, vertices);
+    with_lane_count(numbers.lanes, [&](auto count) HWY_ATTR {
+        rough_lanes::weigh<decltype(count)::value>(numbers, vertices);
+    });
 }
 
 }  // namespace HWY_NAMESPACE

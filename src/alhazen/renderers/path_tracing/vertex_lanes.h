@@ -10,25 +10,27 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "alhazen/illumination/light_draws.h"
+#include "alhazen/illumination/light_lanes.h"
 #include "alhazen/shapes/meshes/triangle_lanes.h"
 
 namespace alhazen {
 
 struct VertexLanes {
     static constexpr std::size_t kMost = TriangleLanes::kMost;
+    static_assert(kMost == LightCallLanes::kMost);
     using Numbers = TriangleLanes::Numbers;
     using Vectors = TriangleLanes::Vectors;
     using Spectra = Numbers[4];
 
     VertexLanes();
 
-    /// Finds the surfaces, their frames and the starts of rays.
-    void find_frames();
+    /// Finds the surfaces of the first `count` lanes, their frames and the starts of rays. Writes
+    /// the points at which light is wanted into `lights`.
+    void find_frames(std::size_t count, LightCallLanes& lights);
     /// Light and next directions in the frames; values, densities and weights of matt BSDFs.
-    void scatter(const LightDraws::Results& lights);
+    void scatter(const LightDrawLanes& lights);
     /// The light of the shadow rays, the next directions and throughputs.
-    void weigh(const LightDraws::Results& lights);
+    void weigh(const LightDrawLanes& lights);
 
     // Filled with the hits.
     TriangleLanes triangles;
@@ -43,6 +45,7 @@ struct VertexLanes {
     alignas(64) Vectors view = {};               ///< in the frame
     alignas(64) Vectors origin = {};             ///< of rays that leave on the side of the view
     std::uint32_t entering = 0;                  ///< ShadingPoint::entering
+    std::uint32_t used = 0;                      ///< the first `count` lanes
 
     // Of `scatter`, and of BSDFs that are not matt.
     alignas(64) Vectors to_light = {};  ///< in the frame

@@ -1,6 +1,7 @@
 #include "alhazen/sampling/samplers/sobol_points.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "alhazen/sampling/nested_scramble.h"
 
@@ -63,6 +64,8 @@ namespace {
 
 using FourWords = std::uint64_t __attribute__((vector_size(32)));
 using EightWords = std::uint64_t __attribute__((vector_size(64)));
+using EightIntegers = std::int64_t __attribute__((vector_size(64)));
+using EightNumbers = double __attribute__((vector_size(64)));
 
 /// `mix64` of each lane.
 template <class Words>
@@ -98,22 +101,42 @@ ALHAZEN_SOBOL_INLINE Words scrambled_digits(std::uint64_t tree, Words digits) {
 }
 
 template <class Words>
+ALHAZEN_SOBOL_INLINE Words loaded(const std::uint64_t* from) {
+    Words words;
+    std::memcpy(&words, from, sizeof(Words));
+    return words;
+}
+
+/// Writes words below 2^53, times 2^-53. Signed integers are converted faster.
+ALHAZEN_SOBOL_INLINE void write_units(FourWords words, double* out) {
+    for (int k = 0; k < 4; ++k) {
+        out[k] = static_cast<double>(static_cast<std::int64_t>(words[k])) * 0x1p-53;
+    }
+}
+ALHAZEN_SOBOL_INLINE void write_units(EightWords words, double* out) {
+    const EightNumbers numbers =
+        __builtin_convertvector(reinterpret_cast<EightIntegers>(words), EightNumbers) * 0x1p-53;
+    std::memcpy(out, &numbers, sizeof(numbers));
+}
+
+template <class Words>
 ALHAZEN_SOBOL_INLINE void scrambled_points_in_lanes(const ScrambleTrees& trees,
                                                     std::span<const std::uint64_t> numbers,
                                                     Vec2* out) {
     constexpr std::size_t kLanes = sizeof(Words) / sizeof(std::uint64_t);
+    alignas(64) double x_lanes[kLanes], y_lanes[kLanes];
     for (std::size_t i = 0; i < numbers.size(); i += kLanes) {
         const std::size_t count = std::min(kLanes, numbers.size() - i);
         Words number = {};
-        for (std::size_t k = 0; k < count; ++k) number[k] = numbers[i + k];
-        const Words x = scrambled_digits(trees.x, with_reversed_bits(number));
-        const Words y =
-            scrambled_digits(trees.y, with_reversed_bits(with_sums_of_bits_above(number)));
-        for (std::size_t k = 0; k < count; ++k) {
-            // Below 2^53, and signed integers are converted faster.
-            out[i + k] = {static_cast<double>(static_cast<std::int64_t>(x[k])) * 0x1p-53,
-                          static_cast<double>(static_cast<std::int64_t>(y[k])) * 0x1p-53};
+        if (count == kLanes) {
+            number = loaded<Words>(&numbers[i]);
+        } else {
+            for (std::size_t k = 0; k < count; ++k) number[k] = numbers[i + k];
         }
+        write_units(scrambled_digits(trees.x, with_reversed_bits(number)), x_lanes);
+        write_units(scrambled_digits(trees.y, with_reversed_bits(with_sums_of_bits_above(number))),
+                    y_lanes);
+        for (std::size_t k = 0; k < count; ++k) out[i + k] = {x_lanes[k], y_lanes[k]};
     }
 }
 
@@ -131,21 +154,50 @@ __attribute__((target("avx512f,avx512dq,prefer-vector-width=512"))) void scrambl
     scrambled_points_in_lanes<EightWords>(trees, numbers, out);
 }
 
+__attribute__((target("avx512f,avx512dq,prefer-vector-width=512"))) void shuffled_indices_avx512(
+    const PixelSamples& samples, std::size_t count, int bits, std::uint64_t* out) {
+    constexpr std::size_t kLanes = sizeof(EightWords) / sizeof(std::uint64_t);
+    for (std::size_t i = 0; i < count; i += kLanes) {
+        const EightWords key = loaded<EightWords>(&samples.key[i]);
+        const EightWords number = loaded<EightWords>(&samples.number[i]);
+        EightWords flips = {};
+        for (int bit = 0; bit < bits; ++bit) {
+            // As `flip_of_sample`.
+            const EightWords above = number >> bit >> 1 | std::uint64_t(bit + 1) << 32;
+            flips |= mixed(key ^ above) >> 63 << bit;
+        }
+        const EightWords indices = loaded<EightWords>(&samples.first[i]) + (number ^ flips);
+        std::memcpy(out + i, &indices, sizeof(indices));
+    }
+}
+
+[[nodiscard]] bool has_products_of_words() {
+    return __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
+
 }  // namespace
 
 std::vector<ScrambledPoints> variants_of_scrambled_points() {
     std::vector<ScrambledPoints> variants{scrambled_points_one_by_one};
     if (__builtin_cpu_supports("avx2")) variants.push_back(scrambled_points_avx2);
-    if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
-        variants.push_back(scrambled_points_avx512);
-    }
+    if (has_products_of_words()) variants.push_back(scrambled_points_avx512);
     return variants;
+}
+
+ShuffledIndices shuffled_indices_in_lanes() {
+    static const ShuffledIndices found =
+        has_products_of_words() ? shuffled_indices_avx512 : nullptr;
+    return found;
 }
 
 #else
 
 std::vector<ScrambledPoints> variants_of_scrambled_points() {
     return {scrambled_points_one_by_one};
+}
+
+ShuffledIndices shuffled_indices_in_lanes() {
+    return nullptr;
 }
 
 #endif

@@ -27,18 +27,12 @@ constexpr std::array<std::uint8_t, 24> kOrders = [] {
     return orders;
 }();
 
-/// The flip of a bit of a sample's index, by a hash of the bits above it.
-std::uint32_t flip_of(std::uint32_t s, int bit, std::uint64_t key) {
-    const std::uint64_t above = std::uint64_t{s >> bit >> 1} | std::uint64_t(bit + 1) << 32;
-    return static_cast<std::uint32_t>(mix64(key ^ above) >> 63) << bit;
-}
-
 /// Indices of samples, each bit flipped by a hash of the bits above it: each first 2^k indices stay
 /// an aligned block. For successive indices only the flips of changed bits are hashed again.
 class ShuffledNumbers {
   public:
     ShuffledNumbers(std::uint32_t first, int bits, std::uint64_t key) : key_(key), next_(first) {
-        for (int bit = 0; bit < bits; ++bit) flips_ |= flip_of(first, bit, key);
+        for (int bit = 0; bit < bits; ++bit) flips_ |= flip_of_sample(first, bit, key);
         bits_ = bits;
     }
     [[nodiscard]] std::uint32_t next() {
@@ -46,7 +40,7 @@ class ShuffledNumbers {
         ++next_;
         // The bits below the lowest bit that became 1.
         for (int bit = std::min(std::countr_zero(next_), bits_) - 1; bit >= 0; --bit) {
-            flips_ = (flips_ & ~(1u << bit)) | flip_of(next_, bit, key_);
+            flips_ = (flips_ & ~(1u << bit)) | flip_of_sample(next_, bit, key_);
         }
         return shuffled;
     }
@@ -112,21 +106,48 @@ void SobolSampler::points_of(std::span<const SampleRun> runs, std::uint32_t pair
     const std::uint64_t key = mix64(key_ ^ pair);
     const ScrambleTrees trees{mix64(key + 1), mix64(key + 2)};
     CurveWalk walk(key);
-    std::array<std::uint64_t, 128> numbers;  // indices in the sequence
+    const int bits = pair > 0 ? sample_bits_ : 0;
+    const auto key_of = [&](const SampleRun& run) { return mix64(key ^ mix64(run.pixel.id())); };
+    const auto first_of = [&](const SampleRun& run) {
+        return std::uint64_t{walk.place(run.pixel)} << sample_bits_;
+    };
+    std::array<std::uint64_t, PixelSamples::kMost> indices;  // in the sequence
     std::size_t waiting = 0;
     Vec2* next = out.data();
     const auto write = [&] {
-        scrambled_points(trees, std::span(numbers).first(waiting), next);
+        scrambled_points(trees, std::span(indices).first(waiting), next);
         next += waiting;
         waiting = 0;
     };
+    constexpr std::size_t kFewest = 4;  // in lanes
+    const ShuffledIndices shuffle = shuffled_indices_in_lanes();
+    if (shuffle != nullptr && out.size() >= kFewest) {
+        PixelSamples samples;
+        const auto shuffle_all = [&] {
+            // The rest of the last lanes.
+            for (std::size_t i = waiting; i % 8 != 0; ++i) {
+                samples.first[i] = samples.key[i] = samples.number[i] = 0;
+            }
+            shuffle(samples, waiting, bits, indices.data());
+            write();
+        };
+        for (const SampleRun& run : runs) {
+            const std::uint64_t first = first_of(run), pixel_key = key_of(run);
+            for (std::uint32_t k = 0; k < run.count; ++k) {
+                samples.first[waiting] = first;
+                samples.key[waiting] = pixel_key;
+                samples.number[waiting] = run.first + k;
+                if (++waiting == PixelSamples::kMost) shuffle_all();
+            }
+        }
+        return shuffle_all();
+    }
     for (const SampleRun& run : runs) {
-        const std::uint64_t place = std::uint64_t{walk.place(run.pixel)} << sample_bits_;
-        ShuffledNumbers shuffled(run.first, pair > 0 ? sample_bits_ : 0,
-                                 mix64(key ^ mix64(run.pixel.id())));
+        const std::uint64_t first = first_of(run);
+        ShuffledNumbers shuffled(run.first, bits, key_of(run));
         for (std::uint32_t k = 0; k < run.count; ++k) {
-            numbers[waiting++] = place | shuffled.next();
-            if (waiting == numbers.size()) write();
+            indices[waiting++] = first | shuffled.next();
+            if (waiting == indices.size()) write();
         }
     }
     write();

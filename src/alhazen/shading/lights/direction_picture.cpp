@@ -8,6 +8,7 @@
 
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/direction_lanes.h"
 
 namespace alhazen {
 
@@ -26,15 +27,31 @@ double row_of(const Vec3& direction) {
     return std::atan2(std::hypot(direction.x, direction.y), direction.z) / kPi;
 }
 
+/// The number of entries up to the first above `wanted`, which lies between `least` and `most`, in
+/// an ascending list. Without branches that depend on the entries.
+template <class Entries, class Value>
+std::size_t first_above(const Entries& entries, std::size_t least, std::size_t most, Value wanted) {
+    const auto* const begin = entries.data();
+    const auto* found = begin + least;
+    for (std::size_t left = most - least; left > 0;) {
+        const std::size_t half = (left + 1) / 2;
+        // A mask: compilers make a branch of a choice.
+        found += half & (std::size_t{0} - std::size_t{found[half - 1] <= wanted});
+        left -= half;
+    }
+    return static_cast<std::size_t>(found - begin);
+}
+
 /// Index of the last entry at or below `wanted` whose own share is not 0, in an ascending list. The
 /// first entry above `wanted` lies between `least` and `most`.
 template <class Entries, class Value>
 std::size_t pick(const Entries& entries, std::size_t least, std::size_t most, Value wanted) {
-    const auto begin = entries.begin(), end = entries.end();
-    auto after =
-        std::upper_bound(begin + std::ptrdiff_t(least), begin + std::ptrdiff_t(most), wanted);
-    if (after == end) after = std::lower_bound(begin, end, entries.back());
-    return std::size_t(std::max(after - begin - 1, std::ptrdiff_t{0}));
+    std::size_t after = first_above(entries, least, most, wanted);
+    if (after == entries.size()) {
+        after = static_cast<std::size_t>(
+            std::lower_bound(entries.begin(), entries.end(), entries.back()) - entries.begin());
+    }
+    return after > 0 ? after - 1 : 0;
 }
 
 /// Index of the part of [0, 1) that contains `share`.
@@ -154,6 +171,39 @@ DirectionPicture::Sight DirectionPicture::sight(const Vec3& direction) const {
     return {radiance_at(place), density_at(place)};
 }
 
+void DirectionPicture::find_sights(std::span<const Vec3> directions, Sight* sights) const {
+    DirectionLanes lanes;
+    for (std::size_t done = 0; done < directions.size(); done += DirectionLanes::kMost) {
+        const std::size_t count = std::min(DirectionLanes::kMost, directions.size() - done);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3& direction = directions[done + i];
+            lanes.x[i] = direction.x;
+            lanes.y[i] = direction.y;
+            lanes.z[i] = direction.z;
+        }
+        lanes.find_places(count);
+        for (std::size_t i = 0; i < count; ++i) fetch({lanes.column[i], lanes.row[i]});
+        for (std::size_t i = 0; i < count; ++i) {
+            const Place place{lanes.column[i], lanes.row[i]};
+            sights[done + i] = {radiance_at(place), density_at(place)};
+        }
+    }
+}
+
+void DirectionPicture::fetch(const Place& place) const {
+    const int y = index_below(place.row, picture_.height);
+    const int x = index_below(place.column, picture_.width);
+    __builtin_prefetch(
+        &columns_[std::size_t(y) * std::size_t(picture_.width + 1) + std::size_t(x)]);
+    // The texels to the left of the place.
+    const auto at = [](double share, int size) {
+        return std::clamp(static_cast<int>(share * size - 0.5), 0, size - 1);
+    };
+    const int left = at(place.column, picture_.width), above = at(place.row, picture_.height);
+    __builtin_prefetch(picture_.pixel(left, above));
+    __builtin_prefetch(picture_.pixel(left, std::min(above + 1, picture_.height - 1)));
+}
+
 Rgb DirectionPicture::radiance_at(const Place& place) const {
     const double x = place.column * picture_.width - 0.5;
     const double y = place.row * picture_.height - 0.5;
@@ -205,17 +255,39 @@ void DirectionPicture::find(Search& search) const {
     __builtin_prefetch(picture_.pixel(column, std::min(row + 1, picture_.height - 1)));
 }
 
-Vec3 DirectionPicture::direction(const Search& search) const {
+double DirectionPicture::height_of(const Search& search) const {
+    const int row = static_cast<int>(search.row);
+    const double top = height(row), bottom = height(row + 1);
+    return top + search.share_y * (bottom - top);
+}
+
+double DirectionPicture::longitude_of(const Search& search) const {
     const std::span<const float> shares = shares_of(search.row);
     const double from = shares[search.column], to = shares[search.column + 1];
     const double share_x = std::clamp((search.u.x - from) / (to - from), 0.0, 1.0);
-    const int row = static_cast<int>(search.row);
-    const double top = height(row), bottom = height(row + 1);
-    const double z = top + search.share_y * (bottom - top);
     const double column = static_cast<double>(search.column) + share_x;
-    const double angle = 2.0 * kPi * (column / picture_.width - 0.5);
+    return 2.0 * kPi * (column / picture_.width - 0.5);
+}
+
+Vec3 DirectionPicture::direction(const Search& search) const {
+    const double z = height_of(search), angle = longitude_of(search);
     const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
     return {across * std::sin(angle), across * std::cos(angle), z};
+}
+
+void DirectionPicture::find_directions(std::span<const Search> searches, Vec3* directions) const {
+    DirectionLanes lanes;
+    for (std::size_t done = 0; done < searches.size(); done += DirectionLanes::kMost) {
+        const std::size_t count = std::min(DirectionLanes::kMost, searches.size() - done);
+        for (std::size_t i = 0; i < count; ++i) {
+            lanes.z[i] = height_of(searches[done + i]);
+            lanes.longitude[i] = longitude_of(searches[done + i]);
+        }
+        lanes.find_directions(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            directions[done + i] = {lanes.x[i], lanes.y[i], lanes.z[i]};
+        }
+    }
 }
 
 Vec3 DirectionPicture::sample(const Vec2& u) const {

@@ -47,6 +47,8 @@ class DirectionPicture {
     /// Finds the texel; prefetches what `sight` reads.
     void find(Search& search) const;
     [[nodiscard]] Vec3 direction(const Search& search) const;
+    /// `direction` of each search.
+    void find_directions(std::span<const Search> searches, Vec3* directions) const;
     /// Density of `sample` by solid angle.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// Radiance and density of a direction.
@@ -55,6 +57,8 @@ class DirectionPicture {
         double density = 0;
     };
     [[nodiscard]] Sight sight(const Vec3& direction) const;
+    /// `sight` of each direction.
+    void find_sights(std::span<const Vec3> directions, Sight* sights) const;
 
     /// Mean radiance over all directions.
     [[nodiscard]] const Rgb& mean() const { return mean_; }
@@ -70,6 +74,10 @@ class DirectionPicture {
     /// The row of `share`, and the beginning of the search in that row.
     [[nodiscard]] std::size_t row_for(double share) const;
     [[nodiscard]] const std::uint32_t* guide_for(const Search& search) const;
+    [[nodiscard]] double height_of(const Search& search) const;
+    [[nodiscard]] double longitude_of(const Search& search) const;
+    /// Prefetches what `radiance_at` and `density_at` read.
+    void fetch(const Place& place) const;
     /// The cumulative shares of a row.
     [[nodiscard]] std::span<const float> shares_of(std::size_t row) const {
         const std::size_t count = std::size_t(picture_.width) + 1;

@@ -1,12 +1,14 @@
 #include "alhazen/shading/lights/environment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/shading/lights/clear_sky.h"
+#include "alhazen/shading/lights/direction_lanes.h"
 #include "alhazen/shading/lights/light_extent.h"
 #include "alhazen/shading/lights/studio.h"
 
@@ -102,6 +104,29 @@ Environment::Sight Environment::sight(const Vec3& normal, bool both_sides,
                                       const Vec3& direction) const {
     if (picture_) return sight(direction);
     return {factor_, density(normal, both_sides, direction)};
+}
+
+void Environment::find_directions(std::span<const Search> searches, Vec3* directions) const {
+    picture_->find_directions(searches, directions);
+    for (std::size_t i = 0; i < searches.size(); ++i) {
+        directions[i] = world_from_picture_ * directions[i];
+    }
+}
+
+void Environment::find_sights(std::span<const Vec3> directions, Sight* sights) const {
+    constexpr std::size_t kAtOnce = DirectionLanes::kMost;
+    std::array<Vec3, kAtOnce> inner;
+    for (std::size_t done = 0; done < directions.size(); done += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, directions.size() - done);
+        const std::span<const Vec3> some = directions.subspan(done, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            inner[i] = transpose_times(world_from_picture_, some[i]);
+        }
+        picture_->find_sights(std::span(inner).first(count), sights + done);
+        for (std::size_t i = 0; i < count; ++i) {
+            sights[done + i] = with_sun(sights[done + i], some[i]);
+        }
+    }
 }
 
 Rgb Environment::mean() const {

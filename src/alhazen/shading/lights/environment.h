@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/affine.h"
@@ -57,6 +58,11 @@ class Environment {
     [[nodiscard]] Vec3 direction(const Search& search) const {
         return world_from_picture_ * picture_->direction(search);
     }
+    /// `direction` of each search.
+    void find_directions(std::span<const Search> searches, Vec3* directions) const;
+    [[nodiscard]] bool has_picture() const { return picture_.has_value(); }
+    /// `sight` of each direction. Precondition: `has_picture`.
+    void find_sights(std::span<const Vec3> directions, Sight* sights) const;
 
     /// Mean radiance over all directions.
     [[nodiscard]] Rgb mean() const;

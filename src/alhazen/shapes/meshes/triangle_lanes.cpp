@@ -18,10 +18,6 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace triangle_lanes {
 
-HWY_INLINE std::uint32_t other_lanes(std::uint32_t lanes) {
-    return ~lanes & kAllLanes;
-}
-
 /// Calls f(lane) for each of `lanes`.
 template <class F>
 HWY_INLINE void for_each_lane(std::uint32_t lanes, const F& f) {
@@ -35,33 +31,38 @@ HWY_INLINE void set_vector(const Vec3& from, int lane, TriangleLanes::Vectors& v
 }
 
 /// `difference_of_products` of each lane.
-HWY_INLINE Doubles product_difference(const Doubles& a, const Doubles& b, const Doubles& c,
-                                      const Doubles& d) {
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> product_difference(const Lanes<double, N>& a, const Lanes<double, N>& b,
+                                               const Lanes<double, N>& c,
+                                               const Lanes<double, N>& d) {
     if constexpr (kFusesExactly) {
         return difference_of_products(a, b, c, d);
     } else {
-        HWY_ALIGN double in[4][kLaneCount];
+        HWY_ALIGN double in[4][N];
         store_lanes(a, in[0]);
         store_lanes(b, in[1]);
         store_lanes(c, in[2]);
         store_lanes(d, in[3]);
-        for (std::size_t i = 0; i < kLaneCount; ++i) {
+        for (std::size_t i = 0; i < N; ++i) {
             in[0][i] = alhazen::difference_of_products(in[0][i], in[1][i], in[2][i], in[3][i]);
         }
-        return load_lanes(in[0]);
+        return load_lanes<N>(in[0]);
     }
 }
-HWY_INLINE LaneVectors accurate_cross(const LaneVectors& a, const LaneVectors& b) {
+template <std::size_t N>
+HWY_INLINE VectorLanes<N> accurate_cross(const VectorLanes<N>& a, const VectorLanes<N>& b) {
     return {product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
             product_difference(a.x, b.y, a.y, b.x)};
 }
 
 /// `unit_or` of each lane.
-HWY_INLINE LaneVectors unit_vectors_or(const LaneVectors& v, const LaneVectors& fallback) {
-    const Doubles squared = dot(v, v);
-    const LaneMask<double> sane = (squared > Doubles(1e-200)) & (squared < Doubles(1e200));
-    const LaneVectors unit = v / sqrt(select_lanes(sane, squared, Doubles(1.0)));
-    const std::uint32_t others = other_lanes(bits_of(sane));
+template <std::size_t N>
+HWY_INLINE VectorLanes<N> unit_vectors_or(const VectorLanes<N>& v, const VectorLanes<N>& fallback) {
+    using D = Lanes<double, N>;
+    const D squared = dot(v, v);
+    const LaneMask<double, N> sane = (squared > D(1e-200)) & (squared < D(1e200));
+    const VectorLanes<N> unit = v / sqrt(select_lanes(sane, squared, D(1.0)));
+    const std::uint32_t others = ~bits_of(sane) & ((1u << N) - 1);
     if (others == 0) return unit;
     HWY_ALIGN TriangleLanes::Vectors of, rest, result;
     store_vectors(v, of);
@@ -70,76 +71,86 @@ HWY_INLINE LaneVectors unit_vectors_or(const LaneVectors& v, const LaneVectors& 
     for_each_lane(others, [&](int i) {
         set_vector(unit_or(vector_of(of, i), vector_of(rest, i)), i, result);
     });
-    return load_vectors(result);
+    return load_vectors<N>(result);
 }
 
 /// w p + u q + v r.
-HWY_INLINE LaneVectors weighted(const Doubles& w, const LaneVectors& p, const Doubles& u,
-                                const LaneVectors& q, const Doubles& v, const LaneVectors& r) {
+template <std::size_t N>
+HWY_INLINE VectorLanes<N> weighted(const Lanes<double, N>& w, const VectorLanes<N>& p,
+                                   const Lanes<double, N>& u, const VectorLanes<N>& q,
+                                   const Lanes<double, N>& v, const VectorLanes<N>& r) {
     return w * p + u * q + v * r;
 }
 
-HWY_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> larger(const Lanes<double, N>& a, const Lanes<double, N>& b) {
     return select_lanes(b > a, b, a);
 }
-HWY_INLINE Doubles largest_coordinate(const LaneVectors& a) {
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> largest_coordinate(const VectorLanes<N>& a) {
     return larger(larger(a.x, a.y), a.z);
 }
 
 /// The derivatives by the first texture coordinate; first edges where there are none.
-HWY_INLINE LaneVectors derivatives_by_u(const TriangleLanes& t, const LaneVectors& e1,
-                                        const LaneVectors& e2) {
-    const Doubles x0 = load_lanes(t.uvs[0][0]), y0 = load_lanes(t.uvs[0][1]);
-    const Doubles ax = load_lanes(t.uvs[1][0]) - x0, ay = load_lanes(t.uvs[1][1]) - y0;
-    const Doubles bx = load_lanes(t.uvs[2][0]) - x0, by = load_lanes(t.uvs[2][1]) - y0;
-    const Doubles zero(0.0), area = product_difference(ax, by, ay, bx);
-    const LaneMask<double> mapped = lanes_of_bits<double>(t.mapped);
-    const LaneMask<double> spans = mapped & ((area > zero) | (area < zero));
+template <std::size_t N>
+HWY_INLINE VectorLanes<N> derivatives_by_u(const TriangleLanes& t, const VectorLanes<N>& e1,
+                                           const VectorLanes<N>& e2) {
+    using D = Lanes<double, N>;
+    using Vectors = VectorLanes<N>;
+    const D x0 = load_lanes<N>(t.uvs[0][0]), y0 = load_lanes<N>(t.uvs[0][1]);
+    const D ax = load_lanes<N>(t.uvs[1][0]) - x0, ay = load_lanes<N>(t.uvs[1][1]) - y0;
+    const D bx = load_lanes<N>(t.uvs[2][0]) - x0, by = load_lanes<N>(t.uvs[2][1]) - y0;
+    const D zero(0.0), area = product_difference(ax, by, ay, bx);
+    const LaneMask<double, N> mapped = lanes_of_bits<double, N>(t.mapped);
+    const LaneMask<double, N> spans = mapped & ((area > zero) | (area < zero));
     // No division of 0 by 0.
-    const Doubles divisor = select_lanes(spans, area, Doubles(1.0));
-    const LaneVectors by_u = (by * e1 - ay * e2) / divisor, by_v = (ax * e2 - bx * e1) / divisor;
-    const auto is_finite = [](const LaneVectors& v) {
+    const D divisor = select_lanes(spans, area, D(1.0));
+    const Vectors by_u = (by * e1 - ay * e2) / divisor, by_v = (ax * e2 - bx * e1) / divisor;
+    const auto is_finite = [](const Vectors& v) {
         constexpr double kLargest = std::numeric_limits<double>::max();
-        const Doubles most(kLargest);
+        const D most(kLargest);
         return (abs(v.x) <= most) & (abs(v.y) <= most) & (abs(v.z) <= most);
     };
-    const LaneMask<double> known = spans & is_finite(by_u) & is_finite(by_v);
-    const LaneVectors none{zero, zero, zero};
+    const LaneMask<double, N> known = spans & is_finite(by_u) & is_finite(by_v);
+    const Vectors none{zero, zero, zero};
     return select_lanes(mapped, select_lanes(known, by_u, none), e1);
 }
 
+template <std::size_t N>
 HWY_INLINE void find(TriangleLanes& t) {
-    const LaneVectors p0 = load_vectors(t.corners[0]), p1 = load_vectors(t.corners[1]);
-    const LaneVectors p2 = load_vectors(t.corners[2]);
-    const Doubles u = load_lanes(t.u), v = load_lanes(t.v);
-    const Doubles rest = Doubles(1.0) - u, w = rest - v;
-    const LaneVectors point = weighted(w, p0, u, p1, v, p2);
+    using D = Lanes<double, N>;
+    using Vectors = VectorLanes<N>;
+    const Vectors p0 = load_vectors<N>(t.corners[0]), p1 = load_vectors<N>(t.corners[1]);
+    const Vectors p2 = load_vectors<N>(t.corners[2]);
+    const D u = load_lanes<N>(t.u), v = load_lanes<N>(t.v);
+    const D rest = D(1.0) - u, w = rest - v;
+    const Vectors point = weighted(w, p0, u, p1, v, p2);
     store_vectors(point, t.point);
     // As in TriangleMesh::surface.
-    const LaneVectors size0 = abs(p0);
-    const LaneVectors sizes = weighted(abs(w), size0, abs(u), abs(p1), abs(v), abs(p2));
-    const LaneVectors error =
-        Doubles(gamma_bound(7)) * sizes + (Doubles(gamma_bound(2)) * abs(rest)) * size0;
-    LaneVectors reach = abs(p0 - point);
-    for (const LaneVectors* p : {&p1, &p2}) {
-        const LaneVectors away = abs(*p - point);
+    const Vectors size0 = abs(p0);
+    const Vectors sizes = weighted(abs(w), size0, abs(u), abs(p1), abs(v), abs(p2));
+    const Vectors error = D(gamma_bound(7)) * sizes + (D(gamma_bound(2)) * abs(rest)) * size0;
+    Vectors reach = abs(p0 - point);
+    for (const Vectors* p : {&p1, &p2}) {
+        const Vectors away = abs(*p - point);
         reach = {larger(reach.x, away.x), larger(reach.y, away.y), larger(reach.z, away.z)};
     }
-    const Doubles rounding = Doubles(kNextTestRounding) * largest_coordinate(reach);
-    store_vectors(error + LaneVectors{rounding, rounding, rounding}, t.error);
+    const D rounding = D(kNextTestRounding) * largest_coordinate(reach);
+    store_vectors(error + Vectors{rounding, rounding, rounding}, t.error);
 
-    const LaneVectors e1 = p1 - p0, e2 = p2 - p0;
-    const Doubles zero(0.0);
-    const LaneVectors normal = unit_vectors_or(accurate_cross(e1, e2), {zero, zero, Doubles(1.0)});
-    const LaneVectors turned =
-        t.mirrored == 0 ? normal : select_lanes(lanes_of_bits<double>(t.mirrored), -normal, normal);
+    const Vectors e1 = p1 - p0, e2 = p2 - p0;
+    const D zero(0.0);
+    const Vectors normal = unit_vectors_or(accurate_cross(e1, e2), {zero, zero, D(1.0)});
+    const Vectors turned =
+        t.mirrored == 0 ? normal
+                        : select_lanes(lanes_of_bits<double, N>(t.mirrored), -normal, normal);
     store_vectors(turned, t.normal);
-    LaneVectors shading = turned;
+    Vectors shading = turned;
     if (t.smooth != 0) {
-        const LaneMask<double> smooth = lanes_of_bits<double>(t.smooth);
-        const LaneVectors mean =
-            weighted(w, load_vectors(t.normals[0]), u, load_vectors(t.normals[1]), v,
-                     load_vectors(t.normals[2]));
+        const LaneMask<double, N> smooth = lanes_of_bits<double, N>(t.smooth);
+        const Vectors mean =
+            weighted(w, load_vectors<N>(t.normals[0]), u, load_vectors<N>(t.normals[1]), v,
+                     load_vectors<N>(t.normals[2]));
         shading = select_lanes(smooth, unit_vectors_or(select_lanes(smooth, mean, normal), normal),
                                turned);
     }
@@ -149,8 +160,9 @@ HWY_INLINE void find(TriangleLanes& t) {
 
 }  // namespace triangle_lanes
 
-void find_triangle_surfaces_of_target(TriangleLanes& lanes) {
-    triangle_lanes::find(lanes);
+void find_triangle_surfaces_of_target(std::uint32_t used, TriangleLanes& lanes) {
+    with_lane_count(
+        used, [&](auto count) HWY_ATTR { triangle_lanes::find<decltype(count)::value>(lanes); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -198,8 +210,8 @@ void TriangleLanes::set(std::size_t lane, const TriangleMesh& mesh, std::size_t 
     }
 }
 
-void TriangleLanes::find_surfaces() {
-    ALHAZEN_KERNEL(find_triangle_surfaces_of_target)(*this);
+void TriangleLanes::find_surfaces(std::size_t count) {
+    ALHAZEN_KERNEL(find_triangle_surfaces_of_target)((1u << count) - 1, *this);
 }
 
 }  // namespace alhazen

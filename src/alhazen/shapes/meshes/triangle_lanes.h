@@ -1,5 +1,5 @@
 #pragma once
-/// The surfaces at hits of triangles of meshes, for eight hits in lanes.
+/// The surfaces at hits of triangles of meshes, for up to sixteen hits in lanes.
 ///
 /// Conventions: the bits are those of TriangleMesh::surface on every target. Lanes without a hit
 /// hold a triangle, too.
@@ -17,7 +17,7 @@ namespace alhazen {
 inline constexpr double kNextTestRounding = 12 * 0x1p-53;
 
 struct TriangleLanes {
-    static constexpr std::size_t kMost = 8;
+    static constexpr std::size_t kMost = 16;
     using Numbers = double[kMost];  ///< [lane]
     using Vectors = Numbers[3];     ///< [axis]
 
@@ -31,8 +31,8 @@ struct TriangleLanes {
     /// vertices.
     void set(std::size_t lane, const TriangleMesh& mesh, std::size_t triangle, const ShapeHit& hit,
              bool mirrored);
-    /// Computes the surfaces of all lanes.
-    void find_surfaces();
+    /// Computes the surfaces of the first `count` lanes.
+    void find_surfaces(std::size_t count);
 
     alignas(64) Vectors corners[3] = {};  ///< [vertex]
     alignas(64) Vectors normals[3] = {};  ///< [vertex]; of lanes in `smooth`

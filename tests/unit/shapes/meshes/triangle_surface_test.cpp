@@ -114,7 +114,7 @@ TEST(TriangleSurface, EightInLanesHaveTheBitsOfOneByOne) {
                 surface.normal = -surface.normal;
                 if (mesh.normals.empty()) surface.shading_normal = surface.normal;
             }
-            lanes.find_surfaces();
+            lanes.find_surfaces(count);
             for (std::size_t lane = 0; lane < count; ++lane) {
                 const ShapeSurface& s = expected[lane];
                 ASSERT_TRUE(same_bits(vector_of(lanes.point, lane), s.point)) << target;
