@@ -46,7 +46,7 @@ std::uint64_t write_nff(const GenerateArguments& args) {
 std::uint64_t write_scene(const GenerateArguments& args) {
     if (args.digits) throw Error(ErrorKind::Usage, "--digits is for .nff files");
     check_convert_target({}, args.output);
-    return convert(generate(args.name, size_of(args)), args.output, {.offers_meshes_only = false})
+    return convert(generate(args.name, size_of(args)), args.output, {.meshes_only_setting = ""})
         .bytes;
 }
 

@@ -67,6 +67,9 @@ def check_c(installed, source, folder):
         return
     flags = subprocess.run(["pkg-config", "--cflags", "--libs", "alhazen"], check=True, capture_output=True, text=True,
                            env={**os.environ, "PKG_CONFIG_PATH": str(packages.parent)}).stdout.split()
+    if packages.parent == installed / "lib" / "pkgconfig":  # CMAKE_INSTALL_LIBDIR as by default
+        guide = (source / "docs" / "guide" / "c.md").read_text(encoding="utf-8")
+        assert "PKG_CONFIG_PATH=PREFIX/lib/pkgconfig " in guide, "docs/guide/c.md: another folder than the installed one"
     library = next(installed.rglob("libalhazen.so")).parent
     program = folder / "api_test"
     run("cc", "-std=c99", "-o", program, source / "bindings" / "c" / "tests" / "api_test.c", *flags, "-lm",

@@ -3,8 +3,10 @@
 namespace alhazen::capi {
 
 Memory::Memory(Device* owner, std::size_t size) : device(owner), bytes(size) {
-    need(size < SIZE_MAX / 2, ALHAZEN_ERROR_OUT_OF_MEMORY, "the buffer is too large");
-    own_.resize(size + 16);  // the last float3 may be read and written as 16 bytes
+    constexpr std::size_t kPadding = 16;  // the last float3 may be read and written as 16 bytes
+    need(size <= own_.max_size() - kPadding, ALHAZEN_ERROR_OUT_OF_MEMORY,
+         "the buffer is too large");
+    own_.resize(size + kPadding);
     begin = own_.data();
 }
 

@@ -43,6 +43,8 @@ std::pair<AlhazenError, std::string> current_error() {
         return {code_of(error.kind()), error.what()};
     } catch (const std::bad_alloc&) {
         return {ALHAZEN_ERROR_OUT_OF_MEMORY, "out of memory"};
+    } catch (const std::length_error&) {  // an array beyond all memory
+        return {ALHAZEN_ERROR_OUT_OF_MEMORY, "out of memory"};
     } catch (const std::exception& error) {
         return {ALHAZEN_ERROR_UNKNOWN, error.what()};
     } catch (...) {

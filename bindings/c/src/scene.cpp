@@ -2,9 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "alhazen/base/diagnostics.h"
 #include "alhazen/parallel/parallel.h"
 #include "handles.h"
 
@@ -30,6 +32,16 @@ class Gatherer {
     [[nodiscard]] TracerScene take() { return std::move(scene_); }
 
   private:
+    /// The place that errors name: the scene's id, not the tracer's number of the geometry.
+    static std::string place_of(unsigned id) { return "geometry " + std::to_string(id); }
+    /// Throws what is wrong with a shape that the tracer has refused.
+    template <class Shape>
+    static void refuse(const Shape& shape, const std::string& place) {
+        Diagnostics found;
+        shape.validate({place, 0, 0}, found);
+        found.throw_if_errors();
+    }
+
     void add_triangles(unsigned id, const Geometry& geometry) {
         auto mesh = std::make_shared<TriangleMesh>();
         const Buffer& vertex = geometry.vertex;
@@ -42,28 +54,44 @@ class Gatherer {
         for (std::size_t i = 0; i < index.count; ++i) {
             mesh->triangles[i] = {index.whole(i, 0), index.whole(i, 1), index.whole(i, 2)};
         }
-        scene_.add_mesh(std::shared_ptr<const TriangleMesh>(std::move(mesh)),
-                        {.visible_to = geometry.mask});
+        const std::shared_ptr<const TriangleMesh> shared = std::move(mesh);
+        try {
+            scene_.add_mesh(shared, {.visible_to = geometry.mask});
+        } catch (const Error&) {
+            refuse(*shared, place_of(id));
+            throw;
+        }
         built_.origins.push_back({id, 0, nullptr});
     }
 
     void add_spheres(unsigned id, const Geometry& geometry) {
         const Buffer& vertex = geometry.vertex;
         for (std::size_t i = 0; i < vertex.count; ++i) {
-            scene_.add_sphere({vertex.real(i, 0), vertex.real(i, 1), vertex.real(i, 2)},
-                              vertex.real(i, 3), {.visible_to = geometry.mask});
+            const Sphere sphere{.center = {vertex.real(i, 0), vertex.real(i, 1), vertex.real(i, 2)},
+                                .radius = vertex.real(i, 3)};
+            try {
+                scene_.add(sphere, {.visible_to = geometry.mask});
+            } catch (const Error&) {
+                refuse(sphere, place_of(id) + ", primitive " + std::to_string(i));
+                throw;
+            }
             built_.origins.push_back({id, static_cast<unsigned>(i), nullptr});
         }
     }
 
     void add_instance(unsigned id, const Geometry& geometry) {
-        need(static_cast<bool>(geometry.instanced), ALHAZEN_ERROR_INVALID_OPERATION,
-             "an instance has no scene: alhazenSetGeometryInstancedScene");
+        const auto need_of_instance = [&](bool holds, AlhazenError code, const char* text) {
+            if (!holds) throw CodedError(code, place_of(id) + ": " + text);
+        };
+        need_of_instance(static_cast<bool>(geometry.instanced), ALHAZEN_ERROR_INVALID_OPERATION,
+                         "an instance has no scene: alhazenSetGeometryInstancedScene");
         const auto inner = geometry.instanced->built;
-        need(inner != nullptr, ALHAZEN_ERROR_INVALID_OPERATION,
-             "the scene of an instance is not committed");
-        need(!inner->has_instances, ALHAZEN_ERROR_INVALID_OPERATION,
-             "the scene of an instance has instances itself");
+        need_of_instance(inner != nullptr, ALHAZEN_ERROR_INVALID_OPERATION,
+                         "the scene of an instance is not committed");
+        need_of_instance(!inner->has_instances, ALHAZEN_ERROR_INVALID_OPERATION,
+                         "the scene of an instance has instances itself");
+        need_of_instance(is_invertible(geometry.transform), ALHAZEN_ERROR_INVALID_ARGUMENT,
+                         "the transform is singular or not finite");
         scene_.add_instance(*inner->tracer, {.world_from_geometry = geometry.transform,
                                              .visible_to = geometry.mask});
         built_.origins.push_back({id, 0, inner});
@@ -92,11 +120,12 @@ class ToldMemory {
     ToldMemory(const ToldMemory&) = delete;
     ToldMemory& operator=(const ToldMemory&) = delete;
 
-    /// Throws CodedError if the monitor refuses.
+    /// Throws CodedError if the monitor refuses. Bytes refused after their allocation (`post`) are
+    /// reported as freed too.
     void add(std::int64_t bytes, bool post) {
-        need(device_.tell_memory(bytes, post), ALHAZEN_ERROR_OUT_OF_MEMORY,
-             "the memory monitor forbids to build");
-        bytes_ += bytes;
+        const bool allowed = device_.tell_memory(bytes, post);
+        if (allowed || post) bytes_ += bytes;
+        need(allowed, ALHAZEN_ERROR_OUT_OF_MEMORY, "the memory monitor forbids to build");
     }
     std::int64_t keep() { return std::exchange(bytes_, 0); }
 
@@ -230,6 +259,7 @@ void Scene::commit(bool join) {
 }
 
 void Scene::build() {
+    ToldMemory memory(*device.get());  // on an error reported as freed after `next` is
     auto next = std::make_shared<Built>();
     Gatherer gatherer(*next);
     std::vector<std::pair<unsigned, Reference<Geometry>>> wanted;
@@ -242,7 +272,6 @@ void Scene::build() {
     std::int64_t bytes = 0;
     for (const auto& [id, geometry] : wanted) bytes += bytes_of(*geometry.get());
     tell(0.0);
-    ToldMemory memory(*device.get());
     memory.add(bytes, false);
     // Copying the geometry counts as a tenth of the work.
     for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -264,6 +264,67 @@ static void test_errors(void) {
     alhazenReleaseDevice(device);
 }
 
+/* The text of the error of a commit of the scene; "" if there is none. */
+static const char* commit_error(AlhazenDevice device, AlhazenScene scene) {
+    alhazenCommitScene(scene);
+    return alhazenGetDeviceError(device) == ALHAZEN_ERROR_NONE ? "" : alhazenGetDeviceErrorMessage(device);
+}
+
+static void test_errors_of_a_commit_name_the_geometry(AlhazenDevice device) {
+    const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const unsigned bad_face[3] = {0, 1, 9};
+    float balls[8][4];
+    float transform[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, NAN, 0, 0}; /* columns */
+    AlhazenScene scene = alhazenNewScene(device), inner = new_square(device, 1), outer = alhazenNewScene(device);
+    AlhazenGeometry spheres = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT);
+    AlhazenGeometry mesh = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_TRIANGLE);
+    AlhazenGeometry instance = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_INSTANCE);
+    const char* text;
+    int i;
+    for (i = 0; i < 8; ++i) {
+        balls[i][0] = (float)i;
+        balls[i][1] = balls[i][2] = 0;
+        balls[i][3] = 0.1f;
+    }
+    alhazenSetSharedGeometryBuffer(spheres, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_FLOAT4, balls, 0, 16, 8);
+    alhazenCommitGeometry(spheres);
+    alhazenAttachGeometryByID(scene, spheres, 3);
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_FLOAT3, points, 0, 12, 3);
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_INDEX, 0, ALHAZEN_FORMAT_UINT3, bad_face, 0, 12, 1);
+    alhazenCommitGeometry(mesh);
+    alhazenAttachGeometryByID(scene, mesh, 7);
+    text = commit_error(device, scene);
+    EXPECT(strncmp(text, "geometry 7: error: mesh: triangle 0 uses vertex 9", 49) == 0);
+    balls[5][3] = -1;
+    text = commit_error(device, scene);
+    EXPECT(strncmp(text, "geometry 3, primitive 5: error: sphere: radius", 46) == 0);
+    alhazenAttachGeometryByID(outer, instance, 42);
+    alhazenCommitGeometry(instance);
+    EXPECT(strncmp(commit_error(device, outer), "geometry 42: an instance has no scene", 37) == 0);
+    alhazenSetGeometryInstancedScene(instance, inner);
+    alhazenSetGeometryTransform(instance, 0, ALHAZEN_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform);
+    EXPECT(strncmp(commit_error(device, outer), "geometry 42: the scene of an instance is not", 44) == 0);
+    alhazenCommitScene(inner);
+    text = commit_error(device, outer);
+    EXPECT(strcmp(text, "geometry 42: the transform is singular or not finite") == 0);
+    alhazenReleaseGeometry(spheres);
+    alhazenReleaseGeometry(mesh);
+    alhazenReleaseGeometry(instance);
+    alhazenReleaseScene(scene);
+    alhazenReleaseScene(inner);
+    alhazenReleaseScene(outer);
+}
+
+static void test_buffers_beyond_all_memory(AlhazenDevice device) {
+    size_t i;
+    for (i = 0; i < 40; ++i) { /* also sizes that the padding carries over the limit */
+        EXPECT(alhazenNewBuffer(device, SIZE_MAX / 2 - i) == NULL);
+        EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
+    }
+    EXPECT(alhazenNewBuffer(device, SIZE_MAX) == NULL);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
+}
+
 static ssize_t bytes_held = 0;
 static int memory_calls = 0;
 static bool allow_memory = true;
@@ -274,6 +335,11 @@ static bool on_memory(void* user, ssize_t bytes, bool post) {
     if (!allow_memory) return false;
     bytes_held += bytes;
     return true;
+}
+static bool refuse_the_tree(void* user, ssize_t bytes, bool post) {
+    (void)user;
+    bytes_held += bytes;
+    return !(post && bytes > 0);
 }
 static double last_done = -1;
 static bool on_progress(void* user, double done) {
@@ -300,6 +366,13 @@ static void test_monitors(void) {
     alhazenCommitScene(scene);
     EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
     allow_memory = true;
+    alhazenSetDeviceMemoryMonitorFunction(device, refuse_the_tree, NULL);
+    {
+        const ssize_t before = bytes_held;
+        alhazenCommitScene(scene);
+        EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
+        EXPECT(bytes_held == before); /* the tree was built, and is freed */
+    }
     alhazenReleaseScene(scene);
     EXPECT(bytes_held == 0);
     alhazenReleaseDevice(device);
@@ -314,6 +387,8 @@ int main(void) {
     test_spheres_in_double_and_masks(device);
     test_instances_outlive_their_handles(device);
     test_errors();
+    test_errors_of_a_commit_name_the_geometry(device);
+    test_buffers_beyond_all_memory(device);
     test_monitors();
     alhazenReleaseDevice(device);
     printf("%d failures\n", failures);

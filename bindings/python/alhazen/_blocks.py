@@ -4,6 +4,7 @@ The text format is described in docs/reference/formats/native.md; the reader sup
 """
 from __future__ import annotations
 
+import copy
 import os
 import re
 import sys
@@ -44,6 +45,10 @@ def _caller() -> Origin:
 
 
 def _quoted(text: str) -> str:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise UsageError(f"{text!a} is no text: it has half a pair of surrogates") from None
     escapes = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
     return '"' + "".join(escapes.get(c, c if c >= " " else f"\\x{ord(c):02x}") for c in text) + '"'
 
@@ -102,6 +107,12 @@ class Block:
             if not isinstance(item, Block):
                 raise UsageError(f"{type}: {item!r} is no block")
 
+    def _with(self, key: str, value: Any) -> "Block":
+        """A copy with another value of a key."""
+        other = copy.copy(self)
+        other.keys = {**self.keys, key: value}
+        return other
+
     def _body(self) -> str:
         pairs = [f"{k} = {_text_of(v)}" for k, v in self.keys.items()]
         inner = "; ".join(pairs + [item._text() for item in self.items])
@@ -126,6 +137,18 @@ class Block:
 
     def __repr__(self) -> str:
         return self._text()
+
+
+def _names_files(value: Any) -> bool:
+    """Tests whether a block, or a value of one, names a file."""
+    if isinstance(value, Block):
+        return _names_files(value.keys) or any(map(_names_files, value.items))
+    if isinstance(value, Mapping):
+        return any(k in ("file", "profile") and isinstance(v, (str, os.PathLike)) or _names_files(v)
+                   for k, v in value.items())
+    if isinstance(value, Call):
+        return any(map(_names_files, value.arguments))
+    return isinstance(value, (list, tuple)) and any(map(_names_files, value))
 
 
 def _transform(value: Any) -> Any:

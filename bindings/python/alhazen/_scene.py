@@ -3,16 +3,17 @@ from __future__ import annotations
 
 import copy
 import json
+import operator
 import os
 import tempfile
 import threading
 import warnings
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import AbstractSet, Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _alhazen
-from ._blocks import Block, Origin, _caller
+from ._blocks import Block, Origin, _names_files
 from ._errors import SceneWarning, UsageError
 from ._picture import Picture
 
@@ -39,12 +40,13 @@ class Scene:
     quality : quality of the tree: "fast", "default" or "high"
     csg : the evaluator of CSG solids
     threads : largest number of threads; 0: all cores
-    folder : that file names in blocks are relative to; default: the current one
+    folder : that file names in blocks are relative to; default: the current one when the scene is made
     allowed_folders : further folders that may contain such files
     strict : True: warnings are errors
 
-    Copies (``copy.copy``, ``copy.deepcopy``) share built structures. A pickle contains the scene and the files that it
-    was loaded from; the unpickled scene is built again.
+    Copies (``copy.copy``, ``copy.deepcopy``) share built structures. A pickle contains all of the scene, also of the
+    files that it was loaded from or that its blocks name, for which the scene is built; the unpickled scene is built
+    again. An addition builds the scene again from its blocks, which read their files again.
 
     Conventions
     -----------
@@ -64,10 +66,10 @@ class Scene:
                  quality: str = "default", csg: str = "event_heap", threads: int = 0,
                  folder: "str | os.PathLike[str]" = ".", allowed_folders: Sequence[str] = (),
                  strict: bool = False) -> None:
-        self._settings = {"accelerator": accelerator, "quality": quality, "csg": csg, "threads": int(threads),
-                          "allowed_folders": [os.fspath(f) for f in allowed_folders], "strict": strict}
-        self._threads = int(threads)
-        self._folder = os.fspath(folder)
+        self._threads = _checked_threads(threads)
+        self._settings = {"accelerator": accelerator, "quality": quality, "csg": csg, "threads": self._threads,
+                          "allowed_folders": [_absolute(f) for f in allowed_folders], "strict": strict}
+        self._folder = _absolute(folder)
         self._base: Optional[_alhazen.BuiltScene] = None
         self._meshes: List[_alhazen.ArrayMesh] = []
         self._blocks: List[Block] = []
@@ -89,6 +91,7 @@ class Scene:
         for block in blocks:
             if not isinstance(block, Block):
                 raise UsageError(f"{block!r} is no block; alhazen.sphere(...) makes one")
+        self._spare({block.name for block in blocks if block.type == "geometry"})
         self._blocks.extend(blocks)
         self._built = None
         return self
@@ -101,18 +104,31 @@ class Scene:
         and ``uvs`` (n, 2) belong to the vertices; ``keys`` are those of a part: ``material``, ``transform``,
         ``visible_to``, ``motion``.
         """
-        taken = {mesh.name for mesh in self._meshes}
-        if self._base is not None:
-            taken |= set(self._base.mesh_names())
-        number = len(self._meshes)
-        while f"array_{number}" in taken:
-            number += 1
-        label = f"array_{number}"
+        label = self._free_label()
         block = Block("mesh", name, geometry=label, **keys)
         self._meshes.append(_alhazen.ArrayMesh(label, vertices, faces, normals, uvs, block.origin))
         self._blocks.append(block)
         self._built = None
         return self
+
+    def _free_label(self, others: AbstractSet[str] = frozenset()) -> str:
+        """A name for the arrays of a mesh that no geometry of the scene has, nor one of the others."""
+        taken = {mesh.name for mesh in self._meshes} | {b.name for b in self._blocks if b.type == "geometry"} | others
+        if self._base is not None:
+            taken |= set(self._base.mesh_names())
+        number = len(self._meshes)
+        while f"array_{number}" in taken:
+            number += 1
+        return f"array_{number}"
+
+    def _spare(self, names: AbstractSet[str]) -> None:
+        """Gives another label to arrays that have one of the names."""
+        for i, mesh in enumerate(self._meshes):
+            if mesh.name in names:
+                label = self._free_label(names)
+                self._meshes[i] = mesh.named(label)
+                self._blocks = [block._with("geometry", label) if block.type == "mesh"
+                                and block.keys.get("geometry") == mesh.name else block for block in self._blocks]
 
     def _only(self, parts: Sequence[int]) -> "Scene":
         """A scene of some of the meshes, for a scene made only by ``add_mesh``; the meshes are shared."""
@@ -141,10 +157,11 @@ class Scene:
         self._scene()
         return self
 
-    def save(self, path: "str | os.PathLike[str]") -> List[str]:
-        """Writes the scene: .alhazen the whole scene (large meshes and pictures in files beside it), .ply, .obj and
-        .stl its meshes. Returns the names of the files written."""
-        return self._scene().save(os.fspath(path))
+    def save(self, path: "str | os.PathLike[str]", *, meshes_only: bool = False) -> List[str]:
+        """Writes the scene: .alhazen the whole scene (large meshes and pictures in files beside it); .ply, .obj and
+        .stl scenes of meshes (.obj also patches), .bpt patches. ``meshes_only`` leaves out what these cannot hold,
+        which is otherwise a ``UsageError``. Returns the names of the files written."""
+        return self._scene().save(os.fspath(path), bool(meshes_only))
 
     @property
     def geometry_names(self) -> List[str]:
@@ -194,7 +211,10 @@ class Scene:
 
     def __getstate__(self) -> Dict[str, Any]:
         state = {k: v for k, v in vars(self).items() if k not in ("_built", "_lock")}
-        state["_base"] = None if self._base is None else _packed(self._base)
+        if any(map(_names_files, self._blocks)):
+            state.update(_base=_packed(self._scene()), _blocks=[], _meshes=[])
+        else:
+            state["_base"] = None if self._base is None else _packed(self._base)
         return state
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
@@ -224,11 +244,14 @@ class Scene:
 
         Without a hit ids are INVALID_ID and the others 0. ``fields`` selects the arrays, by one or more names; the
         first four are the fastest.
-        ``mask``: the kinds of the rays (``visible_to``): 1 eye, 2 shadow, 4 reflection, 8 refraction.
+        ``mask``: the kinds of the rays (``visible_to``): 1 eye, 2 shadow, 4 reflection, 8 refraction; 16, the light
+        between two surfaces in path tracers, sees what 2 sees.
         ``coherent``: True if neighbours have similar directions and start or end near a common point. Camera rays are
         then traced faster; hits never change.
         """
         names = [fields] if isinstance(fields, str) else list(fields)
+        if not all(isinstance(name, str) for name in names):
+            raise UsageError(f"fields: expected names, found {names}")
         return self._scene().intersect(rays, names, _checked_mask(mask), coherent, self._at_most(threads))
 
     def occluded(self, rays: Any, *, mask: int = 0xFFFFFFFF, coherent: bool = False,
@@ -301,6 +324,7 @@ class Scene:
         after ``seconds`` for each solid. Densities of materials give "mass". Scene units.
         """
         words = [str(s) for s in solids]
+        seed = _whole(seed, "seed", 2**64 - 1)
         text = self._scene().measure_json(words, error, seconds, seed, self._at_most(threads))
         return json.loads(text)["solids"]
 
@@ -313,7 +337,7 @@ class Scene:
         units) is the largest distance of polyline and curve, ``cells`` the grid along the longer side.
         """
         return self._scene().section([float(x) for x in normal], float(offset), [str(s) for s in solids], tolerance,
-                                     cells, self._at_most(threads))
+                                     _whole(cells, "cells", 2**31 - 1), self._at_most(threads))
 
     # ---- Pictures.
 
@@ -359,20 +383,47 @@ class Scene:
         return self.render(width=320)._repr_png_()  # type: ignore[return-value]
 
     def _at_most(self, threads: Optional[int]) -> int:
-        return self._threads if threads is None else int(threads)
+        return self._threads if threads is None else _checked_threads(threads)
 
 
-def _checked_mask(mask: int) -> int:
-    if not 0 <= mask <= 0xFFFFFFFF:
-        raise UsageError(f"mask: expected 0 to 0xFFFFFFFF, found {mask}")
-    return mask
+def _whole(number: Any, name: str, most: int) -> int:
+    """The number as an int; a ``UsageError`` unless it is a whole one from 0 to ``most``."""
+    try:
+        whole = operator.index(number)
+    except TypeError:
+        whole = -1
+    if not 0 <= whole <= most:
+        raise UsageError(f"{name}: expected a whole number from 0 to {most}, found {number!r}")
+    return whole
+
+
+def _checked_threads(threads: Any) -> int:
+    return _whole(int(threads) if isinstance(threads, float) and threads.is_integer() else threads, "threads", 4096)
+
+
+def _checked_mask(mask: Any) -> int:
+    try:
+        bits = operator.index(mask)
+    except TypeError:
+        bits = -1
+    if not 0 <= bits <= 0xFFFFFFFF:
+        raise UsageError(f"mask: expected 0 to 0xFFFFFFFF, found {mask!r}")
+    return bits
+
+
+def _absolute(path: "str | os.PathLike[str]") -> str:
+    """The path, independent of later changes of the current folder."""
+    try:
+        return os.path.abspath(os.fspath(path))
+    except OSError:  # the current folder has been deleted
+        return os.fspath(path)
 
 
 def _packed(built: _alhazen.BuiltScene) -> Tuple[str, Dict[str, bytes]]:
     """The path of the native file, and the contents of its files by name."""
     files = {}
     with tempfile.TemporaryDirectory() as top:
-        built.save(os.path.join(top, "scene.alhazen"))
+        built.save(os.path.join(top, "scene.alhazen"), False)
         for folder, _, names in os.walk(top):
             for path in (os.path.join(folder, name) for name in names):
                 with open(path, "rb") as file:
@@ -402,9 +453,8 @@ def load(path: "str | os.PathLike[str]", *, accelerator: str = "wide_bvh", quali
     """Reads a scene file of any format of ``alhazen list formats``. ``time``: moment of its animations, seconds; the
     other parameters are those of ``Scene``. Added blocks can name its materials, textures and objects."""
     scene = Scene(accelerator=accelerator, quality=quality, csg=csg, threads=threads,
-                  folder=os.path.dirname(os.path.abspath(os.fspath(path))), allowed_folders=allowed_folders,
-                  strict=strict)
-    scene._base = _alhazen.BuiltScene.load(os.fspath(path), {**scene._settings, "time": time}, "")
+                  folder=os.path.dirname(_absolute(path)), allowed_folders=allowed_folders, strict=strict)
+    scene._base = _alhazen.BuiltScene.load(os.fspath(path), {**scene._settings, "time": time}, _absolute(path))
     scene._built = scene._base
     _warn(scene._base)
     return scene

@@ -194,7 +194,10 @@ class RaycastingScene:
             world_from_pixel = world_from_camera @ np.linalg.inv(intrinsic)
         except np.linalg.LinAlgError:
             raise UsageError("intrinsic_matrix: it has no inverse") from None
-        rays[..., :3] = -world_from_camera @ extrinsic[:3, 3]
+        origin = -world_from_camera @ extrinsic[:3, 3]
+        if not max(np.abs(origin).max(), np.abs(world_from_pixel).max()) <= _LARGEST:
+            raise UsageError("create_rays_pinhole: the rays are beyond the numbers of float32")
+        rays[..., :3] = origin
         x, y = np.arange(width) + 0.5, np.arange(height) + 0.5
         rays[..., 3:] = (x[None, :, None] * world_from_pixel[:, 0] + y[:, None, None] * world_from_pixel[:, 1]
                          + world_from_pixel[:, 2])
@@ -244,6 +247,7 @@ def _vote_directions(count: int) -> np.ndarray:
     return one + (drawn.astype(np.float32) / np.float32(2**32) * (hi - lo) + lo)
 
 
+_LARGEST = float(np.finfo(np.float32).max)
 _PINHOLE_ARGUMENTS = (("fov_deg", "center", "eye", "up", "width_px", "height_px"),
                       ("intrinsic_matrix", "extrinsic_matrix", "width_px", "height_px"))
 
@@ -255,6 +259,8 @@ def _shaped(numbers: Any, shape: Tuple[int, ...], name: str) -> np.ndarray:
         raise UsageError(f"{name}: expected an array of numbers") from None
     if array.shape != shape:
         raise UsageError(f"{name}: expected the shape {shape}, found {array.shape}")
+    if not (np.abs(array) <= _LARGEST).all():
+        raise UsageError(f"{name}: expected finite numbers of float32")
     return array
 
 
@@ -271,6 +277,7 @@ def _pixels(number: Any, name: str) -> int:
 def _camera_at(fov_deg: float, center: Any, eye: Any, up: Any, width: int, height: int
                ) -> Tuple[np.ndarray, np.ndarray]:
     """The intrinsic and the extrinsic matrix; the rows of the rotation are the camera's axes."""
+    fov_deg = float(_shaped(fov_deg, (), "fov_deg"))
     eye, center, up = (_shaped(v, (3,), name) for v, name in ((eye, "eye"), (center, "center"), (up, "up")))
     z = center - eye
     if not np.linalg.norm(z) > 0:

@@ -64,6 +64,8 @@ class _MeshQueries:
         """Tests whether each point (n, 3) is inside the mesh: (n,) bool. For a mesh with open edges, whether a line
         through the point crosses it an odd number of times on both sides."""
         points = np.asarray(points, dtype=np.float64)
+        if points.shape[-1:] != (3,):
+            raise UsageError(f"points: expected the shape (n, 3), found {points.shape}")
         scene = self._scene
         if scene.solid_names:
             return scene.inside(points)

@@ -19,20 +19,37 @@ namespace alhazen::python {
 
 namespace {
 
+/// The value of a key. Throws Error (Usage) that names the call if it has another type.
+template <class T>
+T value_of(const py::dict& given, const char* key, const char* call = "render") {
+    try {
+        return given[key].cast<T>();
+    } catch (const py::cast_error&) {
+        throw Error(ErrorKind::Usage, std::string(call) + ": " + key + " is " +
+                                          py::repr(given[key]).cast<std::string>() +
+                                          ", which has the wrong type");
+    }
+}
+
+template <class T>
+void take(const py::dict& given, const char* key, T& out, const char* call = "render") {
+    if (given.contains(key) && !given[key].is_none()) out = value_of<T>(given, key, call);
+}
+template <class T>
+void take(const py::dict& given, const char* key, std::optional<T>& out,
+          const char* call = "render") {
+    if (given.contains(key) && !given[key].is_none()) out = value_of<T>(given, key, call);
+}
+
 BuildSettings settings_of(const py::dict& given) {
     BuildSettings settings;
-    for (const auto& [key, value] : given) {
-        const auto name = key.cast<std::string>();
-        if (name == "accelerator") settings.accelerator = value.cast<std::string>();
-        if (name == "csg") settings.csg = value.cast<std::string>();
-        if (name == "quality") settings.quality = value.cast<std::string>();
-        if (name == "threads") settings.threads = value.cast<int>();
-        if (name == "strict") settings.strict = value.cast<bool>();
-        if (name == "allowed_folders") {
-            settings.allowed_folders = value.cast<std::vector<std::string>>();
-        }
-        if (name == "time" && !value.is_none()) settings.time = value.cast<double>();
-    }
+    take(given, "accelerator", settings.accelerator, "Scene");
+    take(given, "csg", settings.csg, "Scene");
+    take(given, "quality", settings.quality, "Scene");
+    take(given, "threads", settings.threads, "Scene");
+    take(given, "strict", settings.strict, "Scene");
+    take(given, "allowed_folders", settings.allowed_folders, "Scene");
+    take(given, "time", settings.time, "Scene");
     return settings;
 }
 
@@ -54,11 +71,15 @@ std::shared_ptr<BuiltScene> load_file(const std::string& path, const py::dict& g
     return BuiltScene::load(path, settings, called);
 }
 
-std::vector<std::string> save(const BuiltScene& scene, const std::string& path) {
+std::vector<std::string> save(const BuiltScene& scene, const std::string& path, bool meshes_only) {
     const py::gil_scoped_release released;
     check_convert_target(scene.source().path, path);
+    const ConvertOptions options{.meshes_only = meshes_only,
+                                 .meshes_only_setting = "meshes_only=True"};
     std::vector<std::string> files;
-    for (const auto& file : convert(scene.source(), path).files) files.push_back(file.string());
+    for (const auto& file : convert(scene.source(), path, options).files) {
+        files.push_back(file.string());
+    }
     return files;
 }
 
@@ -119,27 +140,6 @@ py::tuple bounds(const BuiltScene& scene) {
                           py::make_tuple(box.hi.x, box.hi.y, box.hi.z));
 }
 
-/// The value of a key. Throws Error (Usage) if it has another type.
-template <class T>
-T value_of(const py::dict& given, const char* key) {
-    try {
-        return given[key].cast<T>();
-    } catch (const py::cast_error&) {
-        throw Error(ErrorKind::Usage, std::string("render: ") + key + " is " +
-                                          py::repr(given[key]).cast<std::string>() +
-                                          ", which has the wrong type");
-    }
-}
-
-template <class T>
-void take(const py::dict& given, const char* key, T& out) {
-    if (given.contains(key) && !given[key].is_none()) out = value_of<T>(given, key);
-}
-template <class T>
-void take(const py::dict& given, const char* key, std::optional<T>& out) {
-    if (given.contains(key) && !given[key].is_none()) out = value_of<T>(given, key);
-}
-
 py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::object& progress) {
     PictureWishes wishes;
     take(given, "renderer", wishes.render.renderer);
@@ -156,7 +156,7 @@ py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::o
     take(given, "environment", wishes.view.environment);
     take(given, "antialias", wishes.antialias);
     if (given.contains("view")) {
-        const auto view = given["view"].cast<std::string>();
+        const auto view = value_of<std::string>(given, "view");
         if (!view.empty()) wishes.view.view = parse_view(view);
     }
     take(given, "sampler", wishes.sampling.sampler);
@@ -199,7 +199,10 @@ void add_scene(py::module_& module) {
     py::class_<ArrayMesh>(module, "ArrayMesh")
         .def(py::init(&make_mesh))
         .def(py::pickle(&state_of_mesh, &mesh_of_state))
-        .def_readonly("name", &ArrayMesh::name);
+        .def_readonly("name", &ArrayMesh::name)
+        .def("named", [](const ArrayMesh& mesh, const std::string& name) {
+            return ArrayMesh{name, mesh.mesh, mesh.location};  // shares the arrays
+        });
     py::class_<BuiltScene, std::shared_ptr<BuiltScene>>(module, "BuiltScene")
         .def_static("build", &build)
         .def_static("load", &load_file)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "alhazen/base/error.h"
 
@@ -29,20 +30,31 @@ py::array copy_of(const py::object& numbers, const char* what) {
     }
 }
 
+/// Throws unless the items are real numbers, or Python's objects, whose conversion may fail later.
+void check_numbers(const py::array& array, const char* what) {
+    const char kind = array.dtype().kind();
+    if (kind == 'c') throw Error(ErrorKind::Usage, std::string(what) + ": expected real numbers");
+    if (std::string_view("fiubO").find(kind) == std::string_view::npos) {
+        throw Error(ErrorKind::Usage, std::string(what) + ": expected an array of numbers");
+    }
+}
+
 /// The array itself if it is contiguous and float32 or float64, else a copy as float64.
 py::array as_plain(const py::object& numbers, const char* what) {
     if (py::isinstance<py::array>(numbers)) {
         const auto array = py::reinterpret_borrow<py::array>(numbers);
         if (py::isinstance<Plain<float>>(array) || py::isinstance<Plain<double>>(array))
             return array;
-        if (array.dtype().kind() == 'c') {
-            throw Error(ErrorKind::Usage, std::string(what) + ": expected real numbers");
-        }
+        check_numbers(array, what);
         if (array.dtype().kind() == 'f' && array.itemsize() == sizeof(float)) {
             return copy_of<float>(array, what);
         }
+        return copy_of<double>(array, what);
     }
-    return copy_of<double>(numbers, what);
+    const py::array array = py::array::ensure(numbers);
+    if (!array) PyErr_Clear();  // copy_of reports it
+    if (array) check_numbers(array, what);
+    return copy_of<double>(array ? py::object(array) : numbers, what);
 }
 
 std::string shape_text(const py::array& array) {

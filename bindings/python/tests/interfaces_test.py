@@ -105,6 +105,10 @@ class Trimesh(unittest.TestCase):
     def test_wrong_shapes_are_errors(self):
         with self.assertRaises(alhazen.UsageError):
             self.ray.intersects_any(np.zeros((3, 3)), np.zeros((2, 3)))
+        open_mesh = SimpleNamespace(vertices=self.mesh.vertices, faces=self.mesh.faces[:-1])
+        for ray in (self.ray, alhazen.trimesh.RayMeshIntersector(open_mesh)):
+            with self.assertRaisesRegex(alhazen.UsageError, r"points: expected the shape .*3\), found \(1, 2\)"):
+                ray.contains_points([[1, 2]])
 
 
     def test_distances_are_those_of_the_cube(self):
@@ -467,6 +471,26 @@ class Open3D(unittest.TestCase):
             pinhole(60, [0, 0, 0], [0, 0, 1], "up", 2, 2)
         with self.assertRaisesRegex(alhazen.UsageError, "intrinsic_matrix: it has no inverse"):
             pinhole(np.zeros((3, 3)), np.eye(4), 2, 2)
+
+    def test_cameras_are_of_finite_numbers(self):
+        pinhole = alhazen.raycasting.RaycastingScene.create_rays_pinhole
+        camera = {"fov_deg": 60, "center": [0, 0, 0], "eye": [0, 0, 1], "up": [0, 1, 0]}
+        matrices = {"intrinsic_matrix": np.eye(3), "extrinsic_matrix": np.eye(4)}
+        for given in (camera, matrices):
+            for name, value in given.items():
+                for bad in (np.nan, np.inf, -np.inf):
+                    numbers = np.array(value, dtype=np.float64)
+                    numbers.reshape(-1)[-1] = bad
+                    with self.assertRaisesRegex(alhazen.UsageError, f"{name}: expected finite numbers"):
+                        pinhole(**{**given, name: numbers}, width_px=2, height_px=2)
+        for far in (1e39, 1e200):
+            with self.assertRaisesRegex(alhazen.UsageError, "eye: expected finite numbers of float32"):
+                pinhole(**{**camera, "eye": [0, 0, far]}, width_px=2, height_px=2)
+        with self.assertRaisesRegex(alhazen.UsageError, "the rays are beyond the numbers of float32"):
+            pinhole(np.diag([1e-39, 1, 1]), np.eye(4), 2, 2)
+        # An angle of 0: all rays are parallel to the view.
+        np.testing.assert_array_equal(np.abs(pinhole(**{**camera, "fov_deg": 0}, width_px=2, height_px=2)[..., 3:]),
+                                      np.broadcast_to([0, 0, 1], (2, 2, 3)))
 
     def test_cameras_without_pixels_have_no_rays(self):
         pinhole = alhazen.raycasting.RaycastingScene.create_rays_pinhole

@@ -82,6 +82,10 @@ class Hits(unittest.TestCase):
         ray = [[0, 0, 5, 0, 0, -1]]
         self.assertTrue(scene.occluded(ray, mask=2)[0])
         self.assertFalse(scene.occluded(ray, mask=1)[0])
+        # The light between two surfaces in path tracers sees what shadow rays see.
+        for kinds in ("eye", "shadow", "reflection", "refraction", "all", ("eye", "shadow"), ("eye", "refraction")):
+            scene = alhazen.Scene().add(alhazen.sphere(visible_to=kinds))
+            self.assertEqual(scene.occluded(ray, mask=16)[0], scene.occluded(ray, mask=2)[0], kinds)
 
 
 class Arrays(unittest.TestCase):
@@ -181,6 +185,16 @@ class Arrays(unittest.TestCase):
         for rays in (np.zeros((3, 5)), np.zeros((3, 6), complex), np.zeros(0), 1.0, [["a"] * 6], np.zeros((2, 7))):
             with self.assertRaisesRegex(alhazen.UsageError, "rays: expected"):
                 self.scene.intersect(rays)
+        strings, days = np.full((2, 6), "1"), np.zeros((2, 6), "datetime64[D]")
+        for rays in (strings, days, days - days, strings.tolist(), strings.astype("S"), np.zeros((2, 6), "V8")):
+            with self.assertRaisesRegex(alhazen.UsageError, "rays: expected an array of numbers"):
+                self.scene.intersect(rays)
+        for fields in ([3], [None, "t_hit"]):
+            with self.assertRaisesRegex(alhazen.UsageError, "fields: expected names, found"):
+                self.scene.intersect(np.zeros((1, 6)), fields=fields)
+        for mask in (1.0, "1", None, 2**32):
+            with self.assertRaisesRegex(alhazen.UsageError, "mask: expected 0 to 0xFFFFFFFF, found"):
+                self.scene.occluded(np.zeros((1, 6)), mask=mask)
         with self.assertRaisesRegex(alhazen.UsageError, "unknown field 'normal'; known are t_hit"):
             self.scene.intersect(np.zeros((1, 6)), fields=("normal",))
         for query in (self.scene.intersect, self.scene.occluded, self.scene.all_hits, self.scene.count_intersections):

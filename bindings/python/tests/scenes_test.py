@@ -113,6 +113,47 @@ class Files(unittest.TestCase):
             again = alhazen.load(os.path.join(folder, "more.alhazen"))
             np.testing.assert_array_equal(again.render(), scene.render())
 
+    def test_mesh_files_hold_meshes_and_the_refusal_names_the_way_out(self):
+        scene = alhazen.Scene(*cube()).add(alhazen.sphere(center=(5, 0, 0)))
+        with tempfile.TemporaryDirectory() as folder:
+            for suffix in ("ply", "obj", "stl"):
+                path = os.path.join(folder, "meshes." + suffix)
+                with self.assertRaisesRegex(alhazen.UsageError, "has 1 sphere: meshes_only=True leaves them out, "):
+                    scene.save(path)
+                self.assertIn(path, scene.save(path, meshes_only=True))
+                self.assertEqual(alhazen.load(path).info["triangles"], 12)
+                self.assertEqual(alhazen.load(path).info["shapes"], 0)
+
+    def test_arrays_and_geometries_of_one_name_keep_apart(self):
+        vertices, faces = cube()
+        named = alhazen.geometry("array_0", points=vertices + 5, faces=faces)
+        placed = alhazen.mesh("b", geometry="array_0")
+        below = [[0.3, 0.4, 9, 0, 0, -1], [5.3, 5.4, 9, 0, 0, -1]]
+        before = alhazen.Scene().add(named, placed).add_mesh(vertices, faces, name="a")
+        after = alhazen.Scene().add_mesh(vertices, faces, name="a")
+        copied = copy.copy(after)
+        after.add(named, placed)
+        for scene in (before, after):
+            self.assertEqual(sorted(scene.geometry_names), ["a", "b"])
+            names = [scene.geometry_names[i] for i in scene.intersect(below)["geometry_ids"]]
+            self.assertEqual(names, ["a", "b"])
+        self.assertEqual(copied.count_intersections(below).tolist(), [2, 0])
+
+    def test_files_lie_in_the_folder_of_the_time_the_scene_was_made(self):
+        here = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            alhazen.Scene(*cube()).save(os.path.join(folder, "cube.ply"))
+            small_scene().save(os.path.join(folder, "scene.alhazen"))
+            os.chdir(folder)
+            try:
+                made = alhazen.Scene().add(alhazen.mesh(file="cube.ply"))
+                loaded = alhazen.load("scene.alhazen")
+            finally:
+                os.chdir(here)
+            self.assertEqual(made.info["triangles"], 12)
+            before = len(loaded.geometry_names)
+            self.assertEqual(len(loaded.add(alhazen.mesh(file="cube.ply")).geometry_names), before + 1)
+
     def test_errors_of_a_file_have_its_line_and_column(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "bad.alhazen")
@@ -159,6 +200,25 @@ class Copies(unittest.TestCase):
         np.testing.assert_array_equal(one, expected[0])
         np.testing.assert_array_equal(two, expected[1])
         np.testing.assert_array_equal(loaded, expected[0])
+
+    def test_pickles_hold_what_files_of_blocks_said(self):
+        below = [[0.3, 0.4, 9, 0, 0, -1], [2.3, 0.4, 9, 0, 0, -1]]
+        vertices, faces = cube()
+        with tempfile.TemporaryDirectory() as folder:
+            alhazen.Scene(vertices, faces).save(os.path.join(folder, "cube.ply"))
+            scene = alhazen.Scene(folder=folder).add(
+                alhazen.material("red", diffuse=(1, 0, 0)),
+                alhazen.group(alhazen.mesh("a", file="cube.ply", material="red")))
+            scene.add_mesh(vertices + (2, 0, 0), faces, name="b", material="red")
+            expected, names = scene.intersect(below), scene.geometry_names
+            data = pickle.dumps(scene)
+        other = pickle.loads(data)
+        self.assertEqual(other.geometry_names, names)
+        for field, values in other.intersect(below).items():
+            np.testing.assert_array_equal(values, expected[field])
+        other.add(alhazen.sphere("more", material="red")).add_mesh(vertices, faces, name="c")
+        self.assertEqual(other.geometry_names, [*names, "more", "c"])
+        self.assertEqual(pickle.loads(pickle.dumps(other)).geometry_names, [*names, "more", "c"])
 
     def test_files_that_a_copy_names_lie_where_they_lay(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -249,6 +309,27 @@ class Pictures(unittest.TestCase):
             scene.render(8, 8, crop=(1, 2))
         with self.assertRaisesRegex(alhazen.UsageError, "render: width is 'a'"):
             scene.render("a", 8)
+
+    def test_limits_of_rounds_are_numbers(self):
+        scene = small_scene()
+        for value in (-1, float("nan")):
+            with self.assertRaisesRegex(alhazen.UsageError, "the noise to work for is .*; expected a number above 0"):
+                scene.render(8, 6, noise=value)
+            with self.assertRaisesRegex(alhazen.UsageError, "the time limit is .*; expected a number from 0"):
+                scene.render(8, 6, seconds=value)
+
+    def test_settings_of_another_kind_are_usage_errors(self):
+        for threads in (-1, 4097, 2**31, 2.5, "2", None):
+            with self.assertRaisesRegex(alhazen.UsageError, "threads: expected a whole number from 0 to 4096"):
+                alhazen.Scene(threads=threads)
+        with self.assertRaisesRegex(alhazen.UsageError, "threads: expected a whole number"):
+            small_scene().render(8, 6, threads=-1)
+        with self.assertRaisesRegex(alhazen.UsageError, "Scene: quality is 3, which has the wrong type"):
+            alhazen.Scene(quality=3).build()
+        for name in ("\ud800", "a\udfffb"):
+            with self.assertRaisesRegex(alhazen.UsageError, r"is no text: it has half a pair of surrogates"):
+                alhazen.Scene().add(alhazen.sphere(name)).build()
+        self.assertEqual(alhazen.Scene().add(alhazen.sphere("\U0001f52d")).geometry_names, ["\U0001f52d"])
 
     def test_crops_and_files(self):
         scene = small_scene()

@@ -62,6 +62,20 @@ class Solids(unittest.TestCase):
         with self.assertRaisesRegex(alhazen.SceneError, "the scene has no solid"):
             alhazen.Scene(vertices, faces[:-1]).measure()
 
+    def test_limits_of_measures_are_numbers_from_zero(self):
+        ball = alhazen.Scene().add(alhazen.sphere())
+        for value in (-1, float("nan"), -float("inf")):
+            with self.assertRaisesRegex(alhazen.UsageError, "the time limit is .*; expected a number from 0"):
+                ball.measure(error=1e-2, seconds=value)
+            with self.assertRaisesRegex(alhazen.UsageError, "the relative error is .*; expected a number from 0"):
+                ball.measure(error=value, seconds=0.1)
+        for seed in (-1, 2**64, 0.5, "1"):
+            with self.assertRaisesRegex(alhazen.UsageError, "seed: expected a whole number from 0 to"):
+                ball.measure(seed=seed)
+        for cells in (-1, 2**40, 2.5):
+            with self.assertRaisesRegex(alhazen.UsageError, "cells: expected a whole number"):
+                ball.section(cells=cells)
+
     def test_an_unknown_solid_is_an_error(self):
         with self.assertRaisesRegex(alhazen.UsageError, "no solid 'cup'"):
             self.scene.measure("cup")

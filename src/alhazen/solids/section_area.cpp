@@ -112,6 +112,8 @@ PlaneFrame frame_of(const SectionPlane& plane) {
 
 SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
                          const MeasureOptions& options) {
+    check_relative_error(options.relative_error);
+    const Deadline deadline(options.seconds, options.stop);
     const PlaneFrame frame = frame_of(plane);
     const Box3 box = solid.box();
     SectionArea found;
@@ -122,7 +124,6 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
     if (!box.bounded()) {
         throw Error(ErrorKind::Usage, "the solid is not bounded: its section may have no area");
     }
-    const Deadline deadline(options.seconds, options.stop);
     // An origin in the middle of the box keeps numbers small.
     const Vec3 center = box.center();
     const Vec3 origin = center - dot(center - frame.origin, frame.normal) * frame.normal;

@@ -70,6 +70,7 @@ class Measurer {
           options_(options),
           deadline_(options.seconds, options.stop),
           volume_deadline_(options.seconds * (options.area ? kShareOfVolume : 1.0), options.stop) {
+        check_relative_error(options.relative_error);
         box_ = solid.box();
     }
 

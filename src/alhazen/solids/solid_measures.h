@@ -87,7 +87,8 @@ struct SolidMeasures {
     bool in_range = true;
 };
 
-/// Measures a solid. Throws Error (Usage) for unbounded solids.
+/// Measures a solid. Throws Error (Usage) for unbounded solids, and for an error or a time limit
+/// that is negative or NaN.
 [[nodiscard]] SolidMeasures measure(const Measurable& solid, const MeasureOptions& options = {});
 
 /// A plane dot(normal, p) = offset; the normal is non-zero, not necessarily unit.

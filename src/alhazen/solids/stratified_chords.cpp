@@ -1,11 +1,14 @@
 #include "alhazen/solids/stratified_chords.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "alhazen/base/error.h"
 #include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/sampling/random.h"
@@ -355,8 +358,19 @@ Spread StratifiedChords::spread() const {
     return spread;
 }
 
+void check_relative_error(double error) {
+    if (error >= 0) return;
+    throw Error(ErrorKind::Usage,
+                fmt::format("the relative error is {}; expected a number from 0", error));
+}
+
 Deadline::Deadline(double seconds, const StopFlag* stop)
-    : seconds_(seconds), stop_(stop), begin_(now()) {}
+    : seconds_(seconds), stop_(stop), begin_(now()) {
+    // A share of NaN seconds would be any number of lines.
+    if (seconds >= 0) return;
+    throw Error(ErrorKind::Usage,
+                fmt::format("the time limit is {} seconds; expected a number from 0", seconds));
+}
 
 double Deadline::room(double lines_done) const {
     if (stop_ != nullptr && stop_->requested()) return 0;

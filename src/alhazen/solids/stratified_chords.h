@@ -148,6 +148,7 @@ class StratifiedChords {
 /// A time limit for work whose amount grows until the interval is narrow.
 class Deadline {
   public:
+    /// Throws Error (Usage) unless `seconds` is a number from 0; it may be infinite.
     Deadline(double seconds, const StopFlag* stop);
     /// True if `lines` more fit into the time, estimated from the `lines_done` so far.
     [[nodiscard]] bool allows(double lines, double lines_done) const {
@@ -161,6 +162,9 @@ class Deadline {
     const StopFlag* stop_;
     double begin_;
 };
+
+/// Throws Error (Usage) unless the requested error is a number from 0.
+void check_relative_error(double error);
 
 /// Widens an interval by a bound of the rounding error.
 [[nodiscard]] Estimate with_rounding(Estimate estimate, double rounding);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "alhazen/base/error.h"
@@ -204,6 +205,13 @@ TEST(SamplingPlan, BadTextsAreRefusedByName) {
     says({.sampler = "", .filter = "tent:radius=0", .noise = {}, .seconds = {}}, "radius");
     says({.sampler = "", .filter = "tent:width=1", .noise = {}, .seconds = {}}, "width");
     says({.sampler = "regular", .filter = "", .noise = 0.1, .seconds = {}}, "regular");
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    for (const double noise : {kNaN, -1.0, 0.0}) {
+        says({.sampler = "", .filter = "", .noise = noise, .seconds = {}}, "the noise to work for");
+    }
+    for (const double seconds : {kNaN, -1.0}) {
+        says({.sampler = "", .filter = "", .noise = {}, .seconds = seconds}, "the time limit");
+    }
     EXPECT_FALSE(parse_sampling({}).has_value());
     EXPECT_EQ(parse_sampling({.sampler = "", .filter = "tent:radius=2", .noise = {}, .seconds = {}})
                   ->radius,

@@ -101,7 +101,7 @@ TEST(ConvertMeshes, ShapesAreRefusedByKindOrLeftOut) {
     EXPECT_NE(message.find("--meshes-only"), std::string::npos) << message;
     EXPECT_FALSE(std::filesystem::exists(path));
     try {
-        (void)convert(maker.description(), path, {.offers_meshes_only = false});
+        (void)convert(maker.description(), path, {.meshes_only_setting = ""});
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()).find("--meshes-only"), std::string::npos);

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include <atomic>
+#include <limits>
+#include <numbers>
 
 #include "alhazen/base/error.h"
 #include "alhazen/solids/stratified_chords.h"
@@ -314,6 +314,30 @@ TEST(SolidMeasures, WithoutTimePilotsAreShortToo) {
     EXPECT_LT(counted.asked(), 8000u);
     EXPECT_NEAR(m.volume.value, 32 * std::numbers::pi / 3, 2 * m.volume.half_width);
     EXPECT_FALSE(m.reached);
+}
+
+TEST(SolidMeasures, LimitsAreNumbersFromZero) {
+    const LoneScene sphere(known_solids()[0]);
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto refused = [&](const MeasureOptions& options) {
+        const SectionPlane beside{.normal = {0, 0, 1}, .offset = 1e3};
+        EXPECT_THROW((void)section_area(sphere.solid, beside, options), Error);
+        try {
+            (void)measure(sphere.solid, options);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    for (const double seconds : {kNaN, -1.0, -kInfinity}) {
+        EXPECT_NE(refused({.seconds = seconds}).find("the time limit is"), std::string::npos);
+    }
+    for (const double error : {kNaN, -1.0}) {
+        EXPECT_NE(refused({.relative_error = error}).find("the relative error is"),
+                  std::string::npos);
+    }
+    EXPECT_TRUE(measure(sphere.solid, {.relative_error = 1e-2, .seconds = kInfinity}).reached);
 }
 
 TEST(SolidMeasures, NothingHasNoMiddle) {

@@ -58,7 +58,8 @@ enum AlhazenError {
 typedef void (*AlhazenErrorFunction)(void* userPtr, enum AlhazenError code, const char* text);
 /* Called for each allocation of a scene: before (post false) its copy of the geometry, after (post true) the build of
  * the acceleration structure, and with negative bytes when both are freed. Returning false ends alhazenCommitScene with
- * ALHAZEN_ERROR_OUT_OF_MEMORY. Monitors run in the thread of the commit and may query the scene. */
+ * ALHAZEN_ERROR_OUT_OF_MEMORY: bytes refused with post false are not allocated, and not reported again; those refused
+ * with post true are freed, and reported as such. Monitors run in the thread of the commit and may query the scene. */
 typedef bool (*AlhazenMemoryMonitorFunction)(void* userPtr, ssize_t bytes, bool post);
 /* Called by alhazenCommitScene with the fraction done, from 0 to 1; returning false ends it with
  * ALHAZEN_ERROR_CANCELLED. The build of the acceleration structure is a single step. */

@@ -1,5 +1,7 @@
 #include "alhazen/renderers/core/sampling_plan.h"
 
+#include <fmt/format.h>
+
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/film/filter_kernel.h"
 #include "alhazen/renderers/core/renderer_settings.h"
@@ -62,6 +64,16 @@ SamplingPlan::SamplingPlan()
     : sampler(find_sampler("sobol")), filter(find_filter("box")), radius(filter->radius) {}
 
 std::optional<SamplingPlan> parse_sampling(const SamplingTexts& texts) {
+    if (texts.noise && !(*texts.noise > 0)) {
+        throw Error(ErrorKind::Usage, fmt::format("the noise to work for is {}; expected a number "
+                                                  "above 0",
+                                                  *texts.noise));
+    }
+    if (texts.seconds && !(*texts.seconds >= 0)) {
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("the time limit is {} seconds; expected a number from 0", *texts.seconds));
+    }
     SamplingPlan plan;
     plan.noise = texts.noise;
     plan.seconds = texts.seconds;

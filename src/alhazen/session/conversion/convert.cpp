@@ -44,6 +44,12 @@ ConvertReport write_native(const SceneDescription& description, ConvertOutput& o
     return output.finish(bytes_of(text));
 }
 
+/// The part of a refusal about `meshes_only`.
+std::string advice_of(const ConvertOptions& options) {
+    const std::string& setting = options.meshes_only_setting;
+    return setting.empty() ? "" : setting + " leaves them out, ";
+}
+
 // Mesh formats.
 
 /// Throws if the counts exceed limits. `surfaces`: patches and surfaces that the file holds besides
@@ -53,12 +59,10 @@ void check_counts(const PlacedCounts& counts, std::size_t surfaces, const fs::pa
     const std::string shapes = shapes_in_words(counts);
     const char* held = surfaces > 0 ? "triangles and patches" : "triangles";
     if (!shapes.empty() && !options.meshes_only) {
-        throw Error(
-            ErrorKind::Usage,
-            fmt::format("{} holds {} only; the scene also has {}: {}.alhazen keeps "
-                        "everything",
-                        path.string(), held, shapes,
-                        options.offers_meshes_only ? "--meshes-only leaves them out, " : ""));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{} holds {} only; the scene also has {}: {}.alhazen keeps "
+                                "everything",
+                                path.string(), held, shapes, advice_of(options)));
     }
     if (counts.triangles == 0 && surfaces == 0) {
         throw Error(ErrorKind::Scene,
@@ -162,12 +166,10 @@ ConvertReport write_patches(const SceneDescription& description, const fs::path&
                               counts.meshes > 1 ? "es" : "");
     }
     if (!others.empty() && !options.meshes_only) {
-        throw Error(
-            ErrorKind::Usage,
-            fmt::format("{} holds Bezier patches without weights only; the scene also has "
-                        "{}: {}.alhazen keeps everything",
-                        path.string(), others,
-                        options.offers_meshes_only ? "--meshes-only leaves them out, " : ""));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{} holds Bezier patches without weights only; the scene also has "
+                                "{}: {}.alhazen keeps everything",
+                                path.string(), others, advice_of(options)));
     }
     if (surfaces.empty()) {
         throw Error(ErrorKind::Scene,

@@ -23,8 +23,8 @@ namespace alhazen {
 struct ConvertOptions {
     /// Mesh formats: omit shapes that are not meshes instead of refusing the scene.
     bool meshes_only = false;
-    /// True: the refusal advises --meshes-only.
-    bool offers_meshes_only = true;
+    /// How the caller's user sets `meshes_only`, advised by the refusal; "": not at all.
+    std::string meshes_only_setting = "--meshes-only";
     std::uint64_t max_triangles = 400'000'000;  ///< limit of a mesh file, instances expanded
 };
 
