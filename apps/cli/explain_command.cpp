@@ -56,6 +56,7 @@ int run_explain(ExplainArguments& args) {
     }
     if (args.depth >= 0) options.render.max_depth = args.depth;
     if (!args.view.empty()) (void)parse_view(args.view);
+    check_one_view(args.view, options.render.camera);
     if (args.output != "-") check_writable(args.output);
     options.with_picture = !json;
     LoadedScene loaded = load(args.scene.scene, args.scene.load_options());

@@ -45,7 +45,11 @@ std::uint64_t write_nff(const GenerateArguments& args) {
 
 std::uint64_t write_scene(const GenerateArguments& args) {
     if (args.digits) throw Error(ErrorKind::Usage, "--digits is for .nff files");
-    check_convert_target({}, args.output);
+    try {
+        check_convert_target({}, args.output);
+    } catch (const Error& error) {
+        throw Error(ErrorKind::Usage, fmt::format("{}, .nff (scenes of the SPD)", error.what()));
+    }
     return convert(generate(args.name, size_of(args)), args.output, {.meshes_only_setting = ""})
         .bytes;
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iterator>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include "alhazen/base/error.h"
@@ -39,7 +40,8 @@ int exit_status_of(ErrorKind kind) {
     return kCheckFailed;
 }
 
-/// Adds the command called `name`; if there is none, all commands, for help and suggestions.
+/// Adds the command called `name`; without a name all, for help.
+/// Throws Error (Usage) for a name of none.
 void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
     struct Row {
         std::string_view name;
@@ -56,6 +58,12 @@ void add_commands(CLI::App& app, std::string_view name, int& exit_status) {
     const auto* const named = std::find_if(std::begin(kRows), std::end(kRows),
                                            [&](const Row& row) { return row.name == name; });
     if (named != std::end(kRows)) return named->add(app, exit_status);
+    if (!name.empty() && !name.starts_with('-')) {
+        std::string known;
+        for (const Row& row : kRows) known += (known.empty() ? "" : ", ") + std::string(row.name);
+        throw Error(ErrorKind::Usage,
+                    fmt::format("there is no command '{}'; expected {}", name, known));
+    }
     for (const Row& row : kRows) row.add(app, exit_status);
 }
 

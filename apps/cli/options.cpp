@@ -57,6 +57,21 @@ PixelBox parse_crop(const std::string& text) {
     return {n[0], n[1], n[2], n[3]};
 }
 
+void check_one_view(const std::string& view, const std::string& camera) {
+    if (view.empty() || camera.empty()) return;
+    throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
+}
+
+CLI::Validator positive_number() {
+    return {[](std::string& text) {
+                double value = 0.0;
+                const bool read = CLI::detail::lexical_cast(text, value);
+                if (read && value > 0.0 && std::isfinite(value)) return std::string();
+                return fmt::format("expected a number above 0, not {}", text);
+            },
+            "POSITIVE"};
+}
+
 CLI::Validator unsigned_number() {
     return {[](const std::string& text) {
                 return text.starts_with('-') ? fmt::format("expected 0 or more, not {}", text)

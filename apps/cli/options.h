@@ -20,6 +20,12 @@ struct Size {
 /// Parses "x0,y0,x1,y1" in pixels. Throws Error (Usage).
 [[nodiscard]] PixelBox parse_crop(const std::string& text);
 
+/// Throws Error (Usage) if both --view and --camera are given.
+void check_one_view(const std::string& view, const std::string& camera);
+
+/// Accepts a finite number above 0.
+[[nodiscard]] CLI::Validator positive_number();
+
 /// Accepts a number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
 [[nodiscard]] CLI::Validator number_in(double lo, double hi);
 

@@ -93,9 +93,7 @@ RenderOptions render_options(const RenderArguments& args) {
     if (!args.aovs.empty()) options.aovs = parse_aovs(args.aovs);
     options.keep_photons = !args.photons.empty();
     options.spectral = args.spectral;
-    if (!args.view.empty() && !options.camera.empty()) {
-        throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
-    }
+    check_one_view(args.view, options.camera);
     if (args.protocol == "spd") {
         options.protocol = Protocol::Spd;
     } else if (!args.protocol.empty()) {

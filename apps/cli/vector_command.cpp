@@ -15,7 +15,6 @@
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
-#include "stop_signals.h"
 
 namespace alhazen::cli {
 
@@ -79,12 +78,9 @@ int run_vector(const VectorArguments& args) {
     options.camera = args.camera;
     if (args.depth >= 0) options.max_depth = args.depth;
     options.threads = args.scene.threads;
-    options.stop = &stop_on_signals();
     FramingOptions framing;
     if (!args.view.empty()) framing.view = parse_view(args.view);
-    if (!args.view.empty() && !args.camera.empty()) {
-        throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
-    }
+    check_one_view(args.view, args.camera);
     check_writable(args.output);
     LoadOptions load_options = args.scene.load_options();
     load_options.with_aggregate = false;
@@ -108,10 +104,6 @@ int run_vector(const VectorArguments& args) {
     } else {
         if (args.tolerance > 0) (void)tessellate(loaded.description, args.tolerance, true);
         drawing = draw_scene(loaded, options, look);
-    }
-    if (options.stop->requested()) {
-        tell("stopped; nothing was written\n");
-        return kStopped;
     }
     write_report(args.output, write(drawing));
     if (!args.quiet) {
@@ -154,7 +146,7 @@ void add_vector(CLI::App& app, int& exit_status) {
         ->add_option("--tolerance", args->tolerance,
                      "Draw exact shapes by triangles within this distance, scene units; with "
                      "--style technical spheres, cylinders and cones have their true outlines")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     command->add_option("--depth", args->depth, "Recursion depth of mirrors and panes")
         ->check(CLI::Range(0, 1000));
     command->add_option("--camera", args->camera, "Camera by name or position")

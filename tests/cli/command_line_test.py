@@ -123,6 +123,7 @@ class CommandLine(CommandLineCase):
                           ["generate", "balls", "--size", "-1", "-o", self.path("b.nff")],
                           ["diff", self.scene, self.scene, "--max", "nan"],
                           ["verify", self.scene, "--rays", "-1"],
+                          ["explain", self.scene, "--pixel", "1,1", "-o", self.path("e.json"), "--view", "0,0", "--camera", "top"],
                           ["diff", self.scene], ["list", "colours"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
@@ -204,6 +205,26 @@ class CommandLine(CommandLineCase):
         self.assertIn("whitted", self.render("--renderer", "magic").stderr)
         self.assertIn("'top'", self.render("--camera", "nobody").stderr)
         self.assertIn("id.material", self.render("--aov", "depht").stderr)
+        self.assertRegex(run("paint").stderr, "'paint'.*render, convert")
+        self.assertIn(".nff", run("generate", "balls", "-o", self.path("balls.png")).stderr)
+
+    def test_renderers_are_named_that_take_the_option(self):
+        for option, refused in (["--sampler", "sobol"], ()), (["--time", "1s"], ("sppm", "vcm", "light_tracing")):
+            message = self.render("--renderer", "cone_tracing", *option).stderr
+            self.assertIn(option[0], message)
+            named = message.split("renderers ")[1].split(";")[0].split(", ")
+            self.assertIn("path_tracing", named)
+            for renderer in named:
+                result = self.render("--renderer", renderer, "--spp", "1", *option, size="2x2")
+                self.assertEqual(result.returncode, 0, result.stderr)
+            for renderer in refused:
+                self.assertEqual(self.render("--renderer", renderer, *option, size="2x2").returncode, 2, renderer)
+
+    def test_limits_of_numbers_are_told_in_words(self):
+        for wrong in "0", "-1", "nan", "inf":
+            result = run("vector", self.scene, "-o", self.path("f.svg"), "--tolerance", wrong)
+            self.assertEqual(result.returncode, 2, wrong)
+            self.assertIn(f"expected a number above 0, not {wrong}", result.stderr)
 
     def test_a_bad_scene_exits_3_with_every_place(self):
         bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\nsphere { radius = nan }\nbanana { }\n")

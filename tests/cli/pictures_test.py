@@ -122,9 +122,9 @@ class Pictures(CommandLineCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("headlight", result.stderr)
 
-    def at_work(self, *arguments):
-        """A program that renders, which has begun: it has taken as much processor time as starting takes, many times over."""
-        process = subprocess.Popen([ALHAZEN, "render", *arguments], stderr=subprocess.PIPE, text=True)
+    def at_work(self, *arguments, command="render"):
+        """A program that renders or draws, which has begun: it has taken as much processor time as starting takes, many times over."""
+        process = subprocess.Popen([ALHAZEN, command, *arguments], stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
@@ -162,6 +162,19 @@ class Pictures(CommandLineCase):
         work = end[2].ru_utime + end[2].ru_stime - before
         self.assertLess(min(work, time.monotonic() - begin), 5)
         self.assertEqual(process.returncode, 75)
+
+    def test_a_signal_ends_a_drawing_at_once(self):
+        scene = self.write("tori.alhazen", "alhazen 1\n" + "torus {}\n" * 20)
+        for style in "shaded", "technical":
+            process = self.at_work(scene, "-o", self.path("out.svg"), "--style", style, "--tolerance", "0.00001",
+                                   command="vector")
+            process.send_signal(signal.SIGTERM)
+            begin = time.monotonic()
+            _, messages = process.communicate(timeout=PATIENCE)
+            self.assertLess(time.monotonic() - begin, 5, style)
+            self.assertEqual(process.returncode, 75, style)
+            self.assertIn("stopped", messages)
+            self.assertFalse(os.path.exists(self.path("out.svg")))
 
     def test_a_signal_while_the_scene_is_read_exits_75_at_once(self):
         big = self.path("big.obj")

@@ -68,11 +68,17 @@ void check_path(const fs::path& path) {
     if (path.native().find('\0') != std::string::npos) fail(path, "the file name contains a NUL");
 }
 
-/// The file that `path` names, through symbolic links, so that a link stays a link.
+/// The file that `path` names, through symbolic links, so that a link stays a link. The file need
+/// not exist.
 fs::path target_of(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_symlink(path, error)) return path;
-    fs::path target = fs::weakly_canonical(path, error);
+    std::error_code error, missing;
+    if (!fs::is_symlink(path, missing)) return path;
+    const bool exists = fs::exists(path, error);  // without an error: or the links have an end
+    fs::path target = path;
+    if (exists) target = fs::weakly_canonical(path, error);
+    while (!exists && !error && fs::is_symlink(target, missing)) {
+        target = target.parent_path() / fs::read_symlink(target, error);
+    }
     if (error) fail(path, "cannot follow the link: " + error.message());
     return target;
 }
@@ -187,7 +193,8 @@ void write_file_atomically(const fs::path& path, const std::string& text) {
 }
 
 void check_writable(const fs::path& path) {
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const fs::path target = target_of(path);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const auto refuse = [&](const std::string& why) {
         throw Error(ErrorKind::File, "cannot write " + path.string() + ": " + why);
     };

@@ -9,6 +9,10 @@
 
 namespace alhazen {
 
+/// The hit of a flat face of `shape`, found without Shape::intersect, with the parameters that its
+/// surface needs.
+[[nodiscard]] Hit hit_of_face(const AnyShape& shape, const Placement* placement, const Ray& ray,
+                              double t, std::uint32_t face);
 void set_shape_surface(const AnyShape& shape, const Placement* placement, const Ray& ray,
                        const Hit& hit, bool with_uv, Surface& surface);
 /// The surface of a triangle of a mesh, with its materials.

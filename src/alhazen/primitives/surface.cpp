@@ -274,6 +274,20 @@ void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
     if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
 }
 
+Hit hit_of_face(const AnyShape& shape, const Placement* placement, const Ray& ray, double t,
+                std::uint32_t face) {
+    Hit hit;
+    hit.t = t;
+    hit.part = face;
+    if (const auto* rectangle = std::get_if<Rectangle>(&shape)) {
+        const Ray own = placement == nullptr ? ray : transformed(placement->inner_from_outer, ray);
+        const Vec3 offset = (own.origin - rectangle->corner) + t * own.direction;
+        hit.u = std::clamp(dot(rectangle->u_of, offset), 0.0, 1.0);
+        hit.v = std::clamp(dot(rectangle->v_of, offset), 0.0, 1.0);
+    }
+    return hit;
+}
+
 void set_shape_surface(const AnyShape& shape, const Placement* placement, const Ray& ray,
                        const Hit& hit, bool with_uv, Surface& surface) {
     begin(surface);

@@ -228,10 +228,13 @@ void check_antialias(const RenderOptions& options, const Renderer& renderer) {
 void check_sampling(const RenderOptions& options, const Renderer& renderer) {
     if (!options.sampling) return;
     if (!renderer.takes_samplers()) {
+        const bool rounds = options.sampling->has_rounds();
         throw Error(ErrorKind::Usage,
-                    fmt::format("--sampler, --filter, --noise and a limit of --time are for the "
-                                "renderers {}; renderer '{}' has samples of its own",
-                                renderers_where(&Renderer::takes_samplers), options.renderer));
+                    fmt::format("{} are for the renderers {}; renderer '{}' has samples of its own",
+                                rounds ? "--noise and a limit of --time" : "--sampler and --filter",
+                                renderers_where(rounds ? &Renderer::renders_in_rounds
+                                                       : &Renderer::takes_samplers),
+                                options.renderer));
     }
     if (options.antialias) {
         throw Error(ErrorKind::Usage,

@@ -124,6 +124,23 @@ TEST_F(File, WritingKeepsPermissionsAndLinks) {
     EXPECT_EQ(int(fs::status(folder_ / "a").permissions()), 0640);
 }
 
+TEST_F(File, ALinkToAFileThatIsMissingStaysALink) {
+    fs::create_directory(folder_ / "own");
+    fs::create_symlink("../second", folder_ / "own/first");
+    fs::create_symlink("third", folder_ / "second");
+    check_writable(folder_ / "own/first");
+    write_file_atomically(folder_ / "own/first", "new");
+    EXPECT_TRUE(fs::is_symlink(folder_ / "own/first"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "second"));
+    EXPECT_EQ(read_file(folder_ / "third"), "new");
+    fs::create_symlink("nowhere/file", folder_ / "lost");
+    EXPECT_EQ(kind_of_error([&] { check_writable(folder_ / "lost"); }), ErrorKind::File);
+    fs::create_symlink("round", folder_ / "round");
+    EXPECT_EQ(kind_of_error([&] { write_file_atomically(folder_ / "round", "new"); }),
+              ErrorKind::File);
+    EXPECT_TRUE(fs::is_symlink(folder_ / "round"));
+}
+
 TEST_F(File, NamesOfTheGreatestLengthCanBeWritten) {
     const std::string name(255, 'n');
     write_file_atomically(folder_ / name, "text");

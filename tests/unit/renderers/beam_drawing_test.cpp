@@ -8,6 +8,7 @@
 #include "alhazen/renderers/beam_tracing/beam_cells.h"
 #include "alhazen/renderers/beam_tracing/linear_shade.h"
 #include "alhazen/renderers/whitted/whitted.h"
+#include "support/image_texture.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -37,6 +38,16 @@ Rgb color_at(const DrawingRegion& region, const Vec2& p) {
     return (1 - share) * g.at_from + share * g.at_to;
 }
 
+Drawing drawing_of(SceneMaker& maker, const Scene& scene, bool lines) {
+    const RenderJob job{
+        .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
+    const auto limit = static_cast<std::int32_t>(kBeamFilm);
+    const BeamScene facets = beam_scene(maker.description(), scene);
+    const BeamTree tree =
+        beam_tree(job, facets, lattice_rectangle({-limit, -limit}, {limit, limit}), {});
+    return beam_drawing(job, facets, tree, {.width = 48, .height = 48, .lines = lines});
+}
+
 /// A mirror wall, a box on a floor, and a light that casts its shadow.
 struct Room {
     Room() {
@@ -57,15 +68,7 @@ struct Room {
             look_along({0.4, 1, 5}, {0, -0.25, -1}, {0, 1, 0}, 0.7, 1.0);
         scene = maker.compile();
     }
-    [[nodiscard]] Drawing draw(bool lines) {
-        const RenderJob job{
-            .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
-        const auto limit = static_cast<std::int32_t>(kBeamFilm);
-        const BeamScene facets = beam_scene(maker.description(), scene);
-        const BeamTree tree =
-            beam_tree(job, facets, lattice_rectangle({-limit, -limit}, {limit, limit}), {});
-        return beam_drawing(job, facets, tree, {.width = 48, .height = 48, .lines = lines});
-    }
+    [[nodiscard]] Drawing draw(bool lines) { return drawing_of(maker, scene, lines); }
     SceneMaker maker;
     Scene scene;
 };
@@ -124,6 +127,32 @@ TEST(BeamDrawing, LinesAreWherePlanesAndObjectsEnd) {
     const std::string pdf = drawing_pdf(drawing);
     EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
     EXPECT_NE(pdf.rfind("%%EOF"), std::string::npos);
+}
+
+TEST(BeamDrawing, ARectangleHasItsTexture) {
+    SceneMaker maker;
+    maker.description().textures.push_back({"", testing::red_and_green(), {}});
+    Material material;
+    material.emission = {{1, 1, 1}, TextureId{0}};
+    maker.add(Rectangle{.corner = {-1, -1, 0}, .edge_u = {2, 0, 0}, .edge_v = {0, 2, 0}},
+              maker.material(material));
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 2}, {0, 0, -1}, {2, 0, 0}, {0, 2, 0}};
+    const Scene scene = maker.compile();
+    const Drawing drawing = drawing_of(maker, scene, false);
+    const auto at = [&](const Vec2& p) {
+        for (const DrawingGroup& group : drawing.groups) {
+            for (const DrawingRegion& region : group.regions) {
+                if (holds(region, p)) return color_at(region, p);
+            }
+        }
+        return Rgb{};
+    };
+    const Rgb left = at({5.2, 20.3}), right = at({41.2, 20.3});
+    EXPECT_NEAR(left.r, 1.0, 1e-12);
+    EXPECT_EQ(left.g, 0.0);
+    EXPECT_NEAR(right.g, 1.0, 1e-12);
+    EXPECT_EQ(right.r, 0.0);
 }
 
 TEST(FitShade, FindsTheDirectionOfALinearChange) {

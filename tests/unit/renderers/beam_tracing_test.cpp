@@ -13,6 +13,7 @@
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/reports/beam_report.h"
 #include "alhazen/renderers/whitted/whitted.h"
+#include "support/image_texture.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -141,6 +142,25 @@ TEST(BeamTracing, ParallelBeamsEqualParallelRays) {
     maker.description().cameras[0].camera =
         look_along_parallel({-2.03, -3.9, 3.1}, {1.9, 4.1, -2.3}, {0, 0, 1}, 4.0, 4.0 / 3.0);
     EXPECT_EQ(differing(beams_of(maker).film, rays_of(maker).film, 1e-9), 0);
+}
+
+TEST(BeamTracing, ARectangleHasItsTexture) {
+    SceneMaker maker;
+    maker.description().textures.push_back(
+        {"", testing::red_and_green(TextureFilter::Bilinear), {}});
+    Material material;
+    material.emission = {{1, 1, 1}, TextureId{0}};
+    maker.add(Rectangle{.corner = {-1, -0.5, 0}, .edge_u = {2, 0.3, 0}, .edge_v = {0, 1, 0.2}},
+              maker.material(material), Affine::rotate({1, 2, 3}, 0.3) * Affine::scale({1, 2, 1}));
+    const Picture beams = beams_of(maker);
+    EXPECT_EQ(differing(beams.film, rays_of(maker).film, 1e-9), 0);
+    double red = 0, green = 0;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+        red = std::fmax(red, beams.film.at(i % kWidth, i / kWidth).r);
+        green = std::fmax(green, beams.film.at(i % kWidth, i / kWidth).g);
+    }
+    EXPECT_GT(red, 0.9);
+    EXPECT_GT(green, 0.9);
 }
 
 TEST(BeamTracing, TheOrderComesFromTheTreeOrFromDepth) {

@@ -9,6 +9,7 @@
 #include "alhazen/math/constants.h"
 #include "alhazen/renderers/cone_tracing/cone_tracer.h"
 #include "alhazen/renderers/whitted/whitted.h"
+#include "support/image_texture.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -198,6 +199,24 @@ TEST(ConeTracing, TablesChangeAPictureByAThousandth) {
     }
     EXPECT_GT(largest, 0.0);
     EXPECT_LT(largest, 2e-3);
+}
+
+TEST(ConeTracing, ARectangleHasItsTexture) {
+    for (const double slide : {0.0, 5.0}) {
+        SceneMaker maker;
+        maker.description().textures.push_back({"", testing::red_and_green(), {}});
+        Material material;
+        material.emission = {{1, 1, 1}, TextureId{0}};
+        maker.add(upright(-2 - slide, 2 - slide), maker.material(material),
+                  Affine::translate({slide, 0, 0}));
+        const Film film = picture_of(maker, unit_pixels(4), 4, 4);
+        for (int y = 0; y < 4; ++y) {
+            EXPECT_GT(film.at(0, y).r, 0.9) << y;
+            EXPECT_EQ(film.at(0, y).g, 0.0) << y;
+            EXPECT_GT(film.at(3, y).g, 0.9) << y;
+            EXPECT_EQ(film.at(3, y).r, 0.0) << y;
+        }
+    }
 }
 
 TEST(ConeTracing, OtherShapesAreRefusedByName) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -184,6 +185,31 @@ TEST(Rounds, NoRoundBeginsThatWouldEndTooLate) {
     EXPECT_TRUE(report.out_of_time || report.most_samples == SamplingPlan::kMostByRule);
     EXPECT_LT(seconds, 0.6);
     EXPECT_GT(report.most_samples, 4U);
+}
+
+TEST(Rounds, TheLimitOfTimeHoldsForPhotonMapsToo) {
+    SceneMaker maker;
+    Material shining = glowing({0.5, 0.5, 0.5});
+    shining.diffuse.color = {0.5, 0.5, 0.5};
+    maker.add(Sphere{.radius = 9}, maker.material(shining));
+    const Scene scene = maker.compile("wide_bvh");
+    SamplingPlan plan = plan_of("sobol");
+    plan.seconds = 0.01;
+    Film film(1, 1, {0, 0, 1, 1});
+    const RenderJob job{.scene = scene,
+                        .camera = scene.cameras[0].camera,
+                        .samples_per_pixel = SamplingPlan::kMostByRule,
+                        .sampling = &plan,
+                        .control = {.threads = 1}};
+    const auto begin = std::chrono::steady_clock::now();
+    const RenderReport report =
+        make_renderer("photon_mapping:photons=100000,caustics=0")->render(job, film);
+    const double whole =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const std::vector<SamplingReport::Round>& rounds = report.sampling->rounds;
+    ASSERT_GT(whole - rounds[0].seconds, 2 * *plan.seconds);  // of the maps
+    EXPECT_EQ(rounds.size(), 1U);
+    EXPECT_TRUE(report.sampling->out_of_time);
 }
 
 TEST(SamplingPlan, BadTextsAreRefusedByName) {

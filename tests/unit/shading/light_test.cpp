@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "alhazen/math/constants.h"
@@ -69,6 +71,70 @@ TEST(Light, CosinesOfASpotDecideAsItsAnglesDo) {
             for (double apart = 1e-17; apart < 1e-3; apart *= 3) {
                 expect_same(edge - apart);
                 expect_same(edge + apart);
+            }
+        }
+    }
+}
+
+/// A square of side 1 in z = 1, which faces downwards; `up`: upwards.
+MeshExtent square(bool up) {
+    MeshExtent mesh{{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, {{{0, 1, 2}}, {{0, 2, 3}}}};
+    if (up) {
+        for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+    return mesh;
+}
+
+TEST(Light, AnOpenMeshShinesToItsOuterSideLikeThePolygon) {
+    const PolygonExtent polygon{square(false).points};
+    for (const bool two_sided : {false, true}) {
+        const auto at = [&](const LightExtent& extent, const Vec3& point) {
+            return sample(ready_to_sample(AreaLight{.extent = extent, .two_sided = two_sided}),
+                          point, false)
+                .intensity.r;
+        };
+        for (const Vec3& point : {Vec3{0.5, 0.5, 0}, {3, -1, 0.2}, {0.2, 0.7, 2}, {5, 5, 1}}) {
+            EXPECT_NEAR(at(square(false), point), at(polygon, point), 1e-15);
+        }
+        EXPECT_NEAR(at(square(false), {0.5, 0.5, 0}), 1 / kPi, 1e-15);
+        EXPECT_NEAR(at(square(true), {0.5, 0.5, 0}), two_sided ? 1 / kPi : 0.0, 1e-15);
+    }
+}
+
+TEST(Light, AMeshOfManyTrianglesHasTheProjectedAreaOfItsTriangles) {
+    // The upper half of a sphere, from a few triangles to many.
+    for (const int rings : {6, 12, 24, 48}) {
+        MeshExtent dome;
+        const int around = 4 * rings;
+        for (int i = 0; i <= rings; ++i) {
+            for (int k = 0; k < around; ++k) {
+                const double down = 0.5 * kPi * i / rings, turn = 2 * kPi * k / around;
+                dome.points.push_back({std::sin(down) * std::cos(turn),
+                                       std::sin(down) * std::sin(turn), std::cos(down)});
+            }
+        }
+        for (int i = 0; i < rings; ++i) {
+            for (int k = 0; k < around; ++k) {
+                const auto at = [&](int ring, int column) {
+                    return static_cast<std::uint32_t>(ring * around + column % around);
+                };
+                dome.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+                dome.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+            }
+        }
+        for (const bool two_sided : {false, true}) {
+            const LightSurface surface(dome, two_sided);
+            for (const Vec3& towards :
+                 {Vec3{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {0.6, 0, -0.8}, {-0.48, 0.36, 0.8}}) {
+                double sum = 0;
+                for (const auto& [a, b, c] : dome.triangles) {
+                    const double seen = -0.5 * dot(towards, cross(dome.points[b] - dome.points[a],
+                                                                  dome.points[c] - dome.points[a]));
+                    sum += two_sided ? std::abs(seen) : std::max(0.0, seen);
+                }
+                const bool single = dome.triangles.size() <= LightSurface::kMostTriangles;
+                EXPECT_NEAR(surface.projected_area(towards), sum, single ? 1e-12 : 0.02)
+                    << rings << ' ' << towards.x << ' ' << towards.z;
             }
         }
     }

@@ -43,10 +43,8 @@ void BeamShading::set_surface_of(std::uint32_t facet, const Ray& ray, double t, 
     const BeamSource& source = geometry_.sources[f.source];
     const Placement* placement = source.placed ? &source.placement : nullptr;
     if (source.shape) {
-        Hit hit;
-        hit.t = t;
-        hit.part = f.part;
-        set_shape_surface(*source.shape, placement, ray, hit,
+        set_shape_surface(*source.shape, placement, ray,
+                          hit_of_face(*source.shape, placement, ray, t, f.part),
                           !scene_.textures.empty() || job_.aovs != nullptr, surface);
         surface.materials[0] = source.material;
     } else {

@@ -209,16 +209,16 @@ ConeTracer::Seen ConeTracer::seen_at(const ConePiece& piece, const ConeRay& cone
 
 void ConeTracer::set_point(const Seen& seen, ShadingPoint& point) {
     const ConeSource& source = geometry_.sources[seen.piece.source];
-    Hit hit;
-    hit.t = seen.t;
-    hit.u = seen.piece.u;
-    hit.v = seen.piece.v;
     const Placement* placement = source.placed ? &source.placement : nullptr;
     if (source.kind == ConeSource::Kind::Mesh) {
+        Hit hit;
+        hit.t = seen.t;
+        hit.u = seen.piece.u;
+        hit.v = seen.piece.v;
         set_mesh_surface(source.mesh, seen.piece.part, placement, hit, point.surface);
     } else {
-        hit.part = seen.piece.part;
-        set_shape_surface(*source.shape, placement, seen.ray, hit,
+        set_shape_surface(*source.shape, placement, seen.ray,
+                          hit_of_face(*source.shape, placement, seen.ray, seen.t, seen.piece.part),
                           !scene_.textures.empty() || job_.aovs != nullptr, point.surface);
         point.surface.materials[0] = source.material;
     }

@@ -101,6 +101,8 @@ class Renderer {
     [[nodiscard]] virtual bool answers_single_rays() const { return false; }
     /// True if `render` supports RenderJob::sampling.
     [[nodiscard]] virtual bool takes_samplers() const { return false; }
+    /// True if `render` supports SamplingPlan::noise and SamplingPlan::seconds.
+    [[nodiscard]] virtual bool renders_in_rounds() const { return takes_samplers(); }
     /// True if rays are distributed over the lens, the shutter time, area lights and rough
     /// reflections. Others use the centre of the lens and the time at which the shutter opens.
     [[nodiscard]] virtual bool distributes() const { return false; }

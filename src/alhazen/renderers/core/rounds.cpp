@@ -28,7 +28,8 @@ constexpr double kDark = 0.01;
 /// Renders one film.
 class RoundRender {
   public:
-    RoundRender(const TiledRenderer& renderer, const RenderJob& job, Film& film)
+    RoundRender(const TiledRenderer& renderer, const RenderJob& job, Film& film,
+                RoundClock::time_point begin)
         : renderer_(renderer),
           job_(job),
           plan_(*job.sampling),
@@ -36,7 +37,7 @@ class RoundRender {
           filter_(plan_.shared ? *find_filter("box") : *plan_.filter,
                   plan_.shared ? 0.5 : plan_.radius),
           most_(static_cast<std::uint32_t>(job.samples_per_pixel)),
-          begin_(RoundClock::now()) {
+          begin_(begin) {
         report_.pixels = wanting_ = film.crop().area();
         if (plan_.sampler->progressive) sampler_ = plan_.sampler->make(job.seed, most_);
         if (plan_.shared) shared_.emplace(*plan_.filter, plan_.radius, film.crop());
@@ -213,8 +214,9 @@ RenderJob with_plan(const RenderJob& job) {
     return planned;
 }
 
-RenderReport render_in_rounds(const TiledRenderer& renderer, const RenderJob& job, Film& film) {
-    return RoundRender(renderer, job, film).run();
+RenderReport render_in_rounds(const TiledRenderer& renderer, const RenderJob& job, Film& film,
+                              std::chrono::steady_clock::time_point begin) {
+    return RoundRender(renderer, job, film, begin).run();
 }
 
 }  // namespace alhazen

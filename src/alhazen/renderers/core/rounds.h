@@ -13,6 +13,8 @@
 /// whole film: the picture after a round depends neither on threads nor on tiles. With a time limit
 /// the number of rounds depends on the clock.
 
+#include <chrono>
+
 #include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
@@ -22,7 +24,10 @@ namespace alhazen {
 
 /// Renders by the plan RenderJob::sampling, which must be set. AOVs are those of the first round.
 /// After a stop, finished pixels include the current round, others only the rounds before.
-[[nodiscard]] RenderReport render_in_rounds(const TiledRenderer& renderer, const RenderJob& job,
-                                            Film& film);
+/// `begin`: when the work of the picture began; a time limit counts from there. The first round is
+/// rendered in any case.
+[[nodiscard]] RenderReport render_in_rounds(
+    const TiledRenderer& renderer, const RenderJob& job, Film& film,
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now());
 
 }  // namespace alhazen

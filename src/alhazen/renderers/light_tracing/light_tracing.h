@@ -20,6 +20,7 @@ class LightTracing final : public LightTransportRenderer {
     explicit LightTracing(const PathSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool renders_in_rounds() const override { return false; }
     [[nodiscard]] bool takes_wavelengths() const override { return true; }
     [[nodiscard]] bool scatters_in_volumes() const override { return true; }
 

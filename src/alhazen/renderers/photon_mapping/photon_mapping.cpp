@@ -1,5 +1,6 @@
 #include "alhazen/renderers/photon_mapping/photon_mapping.h"
 
+#include <chrono>
 #include <string>
 
 #include "alhazen/base/error.h"
@@ -58,6 +59,7 @@ void refuse_wavelengths(const PhotonMappingSettings& settings) {
 
 RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
     if (job.spectral) refuse_wavelengths(settings_);
+    const auto begin = std::chrono::steady_clock::now();
     const Illumination lights(job.scene);
     const PhotonMaps maps = make_photon_maps(job, lights, settings_);
     RenderReport report;
@@ -84,7 +86,7 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
         }
         const RayCounters filling = report.counters;
         report = render_in_rounds(PhotonTiles(lights, maps, settings_, cache ? &*cache : nullptr),
-                                  planned, film);
+                                  planned, film, begin);
         report.counters += filling;
     } else {
         report.parts = 1;

@@ -32,6 +32,7 @@ class Sppm final : public LightTransportRenderer {
     explicit Sppm(const SppmSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool renders_in_rounds() const override { return false; }
     [[nodiscard]] bool has_photons() const override { return true; }
     [[nodiscard]] bool scatters_in_volumes() const override { return true; }
     [[nodiscard]] bool takes_wavelengths() const override { return true; }

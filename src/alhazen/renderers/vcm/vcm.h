@@ -24,6 +24,7 @@ class Vcm final : public LightTransportRenderer {
     explicit Vcm(const VcmSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool renders_in_rounds() const override { return !settings_.merge; }
     [[nodiscard]] bool takes_wavelengths() const override { return true; }
     [[nodiscard]] bool scatters_in_volumes() const override { return true; }
     [[nodiscard]] bool has_photons() const override { return settings_.merge; }

@@ -19,6 +19,20 @@ MeshExtent triangles_of(const PolygonExtent& polygon) {
     return mesh;
 }
 
+/// Ranges of directions: squares of the faces of a cube.
+constexpr int kSquares = 8;  ///< along an edge
+constexpr std::size_t kNormalRanges = 6 * kSquares * kSquares;
+std::size_t range_of_normal(const Vec3& n) {
+    const Vec3 size = abs(n);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto square = [&](int k) {
+        const double across = n[(axis + k) % 3] / std::abs(n[axis]);
+        return std::clamp(static_cast<int>(0.5 * kSquares * (across + 1.0)), 0, kSquares - 1);
+    };
+    const int face = 2 * axis + (n[axis] < 0.0);
+    return static_cast<std::size_t>((face * kSquares + square(1)) * kSquares + square(2));
+}
+
 /// The vector with these components in a frame around the unit `axis`.
 Vec3 around(const Vec3& axis, double along, double x, double y) {
     const Vec3 a = perpendicular(axis), b = cross(axis, a);
@@ -64,7 +78,10 @@ LightSurface::LightSurface(const LightExtent& extent, bool two_sided)
                               normal_ = normalize(
                                   cross(corners_[1] - corners_[0], corners_[2] - corners_[0]));
                           },
-                          [&](const MeshExtent& m) { set_triangles(m); }},
+                          [&](const MeshExtent& m) {
+                              set_triangles(m);
+                              set_normal_areas();
+                          }},
                extent_);
 }
 
@@ -82,10 +99,32 @@ void LightSurface::set_triangles(const MeshExtent& mesh) {
     if (area_ > 0.0) center_ = sum / area_;
 }
 
+void LightSurface::set_normal_areas() {
+    const std::size_t triangles = corners_.size() / 3;
+    const bool gathers = triangles > kMostTriangles;
+    if (gathers) normal_areas_.resize(kNormalRanges);
+    for (std::size_t k = 0; k < triangles; ++k) {
+        const Vec3* const c = &corners_[3 * k];
+        const Vec3 area = 0.5 * cross(c[1] - c[0], c[2] - c[0]);
+        if (gathers) {
+            normal_areas_[range_of_normal(area)] += area;
+        } else {
+            normal_areas_.push_back(area);
+        }
+    }
+    std::erase(normal_areas_, Vec3{});
+}
+
 double LightSurface::projected_area(const Vec3& direction) const {
-    const double mean = area_ / 4.0;  // Cauchy's formula for convex bodies
-    if (std::holds_alternative<SphereExtent>(extent_)) return mean;
-    if (std::holds_alternative<MeshExtent>(extent_)) return two_sided_ ? 2.0 * mean : mean;
+    if (std::holds_alternative<SphereExtent>(extent_)) return area_ / 4.0;
+    if (std::holds_alternative<MeshExtent>(extent_)) {
+        double sum = 0.0;
+        for (const Vec3& area : normal_areas_) {
+            const double seen = -dot(direction, area);
+            sum += two_sided_ ? std::abs(seen) : std::max(0.0, seen);
+        }
+        return sum;
+    }
     const double cosine = -dot(direction, normal_);
     if (std::holds_alternative<TubeExtent>(extent_)) {
         return area_ / kPi * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));

@@ -65,6 +65,9 @@ struct ExtentSample {
 /// An extent ready for sampling.
 class LightSurface {
   public:
+    /// Triangles of a mesh whose areas are projected one by one.
+    static constexpr std::size_t kMostTriangles = 256;
+
     LightSurface(const LightExtent& extent, bool two_sided);
 
     /// Samples a point; `u` in the unit square.
@@ -73,7 +76,8 @@ class LightSurface {
     /// The centroid of the surface.
     [[nodiscard]] const Vec3& center() const { return center_; }
     /// The projected area along the unit `direction`, which runs towards the light; both sides
-    /// count if it is two-sided. Meshes: the mean over all directions, as for a convex body.
+    /// count if it is two-sided. Meshes: the sum over their triangles, also of those that others
+    /// hide; more than kMostTriangles are gathered by ranges of their normals.
     [[nodiscard]] double projected_area(const Vec3& direction) const;
 
   private:
@@ -87,6 +91,7 @@ class LightSurface {
     [[nodiscard]] Place on_tube(const TubeExtent& t, const Vec3& from, const Vec2& u) const;
     [[nodiscard]] Place on_triangles(const Vec2& u) const;
     void set_triangles(const MeshExtent& mesh);
+    void set_normal_areas();
 
     LightExtent extent_;
     bool two_sided_;
@@ -95,6 +100,7 @@ class LightSurface {
     /// Three corners per triangle, and the cumulative areas.
     std::vector<Vec3> corners_;
     std::vector<double> areas_;
+    std::vector<Vec3> normal_areas_;  ///< mesh: normals times areas, of triangles or their sums
 };
 
 /// Describes what is wrong with the extent; null if nothing is.
