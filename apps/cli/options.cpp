@@ -143,9 +143,13 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
             "A bound around every primitive and no hierarchy: sphere, ellipsoid, box, slabs3, "
             "slabs7 or slabs13; short for --accelerator bounding_volumes:bound=NAME")
         ->type_name("NAME");
+    if (takes_auto_build) build_quality = "auto";
     command
         .add_option("--build", build_quality,
-                    "Work that goes into the accelerator: fast, default or high")
+                    takes_auto_build
+                        ? "Work that goes into the accelerator: fast, default, high, or auto: fast "
+                          "where the rays of the picture are few for the triangles, else default"
+                        : "Work that goes into the accelerator: fast, default or high")
         ->type_name("QUALITY")
         ->capture_default_str();
     command
@@ -257,7 +261,7 @@ std::optional<Shutter> SceneArguments::shutter_option() const {
 
 BuildOptions SceneArguments::build_options() const {
     BuildOptions options;
-    options.quality = find_build_quality(build_quality);
+    if (!chooses_build()) options.quality = find_build_quality(build_quality);
     check_node_width(width);
     options.width = width;
     if (compact) options.leaves = Leaves::Indices;

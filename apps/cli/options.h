@@ -50,6 +50,7 @@ struct SceneArguments {
     std::string scene;
     std::string accelerator;
     std::string build_quality = "default";
+    bool takes_auto_build = false;  ///< --build may be auto, which is then the default
     std::uint32_t width = BuildOptions{}.width;
     std::string csg;
     bool compact = false, strict = false;
@@ -71,6 +72,8 @@ struct SceneArguments {
     [[nodiscard]] std::optional<Shutter> shutter_option() const;
     /// Parses a value of --time: a moment; with a unit, a time limit.
     void read_time(const std::string& text);
+    /// True if the command chooses the quality itself.
+    [[nodiscard]] bool chooses_build() const { return takes_auto_build && build_quality == "auto"; }
     /// Throws Error (Usage) for an unknown quality or width.
     [[nodiscard]] BuildOptions build_options() const;
     [[nodiscard]] LoadOptions load_options() const;

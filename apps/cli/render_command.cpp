@@ -14,6 +14,7 @@
 #include "alhazen/renderers/core/reports/beam_report.h"
 #include "alhazen/renderers/core/reports/sampling_report.h"
 #include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/build_choice.h"
 #include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/photon_file.h"
@@ -242,9 +243,13 @@ int run(const RenderArguments& args) {
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
     load_options.progress = &progress;
-    load_options.with_aggregate = needs_aggregate;
+    load_options.with_aggregate = false;
     load_options.keep_meshes = !needs_aggregate;
     LoadedScene loaded = load(args.scene.scene, load_options);
+    if (args.scene.chooses_build()) {
+        load_options.compile.build.quality = quality_for_picture(loaded, options);
+    }
+    if (needs_aggregate) build_aggregate(loaded, load_options);
     progress.finish();
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
@@ -317,6 +322,7 @@ void add_render(CLI::App& app, int& exit_status) {
     const auto args = std::make_shared<RenderArguments>();
     args->scene.takes_time_limit = true;
     args->scene.takes_shutter = true;
+    args->scene.takes_auto_build = true;
     args->scene.add_to(*command, kDefaultAccelerator);
     command->add_option("-o,--output", args->output, "Picture to write: .png .exr .hdr .pfm .jpg")
         ->required()

@@ -30,6 +30,7 @@ void run_build_phase(LoadedScene& loaded, const LoadOptions& options, Work&& wor
 }
 
 void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
+    loaded.quality = options.compile.build.quality;
     if (options.keep_meshes) {
         build_aggregate(loaded.description, options.compile, loaded.scene);
     } else {

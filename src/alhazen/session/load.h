@@ -34,6 +34,7 @@ struct LoadedScene {
     std::uint64_t build_peak_bytes = 0;  ///< the same after building
     double load_seconds = 0;
     double build_seconds = 0;
+    BuildQuality quality = BuildQuality::Default;  ///< of the aggregate
 };
 
 /// Reads and validates a scene file without building anything. Throws Error.

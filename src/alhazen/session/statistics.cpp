@@ -157,6 +157,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"scene", scene_name},
         {"renderer", options.renderer},
         {"accelerator", has_aggregate ? json(loaded.scene.accelerator) : json(nullptr)},
+        {"build", has_aggregate ? json(name_of(loaded.quality)) : json(nullptr)},
         {"threads", result.threads},
         {"version", version()},
         {"width", result.film.crop().width()},

@@ -185,7 +185,32 @@ class StatementReader {
         return 0;
     }
 
+    /// Reads the rest of a face of three positive indices of positions, as most are; false, at the
+    /// same place, at any other and where there is no room.
+    bool read_plain_triangle() {
+        ObjCorners& corners = result_.corners;
+        if (!corners.uv.empty() || !corners.normal.empty()) return false;
+        if (corners.size() + 3 > std::min(options_.max_elements, std::uint64_t(kMaxIndex))) {
+            return false;
+        }
+        TextCursor cursor = cursor_;
+        std::array<std::int64_t, 3> indices;
+        for (std::int64_t& index : indices) {
+            const bool read = cursor.skip_blanks() && cursor.leading_integer(index);
+            if (!read || index < 1 || index > kMaxIndex + 1) return false;
+            if (!cursor.at_end() && !TextCursor::is_space(cursor.peek())) return false;
+        }
+        if (cursor.skip_blanks()) return false;
+        begin_run();
+        for (const std::int64_t index : indices) {
+            corners.position.push_back(std::int32_t(index - 1));
+        }
+        end_face(cursor_);
+        cursor_ = cursor;
+        return true;
+    }
     void read_face() {
+        if (read_plain_triangle()) return;
         const std::size_t begin = result_.corners.size();
         const TextCursor start = cursor_;
         while (cursor_.skip_blanks() && cursor_.peek() != '#') {
@@ -203,6 +228,10 @@ class StatementReader {
             return;
         }
         begin_run();
+        end_face(start);
+    }
+    /// Adds the face whose corners were read.
+    void end_face(const TextCursor& start) {
         const std::int64_t line = std::min<std::int64_t>(start.line(), 0xFFFFFFFFll);
         result_.faces.push_back({std::uint32_t(result_.corners.size()), std::uint32_t(line)});
     }

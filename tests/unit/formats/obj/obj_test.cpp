@@ -35,6 +35,31 @@ TEST(Obj, AllFormsOfAFaceAreRead) {
     }
 }
 
+TEST(Obj, TrianglesOfPositionsAloneAreReadAsAnyOther) {
+    for (const char* face : {"f 1 2 3", "f +1 2\t3 ", "f -4 -3 -2", "f 1 2 3#c", "f 1 2 3 # c",
+                             "f 1 \\\n 2 \\\n3", "f 1/ 2 3"}) {
+        Diagnostics found;
+        const TriangleMesh mesh =
+            mesh_of(kCorners + face + "\nf 1 3 4\n f 9 1 1\n", "a.obj", found);
+        // The line of the last face counts continued ones.
+        const int line = std::string_view(face).find('\n') == std::string_view::npos ? 7 : 9;
+        EXPECT_TRUE(mentions(found, "a.obj:" + std::to_string(line) + ": ")) << text_of(found);
+    }
+    Diagnostics found;
+    const TriangleMesh mesh =
+        mesh_of(kCorners + "vt 0 1\nf 1 2 3\nf 1/1 3/1 4/1\nf 2 3 4", "a.obj", found);
+    ASSERT_EQ(mesh.triangles.size(), 3u) << text_of(found);
+    EXPECT_EQ(mesh.uvs[mesh.triangles[0][0]], (Vec2{}));
+    EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], (Vec2{0, 1}));
+    EXPECT_EQ(mesh.positions[mesh.triangles[2][1]], (Vec3{1, 1, 0}));
+    ImportOptions options;
+    options.max_elements = 5;
+    EXPECT_THROW((void)mesh_of(kCorners + "f 1 2 3\nf 1 3 4\n", "a.obj", found, options), Error);
+    options.max_elements = 6;
+    EXPECT_EQ(mesh_of(kCorners + "f 1 2 3\nf 1 3 4\n", "a.obj", found, options).triangles.size(),
+              2u);
+}
+
 TEST(Obj, VerticesAreDuplicatedOnlyWhereTheirNormalOrTextureDiffers) {
     Diagnostics found;
     const TriangleMesh mesh = mesh_of(kCorners +
