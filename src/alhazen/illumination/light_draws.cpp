@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kInCache = 64;
 
 /// Prefetches an emitter: of many lights most are not in the cache.
-void fetch(const Emitter& emitter) {
+[[gnu::always_inline]] inline void fetch(const Emitter& emitter) {
     constexpr std::size_t kLine = 64;
     const auto* const bytes = reinterpret_cast<const char*>(&emitter);
     for (std::size_t at = 0; at < sizeof(Emitter); at += kLine) __builtin_prefetch(bytes + at);
@@ -145,6 +145,17 @@ void LightDraws::choose_near(std::uint32_t lanes, ChosenLight* chosen) {
 }
 
 void LightDraws::draw_near(std::uint32_t lanes) {
+    std::uint32_t rectangles = 0;
+    // More emitters at once than the tree chooses would wait for each other in the memory.
+    constexpr std::size_t kPart = LitPointLanes::kMost;
+    for (std::size_t first = 0; first < kMost; first += kPart) {
+        const std::uint32_t part = lanes & ((1u << kPart) - 1) << first;
+        if (part != 0) rectangles |= draw_near_part(part);
+    }
+    if (rectangles != 0) draw_rectangles(rectangles);
+}
+
+std::uint32_t LightDraws::draw_near_part(std::uint32_t lanes) {
     const Illumination::Data& d = *lights_.data_;
     std::array<ChosenLight, kMost> chosen;
     if (sole_.probability > 0.0) {
@@ -153,10 +164,11 @@ void LightDraws::draw_near(std::uint32_t lanes) {
         choose_near(lanes, chosen.data());
     }
     if (d.near_count() > kInCache) {
-        for_each_lane(lanes, [&](std::size_t lane) {
-            const ChosenLight& one = chosen[lane];
+        // Not a function of one lane: it would have no effect, and compilers leave such calls out.
+        for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+            const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(left))];
             if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
-        });
+        }
     }
     std::uint32_t rectangles = 0;
     for_each_lane(lanes, [&](std::size_t lane) {
@@ -172,7 +184,7 @@ void LightDraws::draw_near(std::uint32_t lanes) {
         rectangle_lights_[lane] = light;
         rectangles |= 1u << lane;
     });
-    if (rectangles != 0) draw_rectangles(rectangles);
+    return rectangles;
 }
 
 void LightDraws::draw_rectangles(std::uint32_t lanes) {

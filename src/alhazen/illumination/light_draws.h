@@ -51,6 +51,8 @@ class LightDraws {
     void draw_far(std::uint32_t lanes);
     void draw_sky(std::size_t count);
     void draw_near(std::uint32_t lanes);
+    /// Chooses near lights and draws all but rectangles, which are set in their lanes and returned.
+    [[nodiscard]] std::uint32_t draw_near_part(std::uint32_t lanes);
     /// Chooses a near light for each of `lanes`: chosen[lane].
     void choose_near(std::uint32_t lanes, ChosenLight* chosen);
     /// Samples the rectangles that are set in `lanes`.

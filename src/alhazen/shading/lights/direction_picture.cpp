@@ -171,6 +171,21 @@ DirectionPicture::Sight DirectionPicture::sight(const Vec3& direction) const {
     return {radiance_at(place), density_at(place)};
 }
 
+// Inlined: it has no effect, and compilers leave out calls of such functions.
+[[gnu::always_inline]] inline void DirectionPicture::fetch(const Place& place) const {
+    const int y = index_below(place.row, picture_.height);
+    const int x = index_below(place.column, picture_.width);
+    __builtin_prefetch(
+        &columns_[std::size_t(y) * std::size_t(picture_.width + 1) + std::size_t(x)]);
+    // The texels to the left of the place.
+    const auto at = [](double share, int size) {
+        return std::clamp(static_cast<int>(share * size - 0.5), 0, size - 1);
+    };
+    const int left = at(place.column, picture_.width), above = at(place.row, picture_.height);
+    __builtin_prefetch(picture_.pixel(left, above));
+    __builtin_prefetch(picture_.pixel(left, std::min(above + 1, picture_.height - 1)));
+}
+
 void DirectionPicture::find_sights(std::span<const Vec3> directions, Sight* sights) const {
     DirectionLanes lanes;
     for (std::size_t done = 0; done < directions.size(); done += DirectionLanes::kMost) {
@@ -188,20 +203,6 @@ void DirectionPicture::find_sights(std::span<const Vec3> directions, Sight* sigh
             sights[done + i] = {radiance_at(place), density_at(place)};
         }
     }
-}
-
-void DirectionPicture::fetch(const Place& place) const {
-    const int y = index_below(place.row, picture_.height);
-    const int x = index_below(place.column, picture_.width);
-    __builtin_prefetch(
-        &columns_[std::size_t(y) * std::size_t(picture_.width + 1) + std::size_t(x)]);
-    // The texels to the left of the place.
-    const auto at = [](double share, int size) {
-        return std::clamp(static_cast<int>(share * size - 0.5), 0, size - 1);
-    };
-    const int left = at(place.column, picture_.width), above = at(place.row, picture_.height);
-    __builtin_prefetch(picture_.pixel(left, above));
-    __builtin_prefetch(picture_.pixel(left, std::min(above + 1, picture_.height - 1)));
 }
 
 Rgb DirectionPicture::radiance_at(const Place& place) const {
