@@ -159,7 +159,7 @@ class LaneHits {
         }
     }
     /// Four hits, the parameters of each by one store.
-    HWY_INLINE void write_four(std::size_t i, Hit* hits) const {
+    HWY_INLINE void write_four([[maybe_unused]] std::size_t i, [[maybe_unused]] Hit* hits) const {
 #if HWY_TARGET != HWY_SCALAR
         static_assert(offsetof(ShapeHit, u) == 8 && offsetof(ShapeHit, v) == 16 &&
                       offsetof(ShapeHit, part) == 24 && sizeof(ShapeHit) == 32);
