@@ -24,7 +24,7 @@ constexpr std::size_t kInCache = 64;
 
 LightDraws::LightDraws(const Illumination& lights) : lights_(lights) {
     const Illumination::Data& d = *lights.data_;
-    if (d.options.choice == LightChoice::Tree && d.tree.nodes().size() == 1) {
+    if (d.options.choice == LightChoice::Tree && !d.tree.empty() && d.tree.root().is_leaf()) {
         sole_ = d.tree.choose({}, 0.0);
     }
 }

@@ -501,7 +501,7 @@ TEST(Emitters, FarOnesAreSampledAsTheirSolidAngleSays) {
         ASSERT_EQ(a.distance, b.distance) << i;
         const EmitterHit hit{a.to_light, a.distance, e.world_from_own.linear.z_axis, a.parameters};
         ASSERT_EQ(density(e, from, hit), density(unknown, from, hit)) << i;
-        ++(is_far(e, from) ? far : near);
+        ++(is_sampled_by_area(e, from) ? far : near);
     }
     EXPECT_GT(far, 5000);
     EXPECT_GT(near, 5000);

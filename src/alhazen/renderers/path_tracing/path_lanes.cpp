@@ -95,11 +95,11 @@ void PathTracer::scatter_lanes() {
     v.scatter(lights);
     bool any_rough = false;
     for (std::size_t lane = 0; lane < in_lanes_; ++lane) {
-        const auto& [path, material] = of_lanes_[lane];
+        const PlainMaterial* const material = of_lanes_[lane].material;
         if (material->is_matt) continue;
         if (const auto& rough = material->rough[v.entering >> lane & 1u]) {
             any_rough = true;
-            rough_.set(lane, *rough, choices(*path, true).x);
+            rough_.set(lane, *rough, choices(*of_lanes_[lane].path, true).x);
         } else {
             scatter_other(lane);
         }
