@@ -243,13 +243,14 @@ int run(const RenderArguments& args) {
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
     load_options.progress = &progress;
-    load_options.with_aggregate = false;
+    load_options.with_aggregate = needs_aggregate;
     load_options.keep_meshes = !needs_aggregate;
-    LoadedScene loaded = load(args.scene.scene, load_options);
     if (args.scene.chooses_build()) {
-        load_options.compile.build.quality = quality_for_picture(loaded, options);
+        load_options.choose_quality = [&options](const LoadedScene& loaded) {
+            return quality_for_picture(loaded, options);
+        };
     }
-    if (needs_aggregate) build_aggregate(loaded, load_options);
+    LoadedScene loaded = load(args.scene.scene, load_options);
     progress.finish();
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);

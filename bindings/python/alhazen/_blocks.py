@@ -144,11 +144,16 @@ def _names_files(value: Any) -> bool:
     if isinstance(value, Block):
         return _names_files(value.keys) or any(map(_names_files, value.items))
     if isinstance(value, Mapping):
-        return any(k in ("file", "profile") and isinstance(v, (str, os.PathLike)) or _names_files(v)
-                   for k, v in value.items())
+        return any(k in ("file", "profile") and isinstance(v, (str, os.PathLike)) or _names_files(v) or
+                   k == "point_keys" and _has_text(v) for k, v in value.items())
     if isinstance(value, Call):
         return any(map(_names_files, value.arguments))
     return isinstance(value, (list, tuple)) and any(map(_names_files, value))
+
+
+def _has_text(value: Any) -> bool:
+    """Tests whether a value of point_keys is, or holds, the name of a mesh file."""
+    return isinstance(value, (str, os.PathLike)) or isinstance(value, (list, tuple)) and any(map(_has_text, value))
 
 
 def _transform(value: Any) -> Any:

@@ -220,6 +220,14 @@ class Copies(unittest.TestCase):
         self.assertEqual(other.geometry_names, [*names, "more", "c"])
         self.assertEqual(pickle.loads(pickle.dumps(other)).geometry_names, [*names, "more", "c"])
 
+    def test_pickles_hold_the_meshes_of_point_keys(self):
+        vertices, faces = cube()
+        with tempfile.TemporaryDirectory() as folder:
+            alhazen.Scene(vertices + (0, 0, 1), faces).save(os.path.join(folder, "higher.ply"))
+            data = pickle.dumps(alhazen.Scene(folder=folder).add(
+                alhazen.mesh("a", points=vertices, faces=faces, point_keys=[(0, vertices), (1, "higher.ply")])))
+        self.assertEqual(pickle.loads(data).geometry_names, ["a"])
+
     def test_files_that_a_copy_names_lie_where_they_lay(self):
         with tempfile.TemporaryDirectory() as folder:
             self.both_kinds(folder)

@@ -30,11 +30,13 @@ void run_build_phase(LoadedScene& loaded, const LoadOptions& options, Work&& wor
 }
 
 void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
-    loaded.quality = options.compile.build.quality;
+    CompileOptions compile = options.compile;
+    if (options.choose_quality) compile.build.quality = options.choose_quality(loaded);
+    loaded.quality = compile.build.quality;
     if (options.keep_meshes) {
-        build_aggregate(loaded.description, options.compile, loaded.scene);
+        build_aggregate(loaded.description, compile, loaded.scene);
     } else {
-        build_aggregate_taking_meshes(loaded.description, options.compile, loaded.scene);
+        build_aggregate_taking_meshes(loaded.description, compile, loaded.scene);
     }
 }
 

@@ -2,6 +2,7 @@
 /// Loads a scene: reads, validates and compiles it, and measures the time of each phase.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,8 @@
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
+
+struct LoadedScene;
 
 struct LoadOptions {
     ImportOptions import;
@@ -23,6 +26,8 @@ struct LoadOptions {
     bool keep_meshes = true;
     /// False: the scene has no aggregate until `build_aggregate`.
     bool with_aggregate = true;
+    /// Unless empty, chooses the quality of the build of a scene that has no aggregate yet.
+    std::function<BuildQuality(const LoadedScene&)> choose_quality;
     ProgressSink* progress = nullptr;
 };
 

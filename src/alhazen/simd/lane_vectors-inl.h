@@ -21,7 +21,6 @@ template <std::size_t N = kLaneCount>
 struct VectorLanes {
     Lanes<double, N> x, y, z;
 };
-using LaneVectors = VectorLanes<>;
 
 /// Calls f(N), an integral constant, for the smallest number of lanes, 8 or 16, that holds all bits
 /// of `lanes`.

@@ -40,7 +40,7 @@ inline constexpr std::uint32_t kAllLanes = (1u << kLaneCount) - 1;
 
 /// The registers of a block. Those of double have at most four lanes in blocks of eight: occasional
 /// 512-bit instructions lower the clock of many processors by a sixth. Blocks of 16 are for code
-/// that uses such registers for floats.
+/// that uses such registers all the time.
 template <class T, std::size_t N = kLaneCount>
 using LaneTag = hn::CappedTag<T, (sizeof(T) == 8 && N > 4) ? (N > 8 ? 8 : 4) : N>;
 

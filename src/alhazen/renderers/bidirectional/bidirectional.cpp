@@ -1,5 +1,7 @@
 #include "alhazen/renderers/bidirectional/bidirectional.h"
 
+#include <chrono>
+
 #include "alhazen/renderers/bidirectional/bidirectional_tracer.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
@@ -30,11 +32,12 @@ class BidirectionalTiles final : public TiledRenderer {
 }  // namespace
 
 RenderReport Bidirectional::render(const RenderJob& job, Film& film) const {
+    const auto begin = std::chrono::steady_clock::now();
     const RenderJob planned = with_plan(job);
     const Illumination lights(job.scene);
     LensLight lens_light{SplatFilm(film, *planned.sampling), {}};
     const BidirectionalTiles tiles(lights, settings_, lens_light);
-    const RenderReport report = render_in_rounds(tiles, planned, film);
+    const RenderReport report = render_in_rounds(tiles, planned, film, begin);
     if (lens_light.paths > 0) {
         lens_light.splats.add_to(film, static_cast<double>(lens_light.paths.load()));
     }

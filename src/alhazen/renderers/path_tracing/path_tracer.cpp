@@ -49,6 +49,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     next_kinds_[static_cast<std::size_t>(RayKind::Eye)] = rays.size();
     draws_.clear();
     lanes_.triangles.clear();
+    rough_.clear();
     random_.begin(ids);
     paths_.resize(rays.size());
     alive_.clear();

@@ -1,5 +1,6 @@
 #include "alhazen/renderers/path_tracing/path_tracing.h"
 
+#include <chrono>
 #include <optional>
 
 #include "alhazen/illumination/illumination.h"
@@ -50,11 +51,13 @@ void add_notes(const ManifoldScene& manifold, std::vector<std::string>& notes) {
 }  // namespace
 
 RenderReport PathTracing::render(const RenderJob& job, Film& film) const {
-    return trace_paths(job, Illumination(job.scene), settings_, film);
+    const auto begin = std::chrono::steady_clock::now();
+    return trace_paths(job, Illumination(job.scene), settings_, film, begin);
 }
 
 RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
-                         const PathSettings& settings, Film& film) {
+                         const PathSettings& settings, Film& film,
+                         std::chrono::steady_clock::time_point begin) {
     const RenderJob planned = with_plan(job);
     std::optional<LightLayers> layers;
     if (job.aovs != nullptr && LightLayers::has_any(job.aovs->wanted())) {
@@ -70,7 +73,7 @@ RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
     }
     const PathTiles tiles(lights, settings, layers ? &*layers : nullptr,
                           manifold ? &*manifold : nullptr);
-    RenderReport report = render_in_rounds(tiles, planned, film);
+    RenderReport report = render_in_rounds(tiles, planned, film, begin);
     if (manifold) add_notes(*manifold, report.notes);
     if (layers) layers->write(*job.aovs);
     return report;

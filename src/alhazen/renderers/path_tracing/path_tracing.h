@@ -11,6 +11,8 @@
 /// Conventions: pairs of dimensions as in light_transport/path_randomness.h. Pixels depend neither
 /// on the threads nor on tiles.
 
+#include <chrono>
+
 #include "alhazen/renderers/light_transport/light_transport_renderer.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 
@@ -34,7 +36,8 @@ class PathTracing final : public LightTransportRenderer {
 };
 
 /// Renders by path tracing with given `lights`.
-[[nodiscard]] RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
-                                       const PathSettings& settings, Film& film);
+[[nodiscard]] RenderReport trace_paths(
+    const RenderJob& job, const Illumination& lights, const PathSettings& settings, Film& film,
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now());
 
 }  // namespace alhazen

@@ -228,7 +228,7 @@ void RoughLanes::scatter(VertexLanes& v) {
     ALHAZEN_KERNEL(sample_rough_of_target)(n, v);
     find_albedos(n.lanes & v.sampled, v.next[2], n.of_next);
     ALHAZEN_KERNEL(weigh_rough_of_target)(n, v);
-    n.lanes = 0;
+    clear();
 }
 
 }  // namespace alhazen

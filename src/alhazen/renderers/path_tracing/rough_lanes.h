@@ -37,6 +37,8 @@ class RoughLanes {
     /// Adds a lane for `scatter`. `choice`: that of `Bsdf::sample`. The lobe must outlive the
     /// object, unchanged.
     void set(std::size_t lane, const RoughLobe& lobe, double choice);
+    /// Removes all lanes.
+    void clear() { numbers_.lanes = 0; }
     /// After VertexLanes::scatter: replaces its results in the lanes added.
     void scatter(VertexLanes& vertices);
 

@@ -102,12 +102,12 @@ PolygonCells::Place place_in_cells(const Polygon& polygon, const Ray& ray, doubl
         at[k] = o + t * d;
         const double room =
             cells.margin()[k] - PolygonCells::kAcross * (slack + gamma_bound(16) * std::abs(o));
+        const double across = room * std::abs(cosine);
         // Written so that NaN is near an edge.
-        if (!(along_ray * std::abs(d) <= room * std::abs(cosine))) {
+        if (!(along_ray * std::abs(d) <= across && across > PolygonCells::kLeastRoom)) {
             return PolygonCells::Place::NearEdge;
         }
     }
-    // Else products above may have underflowed.
     if (!(std::abs(cosine) > PolygonCells::kLeastCosine)) return PolygonCells::Place::NearEdge;
     return cells.place_of(at[0], at[1]);
 }

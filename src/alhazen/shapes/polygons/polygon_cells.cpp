@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kLeastSide = 16, kMostSide = 256;
 /// The margin in cells. Edges mark the cells within twice of it, for rounding errors here.
 constexpr double kMargin = 1.0 / 64;
-constexpr double kLeastExtent = 1e-300;
+constexpr double kLeastExtent = 1e-300, kMostExtent = 1e300;
 
 std::array<int, 2> axes_across(const Vec3& normal) {
     const int longest = dominant_axis(normal);
@@ -52,8 +52,9 @@ std::shared_ptr<const PolygonCells> PolygonCells::make(std::span<const Vec3> ver
     if (vertices.size() < kFewestCorners) return nullptr;
     const Vec3 size = bounds.size();
     for (const int axis : axes_across(normal)) {
-        if (!(size[axis] >= kLeastExtent)) return nullptr;
+        if (!(size[axis] >= kLeastExtent && size[axis] <= kMostExtent)) return nullptr;
     }
+    if (!std::ranges::all_of(vertices, [](const Vec3& v) { return is_finite(v); })) return nullptr;
     return std::make_shared<const PolygonCells>(vertices, loop_ends, normal, bounds);
 }
 
@@ -88,30 +89,30 @@ PolygonCells::PolygonCells(std::span<const Vec3> vertices, std::span<const std::
     }
 
     std::vector<Place> places(side_ * side_, Place::Outside);
-    std::vector<std::vector<double>> crossings(side_);  // [row] of the line through its middle
+    // [cell] whether an odd number of edges crosses the line through the middles of the row between
+    // the middle of the cell before and its own.
+    std::vector<std::uint8_t> flips(side_ * side_, 0);
     for (const CellEdge& edge : edges) {
         cells_near(edge, side_, [&](std::size_t row, std::size_t from, std::size_t to) {
             std::fill_n(places.begin() + static_cast<std::ptrdiff_t>(row * side_ + from),
                         to - from + 1, Place::NearEdge);
             const double middle = static_cast<double>(row) + 0.5;
             if (edge.y0 <= middle && middle < edge.y1) {
-                crossings[row].push_back(edge.x_at(middle));
+                const double cell = std::floor(edge.x_at(middle) + 0.5);
+                if (cell < static_cast<double>(side_)) {
+                    flips[row * side_ + static_cast<std::size_t>(std::max(cell, 0.0))] ^= 1;
+                }
             }
         });
     }
     places_.assign((side_ * side_ + 31) / 32, 0);
-    for (std::size_t row = 0; row < side_; ++row) {
-        std::vector<double>& here = crossings[row];
-        std::sort(here.begin(), here.end());
-        std::size_t passed = 0;
-        for (std::size_t i = 0; i < side_; ++i) {
-            const std::size_t cell = row * side_ + i;
-            const double middle = static_cast<double>(i) + 0.5;
-            while (passed < here.size() && here[passed] < middle) ++passed;
-            Place place = places[cell];
-            if (place == Place::Outside && passed % 2 == 1) place = Place::Inside;
-            places_[cell / 32] |= static_cast<std::uint64_t>(place) << (2 * (cell % 32));
-        }
+    bool inside = false;
+    for (std::size_t cell = 0; cell < places.size(); ++cell) {
+        if (cell % side_ == 0) inside = false;
+        inside ^= flips[cell] != 0;
+        Place place = places[cell];
+        if (place == Place::Outside && inside) place = Place::Inside;
+        places_[cell / 32] |= static_cast<std::uint64_t>(place) << (2 * (cell % 32));
     }
 }
 

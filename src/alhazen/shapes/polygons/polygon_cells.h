@@ -6,8 +6,9 @@
 /// Differs: a cell keeps no edges. It is inside or outside if no edge comes near it, by more than
 /// the errors of the caller's test; the other cells are left to that test.
 /// Conventions: the plane's coordinates are the two axes along which the normal is not longest.
-/// Complexity: a point takes O(1). A quarter of a byte for each of 16 x 16 cells, or as many cells
-/// along each axis as half of the corners, at most 256: 16 KB.
+/// Complexity: a point takes O(1). A quarter of a byte for each of 16 x 16 cells, or along each
+/// axis half of the largest power of two that is not above the number of corners, at most 256: 16
+/// KB. Five times as much while they are made.
 
 #include <array>
 #include <cstdint>
@@ -27,8 +28,10 @@ class PolygonCells {
     static constexpr std::size_t kFewestCorners = 16;
 
     /// Factors of the error bound of `place_in_cells` (polygon.cpp), and the least cosine between
-    /// ray and normal for which it holds.
-    static constexpr double kAlongRay = 5.0, kAcross = 4.0, kLeastCosine = 1e-200;
+    /// ray and normal, and the least value of its right side, for which it holds: below, products
+    /// may have underflowed.
+    static constexpr double kAlongRay = 5.0, kAcross = 4.0, kLeastCosine = 1e-200,
+                            kLeastRoom = 1e-280;
 
     /// `vertices` and `loop_ends` as in Polygon; `bounds` contains all vertices. Null if they are
     /// few, or if the bounds have no extent in the plane.

@@ -152,7 +152,8 @@ std::uint32_t decide_by_cells(const Polygon& polygon, const RayRows& rays,
         const int axis = cells.axes().data()[k];
         const Doubles o = rays.o.data()[axis], d = rays.d.data()[axis];
         const Doubles room = Doubles(cells.margin().data()[k]) - across * (slack + gamma * abs(o));
-        sure &= bits_of(along_ray * abs(d) <= room * cosine);
+        const Doubles most = room * cosine;
+        sure &= bits_of((along_ray * abs(d) <= most) & (most > Doubles(PolygonCells::kLeastRoom)));
         store_lanes(o + met.t * d, at[k]);
     }
     std::uint32_t inside = 0;

@@ -39,8 +39,14 @@ TEST(Obj, TrianglesOfPositionsAloneAreReadAsAnyOther) {
     for (const char* face : {"f 1 2 3", "f +1 2\t3 ", "f -4 -3 -2", "f 1 2 3#c", "f 1 2 3 # c",
                              "f 1 \\\n 2 \\\n3", "f 1/ 2 3"}) {
         Diagnostics found;
-        const TriangleMesh mesh =
-            mesh_of(kCorners + face + "\nf 1 3 4\n f 9 1 1\n", "a.obj", found);
+        const TriangleMesh good = mesh_of(kCorners + face + "\nf 1 3 4\n", "a.obj", found);
+        ASSERT_EQ(good.triangles.size(), 2u) << face << text_of(found);
+        const TriangleMesh plain = mesh_of(kCorners + "f 1 2 3\n", "a.obj", found);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(good.positions[good.triangles[0][k]], plain.positions[plain.triangles[0][k]])
+                << face;
+        }
+        (void)mesh_of(kCorners + face + "\nf 1 3 4\n f 9 1 1\n", "a.obj", found);
         // The line of the last face counts continued ones.
         const int line = std::string_view(face).find('\n') == std::string_view::npos ? 7 : 9;
         EXPECT_TRUE(mentions(found, "a.obj:" + std::to_string(line) + ": ")) << text_of(found);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
+#include <limits>
 
 #include "alhazen/shapes/core/first_hit.h"
 #include "alhazen/shapes/polygons/polygon_lanes.h"
@@ -158,6 +160,23 @@ TEST(PolygonCells, HitsInLanesAreThoseWithoutCells) {
             }
         }
         EXPECT_GT(hit_count, 3000);
+    }
+}
+
+TEST(PolygonCells, PolygonsThatAreNotFiniteHaveNone) {
+    const auto with_vertex = [](const Vec3& vertex) {
+        Polygon p;
+        for (int k = 0; k < 20; ++k)
+            p.vertices.push_back({std::cos(0.3 * k), std::sin(0.3 * k), 0});
+        p.vertices[3] = vertex;
+        p.prepare();
+        return p;
+    };
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    EXPECT_NE(with_vertex({1, 1, 0}).cells, nullptr);
+    for (const double bad : {kInf, -kInf, std::nan("")}) {
+        EXPECT_EQ(with_vertex({bad, 0, 0}).cells, nullptr) << bad;
+        EXPECT_EQ(with_vertex({0, 0, bad}).cells, nullptr) << bad;
     }
 }
 

@@ -13,6 +13,8 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_
 #endif
 
+#include <limits>
+
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/simd/lanes-inl.h"
 
@@ -49,17 +51,20 @@ class BlockBoxes {
             return abs(direction[i][0] * direction[j][0] + direction[i][1] * direction[j][1] +
                        direction[i][2] * direction[j][2]);
         };
+        const Floats radius = load_lanes(block.radius), most(std::numeric_limits<float>::max());
+        // Shapes without end have the box of their ball, too.
         const LaneMask<float> across =
-            max_lanes(max_lanes(leaning(0, 1), leaning(1, 2)), leaning(2, 0)) < Floats(kAcross);
-        const Floats room =
-            Floats(4.0f * kAcross) *
-            (load_lanes(block.half[0]) + load_lanes(block.half[1]) + load_lanes(block.half[2]));
-        const Floats radius = load_lanes(block.radius);
-        Floats half[3];
+            (max_lanes(max_lanes(leaning(0, 1), leaning(1, 2)), leaning(2, 0)) < Floats(kAcross)) &
+            (radius <= most);
+        Floats reach[3], half[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            reach[k] = max_lanes(min_lanes(load_lanes(block.half[k]), most), Floats(0.0f));
+        }
+        const Floats room = Floats(4.0f * kAcross) * (reach[0] + reach[1] + reach[2]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             half[axis] = room;
             for (std::size_t k = 0; k < 3; ++k) {
-                half[axis] = half[axis] + load_lanes(block.half[k]) * abs(direction[k][axis]);
+                half[axis] = half[axis] + reach[k] * abs(direction[k][axis]);
             }
             half[axis] = select_lanes(across, min_lanes(half[axis], radius), radius);
         }
