@@ -74,6 +74,11 @@ HWY_INLINE LaneMask<double> far_outside(const Frustum& f, const Vec3Lanes& point
     return (x * x + y * y > reach * reach) | (abs(z) > Doubles(f.half_height) + margin);
 }
 
+/// Zero in lanes below zero, of which the root is not used.
+HWY_INLINE Doubles or_zero_below(const Doubles& square) {
+    return select_lanes(square < Doubles(0.0), Doubles(0.0), square);
+}
+
 /// Bound of all crossings and of the numbers they are computed from; its square does not overflow.
 constexpr double kFarNumber = 0x1p500;
 
@@ -100,9 +105,10 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint
     const Vec3Lanes d = load_ray_vectors(rays.direction);
     const Vec3Lanes f = load_ray_vectors(rays.origin) - sphere.center;
     const Doubles a = dot(d, d), radius(sphere.radius), zero(0.0);
-    const auto line = span_lanes::sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
+    auto line = span_lanes::sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
     const std::uint32_t met = wanted & bits_of(line.discriminant >= zero);
     if (met == 0) return;
+    line.discriminant = or_zero_below(line.discriminant);
     spans.entry_part = spans.exit_part = zero;
     const Doubles distance = sqrt(dot(f, f));
     const Doubles c = (distance - radius) * (distance + radius);
@@ -194,7 +200,7 @@ struct FrustumLines {
         b = ox * dx + oy * dy - radius * growth;
         const Doubles across = sqrt(ox * ox + oy * oy);
         const Doubles c = (across - radius) * (across + radius);
-        const Doubles s = sqrt(discriminant);
+        const Doubles s = sqrt(or_zero_below(discriminant));
         const LaneMask<double> safe = (Doubles(4.0) * abs(b) < s) | !((s < zero) | (s > zero));
         const Doubles q = -(b + copysign(s, b));
         const Doubles t0 = select_lanes(safe, -b - s, q) / a;
