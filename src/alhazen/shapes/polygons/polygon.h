@@ -12,7 +12,8 @@
 /// from the first vertex along the first edge. Vertices need not be coplanar; a hit lies in the
 /// mean plane.
 /// Complexity: O(vertices) for a ray that crosses the plane within the polygon's box, else O(1).
-/// Polygons of many corners have cells (polygon_cells.h): O(1) except near an edge, the same hits.
+/// Polygons of many corners have cells (polygon_cells.h): O(1), with the same hits, except near an
+/// edge, for grazing rays, and for polygons that are not flat.
 
 #include <memory>
 
