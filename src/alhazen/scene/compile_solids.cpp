@@ -49,7 +49,7 @@ void GeometryCompiler::add_operands(std::size_t object, const Operands& all, Sol
     };
     const bool of_minuend =
         combine == Combine::Difference && d_.objects[object].cut_material == CutMaterial::Minuend;
-    std::uint32_t number = first_part_[object];
+    std::uint32_t number = numbers_.first_of(object);
     for (const Part& part : d_.objects[object].parts) {
         interruption_point();
         const PlacedPart placed = place(part, all.outer_from_object, number++, all.visible_to);
@@ -62,7 +62,7 @@ void GeometryCompiler::add_operands(std::size_t object, const Operands& all, Sol
             add_leaf(kInstanceKind, draft.table.instances.size());
         } else {
             const auto child = static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
-            if (object_uses_[child] == 1) {
+            if (numbers_.uses_of(child) == 1) {
                 draft.expression.nodes[node].operands.push_back(
                     CsgOperand::node(static_cast<std::uint32_t>(draft.expression.nodes.size())));
                 add_operands(child, {placed.outer_from_part, placed.visible_to, cuts}, draft);

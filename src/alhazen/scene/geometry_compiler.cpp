@@ -61,7 +61,7 @@ GeometryCompiler::GeometryCompiler(const SceneDescription& description,
       spare_meshes_(spare_meshes),
       built_objects_(description.objects.size()),
       built_solids_(description.objects.size()),
-      object_uses_(description.objects.size(), 0),
+      numbers_(description),
       mesh_uses_(description.meshes.size(), 0),
       moves_(description.objects.size(), Moves::Unknown) {}
 
@@ -69,8 +69,7 @@ void GeometryCompiler::build(Scene& scene) {
     (void)find_csg_evaluator(options_.csg);  // throws for an unknown one in any scene
     for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
     census_ = scene.census;
-    count_uses();
-    number_parts();
+    count_mesh_uses();
     const Built root = build_object(static_cast<std::size_t>(d_.root));
     census_.effective_primitives = root.effective_primitives;
     census_.instance_depth = root.instance_depth;
@@ -82,23 +81,13 @@ void GeometryCompiler::build(Scene& scene) {
     scene.accelerator = options_.accelerator;
 }
 
-void GeometryCompiler::count_uses() {
+void GeometryCompiler::count_mesh_uses() {
     for (const ObjectDescription& object : d_.objects) {
         for (const Part& part : object.parts) {
-            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                ++object_uses_[static_cast<std::size_t>(*child)];
-            } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+            if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
                 ++mesh_uses_[static_cast<std::size_t>(*mesh)];
             }
         }
-    }
-}
-
-void GeometryCompiler::number_parts() {
-    std::uint32_t next = 0;
-    for (const ObjectDescription& object : d_.objects) {
-        first_part_.push_back(next);
-        next += static_cast<std::uint32_t>(object.parts.size());
     }
 }
 
@@ -152,7 +141,7 @@ GeometryCompiler::PlacedPart GeometryCompiler::place(const Part& part,
 
 void GeometryCompiler::add_parts(std::size_t object, const Affine& outer_from_object,
                                  RayMask visible_to, Draft& draft) {
-    std::uint32_t number = first_part_[object];
+    std::uint32_t number = numbers_.first_of(object);
     for (const Part& part : d_.objects[object].parts) {
         interruption_point();
         const PlacedPart placed = place(part, outer_from_object, number++, visible_to);
@@ -164,7 +153,7 @@ void GeometryCompiler::add_parts(std::size_t object, const Affine& outer_from_ob
             add_mesh(*mesh, placed, draft);
         } else {
             const std::size_t child = static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
-            if (is_dissolved(child)) {
+            if (numbers_.is_dissolved(child)) {
                 add_parts(child, placed.outer_from_part, placed.visible_to, draft);
             } else if (moves_inside(child)) {
                 add_moving(build_object(child), placed, nullptr, draft);
@@ -173,12 +162,6 @@ void GeometryCompiler::add_parts(std::size_t object, const Affine& outer_from_ob
             }
         }
     }
-}
-
-bool GeometryCompiler::is_dissolved(std::size_t child) const {
-    const ObjectDescription& object = d_.objects[child];
-    return object_uses_[child] == 1 && object.combine == Combine::Group &&
-           object.accelerator.empty();
 }
 
 void GeometryCompiler::add_shape(const AnyShape& shape, const PlacedPart& placed,

@@ -14,6 +14,7 @@
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/scene_model/part_traversal.h"
 
 namespace alhazen {
 
@@ -64,10 +65,7 @@ class GeometryCompiler {
     };
     enum class Moves : std::uint8_t { Unknown, No, Yes };
 
-    /// Counts the users of each object and mesh.
-    void count_uses();
-    /// Numbers the parts through all objects: a number identifies one part of the description.
-    void number_parts();
+    void count_mesh_uses();
 
     const Built& build_object(std::size_t index);
     /// Builds the aggregate of a draft. `accelerator`: the object's own, or empty.
@@ -80,8 +78,6 @@ class GeometryCompiler {
     /// The part with its place, its number and its mask inside an object of mask `visible_to`.
     PlacedPart place(const Part& part, const Affine& outer_from_object, std::uint32_t number,
                      RayMask visible_to);
-    /// True if the parts of a child become parts of the enclosing object.
-    [[nodiscard]] bool is_dissolved(std::size_t child) const;
     static void add_shape(const AnyShape& shape, const PlacedPart& placed, PrimitiveTable& table);
     void add_mesh(MeshIndex index, const PlacedPart& placed, Draft& draft);
     void add_shared_mesh(MeshIndex index, const PlacedPart& placed, Draft& draft);
@@ -113,14 +109,13 @@ class GeometryCompiler {
     const SceneDescription& d_;
     const CompileOptions& options_;
     std::vector<MeshDescription>* spare_meshes_;
-    std::vector<Opacity> opacity_;           ///< [material]
-    std::vector<std::uint32_t> first_part_;  ///< [object]
-    std::vector<Built> built_objects_;       ///< [object] as part of a group; null: not yet built
-    std::vector<Built> built_solids_;        ///< [object] as a solid; null: not yet built
+    std::vector<Opacity> opacity_;      ///< [material]
+    std::vector<Built> built_objects_;  ///< [object] as part of a group; null: not yet built
+    std::vector<Built> built_solids_;   ///< [object] as a solid; null: not yet built
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
-    std::vector<std::uint32_t> object_uses_;  ///< [object]
-    std::vector<std::uint32_t> mesh_uses_;    ///< [mesh]
-    std::vector<Moves> moves_;                ///< [object] moves_inside
+    PartNumbers numbers_;
+    std::vector<std::uint32_t> mesh_uses_;  ///< [mesh]
+    std::vector<Moves> moves_;              ///< [object] moves_inside
     bool has_masks_ = false, has_partial_masks_ = false;
     SceneCensus census_;
 };

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include "alhazen/base/error.h"
-#include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/renderers/beam_tracing/repaired_polygon.h"
+#include "alhazen/renderers/core/unsupported_parts.h"
+#include "alhazen/scene_model/part_traversal.h"
+#include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
 
@@ -29,33 +30,21 @@ Vec3 normal_of_loops(std::span<const Vec3> corners, std::span<const std::uint32_
     return sum;
 }
 
-/// Traverses the objects of a description like the scene compiler.
 class BeamGatherer {
   public:
     BeamGatherer(const SceneDescription& description, const Scene& scene)
-        : d_(description), scene_(scene), uses_(description.objects.size()) {
-        std::uint32_t next = 0;
-        for (const ObjectDescription& object : d_.objects) {
-            first_part_.push_back(next);
-            next += static_cast<std::uint32_t>(object.parts.size());
-            for (const Part& part : object.parts) {
-                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                    ++uses_[static_cast<std::size_t>(*child)];
-                }
-            }
-        }
-    }
+        : d_(description), scene_(scene) {}
 
     BeamScene gather() {
-        add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
-        if (!refused_.empty()) {
-            throw Error(
-                ErrorKind::Usage,
-                "beams support only planar facets: polygons, rectangles, boxes, polyhedra and "
-                "triangle meshes, of materials without alpha (with a "
-                "tolerance other bounded shapes are tessellated); unsupported: " +
-                    refused_);
-        }
+        visit_parts(
+            d_, kAllRays, [&](const WorldPart& placed) { add_part(placed); },
+            [&](const ObjectDescription& solid) {
+                unsupported_.add("solid of constructive geometry", solid.name, solid.location);
+            });
+        unsupported_.throw_if_any(
+            "beams support only planar facets: polygons, rectangles, boxes, polyhedra and "
+            "triangle meshes, of materials without alpha (with a tolerance other bounded shapes "
+            "are tessellated)");
         result_.tree = FacetTree(std::move(pool_), std::move(pieces_));
         return std::move(result_);
     }
@@ -72,52 +61,17 @@ class BeamGatherer {
                                 mended);
     }
 
-    void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
-        if (++refusals_ > kMostNamed) {
-            if (refusals_ == kMostNamed + 1) refused_ += "; and others";
-            return;
-        }
-        if (!refused_.empty()) refused_ += "; ";
-        refused_ += what;
-        if (!name.empty()) refused_ += " '" + name + "'";
-        if (where.line > 0) refused_ += " (line " + std::to_string(where.line) + ")";
-    }
-
-    void add_object(std::size_t index, const Affine& world_from_object, RayMask mask,
-                    const std::uint32_t* instance) {
-        const ObjectDescription& object = d_.objects[index];
-        if (object.combine != Combine::Group) {
-            refuse("solid of constructive geometry", object.name, object.location);
-            return;
-        }
-        std::uint32_t number = first_part_[index];
-        for (const Part& part : object.parts) {
-            add_part(part, number++, world_from_object * part.object_from_part,
-                     mask & part.visible_to, instance);
-        }
-    }
-
-    void add_part(const Part& part, std::uint32_t number, const Affine& world_from_part,
-                  RayMask mask, const std::uint32_t* instance) {
-        if (mask == 0) return;
-        if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-            const auto index = static_cast<std::size_t>(*child);
-            const ObjectDescription& object = d_.objects[index];
-            const bool dissolved =
-                uses_[index] == 1 && object.combine == Combine::Group && object.accelerator.empty();
-            const std::uint32_t* around = instance != nullptr || dissolved ? instance : &number;
-            add_object(index, world_from_part, mask, around);
-            return;
-        }
+    void add_part(const WorldPart& placed) {
+        const Part& part = placed.part;
         part_ = &part;
         BeamSource source;
-        source.placement = {world_from_part, inverse(world_from_part)};
-        source.placed = world_from_part != Affine{};
+        source.placement = {placed.world_from_part, inverse(placed.world_from_part)};
+        source.placed = placed.world_from_part != Affine{};
         source.material = part.material;
-        source.part = number;
-        source.instance = instance != nullptr ? *instance : number;
-        source.visible_to = mask;
-        mirrored_ = determinant(world_from_part.linear) < 0.0;
+        source.part = placed.number;
+        source.instance = placed.instance;
+        source.visible_to = placed.visible_to;
+        mirrored_ = determinant(placed.world_from_part.linear) < 0.0;
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
             add_shape(*shape, part, std::move(source));
         } else {
@@ -155,7 +109,7 @@ class BeamGatherer {
         if (own.empty() ? has_alpha[0] : std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
                 return has_alpha[id];
             })) {
-            refuse("mesh with alpha", part.name, part.location);
+            unsupported_.add("mesh with alpha", part.name, part.location);
             return;
         }
         const Affine world = source.placement.outer_from_inner;
@@ -190,7 +144,7 @@ class BeamGatherer {
                 return S::kName;
             },
             *prepared);
-        if (!name.empty()) refuse(name, part.name, part.location);
+        if (!name.empty()) unsupported_.add(name, part.name, part.location);
         result_.sources.push_back(std::move(source));
     }
 
@@ -204,38 +158,21 @@ class BeamGatherer {
         add_placed(facet, loop, {});
         return true;
     }
-    bool add_kind(const BoxShape& s, BeamFacet facet) {
-        for (int face = 0; face < 6; ++face) {
-            const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-            std::array<Vec3, 4> loop;
-            for (int k = 0; k < 4; ++k) {
-                Vec3& p = loop[static_cast<std::size_t>(face % 2 == 1 ? k : 3 - k)];
-                p[axis] = face % 2 == 1 ? s.hi[axis] : s.lo[axis];
-                p[u] = k == 1 || k == 2 ? s.hi[u] : s.lo[u];
-                p[v] = k >= 2 ? s.hi[v] : s.lo[v];
-            }
-            facet.part = static_cast<std::uint32_t>(face);
-            add_placed(facet, loop, {});
-        }
+    bool add_kind(const BoxShape& s, const BeamFacet& facet) {
+        add_solid(face_loops(s), facet);
         return true;
     }
-    bool add_kind(const Polyhedron& s, BeamFacet facet) {
-        const ConvexCorners corners = convex_corners(s.faces);
-        if (!corners.bounded) return false;
-        std::size_t first = 0;
-        for (std::size_t face = 0; face < corners.face_ends.size(); ++face) {
-            std::vector<Vec3> loop(
-                corners.corners.begin() + static_cast<std::ptrdiff_t>(first),
-                corners.corners.begin() + static_cast<std::ptrdiff_t>(corners.face_ends[face]));
-            first = corners.face_ends[face];
-            if (loop.size() < 3) continue;
-            if (dot(normal_of_loops(loop, {}), s.faces[face].normal) < 0.0) {
-                std::reverse(loop.begin(), loop.end());
-            }
-            facet.part = static_cast<std::uint32_t>(face);
-            add_placed(facet, loop, {});
+    bool add_kind(const Polyhedron& s, const BeamFacet& facet) {
+        const auto loops = face_loops(s);
+        if (loops) add_solid(*loops, facet);
+        return loops.has_value();
+    }
+
+    void add_solid(const std::vector<FaceLoop>& loops, BeamFacet facet) {
+        for (const FaceLoop& loop : loops) {
+            facet.part = loop.face;
+            add_placed(facet, loop.corners, {});
         }
-        return true;
     }
 
     void add_placed(const BeamFacet& facet, std::span<const Vec3> corners,
@@ -263,21 +200,21 @@ class BeamGatherer {
             pieces_.push_back(pool_.add(number, part));
         }
         if (!polygon.mended.empty()) note(polygon.mended);
-        if (!polygon.refused.empty()) refuse(polygon.refused, part_->name, part_->location);
+        if (!polygon.refused.empty())
+            unsupported_.add(polygon.refused, part_->name, part_->location);
     }
 
     static constexpr int kMostNamed = 20;
     const SceneDescription& d_;
     const Scene& scene_;
-    std::vector<std::uint32_t> uses_, first_part_;
     BeamScene result_;
     FacetPool pool_;
     std::vector<FacetPiece> pieces_;
     Affine world_;
     bool mirrored_ = false;       ///< the placement reverses orientation
     const Part* part_ = nullptr;  ///< part of the current facets
-    int refusals_ = 0, mendings_ = 0;
-    std::string refused_;
+    int mendings_ = 0;
+    UnsupportedParts unsupported_;
 };
 
 }  // namespace

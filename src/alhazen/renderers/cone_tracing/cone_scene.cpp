@@ -5,9 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "alhazen/base/error.h"
-#include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/renderers/core/unsupported_parts.h"
+#include "alhazen/scene_model/part_traversal.h"
+#include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
 
@@ -84,32 +85,20 @@ class SharedEdges {
     std::vector<std::uint32_t> parent_;
 };
 
-/// Traverses the objects of a description like the scene compiler.
 class ConeGatherer {
   public:
     ConeGatherer(const SceneDescription& description, const Scene& scene)
-        : d_(description), scene_(scene), uses_(description.objects.size()) {
-        std::uint32_t next = 0;
-        for (const ObjectDescription& object : d_.objects) {
-            first_part_.push_back(next);
-            next += static_cast<std::uint32_t>(object.parts.size());
-            for (const Part& part : object.parts) {
-                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                    ++uses_[static_cast<std::size_t>(*child)];
-                }
-            }
-        }
-    }
+        : d_(description), scene_(scene) {}
 
     ConeScene gather() {
-        add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
-        if (!refused_.empty()) {
-            throw Error(
-                ErrorKind::Usage,
-                "cones support only spheres, planes, polygons, boxes, polyhedra, rectangles and "
-                "triangle meshes; unsupported: " +
-                    refused_);
-        }
+        visit_parts(
+            d_, kAllRays, [&](const WorldPart& placed) { add_part(placed); },
+            [&](const ObjectDescription& solid) {
+                unsupported_.add("solid of constructive geometry", solid.name, solid.location);
+            });
+        unsupported_.throw_if_any(
+            "cones support only spheres, planes, polygons, boxes, polyhedra, rectangles and "
+            "triangle meshes");
         join_surfaces();
         build_tree();
         return std::move(result_);
@@ -120,46 +109,15 @@ class ConeGatherer {
         bool closed = false, inward = false;
     };
 
-    void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
-        if (!refused_.empty()) refused_ += "; ";
-        refused_ += what;
-        if (!name.empty()) refused_ += " '" + name + "'";
-        if (where.line > 0) refused_ += " (line " + std::to_string(where.line) + ")";
-    }
-
-    void add_object(std::size_t index, const Affine& world_from_object, RayMask mask,
-                    const std::uint32_t* instance) {
-        const ObjectDescription& object = d_.objects[index];
-        if (object.combine != Combine::Group) {
-            refuse("solid of constructive geometry", object.name, object.location);
-            return;
-        }
-        std::uint32_t number = first_part_[index];
-        for (const Part& part : object.parts) {
-            add_part(part, number++, world_from_object * part.object_from_part,
-                     mask & part.visible_to, instance);
-        }
-    }
-
-    void add_part(const Part& part, std::uint32_t number, const Affine& world_from_part,
-                  RayMask mask, const std::uint32_t* instance) {
-        if (mask == 0) return;
-        if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-            const auto index = static_cast<std::size_t>(*child);
-            const ObjectDescription& object = d_.objects[index];
-            const bool dissolved =
-                uses_[index] == 1 && object.combine == Combine::Group && object.accelerator.empty();
-            const std::uint32_t* around = instance != nullptr || dissolved ? instance : &number;
-            add_object(index, world_from_part, mask, around);
-            return;
-        }
+    void add_part(const WorldPart& placed) {
+        const Part& part = placed.part;
         ConeSource source;
-        source.placement = {world_from_part, inverse(world_from_part)};
-        source.placed = world_from_part != Affine{};
+        source.placement = {placed.world_from_part, inverse(placed.world_from_part)};
+        source.placed = placed.world_from_part != Affine{};
         source.material = part.material;
-        source.part = number;
-        source.instance = instance != nullptr ? *instance : number;
-        source.visible_to = mask;
+        source.part = placed.number;
+        source.instance = placed.instance;
+        source.visible_to = placed.visible_to;
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
             source.may_pass = passes_cones(material_of(part.material));
             auto prepared = std::make_shared<AnyShape>(*shape);
@@ -218,7 +176,7 @@ class ConeGatherer {
                 return S::kName;
             },
             *shape);
-        if (!name.empty()) refuse(name, part.name, part.location);
+        if (!name.empty()) unsupported_.add(name, part.name, part.location);
     }
 
     bool add_kind(const Sphere& s, ConeSource& source) {
@@ -263,41 +221,20 @@ class ConeGatherer {
         return true;
     }
     bool add_kind(const BoxShape& s, ConeSource& source) {
-        source.closed = true;
-        begin_faces(source);
-        for (int face = 0; face < 6; ++face) {
-            const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-            std::array<Vec3, 4> loop;
-            for (int k = 0; k < 4; ++k) {
-                Vec3& p = loop[static_cast<std::size_t>(face % 2 == 1 ? k : 3 - k)];
-                p[axis] = face % 2 == 1 ? s.hi[axis] : s.lo[axis];
-                p[u] = k == 1 || k == 2 ? s.hi[u] : s.lo[u];
-                p[v] = k >= 2 ? s.hi[v] : s.lo[v];
-            }
-            add_face(static_cast<std::uint32_t>(face), loop, {});
-        }
+        add_solid(face_loops(s), source);
         return true;
     }
     bool add_kind(const Polyhedron& s, ConeSource& source) {
-        const ConvexCorners corners = convex_corners(s.faces);
-        if (!corners.bounded) return false;
-        source.closed = true;
-        begin_faces(source);
-        std::size_t first = 0;
-        for (std::size_t face = 0; face < corners.face_ends.size(); ++face) {
-            std::vector<Vec3> loop(
-                corners.corners.begin() + static_cast<std::ptrdiff_t>(first),
-                corners.corners.begin() + static_cast<std::ptrdiff_t>(corners.face_ends[face]));
-            first = corners.face_ends[face];
-            if (loop.size() < 3) continue;
-            if (dot(loop_normal(loop), s.faces[face].normal) < 0.0) {
-                std::reverse(loop.begin(), loop.end());
-            }
-            add_face(static_cast<std::uint32_t>(face), loop, {});
-        }
-        return true;
+        const auto loops = face_loops(s);
+        if (loops) add_solid(*loops, source);
+        return loops.has_value();
     }
 
+    void add_solid(const std::vector<FaceLoop>& loops, ConeSource& source) {
+        source.closed = true;
+        begin_faces(source);
+        for (const FaceLoop& loop : loops) add_face(loop.face, loop.corners, {});
+    }
     void begin_faces(ConeSource& source) {
         source.kind = ConeSource::Kind::Faces;
         result_.sources.push_back(source);
@@ -405,10 +342,9 @@ class ConeGatherer {
 
     const SceneDescription& d_;
     const Scene& scene_;
-    std::vector<std::uint32_t> uses_, first_part_;
     std::map<const TriangleMesh*, MeshFacts> facts_;
     ConeScene result_;
-    std::string refused_;
+    UnsupportedParts unsupported_;
 };
 
 }  // namespace

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "alhazen/base/error.h"
-#include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/renderers/core/unsupported_parts.h"
+#include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/patches/nurbs/trim_region.h"
+#include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
 
@@ -33,77 +34,33 @@ bool passes(const Material& material) {
     return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
 }
 
-/// Traverses the objects of a description like the scene compiler.
 class ScanGatherer {
   public:
     ScanGatherer(const SceneDescription& description, const Scene& scene, const Vec3& eye)
-        : d_(description), scene_(scene), eye_(eye), uses_(description.objects.size()) {
-        std::uint32_t next = 0;
-        for (const ObjectDescription& object : d_.objects) {
-            first_part_.push_back(next);
-            next += static_cast<std::uint32_t>(object.parts.size());
-            for (const Part& part : object.parts) {
-                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                    ++uses_[static_cast<std::size_t>(*child)];
-                }
-            }
-        }
-    }
+        : d_(description), scene_(scene), eye_(eye) {}
 
     ScanScene gather() {
-        add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
-        if (!refused_.empty()) {
-            throw Error(
-                ErrorKind::Usage,
-                "scan lines support only patches, the shapes that are patches, and polygons; "
-                "unsupported: " +
-                    refused_);
-        }
+        visit_parts(
+            d_, mask_of(RayKind::Eye), [&](const WorldPart& placed) { add_part(placed); },
+            [&](const ObjectDescription& solid) {
+                unsupported_.add("solid of constructive geometry", solid.name, solid.location);
+            });
+        unsupported_.throw_if_any(
+            "scan lines support only patches, the shapes that are patches, and polygons");
         return std::move(result_);
     }
 
   private:
-    void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
-        if (!refused_.empty()) refused_ += "; ";
-        refused_ += what;
-        if (!name.empty()) refused_ += " '" + name + "'";
-        if (where.line > 0) refused_ += " (line " + std::to_string(where.line) + ")";
-    }
-
-    void add_object(std::size_t index, const Affine& world_from_object, RayMask mask,
-                    const std::uint32_t* instance) {
-        const ObjectDescription& object = d_.objects[index];
-        if (object.combine != Combine::Group) {
-            refuse("solid of constructive geometry", object.name, object.location);
-            return;
-        }
-        std::uint32_t number = first_part_[index];
-        for (const Part& part : object.parts) {
-            add_part(part, number++, world_from_object * part.object_from_part,
-                     mask & part.visible_to, instance);
-        }
-    }
-
-    void add_part(const Part& part, std::uint32_t number, const Affine& world_from_part,
-                  RayMask mask, const std::uint32_t* instance) {
-        if ((mask & mask_of(RayKind::Eye)) == 0) return;
-        if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-            const auto index = static_cast<std::size_t>(*child);
-            const ObjectDescription& object = d_.objects[index];
-            const bool dissolved =
-                uses_[index] == 1 && object.combine == Combine::Group && object.accelerator.empty();
-            const std::uint32_t* around = instance != nullptr || dissolved ? instance : &number;
-            add_object(index, world_from_part, mask, around);
-            return;
-        }
+    void add_part(const WorldPart& placed) {
+        const Part& part = placed.part;
         ScanSource source;
-        source.world_from_own = world_from_part;
-        source.placed = world_from_part != Affine{};
-        source.own_from_world = inverse(world_from_part);
-        source.mirrored = determinant(world_from_part.linear) < 0.0;
+        source.world_from_own = placed.world_from_part;
+        source.placed = placed.world_from_part != Affine{};
+        source.own_from_world = inverse(placed.world_from_part);
+        source.mirrored = determinant(placed.world_from_part.linear) < 0.0;
         source.material = part.material;
-        source.part = number;
-        source.instance = instance != nullptr ? *instance : number;
+        source.part = placed.number;
+        source.instance = placed.instance;
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
             source.may_pass = passes(scene_.materials[static_cast<std::size_t>(part.material)]);
             add_shape(*shape, part, std::move(source));
@@ -152,7 +109,7 @@ class ScanGatherer {
                     add_pieces(s);
                 } else if (!add_facets(s)) {
                     result_.sources.pop_back();
-                    refuse(S::kName, part.name, part.location);
+                    unsupported_.add(S::kName, part.name, part.location);
                 }
             },
             *own);
@@ -250,37 +207,19 @@ class ScanGatherer {
         return true;
     }
     bool add_facets(const BoxShape& s) {
-        for (int face = 0; face < 6; ++face) {
-            const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-            Vec3 normal;
-            normal[axis] = face % 2 == 1 ? 1.0 : -1.0;
-            std::vector<HomogeneousPoint> loop;
-            for (int k = 0; k < 4; ++k) {
-                Vec3 p;
-                p[axis] = face % 2 == 1 ? s.hi[axis] : s.lo[axis];
-                p[u] = k == 1 || k == 2 ? s.hi[u] : s.lo[u];
-                p[v] = k >= 2 ? s.hi[v] : s.lo[v];
-                loop.push_back(homogeneous(p));
-            }
-            add_facet(projected(loop[0]), normal, static_cast<std::uint32_t>(face), {loop});
-        }
+        for (const FaceLoop& loop : face_loops(s)) add_face(loop, loop.corners[0]);
         return true;
     }
     bool add_facets(const Polyhedron& s) {
-        const ConvexCorners corners = convex_corners(s.faces);
-        if (!corners.bounded) return false;
-        std::size_t first = 0;
-        for (std::size_t face = 0; face < corners.face_ends.size(); ++face) {
-            std::vector<HomogeneousPoint> loop;
-            for (std::size_t k = first; k < corners.face_ends[face]; ++k) {
-                loop.push_back(homogeneous(corners.corners[k]));
-            }
-            first = corners.face_ends[face];
-            if (loop.size() < 3) continue;
-            add_facet(s.faces[face].point, s.faces[face].normal, static_cast<std::uint32_t>(face),
-                      {loop});
-        }
+        const auto loops = face_loops(s);
+        if (!loops) return false;
+        for (const FaceLoop& loop : *loops) add_face(loop, s.faces[loop.face].point);
         return true;
+    }
+    void add_face(const FaceLoop& loop, const Vec3& point) {
+        std::vector<HomogeneousPoint> corners;
+        for (const Vec3& p : loop.corners) corners.push_back(homogeneous(p));
+        add_facet(point, loop.normal, loop.face, {corners});
     }
 
     /// Four quadrants with corners at infinity.
@@ -325,9 +264,8 @@ class ScanGatherer {
     const SceneDescription& d_;
     const Scene& scene_;
     Vec3 eye_;
-    std::vector<std::uint32_t> uses_, first_part_;
     ScanScene result_;
-    std::string refused_;
+    UnsupportedParts unsupported_;
 };
 
 }  // namespace
