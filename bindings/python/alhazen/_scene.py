@@ -369,7 +369,7 @@ class Scene:
         A scene without a camera or lights gets default ones; ``picture.notes`` lists them.
         """
         if not isinstance(view, str):
-            view = ",".join(repr(float(a)) for a in view)
+            view = ",".join(repr(a) for a in _two_angles(view))
         if not isinstance(layers, str):
             layers = ",".join(layers)
         wishes = {"renderer": renderer, "camera": str(camera), "width": width, "height": height, "depth": depth,
@@ -395,6 +395,14 @@ def _whole(number: Any, name: str, most: int) -> int:
     if not 0 <= whole <= most:
         raise UsageError(f"{name}: expected a whole number from 0 to {most}, found {number!r}")
     return whole
+
+
+def _two_angles(view: Any) -> Tuple[float, float]:
+    try:
+        azimuth, elevation = (float(angle) for angle in view)
+    except (TypeError, ValueError):
+        raise UsageError(f"view: expected (azimuth, elevation) in degrees, found {view!r}") from None
+    return azimuth, elevation
 
 
 def _checked_threads(threads: Any) -> int:

@@ -1,10 +1,33 @@
 #include "errors.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace py = pybind11;
 
 namespace alhazen::python {
 
 namespace {
+
+/// An option of the command line and the argument of Scene.render with its value.
+struct Argument {
+    std::string_view option, name;
+};
+
+constexpr std::array<Argument, 9> kArguments = {{{"--antialias", "antialias"},
+                                                 {"--aov", "layers"},
+                                                 {"--environment", "environment"},
+                                                 {"--filter", "filter"},
+                                                 {"--noise", "noise"},
+                                                 {"--sampler", "sampler"},
+                                                 {"--spp", "spp"},
+                                                 {"--time", "seconds"},
+                                                 {"--view", "view"}}};
+
+bool is_of_word(char c) {
+    return c == '-' || (c >= 'a' && c <= 'z');
+}
 
 /// Classes in the order of ErrorKind.
 constexpr const char* kClasses[] = {"RenderError", "UsageError", "SceneError", "FileError",
@@ -18,13 +41,30 @@ void raise_as_python(const Error& error, const FileLocation& where) {
             PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
     };
     const auto number = [](int n) { return n > 0 ? py::object(py::int_(n)) : py::none(); };
-    const py::object value =
-        type(text(error.what()), where.file.empty() ? py::object(py::none()) : text(where.file),
-             number(where.line), number(where.column));
+    const py::object value = type(text(with_arguments(error.what())),
+                                  where.file.empty() ? py::object(py::none()) : text(where.file),
+                                  number(where.line), number(where.column));
     PyErr_SetObject(type.ptr(), value.ptr());
 }
 
 }  // namespace
+
+std::string with_arguments(std::string_view message) {
+    std::string result;
+    while (!message.empty()) {
+        const std::size_t begin = std::min(message.find("--"), message.size());
+        std::size_t end = begin;
+        while (end < message.size() && is_of_word(message[end])) ++end;
+        const std::string_view option = message.substr(begin, end - begin);
+        const auto* const known =
+            std::find_if(kArguments.begin(), kArguments.end(),
+                         [&](const Argument& argument) { return argument.option == option; });
+        result += message.substr(0, begin);
+        result += known == kArguments.end() ? option : known->name;
+        message.remove_prefix(end);
+    }
+    return result;
+}
 
 void translate_errors() {
     py::register_exception_translator([](std::exception_ptr thrown) {

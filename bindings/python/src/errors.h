@@ -7,12 +7,17 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "alhazen/base/diagnostics.h"
 
 namespace alhazen::python {
+
+/// The message with the arguments of Scene.render in place of the command line's options; options
+/// without such an argument stay.
+[[nodiscard]] std::string with_arguments(std::string_view message);
 
 /// Registers the translation of exceptions of the library to alhazen.Error.
 void translate_errors();

@@ -74,6 +74,7 @@ py::dict render_picture(const BuiltScene& scene, PictureWishes wishes, const py:
         options.progress = &sink;
         LoadedScene view = scene.loaded();  // shares all geometry
         notes = prepare_view(view, options, wishes.view);
+        for (std::string& note : notes) note = with_arguments(note);
         const double within = make_renderer(options.renderer)->takes_triangles_within();
         if (within > 0) (void)tessellate(view.description, within);
         result.emplace(render(view, options));

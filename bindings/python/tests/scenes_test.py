@@ -251,6 +251,18 @@ class Copies(unittest.TestCase):
 
 
 class Pictures(unittest.TestCase):
+    def test_messages_name_arguments_and_not_options_of_the_command_line(self):
+        scene = small_scene()
+        for arguments, words in (({"antialias": "whitted", "spp": 4}, "antialias chooses the samples of each pixel"),
+                                 ({"sampler": "none"}, "sampler"), ({"environment": "sky"}, "environment requires"),
+                                 ({"view": 3}, "view: expected (azimuth, elevation)"),
+                                 ({"view": (1, 2, 3)}, "view: expected (azimuth, elevation)"),
+                                 ({"layers": "none"}, "unknown AOV 'none'")):
+            with self.assertRaises(alhazen.UsageError) as raised:
+                scene.render(**arguments)
+            self.assertIn(words, str(raised.exception))
+            self.assertNotIn("--", str(raised.exception))
+
     def test_a_picture_is_an_array_with_layers(self):
         picture = small_scene().render(layers=("depth", "N"))
         self.assertEqual((picture.shape, picture.dtype), ((48, 64, 3), np.float32))
