@@ -17,16 +17,20 @@
 #include "alhazen/sampling/random.h"
 #include "alhazen/shapes/polygons/box_shape.h"
 #include "support/light_pictures.h"
+#include "support/lit_rooms.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::add_lamp;
 using testing::ball;
 using testing::Blocks;
 using testing::matt;
 using testing::mean_of;
+using testing::NamedRoom;
 using testing::picture_of;
 using testing::rectangle;
+using testing::room;
 using testing::SceneMaker;
 using testing::shining;
 using testing::smooth_glass;
@@ -180,55 +184,8 @@ TEST(PhotonRenderers, BothWaysHaveTheirOwnWavelengths) {
                                32, 5.4);
 }
 
-Scene room(const std::function<void(SceneMaker&)>& fill) {
-    SceneMaker maker;
-    const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
-    maker.description().cameras[0].camera =
-        look_along({0, -3.8, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
-    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
-    maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), white);
-    maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
-    maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
-    maker.add(rectangle({1, -1, 0}, {0, 0, 2}, {0, 2, 0}), maker.material(matt({0.1, 0.5, 0.1})));
-    fill(maker);
-    return maker.compile("wide_bvh");
-}
-void add_lamp(SceneMaker& maker, double half, const Rgb& radiance) {
-    Material lamp = shining(radiance);
-    lamp.double_sided = false;
-    maker.add(rectangle({-half, -half, 1.98}, {0, 2 * half, 0}, {2 * half, 0, 0}),
-              maker.material(lamp));
-}
-
-struct NamedRoom {
-    const char* name;
-    Scene scene;
-};
 std::vector<NamedRoom> rooms() {
-    std::vector<NamedRoom> all;
-    all.push_back({"lamp and ball", room([](SceneMaker& m) {
-                       add_lamp(m, 0.3, {9, 8, 6});
-                       m.add(ball({0.3, 0, 0.4}, 0.4), m.material(matt({0.8, 0.8, 0.2})));
-                   })});
-    all.push_back({"point light", room([](SceneMaker& m) {
-                       m.light(PointLight{.position = {0.3, -0.2, 1.5},
-                                          .color = {1, 1, 2},
-                                          .attenuation = {0, 0, 1}});
-                   })});
-    all.push_back(
-        {"glossy floor", room([](SceneMaker& m) {
-             add_lamp(m, 0.4, {6, 6, 6});
-             Material glossy;
-             glossy.metallic_roughness.emplace();
-             glossy.metallic_roughness->base_color.color = {0.8, 0.7, 0.6};
-             glossy.metallic_roughness->metallic.value = 0.5;
-             glossy.metallic_roughness->roughness.value = 0.35;
-             m.add(rectangle({-0.9, -0.9, 0.1}, {1.8, 0, 0}, {0, 1.8, 0}), m.material(glossy));
-         })});
-    all.push_back({"glass ball", room([](SceneMaker& m) {
-                       add_lamp(m, 0.5, {4, 4, 4});
-                       m.add(ball({0.2, 0, 0.5}, 0.4), m.material(smooth_glass()));
-                   })});
+    std::vector<NamedRoom> all = testing::plain_rooms();
     all.push_back(
         {"tinted glass behind panes", room([](SceneMaker& m) {
              add_lamp(m, 0.5, {4, 4, 4});
@@ -244,11 +201,6 @@ std::vector<NamedRoom> rooms() {
              half.alpha.value = 0.4;
              m.add(rectangle({0, -0.6, 1.1}, {0.9, 0, 0}, {0, 1.2, 0.2}), m.material(half));
          })});
-    all.push_back({"sun and sky", room([](SceneMaker& m) {
-                       m.description().picture.background = Rgb{0.5, 0.6, 0.9};
-                       m.light(DirectionalLight{.to_light = normalize(Vec3{0.2, -1, 0.8}),
-                                                .color = {1, 1, 0.5}});
-                   })});
     return all;
 }
 
