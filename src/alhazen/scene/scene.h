@@ -55,11 +55,19 @@ struct Scene {
     bool has_solid_textures = false;
     /// [material] 1: its appearance depends on texture coordinates; empty: none does.
     std::vector<std::uint8_t> reads_coordinates;
+    /// [part] 1: a surface that lets light through encloses a volume; empty unless kt acts by
+    /// distance (ShadingConventions).
+    std::vector<std::uint8_t> closed_parts;
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
     std::string accelerator;  ///< name of the accelerator; empty without an aggregate
     SceneCensus census;
     /// Null: `background` lights the scene for physically based renderers.
     std::shared_ptr<const Environment> environment;
+
+    /// See `closed_parts`.
+    [[nodiscard]] bool is_closed(std::uint32_t part) const {
+        return part < closed_parts.size() && closed_parts[part] != 0;
+    }
 };
 
 struct CompileOptions {

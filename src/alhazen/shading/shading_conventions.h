@@ -28,7 +28,7 @@ struct ShadingConventions {
     /// Effect of a transparent surface between a point and the light.
     enum class ShadowTint {
         PerCrossing,  ///< times kt at every crossing, entering and leaving both
-        PerDistance,  ///< times kt^(distance travelled inside) (Beer)
+        PerDistance,  ///< times kt^(distance travelled inside the innermost closed body) (Beer)
         Opaque,       ///< any surface blocks all light
         None,         ///< no shadows
     };
@@ -37,8 +37,8 @@ struct ShadingConventions {
     /// Effect of kt on a ray that travels inside.
     enum class RefractionTint {
         PerEvent,     ///< times kt at each refraction
-        PerDistance,  ///< times kt^(distance travelled inside); the refraction itself is not
-                      ///< attenuated
+        PerDistance,  ///< times kt^(distance travelled inside the innermost closed body); the
+                      ///< refraction itself is not attenuated
     };
     RefractionTint refraction_tint = RefractionTint::PerEvent;
 

@@ -80,6 +80,25 @@ TEST(RayTree, TermsSumToThePixelInTheScenesOfTheRepository) {
         expect_pixels_of_whitted(loaded_file(name));
     }
 }
+/// The recorder's shadow rays start in the media of the estimator's rays.
+TEST(RayTree, TermsSumToThePixelInNestedBodiesWhereKtActsByDistance) {
+    SceneMaker maker;
+    ShadingConventions& c = maker.description().conventions.shading;
+    c.refraction_tint = ShadingConventions::RefractionTint::PerDistance;
+    c.shadow_tint = ShadingConventions::ShadowTint::PerDistance;
+    Material outer, inner, matt;
+    outer.transmissive.color = {0.5, 0.8, 0.9};
+    outer.diffuse.color = {0.1, 0.1, 0.1};
+    inner.transmissive.color = {0.9, 0.6, 0.7};
+    matt.diffuse.color = {0.7, 0.6, 0.5};
+    maker.add(Sphere{.center = {0, 0, 0}, .radius = 1.2}, maker.material(outer));
+    maker.add(Sphere{.center = {0.2, 0, 0.3}, .radius = 0.6}, maker.material(inner));
+    maker.add(Sphere{.center = {0.2, 0.1, 0.2}, .radius = 0.3}, maker.material(matt));
+    maker.light(PointLight{.position = {3, 2, 4}, .color = {1, 1, 1}, .attenuation = {1, 0, 0}});
+    maker.light(
+        PointLight{.position = {-0.5, 0, 0.6}, .color = {1, 1, 1}, .attenuation = {1, 0, 0}});
+    expect_pixels_of_whitted(loaded_of(std::move(maker.description())));
+}
 TEST(RayTree, SeveralSamplesHaveTheMeanOfThePixel) {
     expect_pixels_of_whitted(loaded_of(small_scene()), 5);
 }

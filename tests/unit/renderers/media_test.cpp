@@ -36,10 +36,6 @@ void add_tank(SceneMaker& maker, bool wine_first, const Affine& placement = {}) 
     maker.add(tank, MaterialId{0}, placement);
 }
 
-Rgb power(const Rgb& base, double exponent) {
-    return {std::pow(base.r, exponent), std::pow(base.g, exponent), std::pow(base.b, exponent)};
-}
-
 /// Transmittance of the whole tank: by distances, or by its six surfaces, of which each wall counts
 /// as one of either medium.
 Rgb by_distance() {

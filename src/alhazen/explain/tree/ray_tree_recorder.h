@@ -23,6 +23,7 @@ class RayTreeRecorder : public NoRandomness {
 
     // ---- Called by the estimator (TreeWatcher).
     void use(ExactOptics& optics) { shadows_.use(optics); }
+    void use(const TintedMedia& media) { shadows_.use(media); }
     void begin_rays(const GenerationPart& part, int depth);
     void see_light(std::size_t number, const LightSample& light, double cosine);
     void meet(const ShadingPoint& point, double t, const Path& path, int depth,

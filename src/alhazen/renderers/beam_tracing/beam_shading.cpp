@@ -76,12 +76,9 @@ void BeamShading::attenuate(double distance, Way& way) const {
     }
 }
 
-void BeamShading::pass(RayKind kind, double distance, Way& way) const {
+void BeamShading::pass(RayKind kind, double distance, Way& way) {
     const MaterialSample& material = *point_.material;
-    if (conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-        way.inside && !point_.medium_is_physical) {
-        way.share = way.share * power(point_.medium, distance);
-    }
+    way.share = way.share * tint_along(conventions_, point_, tinted_, way.medium, distance);
     if (kind == RayKind::Reflection) {
         way.share = way.share * material.reflective;
         return;
@@ -92,6 +89,7 @@ void BeamShading::pass(RayKind kind, double distance, Way& way) const {
     if (material.thin) return;
     way.inside = point_.entering;
     way.absorption = point_.entering ? material.absorption : Rgb{};
+    way.medium = tinted_medium_behind(scene_, point_, tinted_, way.medium);
 }
 
 void BeamShading::follow(std::uint32_t facet, RayKind kind) {
@@ -123,6 +121,7 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
         chain_.push_back(p);
     }
     way_ = {};
+    tinted_ = {};
     filter_ = {1, 1, 1};
     Vec3 from = eye.origin;
     true_ = {eye.origin, eye.direction};
@@ -149,9 +148,8 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
                    ? std::numeric_limits<double>::infinity()
                    : length(true_.at + t * true_.direction - point_.surface.point);
     }
-    if (conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-        way_.inside && !point_.medium_is_physical && !point_.material->unlit) {
-        filter_ = power(point_.medium, distance);
+    if (!point_.material->unlit) {
+        filter_ = tint_along(conventions_, point_, tinted_, way_.medium, distance);
     }
 }
 
@@ -181,36 +179,18 @@ Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample&
     }
     std::sort(crossings.begin(), crossings.end());
     Rgb result{1, 1, 1};
-    std::vector<Rgb> media;
-    if (way_.inside) media.push_back(way_.absorption);
+    start_inside(conventions_, tinted_, way_.medium, way_.inside, way_.absorption, volumes_);
     double last = 0.0;
-    const auto through_medium = [&](double distance) {
-        return media.empty() ? Rgb{1, 1, 1} : transmittance(media.back(), distance);
-    };
     for (const auto& [t, facet] : crossings) {
         set_surface_of(facet, ray, t, between_);
         const MaterialSample material = material_at(scene_, between_);
         const bool leaving = dot(ray.direction, between_.normal) >= 0.0;
-        const Rgb& kt = material.transmissive;
-        const bool by_distance =
-            conventions_.shadow_tint == ShadingConventions::ShadowTint::PerDistance &&
-            !material.physical && !kt.is_black();
-        if (material.physical && !material.thin) {
-            result = result * through_medium(t - last);
-            if (!leaving) {
-                media.push_back(material.absorption);
-            } else if (!media.empty()) {
-                media.pop_back();
-            }
-        }
-        if (!by_distance) {
-            result = result * kt;
-        } else if (leaving) {
-            result = result * power(kt, t - last);
-        }
+        const Crossing crossing = cross(conventions_, material, material, leaving,
+                                        scene_.is_closed(between_.part), t - last, volumes_);
+        result = result * crossing.way * crossing.surface;
         if (!material.physical || !material.thin) last = t;
     }
-    return std::isfinite(ray.t_max) ? result * through_medium(ray.t_max - last) : result;
+    return std::isfinite(ray.t_max) ? result * volumes_.through(ray.t_max - last) : result;
 }
 
 void BeamShading::add_to(PixelGeometry& geometry) const {

@@ -35,6 +35,7 @@ class BeamShading {
     struct Way {
         bool inside = false;
         Rgb share{1, 1, 1}, absorption;
+        std::uint32_t medium = 0;  ///< of TintedMedia
     };
     void set_surface_of(std::uint32_t facet, const Ray& ray, double t, Surface& surface);
     /// Sets the point where a ray of a beam meets a facet. Returns the distance from `from`.
@@ -42,7 +43,7 @@ class BeamShading {
     void attenuate(double distance, Way& way) const;
     /// Continues the true ray through a facet, whose material `point_` has.
     void follow(std::uint32_t facet, RayKind kind);
-    void pass(RayKind kind, double distance, Way& way) const;
+    void pass(RayKind kind, double distance, Way& way);
     [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
 
     const RenderJob& job_;
@@ -56,6 +57,8 @@ class BeamShading {
     DepthScale depth_;
     ShadingPoint point_;
     Surface between_;
+    TintedMedia tinted_;
+    CrossedVolumes volumes_;
     Way way_;
     Rgb filter_{1, 1, 1};  ///< factor on all light of the point
     bool nothing_ = false;

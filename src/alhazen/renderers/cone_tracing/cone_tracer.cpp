@@ -235,10 +235,7 @@ Rgb ConeTracer::color_of(const Seen& seen, const ShadingPoint& point) {
         if (conventions_.trace_reflections) color += reflected(seen, point);
         if (conventions_.trace_refractions) color += transmitted(seen, point);
     }
-    const bool filtered =
-        conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-        seen.path.inside && !point.medium_is_physical;
-    return filtered ? color * power(point.medium, seen.t) : color;
+    return color * tint_along(conventions_, point, tinted_, seen.path.medium, seen.t);
 }
 
 Rgb ConeTracer::direct_light(const Seen& seen, const ShadingPoint& point) {
@@ -373,6 +370,7 @@ ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point,
     path.start.inside = seen.path.start.inside;
     path.inside = seen.path.inside;
     path.absorption = seen.path.absorption;
+    path.medium = seen.path.medium;
     // The disc at the start is oblique to the surface: its lower half lies below.
     const double cosine = std::max(std::abs(dot(cone.axis, point.geometric)), 0.05);
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
@@ -474,9 +472,11 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
     path.start.kind = RayKind::Refraction;
     path.contribution = contribution;
     const std::uint32_t source = seen.piece.source;
+    const std::size_t media = tinted_.mark();
     if (!material.thin) {
         path.inside = point.entering;
         path.absorption = point.entering ? material.absorption : Rgb{};
+        path.medium = tinted_medium_behind(scene_, point, tinted_, seen.path.medium);
     }
     if (geometry_.sources[source].closed) {
         set_inside(path.start, source, seen.piece.front);
@@ -484,6 +484,7 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
     const bool tinted = material.physical || conventions_.refraction_tint ==
                                                  ShadingConventions::RefractionTint::PerEvent;
     const Rgb beyond = trace(cone, path, seen.depth + 1);
+    tinted_.release(media);
     return tinted ? kt * beyond : beyond;
 }
 

@@ -25,6 +25,7 @@ struct ConePath {
     bool inside = false;        ///< starts inside a transparent object
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< absorption of the medium it starts in
+    std::uint32_t medium = 0;   ///< of TintedMedia
 };
 
 /// Identifies one of the cones to a light: a large piece has several.
@@ -114,6 +115,7 @@ class ConeTracer {
     const std::vector<Rgb> ambient_;
     const DepthScale depth_;
     ConeSearch search_;
+    TintedMedia tinted_;
     ConeWatcher* watcher_ = nullptr;
     std::deque<std::vector<SeenPiece>> frames_;  ///< by depth of recursion
 };

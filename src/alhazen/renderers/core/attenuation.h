@@ -2,6 +2,8 @@
 /// Attenuation of light along a distance, per channel.
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "alhazen/imaging/image/rgb.h"
 
@@ -17,5 +19,60 @@ namespace alhazen {
 [[nodiscard]] inline Rgb power(const Rgb& base, double exponent) {
     return {std::pow(base.r, exponent), std::pow(base.g, exponent), std::pow(base.b, exponent)};
 }
+
+/// The volumes around a ray that passes surfaces without bending, innermost last.
+class CrossedVolumes {
+  public:
+    void clear() { volumes_.clear(); }
+    /// `kt`: transmittance of a unit of length, in addition to the absorption.
+    void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}) {
+        volumes_.push_back({absorption, kt});
+    }
+    void leave() {
+        if (!volumes_.empty()) volumes_.pop_back();
+    }
+    /// The transmittance of the innermost volume; white outside.
+    [[nodiscard]] Rgb through(double distance) const {
+        if (volumes_.empty()) return {1, 1, 1};
+        const Volume& innermost = volumes_.back();
+        const Rgb tint = transmittance(innermost.absorption, distance);
+        return innermost.kt == Rgb{1, 1, 1} ? tint : tint * power(innermost.kt, distance);
+    }
+
+  private:
+    struct Volume {
+        Rgb absorption, kt;
+    };
+    std::vector<Volume> volumes_;
+};
+
+/// The closed bodies around rays where kt is the transmittance of a unit of length
+/// (RefractionTint::PerDistance).
+/// Conventions: a medium is a number: 0 is outside all bodies, others identify the innermost body
+/// and the medium around it. Threads: used by one at a time.
+class TintedMedia {
+  public:
+    static constexpr std::uint32_t kOutside = 0;
+
+    /// `release(mark)` removes all media created since `mark()` returned `mark`.
+    [[nodiscard]] std::size_t mark() const { return media_.size(); }
+    void release(std::size_t mark) { media_.resize(mark); }
+
+    /// White outside.
+    [[nodiscard]] const Rgb& kt(std::uint32_t medium) const { return media_[medium].kt; }
+    [[nodiscard]] std::uint32_t around(std::uint32_t medium) const { return media_[medium].around; }
+    /// The medium inside a body of `kt` that lies in the medium `around`.
+    [[nodiscard]] std::uint32_t enter(const Rgb& kt, std::uint32_t around) {
+        media_.push_back({kt, around});
+        return static_cast<std::uint32_t>(media_.size() - 1);
+    }
+
+  private:
+    struct Medium {
+        Rgb kt{1, 1, 1};
+        std::uint32_t around = kOutside;
+    };
+    std::vector<Medium> media_{Medium{}};
+};
 
 }  // namespace alhazen

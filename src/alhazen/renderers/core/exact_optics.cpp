@@ -66,7 +66,7 @@ void ExactOptics::set_media(std::uint32_t around, ShadingPoint& point) {
     const Sides sides = sides_of(point.surface, met, point.entering, around);
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
-    point.medium_is_physical = met.physical || optics_.beer;
+    point.medium_is_physical = met.physical || !tints_events_;
     if (const SurfaceMedia& media = point.surface.media; media.known && media.before) {
         point.medium = medium_at(scene_, point.surface, *media.before).transmissive;
     }
@@ -110,15 +110,11 @@ double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point,
 }
 
 ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialSample& material,
-                                         const Vec3& direction, std::uint32_t around,
-                                         double length) {
+                                         const Vec3& direction, std::uint32_t around) {
     const double cosine = dot(direction, surface.normal);
     const bool entering = cosine < 0.0;
     const Sides sides = sides_of(surface, material, entering, around);
     Rgb through = tint_of(material) * sides.before;
-    if (!tints_events_ && !optics_.beer && !entering && !material.physical) {
-        through = through * power(material.transmissive, length);
-    }
     if (optics_.fresnel) {
         const double thin = std::min(sides.here, sides.beyond);
         const double dense = std::max(sides.here, sides.beyond);
@@ -185,7 +181,8 @@ ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
     medium.index = sample.index;
     if (sample.physical) {
         medium.absorption = sample.absorption;
-    } else if (optics_.beer) {
+    } else if (optics_.beer ||
+               (!tints_events_ && (surface.media.known || scene_.is_closed(surface.part)))) {
         medium.absorption = absorption_of_unit_length(sample.transmissive);
     }
     return medium;

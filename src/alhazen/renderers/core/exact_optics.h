@@ -59,9 +59,8 @@ class ExactOptics {
         Rgb through;                      ///< transmittance
         std::uint32_t behind = kOutside;  ///< medium
     };
-    /// `length`: distance since the last boundary.
     [[nodiscard]] Straight cross(const Surface& surface, const MaterialSample& material,
-                                 const Vec3& direction, std::uint32_t around, double length);
+                                 const Vec3& direction, std::uint32_t around);
 
   private:
     struct Medium {
@@ -93,7 +92,8 @@ class ExactOptics {
 
     const Scene& scene_;
     Optics optics_;
-    bool tints_events_;  ///< kt of Whitted's materials is applied at every surface
+    /// kt of Whitted's materials acts at every surface; otherwise by length in volumes.
+    bool tints_events_;
     std::vector<Medium> media_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <new>
 
+#include "alhazen/base/inline_vector.h"
 #include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
@@ -158,6 +159,7 @@ void set_media(const Scene& scene, ShadingPoint& point) {
         beyond = after.index;
         point.behind.inside = true;
         point.behind.absorption = after.absorption;
+        if (!after.physical) point.behind.kt = after.transmissive;
     }
     point.behind.eta = here / beyond;
     turn_to_view_between(material, cosine, point.behind.eta, media.before && media.after);
@@ -199,6 +201,74 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     } else {
         set_media(scene, point);
     }
+}
+
+Rgb tint_along(const ShadingConventions& conventions, const ShadingPoint& point,
+               const TintedMedia& media, std::uint32_t around, double t) {
+    if (conventions.refraction_tint != ShadingConventions::RefractionTint::PerDistance) {
+        return {1, 1, 1};
+    }
+    const bool in_body = point.inside || around != TintedMedia::kOutside;
+    const bool leaves = point.surface.media.known ? point.surface.media.before.has_value()
+                                                  : !point.entering && !point.medium.is_black();
+    if (leaves && in_body) {
+        return point.medium_is_physical ? Rgb{1, 1, 1} : power(point.medium, t);
+    }
+    return around == TintedMedia::kOutside ? Rgb{1, 1, 1} : power(media.kt(around), t);
+}
+
+Crossing cross(const ShadingConventions& conventions, const MaterialSample& material,
+               const MaterialSample& medium, bool leaving, bool closed, double length,
+               CrossedVolumes& volumes) {
+    const bool by_distance = !material.physical && !material.transmissive.is_black() &&
+                             conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
+    Crossing result;
+    if (!by_distance) result.surface = material.transmissive;
+    if (medium.physical && medium.thin) return result;
+    if (by_distance && leaving) {
+        result.surface = power(medium.transmissive, length);
+    } else {
+        result.way = volumes.through(length);
+    }
+    if (!medium.physical && !(by_distance && closed)) return result;
+    if (leaving) {
+        volumes.leave();
+    } else {
+        volumes.enter(medium.absorption, by_distance ? medium.transmissive : Rgb{1, 1, 1});
+    }
+    return result;
+}
+
+void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
+                  std::uint32_t medium, bool inside, const Rgb& absorption,
+                  CrossedVolumes& volumes) {
+    volumes.clear();
+    const bool tints = medium != TintedMedia::kOutside &&
+                       conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
+    if (tints) {
+        InlineVector<Rgb, 8> outward;
+        for (std::uint32_t k = medium; k != TintedMedia::kOutside && !outward.full();
+             k = tinted.around(k)) {
+            outward.push_back(tinted.kt(k));
+        }
+        for (std::size_t k = outward.size(); k-- > 1;) volumes.enter({}, outward[k]);
+        volumes.enter(inside ? absorption : Rgb{}, outward[0]);
+    } else if (inside) {
+        volumes.enter(absorption);
+    }
+}
+
+std::uint32_t tinted_medium_behind(const Scene& scene, const ShadingPoint& point,
+                                   TintedMedia& media, std::uint32_t around) {
+    if (point.material->thin) return around;
+    if (point.surface.media.known) {
+        if (point.surface.media.before) around = media.around(around);
+        return point.behind.inside ? media.enter(point.behind.kt, around) : around;
+    }
+    if (!scene.is_closed(point.surface.part)) return around;
+    if (!point.entering) return media.around(around);
+    const MaterialSample& material = *point.material;
+    return media.enter(material.physical ? Rgb{1, 1, 1} : material.transmissive, around);
 }
 
 bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,

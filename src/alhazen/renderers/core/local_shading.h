@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/scene/scene.h"
 
@@ -24,6 +25,7 @@ struct BehindSurface {
     double eta = 1;       ///< index on this side / index behind
     Rgb absorption;
     std::uint32_t medium = 0;  ///< of ExactOptics, if used
+    Rgb kt{1, 1, 1};           ///< of a unit of length
 };
 
 /// The ray that leaves `surface`, of unit `direction`, by the conventions of the scene.
@@ -55,8 +57,9 @@ struct ShadingPoint {
     bool inside = false;   ///< the ray ran inside a transparent solid
     bool entering = true;  ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
-    Rgb passing;                      ///< kt of the surface; at a wall, of both media
-    Rgb medium;                       ///< kt of the medium along the ray, if `inside`
+    Rgb passing;  ///< kt of the surface; at a wall, of both media
+    /// kt of the medium that a solid of several media states on this side; else of the surface.
+    Rgb medium;
     bool medium_is_physical = false;  ///< it has an absorption; kt is not applied by distance
     Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
     Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
@@ -73,6 +76,31 @@ struct ShadingPoint {
 /// of the surface.
 [[nodiscard]] SolidAperture aperture_at(const Surface& surface, const Vec3& direction,
                                         double width);
+
+/// The transmittance by kt^distance of the medium through which a ray of length `t` came, if
+/// RefractionTint is PerDistance; white otherwise. `around`: the ray's medium in `media`. A ray
+/// that leaves a body has the kt of the surface, any other that of the closed body that it entered.
+[[nodiscard]] Rgb tint_along(const ShadingConventions& conventions, const ShadingPoint& point,
+                             const TintedMedia& media, std::uint32_t around, double t);
+
+/// The transmittances of a surface crossed without bending, and of the way to it.
+struct Crossing {
+    Rgb way{1, 1, 1}, surface{1, 1, 1};
+};
+/// Crosses a surface of `material` that enters or leaves the volume of `medium`, `length` behind
+/// the last crossing. `closed`: it bounds a volume.
+[[nodiscard]] Crossing cross(const ShadingConventions& conventions, const MaterialSample& material,
+                             const MaterialSample& medium, bool leaving, bool closed, double length,
+                             CrossedVolumes& volumes);
+/// Sets the volumes around a ray that starts in a medium of `tinted` and, `inside` a solid, of an
+/// absorption.
+void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
+                  std::uint32_t medium, bool inside, const Rgb& absorption,
+                  CrossedVolumes& volumes);
+
+/// The medium in `media` of a ray that passes through the surface from the medium `around`.
+[[nodiscard]] std::uint32_t tinted_medium_behind(const Scene& scene, const ShadingPoint& point,
+                                                 TintedMedia& media, std::uint32_t around);
 
 /// The medium on one side of the surface (`surface.media`), with textures evaluated at the surface.
 [[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);

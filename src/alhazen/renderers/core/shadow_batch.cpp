@@ -163,19 +163,20 @@ const MaterialSample& ShadowBatch::material_of(const Surface& surface) {
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     Rgb tint{1, 1, 1};
-    media_.clear();
-    if (path.inside) media_.push_back(path.absorption);
+    start_inside(scene_.conventions.shading, *tinted_, path.medium, path.inside, path.absorption,
+                 volumes_);
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
     double met = -min_distance;  // the last crossing that counts
     bool in_wall = false;        // between the two crossings of a wall
-    for (const Hit& crossing : crossings_) {
-        if (crossing.t - met < min_distance) continue;
-        met = crossing.t;
-        const Surface& surface = crossed(ray, crossing, path.time);
+    for (const Hit& hit : crossings_) {
+        if (hit.t - met < min_distance) continue;
+        met = hit.t;
+        const Surface& surface = crossed(ray, hit, path.time);
         const MaterialSample* material = &material_of(surface);
         if (material->coverage == 0.0) continue;
         bool leaving = dot(ray.direction, surface.normal) >= 0.0;
+        bool closed = scene_.is_closed(surface.part);
         const MaterialSample* medium = material;
         if (const SurfaceMedia& media = surface.media; media.before || media.after) {
             const bool wall = media.before && media.after;
@@ -183,24 +184,24 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
             in_wall = wall && leaving;
             medium_ = medium_at(scene_, surface, leaving ? *media.before : *media.after);
             medium = &medium_;
+            closed = true;
             if (wall) material = medium;
         }
         // Light passes through the back of a single-sided surface.
         if (!leaving && is_unseen_from_behind(*material)) continue;
-        Rgb through = light_through(*material, *medium, leaving, crossing.t - last);
-        if (medium->physical && !medium->thin) {
-            tint = tint * through_medium(crossing.t - last);
-            enter_or_leave(leaving, medium->absorption);
-        }
+        const Crossing crossing = cross(scene_.conventions.shading, *material, *medium, leaving,
+                                        closed, met - last, volumes_);
+        tint = tint * crossing.way;
+        Rgb through = crossing.surface;
         if (material->coverage < 1.0) {
             const double open = 1.0 - material->coverage;
             through = Rgb{open, open, open} + material->coverage * through;
         }
         tint = tint * through;
         if (tint.is_black()) return tint;
-        if (!medium->physical || !medium->thin) last = crossing.t;
+        if (!medium->physical || !medium->thin) last = met;
     }
-    if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
+    if (std::isfinite(ray.t_max)) tint = tint * volumes_.through(ray.t_max - last);
     return tint;
 }
 
@@ -222,8 +223,7 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         const bool entering = dot(ray.direction, surface.normal) < 0.0;
         // Light passes through the back of a single-sided surface.
         if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;
-        const auto [through, behind] =
-            optics_->cross(surface, material, ray.direction, medium, crossing.t - last);
+        const auto [through, behind] = optics_->cross(surface, material, ray.direction, medium);
         const double open = 1.0 - material.coverage;
         tint = tint * (Rgb{open, open, open} + material.coverage * through) *
                transmittance(optics_->absorption(medium), crossing.t - last);
@@ -235,31 +235,6 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     }
     optics_->release(mark);
     return tint;
-}
-
-/// Transmittance of a surface at which light enters or leaves `medium`. `inside`: the distance
-/// since the last surface.
-Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSample& medium,
-                               bool leaving, double inside) const {
-    const Rgb& kt = material.transmissive;
-    if (material.physical || kt.is_black() ||
-        scene_.conventions.shading.shadow_tint == ShadowTint::PerCrossing) {
-        return kt;
-    }
-    return leaving ? power(medium.transmissive, inside) : Rgb{1, 1, 1};
-}
-
-/// Transmittance of the innermost volume over a distance.
-Rgb ShadowBatch::through_medium(double distance) const {
-    return media_.empty() ? Rgb{1, 1, 1} : transmittance(media_.back(), distance);
-}
-
-void ShadowBatch::enter_or_leave(bool leaving, const Rgb& absorption) {
-    if (!leaving) {
-        media_.push_back(absorption);
-    } else if (!media_.empty()) {
-        media_.pop_back();
-    }
 }
 
 }  // namespace alhazen

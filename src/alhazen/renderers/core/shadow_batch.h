@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/core/wavefront.h"
@@ -28,6 +29,8 @@ class ShadowBatch {
 
     /// Uses exact optics for all further rays; media are those of `Path::medium`.
     void use(ExactOptics& optics) { optics_ = &optics; }
+    /// Media of `Path::medium` for all further rays, without exact optics.
+    void use(const TintedMedia& media) { tinted_ = &media; }
     /// Adds transmittance * `light.intensity` * `fraction` to `sum`, now or in `finish`, in the
     /// order of the calls. `path`: that of the ray that hit `surface`. `path` and `sum` must stay
     /// valid until `finish`. `number`: of the light in the scene, for coherent rays.
@@ -73,15 +76,13 @@ class ShadowBatch {
     [[nodiscard]] const Surface& crossed(const Ray& ray, const Hit& hit, float time);
     /// The material of a surface. Valid until the next call.
     [[nodiscard]] const MaterialSample& material_of(const Surface& surface);
-    [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
-                                    bool leaving, double inside) const;
-    [[nodiscard]] Rgb through_medium(double distance) const;
-    void enter_or_leave(bool leaving, const Rgb& absorption);
 
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
     ExactOptics* optics_ = nullptr;
+    TintedMedia none_;
+    const TintedMedia* tinted_ = &none_;
     bool opaque_;  ///< every surface blocks the light
     Coherence coherence_ = Coherence::Any;
     bool at_once_ = false;
@@ -101,7 +102,7 @@ class ShadowBatch {
     Surface surface_;         ///< result of `crossed`
     MaterialSample own_;      ///< result of `material_of`
     MaterialSample medium_;   ///< between the surfaces of a solid of several media
-    std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last
+    CrossedVolumes volumes_;  ///< around the shadow ray
 };
 
 }  // namespace alhazen

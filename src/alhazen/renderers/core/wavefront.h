@@ -31,7 +31,7 @@ struct Path {
     float nm = 0;               ///< wavelength behind a dispersing surface; else 0
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
-    std::uint32_t medium = 0;   ///< of ExactOptics, if used
+    std::uint32_t medium = 0;   ///< of ExactOptics if used, else of TintedMedia
     RayCone cone;
 };
 

@@ -80,7 +80,11 @@ class RecursiveEstimator {
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
             if (illuminates(scene_.lights[i])) shadow_lights_.push_back(i);
         }
-        if (!conventions_.optics.any()) return;
+        if (!conventions_.optics.any()) {
+            shadows_.use(tinted_);
+            if constexpr (TreeWatcher<Randomness>) random_.use(tinted_);
+            return;
+        }
         optics_.emplace(scene_, conventions_.optics);
         visible_.use(*optics_);
         shadows_.use(*optics_);
@@ -129,14 +133,14 @@ class RecursiveEstimator {
             // One eye ray may cause millions of rays. Its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
             front.begin_surfaces();
-            const std::size_t media = optics_ ? optics_->mark() : 0;
+            const std::size_t media = optics_ ? optics_->mark() : tinted_.mark();
             shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
             meet_surfaces(part, depth, met == 0, front);
             shadows_.finish();
             trace_all(front.next, depth + 1);
             if constexpr (TreeWatcher<Randomness>) random_.gather(front, depth);
             gather(front, part.radiance);
-            if (optics_) optics_->release(media);
+            optics_ ? optics_->release(media) : tinted_.release(media);
             front.go_on();
         }
         if constexpr (TreeWatcher<Randomness>) {
@@ -241,10 +245,15 @@ class RecursiveEstimator {
             if (conventions_.trace_reflections) reflect(seen, from, met, front.next);
             if (conventions_.trace_refractions) transmit(seen, from, met, front);
         }
-        met.filtered =
-            conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-            seen.path.inside && !point.medium_is_physical;
-        if (met.filtered) met.filter = power(point.medium, seen.t);
+        met.filtered = tints_by_distance();
+        if (met.filtered) {
+            met.filter = tint_along(conventions_, point, tinted_, seen.path.medium, seen.t);
+        }
+    }
+
+    [[nodiscard]] bool tints_by_distance() const {
+        return conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
+               !optics_;
     }
 
     void add_direct_light(const Seen& seen, const LeavingRays& from, Rgb& sum) {
@@ -314,7 +323,11 @@ class RecursiveEstimator {
             onward.absorption = behind.known     ? behind.absorption
                                 : point.entering ? material.absorption
                                                  : Rgb{};
-            onward.medium = behind.medium;
+            if (optics_) {
+                onward.medium = behind.medium;
+            } else if (tints_by_distance()) {
+                onward.medium = tinted_medium_behind(scene_, point, tinted_, seen.path.medium);
+            }
         }
         if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
             split(seen, from, onward, met, front);
@@ -389,6 +402,7 @@ class RecursiveEstimator {
     Randomness random_;
     const WaveSplit* split_;
     std::optional<ExactOptics> optics_;  ///< if the scene has exact optics
+    TintedMedia tinted_;                 ///< if it has none
     Generation eye_;
     std::deque<Wavefront> fronts_;  ///< [depth]; references stay valid while it grows
 };
