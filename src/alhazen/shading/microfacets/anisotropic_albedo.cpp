@@ -163,10 +163,9 @@ const std::vector<double>& losses() {
 }
 
 /// Integrated from the polynomials, so that their errors cancel where both are used.
-double integrate_mean(const Ggx& ggx) {
+double integrate_mean(const AnisotropicAlbedo& albedo) {
     static const GaussLegendre<20> cosines;
     static const GaussLegendre<12> turns;
-    const AnisotropicAlbedo albedo(ggx);
     double sum = 0;
     for (std::size_t i = 0; i < cosines.points.size(); ++i) {
         const double t = cosines.points[i], mu = t * t * t;
@@ -185,8 +184,8 @@ CubicTable<2> make_means() {
     std::vector<double> known;
     return CubicTable<2>({kMeanSteps, kMeanSteps}, [&](const std::array<double, 2>& p) {
         const std::size_t a = known.size() / kMeanSteps, b = known.size() % kMeanSteps;
-        known.push_back(b < a ? known[b * kMeanSteps + a]
-                              : integrate_mean(clamped({p[0] * p[0], p[1] * p[1]})));
+        const Ggx ggx{p[0] * p[0], p[1] * p[1]};
+        known.push_back(b < a ? known[b * kMeanSteps + a] : integrate_mean(AnisotropicAlbedo(ggx)));
         return known.back();
     });
 }
@@ -196,6 +195,7 @@ struct Recent {
     bool is_made = false;
     Ggx ggx;
     AnisotropicAlbedo albedo;
+    double mean = -1;             ///< below 0: unknown
     std::uint32_t next = 0;       ///< the result to be replaced next
     std::array<Vec3, 2> views{};  ///< zero: none
     std::array<double, 2> answers{};
@@ -206,7 +206,11 @@ Recent& recent_of(const Ggx& ggx) {
     // Made at first use: as a thread-local value it would be cleared for every thread.
     thread_local const auto pairs = std::make_unique<std::array<Recent, kPairs>>();
     const std::uint64_t x = std::bit_cast<std::uint64_t>(ggx.x);
-    return (*pairs)[mix64(mix64(x) ^ std::bit_cast<std::uint64_t>(ggx.y)) % kPairs];
+    Recent& recent = (*pairs)[mix64(mix64(x) ^ std::bit_cast<std::uint64_t>(ggx.y)) % kPairs];
+    if (!recent.is_made || !same(recent.ggx, ggx)) {
+        recent = Recent{.is_made = true, .ggx = ggx, .albedo = AnisotropicAlbedo(ggx)};
+    }
+    return recent;
 }
 
 }  // namespace
@@ -239,9 +243,6 @@ double AnisotropicAlbedo::at(const Vec3& view) const {
 
 double anisotropic_albedo(const Vec3& view, const Ggx& ggx) {
     Recent& recent = recent_of(ggx);
-    if (!recent.is_made || !same(recent.ggx, ggx)) {
-        recent = Recent{.is_made = true, .ggx = ggx, .albedo = AnisotropicAlbedo(ggx)};
-    }
     for (std::size_t i = 0; i < recent.views.size(); ++i) {
         if (recent.views[i] == view) return recent.answers[i];
     }
@@ -253,8 +254,15 @@ double anisotropic_albedo(const Vec3& view, const Ggx& ggx) {
 }
 
 double mean_anisotropic_albedo(const Ggx& ggx) {
-    static const CubicTable<2> means = make_means();
     const Ggx g = clamped(ggx);
+    // There the losses are no larger than the errors of the polynomials, and not smooth.
+    constexpr double kUneven = 0.02;
+    if (std::max(g.x, g.y) < kUneven) {
+        Recent& recent = recent_of(ggx);
+        if (recent.mean < 0.0) recent.mean = integrate_mean(recent.albedo);
+        return recent.mean;
+    }
+    static const CubicTable<2> means = make_means();
     return std::clamp(means.at({std::sqrt(g.x), std::sqrt(g.y)}), 0.0, 1.0);
 }
 
