@@ -9,6 +9,7 @@
 #include "alhazen/sampling/random.h"
 #include "alhazen/sampling/sobol.h"
 #include "alhazen/shading/bsdf/bsdf.h"
+#include "alhazen/shading/microfacets/local_directions.h"
 #include "support/chi_square.h"
 
 namespace alhazen::testing {
@@ -89,6 +90,9 @@ inline std::vector<NamedBsdf> lobes_with_density(const std::vector<double>& roug
         add("Oren-Nayar" + at, OrenNayar{{1, 1, 1, 1}, r});
         add("rough mirror" + at, RoughReflection({alpha, alpha}, SchlickTerm{}));
         add("rough sheet" + at, RoughSheet({alpha, alpha}));
+        const Ggx grooves{alpha + (1.0 - alpha) * 0.64, alpha};
+        add("grooved mirror" + at, RoughReflection(grooves, SchlickTerm{}, {0.6, 0.8}));
+        add("grooved sheet" + at, RoughSheet(grooves));
         add("rough glass" + at, RoughDielectric(alpha, 1.0 / 1.5, {1, 1, 1, 1}, {1, 1, 1, 1}));
         add("rough glass from inside" + at, RoughDielectric(alpha, 1.5, {1, 1, 1, 1}, {1, 1, 1, 1}),
             5e-3);

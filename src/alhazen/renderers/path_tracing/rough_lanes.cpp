@@ -183,9 +183,11 @@ std::unique_ptr<const RoughLobe> RoughLobe::of(const Bsdf& bsdf) {
     const auto [lobe, weight] = bsdf.rough_alone();
     if (lobe == nullptr) return nullptr;
     const auto& term = std::get<SchlickTerm>(lobe->fresnel());
+    std::optional<AnisotropicAlbedo> anisotropic;
+    if (lobe->is_anisotropic()) anisotropic.emplace(lobe->ggx());
     return std::make_unique<const RoughLobe>(
         RoughLobe{lobe->ggx(), lobe->axis(), lobe->mean_single(), lobe->several(), term.f0,
-                  term.f90, weight, ggx_albedo_sums(lobe->mean_alpha())});
+                  term.f90, weight, ggx_albedo_sums(lobe->mean_alpha()), anisotropic});
 }
 
 RoughLanes::RoughLanes() {
@@ -217,16 +219,17 @@ void RoughLanes::set(std::size_t lane, const RoughLobe& lobe, double choice) {
 
 void RoughLanes::scatter(VertexLanes& v) {
     Numbers& n = numbers_;
-    const auto find_albedos = [&](std::uint32_t lanes, const double* cosine, double* albedo) {
+    const auto find_albedos = [&](std::uint32_t lanes, const auto& directions, double* albedo) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-            albedo[lane] = lobes_[lane]->singles.at(cosine[lane]);
+            albedo[lane] = lobes_[lane]->single(
+                {directions[0][lane], directions[1][lane], directions[2][lane]});
         }
     };
-    find_albedos(n.lanes, v.view[2], n.of_view);
-    find_albedos(n.lanes & v.lit, v.to_light[2], n.of_light);
+    find_albedos(n.lanes, v.view, n.of_view);
+    find_albedos(n.lanes & v.lit, v.to_light, n.of_light);
     ALHAZEN_KERNEL(sample_rough_of_target)(n, v);
-    find_albedos(n.lanes & v.sampled, v.next[2], n.of_next);
+    find_albedos(n.lanes & v.sampled, v.next, n.of_next);
     ALHAZEN_KERNEL(weigh_rough_of_target)(n, v);
     clear();
 }

@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "alhazen/renderers/path_tracing/vertex_lanes.h"
 #include "alhazen/shading/bsdf/bsdf.h"
+#include "alhazen/shading/microfacets/anisotropic_albedo.h"
 #include "alhazen/shading/microfacets/ggx_albedo.h"
 
 namespace alhazen {
@@ -22,8 +24,14 @@ struct RoughLobe {
     Vec2 axis;
     double mean_single;
     Spectrum several, f0, f90, weight;
-    AlbedoTable::Slice singles;
+    AlbedoTable::Slice singles;  ///< of equal alphas
+    std::optional<AnisotropicAlbedo> anisotropic;
 
+    /// Single-scattering albedo.
+    [[nodiscard]] double single(const Vec3& v) const {
+        if (!anisotropic) return singles.at(v.z);
+        return anisotropic->at({axis.x * v.x + axis.y * v.y, axis.x * v.y - axis.y * v.x, v.z});
+    }
     /// Null for other BSDFs.
     [[nodiscard]] static std::unique_ptr<const RoughLobe> of(const Bsdf& bsdf);
 };

@@ -1,6 +1,6 @@
 #include "alhazen/shading/bsdf/rough_reflection.h"
 
-#include "alhazen/shading/microfacets/albedo_table.h"
+#include "alhazen/shading/microfacets/anisotropic_albedo.h"
 #include "alhazen/shading/microfacets/ggx_albedo.h"
 #include "alhazen/shading/microfacets/local_directions.h"
 
@@ -11,15 +11,17 @@ RoughReflection::RoughReflection(const Ggx& ggx, const FresnelTerm& fresnel, con
       fresnel_(fresnel),
       axis_(axis),
       mean_alpha_(std::sqrt(ggx_.x * ggx_.y)),
-      mean_single_(ggx_mean_albedo(mean_alpha_).sum()) {
+      mean_single_(is_anisotropic() ? mean_anisotropic_albedo(ggx_)
+                                    : ggx_mean_albedo(mean_alpha_).sum()) {
     const Spectrum mean = mean_reflectance(fresnel);
     for (int i = 0; i < Spectrum::kCount; ++i) {
         several_[i] = mean[i] * mean[i] * mean_single_ / (1.0 - mean[i] * (1.0 - mean_single_));
     }
 }
 
-double RoughReflection::single(double mu) const {
-    return ggx_albedo_sum(mu, mean_alpha_);
+double RoughReflection::single(const Vec3& turned_view) const {
+    return is_anisotropic() ? anisotropic_albedo(turned_view, ggx_)
+                            : ggx_albedo_sum(turned_view.z, mean_alpha_);
 }
 
 RoughReflection::OneFacet RoughReflection::one_facet(const Vec3& view,
@@ -38,7 +40,8 @@ Spectrum RoughReflection::value(const Vec3& view, const Vec3& direction, Transpo
     if (!(direction.z > 0.0)) return {};
     const double lost = 1.0 - mean_single_;
     const double more =
-        lost > 0.0 ? (1.0 - single(view.z)) * (1.0 - single(direction.z)) / (kPi * lost) : 0.0;
+        lost > 0.0 ? (1.0 - single(turned(view))) * (1.0 - single(turned(direction))) / (kPi * lost)
+                   : 0.0;
     return one_facet(view, direction).value + more * several_;
 }
 
@@ -46,7 +49,7 @@ double RoughReflection::density(const Vec3& view, const Vec3& direction) const {
     if (!(direction.z > 0.0)) return 0.0;
     const Vec3 v = turned(view), l = turned(direction);
     const double one = 0.5 * ggx_.normals(normalize(v + l)) / (v.z + ggx_.stretched_length(v));
-    const double share = single(v.z);
+    const double share = single(v);
     return share * one + (1.0 - share) * cosine_density(l);
 }
 
@@ -54,7 +57,7 @@ std::optional<Vec3> RoughReflection::direction(const Vec3& view, double choice,
                                                const Vec2& u) const {
     const Vec3 v = turned(view);
     const Vec3 l =
-        choice < single(v.z) ? mirrored(v, ggx_.sample_visible(v, u)) : cosine_direction(u);
+        choice < single(v) ? mirrored(v, ggx_.sample_visible(v, u)) : cosine_direction(u);
     if (!(l.z > 0.0)) return std::nullopt;
     return turned_back(l);
 }
@@ -68,7 +71,11 @@ std::optional<BsdfSample> RoughReflection::sample(const Vec3& view, double choic
 }
 
 Spectrum RoughReflection::albedo(const Vec3& view) const {
-    const SplitAlbedo one = ggx_albedo(view.z, mean_alpha_);
+    SplitAlbedo one = ggx_albedo(view.z, mean_alpha_);
+    if (is_anisotropic()) {
+        const double scale = single(turned(view)) / one.sum();
+        one = {scale * one.at_f0, scale * one.at_f90};
+    }
     const SchlickTerm fit = schlick_fit(fresnel_, view.z);
     return one.at_f0 * fit.f0 + one.at_f90 * fit.f90 + (1.0 - one.sum()) * several_;
 }

@@ -6,7 +6,8 @@
 /// equation 20; Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
 /// course (the matt lobe); Turquin, "Practical Multiple Scattering Compensation for Microfacet
 /// Models", 2019 (its colour).
-/// Differs: for unequal alphas the matt lobe is that of their geometric mean.
+/// Differs: for unequal alphas the albedos depend on the azimuth of the direction too. `albedo`
+/// splits them by Schlick's formula as those of the geometric mean.
 
 #include <optional>
 
@@ -43,21 +44,24 @@ class RoughReflection {
     [[nodiscard]] const FresnelTerm& fresnel() const { return fresnel_; }
     [[nodiscard]] const Ggx& ggx() const { return ggx_; }
     [[nodiscard]] const Vec2& axis() const { return axis_; }
-    /// The alpha whose albedos, and their mean over the hemisphere, give the matt lobe.
+    [[nodiscard]] bool is_anisotropic() const { return ggx_.x != ggx_.y; }
+    /// Geometric mean.
     [[nodiscard]] double mean_alpha() const { return mean_alpha_; }
+    /// Mean over the hemisphere of the single-scattering albedo, whose deficit is the matt lobe.
     [[nodiscard]] double mean_single() const { return mean_single_; }
     /// Colour of the multiple scattering.
     [[nodiscard]] const Spectrum& several() const { return several_; }
-
-  private:
+    /// `v` in the frame of ggx().
     [[nodiscard]] Vec3 turned(const Vec3& v) const {
         return {axis_.x * v.x + axis_.y * v.y, axis_.x * v.y - axis_.y * v.x, v.z};
     }
+
+  private:
     [[nodiscard]] Vec3 turned_back(const Vec3& v) const {
         return {axis_.x * v.x - axis_.y * v.y, axis_.x * v.y + axis_.y * v.x, v.z};
     }
-    /// Single-scattering albedo for a view at this cosine.
-    [[nodiscard]] double single(double mu) const;
+    /// Single-scattering albedo for a view in the frame of ggx().
+    [[nodiscard]] double single(const Vec3& turned_view) const;
 
     Ggx ggx_;
     FresnelTerm fresnel_;

@@ -11,14 +11,16 @@ using namespace alhazen::testing;
 const std::vector<double> kRoughnesses = {0.05, 0.1, 0.2, 0.4, 0.7, 1.0};
 constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1};
 
-void expect_furnace(const NamedBsdf& b, double expected) {
+void expect_furnace(const NamedBsdf& b, double expected, double turn = 0.4) {
     for (const double cosine : kViews) {
-        Spectrum sum = furnace(b.bsdf, view_at(cosine), 1 << 14);
+        const Vec3 view = view_at(cosine, turn);
+        Spectrum sum = furnace(b.bsdf, view, 1 << 14);
         // More samples if these are too few to decide.
         if (std::abs(sum.a - expected) > 0.7 * b.error * expected) {
-            sum = furnace(b.bsdf, view_at(cosine), 1 << 18);
+            sum = furnace(b.bsdf, view, 1 << 18);
         }
-        EXPECT_NEAR(sum.a, expected, b.error * expected) << b.name << ", view " << cosine;
+        EXPECT_NEAR(sum.a, expected, b.error * expected)
+            << b.name << ", view " << cosine << ", turn " << turn;
     }
 }
 
@@ -105,6 +107,21 @@ std::vector<NamedBsdf> white_materials(double roughness) {
 TEST(Furnace, WhiteMaterialsOfManyLayersGiveBackAllLight) {
     for (const double r : {0.0, 0.1, 0.4, 1.0}) {
         for (const NamedBsdf& b : white_materials(r)) expect_furnace(b, 1.0);
+    }
+}
+
+TEST(Furnace, GroovesGiveBackAllLightSeenAlongAndAcross) {
+    for (const double r : {0.05, 0.1, 0.3, 0.6, 1.0}) {
+        for (const double strength : {0.1, 0.3, 0.6, 0.9, 1.0}) {
+            MetallicRoughness p;
+            p.roughness.value = r;
+            p.anisotropy.strength = strength;
+            const std::string name =
+                "roughness " + std::to_string(r) + ", strength " + std::to_string(strength);
+            for (const double turn : {0.0, 0.8, 0.5 * kPi}) {
+                expect_furnace({name, bsdf_of_parameters(p)}, 1.0, turn);
+            }
+        }
     }
 }
 
