@@ -1,5 +1,5 @@
 #pragma once
-/// `LightTree::choose` for eight points in turn, two with both siblings in lanes at a time.
+/// `LightTree::choose` for sixteen points, eight of them with both siblings in lanes at a time.
 ///
 /// Conventions: the bits are those of LightTree::choose.
 
