@@ -19,8 +19,10 @@ namespace light_choices {
 
 using Siblings = LightTree::Siblings;
 
-/// Both siblings of eight pairs: lanes 2 i and 2 i + 1 belong to point i.
-constexpr std::size_t kPoints = 8, kLanes = 2 * kPoints;
+/// Both siblings of several pairs: lanes 2 i and 2 i + 1 belong to point i. Smaller registers than
+/// those of 512 bits gain nothing from more points than two.
+constexpr std::size_t kPoints = hn::MaxLanes(hn::ScalableTag<double>()) >= 8 ? 8 : 2;
+constexpr std::size_t kLanes = 2 * kPoints;
 using Numbers = Lanes<double, kLanes>;
 using Mask = LaneMask<double, kLanes>;
 
@@ -156,9 +158,13 @@ HWY_INLINE Numbers importances_of(const Walkers& w) {
 
     Numbers cosine_w = -(axis_x * to_x + axis_y * to_y + axis_z * to_z);
     cosine_w = clamped_cosine(select_lanes(signed_intensity < zero, abs(cosine_w), cosine_w));
-    const Numbers sine_w = sine_of(cosine_w), sine_o = sine_of(spread);
-    const Numbers cosine_x = cosine_of_difference(cosine_w, sine_w, spread, sine_o);
-    const Numbers sine_x = sine_of_difference(cosine_w, sine_w, spread, sine_o);
+    Numbers cosine_x = one, sine_x = zero;
+    // Of few points often all are in the cone.
+    if (kPoints > 2 || bits_of((!(cosine_w > spread)) & outside) != 0) {
+        const Numbers sine_w = sine_of(cosine_w), sine_o = sine_of(spread);
+        cosine_x = cosine_of_difference(cosine_w, sine_w, spread, sine_o);
+        sine_x = sine_of_difference(cosine_w, sine_w, spread, sine_o);
+    }
     const Numbers cosine_out = cosine_of_difference(cosine_x, sine_x, cosine_b, sine_b);
     // Lights other than surfaces have no cosine.
     const Numbers sent = intensity * select_lanes(reach < zero, one, cosine_out);
