@@ -53,21 +53,22 @@ struct EmitterParts {
     std::vector<double> areas;  ///< [triangle] cumulative, including it
 };
 
-struct Emitter {
+/// What samples by area read comes first.
+struct alignas(64) Emitter {
     EmitterForm form = EmitterForm::Triangle;
     bool two_sided = false;
     bool right_angled = false;  ///< Rectangle: its edges are perpendicular
-    RectangleSides sides;       ///< Rectangle with perpendicular edges
-    Affine world_from_own;
-    double inner = 0;  ///< Disc: radius of the hole
-    double area = 0;   ///< of one side; of curved forms by numerical integration
+    double area = 0;            ///< of one side; of curved forms by numerical integration
     /// Triangle, and Rectangle with perpendicular edges: from points whose squared distance to the
     /// origin of `world_from_own` is larger, its solid angle is below kLeastSolidAngle.
     double far_squared = std::numeric_limits<double>::infinity();
     /// The same forms: nearer to its plane a point may lie in it, but for rounding.
     double in_plane = -1;
+    Affine world_from_own;
     Rgb radiance;                          ///< mean over the surface
     std::optional<Illuminant> illuminant;  ///< its spectrum, if known
+    RectangleSides sides;                  ///< Rectangle with perpendicular edges
+    double inner = 0;                      ///< Disc: radius of the hole
     std::shared_ptr<const EmitterParts> parts;
     std::shared_ptr<const EmittingPatch> patch;
 };

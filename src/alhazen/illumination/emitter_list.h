@@ -23,7 +23,7 @@
 
 namespace alhazen {
 
-/// Largest number of emitters that are sampled; each takes 250 bytes.
+/// Largest number of emitters that are sampled; each takes 320 bytes.
 inline constexpr std::size_t kMostEmitters = std::size_t{1} << 22;
 
 class EmitterList {

@@ -13,11 +13,12 @@ namespace {
 /// Lights that stay in the cache.
 constexpr std::size_t kInCache = 64;
 
-/// Prefetches an emitter: of many lights most are not in the cache.
+/// Prefetches what a sample by area reads of an emitter: of many lights most are far, and not in
+/// the cache.
 [[gnu::always_inline]] inline void fetch(const Emitter& emitter) {
     constexpr std::size_t kLine = 64;
     const auto* const bytes = reinterpret_cast<const char*>(&emitter);
-    for (std::size_t at = 0; at < sizeof(Emitter); at += kLine) __builtin_prefetch(bytes + at);
+    for (std::size_t at = 0; at < 3 * kLine; at += kLine) __builtin_prefetch(bytes + at);
 }
 
 }  // namespace
@@ -26,6 +27,8 @@ LightDraws::LightDraws(const Illumination& lights) : lights_(lights) {
     const Illumination::Data& d = *lights.data_;
     if (d.options.choice == LightChoice::Tree && !d.tree.empty() && d.tree.root().is_leaf()) {
         sole_ = d.tree.choose({}, 0.0);
+        sole_is_rectangle_ = d.near_share * sole_.probability > 0.0 && d.is_emitter(sole_.light) &&
+                             RectangleLanes::takes(d.emitter(sole_.light));
     }
 }
 
@@ -110,66 +113,55 @@ void LightDraws::draw_sky(std::size_t count) {
 
 void LightDraws::choose_near(std::uint32_t lanes, ChosenLight* chosen) {
     const Illumination::Data& d = *lights_.data_;
-    constexpr std::size_t kPart = LitPointLanes::kMost;
-    constexpr std::uint32_t kWhole = (1u << kPart) - 1;
-    LitPointLanes points;
     ChoiceLanes choices;
-    for (std::size_t first = 0; first < kMost; first += kPart) {
-        const std::uint32_t part = lanes >> first & kWhole;
-        if (part == 0) continue;
-        const auto count = static_cast<std::size_t>(std::popcount(part));
-        if ((part & (part + 1)) == 0) {
-            // No gaps.
-            for (std::size_t k = 0; k < 3; ++k) {
-                std::copy_n(calls_.at.point[k] + first, kPart, points.point[k]);
-                std::copy_n(calls_.at.normal[k] + first, kPart, points.normal[k]);
-            }
-            points.both_sides = calls_.at.both_sides >> first & kWhole;
-            points.in_volume = calls_.at.in_volume >> first & kWhole;
-            for (std::size_t i = 0; i < kPart; ++i) {
-                choices.of[i] = calls_.choice[first + i] / d.near_share;
-            }
-            d.choose_near(points, choices, count, chosen + first);
-            continue;
-        }
-        std::size_t next = 0;
-        for_each_lane(part, [&](std::size_t i) {
-            points.set(next, calls_.at[first + i]);
-            choices.of[next++] = calls_.choice[first + i] / d.near_share;
-        });
-        std::array<ChosenLight, kPart> close;
-        d.choose_near(points, choices, count, close.data());
-        next = 0;
-        for_each_lane(part, [&](std::size_t i) { chosen[first + i] = close[next++]; });
+    const auto count = static_cast<std::size_t>(std::popcount(lanes));
+    if ((lanes & (lanes + 1)) == 0) {
+        // No gaps.
+        for (std::size_t i = 0; i < kMost; ++i) choices.of[i] = calls_.choice[i] / d.near_share;
+        return d.choose_near(calls_.at, choices, count, chosen);
     }
+    LitPointLanes points;
+    std::size_t next = 0;
+    for_each_lane(lanes, [&](std::size_t lane) {
+        points.set(next, calls_.at[lane]);
+        choices.of[next++] = calls_.choice[lane] / d.near_share;
+    });
+    std::array<ChosenLight, kMost> close;
+    d.choose_near(points, choices, count, close.data());
+    next = 0;
+    for_each_lane(lanes, [&](std::size_t lane) { chosen[lane] = close[next++]; });
 }
 
 void LightDraws::draw_near(std::uint32_t lanes) {
-    std::uint32_t rectangles = 0;
-    // More emitters at once than the tree chooses would wait for each other in the memory.
-    constexpr std::size_t kPart = LitPointLanes::kMost;
-    for (std::size_t first = 0; first < kMost; first += kPart) {
-        const std::uint32_t part = lanes & ((1u << kPart) - 1) << first;
-        if (part != 0) rectangles |= draw_near_part(part);
-    }
-    if (rectangles != 0) draw_rectangles(rectangles);
-}
-
-std::uint32_t LightDraws::draw_near_part(std::uint32_t lanes) {
     const Illumination::Data& d = *lights_.data_;
+    if (sole_is_rectangle_) {
+        for_each_lane(lanes, [&](std::size_t lane) { set_rectangle(lane, sole_); });
+        return draw_rectangles(lanes);
+    }
     std::array<ChosenLight, kMost> chosen;
     if (sole_.probability > 0.0) {
         chosen.fill(sole_);
     } else {
         choose_near(lanes, chosen.data());
     }
-    if (d.near_count() > kInCache) {
+    const bool fetches = d.near_count() > kInCache;
+    std::uint32_t rectangles = 0;
+    // More emitters at once would wait for each other in the memory.
+    constexpr std::size_t kPart = 8;
+    for (std::size_t first = 0; first < kMost; first += kPart) {
+        const std::uint32_t part = lanes & ((1u << kPart) - 1) << first;
         // Not a function of one lane: it would have no effect, and compilers leave such calls out.
-        for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+        for (std::uint32_t left = fetches ? part : 0; left != 0; left &= left - 1) {
             const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(left))];
             if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
         }
+        rectangles |= draw_near_part(part, chosen.data());
     }
+    if (rectangles != 0) draw_rectangles(rectangles);
+}
+
+std::uint32_t LightDraws::draw_near_part(std::uint32_t lanes, const ChosenLight* chosen) {
+    const Illumination::Data& d = *lights_.data_;
     std::uint32_t rectangles = 0;
     for_each_lane(lanes, [&](std::size_t lane) {
         const std::size_t light = chosen[lane].light;
@@ -180,11 +172,17 @@ std::uint32_t LightDraws::draw_near_part(std::uint32_t lanes) {
             return results_.set(lane, d.draw_near(light, probability, calls_.at[lane],
                                                   calls_.u_of(lane), *waves_[lane]));
         }
-        rectangles_.set(lane, d.emitter(light), d.constant_radiance(light), probability);
-        rectangle_lights_[lane] = light;
+        set_rectangle(lane, chosen[lane]);
         rectangles |= 1u << lane;
     });
     return rectangles;
+}
+
+void LightDraws::set_rectangle(std::size_t lane, const ChosenLight& chosen) {
+    const Illumination::Data& d = *lights_.data_;
+    rectangles_.set(lane, d.emitter(chosen.light), d.constant_radiance(chosen.light),
+                    d.near_share * chosen.probability);
+    rectangle_lights_[lane] = chosen.light;
 }
 
 void LightDraws::draw_rectangles(std::uint32_t lanes) {

@@ -51,10 +51,11 @@ class LightDraws {
     void draw_far(std::uint32_t lanes);
     void draw_sky(std::size_t count);
     void draw_near(std::uint32_t lanes);
-    /// Chooses near lights and draws all but rectangles, which are set in their lanes and returned.
-    [[nodiscard]] std::uint32_t draw_near_part(std::uint32_t lanes);
+    /// Draws all chosen lights but rectangles, which are set in their lanes and returned.
+    [[nodiscard]] std::uint32_t draw_near_part(std::uint32_t lanes, const ChosenLight* chosen);
     /// Chooses a near light for each of `lanes`: chosen[lane].
     void choose_near(std::uint32_t lanes, ChosenLight* chosen);
+    void set_rectangle(std::size_t lane, const ChosenLight& chosen);
     /// Samples the rectangles that are set in `lanes`.
     void draw_rectangles(std::uint32_t lanes);
 
@@ -66,6 +67,7 @@ class LightDraws {
     std::array<SkyDraw, kMost> sky_draws_;
     std::array<Environment::Search, kMost> searches_;  ///< [sky draw]
     ChosenLight sole_;  ///< the near light if there is only one; else with probability 0
+    bool sole_is_rectangle_ = false;  ///< that RectangleLanes takes
     RectangleLanes rectangles_;
     std::array<std::size_t, kMost> rectangle_lights_ = {};  ///< [lane]
     LightDrawLanes results_;

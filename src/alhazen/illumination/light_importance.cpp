@@ -34,7 +34,7 @@ double importance_of(const LightTree::Siblings& n, std::size_t i, const LitPoint
     if (!(squared > radius2)) return intensity / std::max(radius2, 1e-300);
     const double distance = std::sqrt(squared);
     const Vec3 to_light = offset / distance;
-    const double sine_b = std::min(1.0, n.radius[i] / distance);
+    const double sine_b = std::min(1.0, std::sqrt(radius2) / distance);
     const double cosine_b = std::sqrt(1.0 - sine_b * sine_b);
 
     double cosine_w =
@@ -132,7 +132,7 @@ std::array<double, 2> importances(const LightTree::Siblings& two, const LitPoint
     const Pair squared = chosen(outside, true_squared, both(1.0));
     const Pair distance = _mm_sqrt_pd(squared);
     const Pair to_x = x / distance, to_y = y / distance, to_z = z / distance;
-    const Pair sine_b = smaller(number(two.radius) / distance, both(1.0));
+    const Pair sine_b = smaller(_mm_sqrt_pd(radius2) / distance, both(1.0));
     const Pair cosine_b = _mm_sqrt_pd(both(1.0) - sine_b * sine_b);
 
     Pair cosine_w = _mm_xor_pd(both(-0.0), axis_x * to_x + axis_y * to_y + axis_z * to_z);

@@ -18,9 +18,9 @@ void for_each_lane(std::uint32_t lanes, const F& f) {
 }
 
 struct LightCallLanes {
-    static constexpr std::size_t kMost = 16;
+    static constexpr std::size_t kMost = LitPointLanes::kMost;
 
-    LitPoints<kMost> at;
+    LitPointLanes at;
     alignas(64) double choice[kMost] = {};
     alignas(64) double u[2][kMost] = {};
 

@@ -101,8 +101,6 @@ class LightTreeBuilder {
         if (order_.empty()) return;
         const std::size_t pairs = order_.size() - 1;
         tree.pairs_.resize(pairs);
-        tree.links_.resize(2 * pairs);
-        tree.parents_.resize(pairs);
         std::uint32_t made = 0;
         // Not recursive: a tree of equal lights may be deep.
         std::vector<Task> waiting{{LightTree::kNone, 0, order_.size()}};
@@ -110,7 +108,8 @@ class LightTreeBuilder {
             const Task task = waiting.back();
             waiting.pop_back();
             const bool is_root = task.node == LightTree::kNone;
-            LightTree::Link& link = is_root ? tree.root_ : tree.links_[task.node];
+            LightTree::Link& link =
+                is_root ? tree.root_ : tree.pairs_[task.node / 2].links[task.node % 2];
             if (!is_root) {
                 tree.pairs_[task.node / 2].set(task.node % 2, node_of(bound(task)));
             }
@@ -122,7 +121,7 @@ class LightTreeBuilder {
             }
             const std::size_t middle = divide(task);
             link = LightTree::Link::to_siblings(made);
-            tree.parents_[made] = task.node;
+            tree.pairs_[made].parent = task.node;
             waiting.push_back({2 * made + 1, middle, task.end});
             waiting.push_back({2 * made, task.begin, middle});
             ++made;
@@ -275,7 +274,6 @@ void LightTree::Siblings::set(std::size_t sibling, const Node& node) {
         axis[k][sibling] = node.axis[k];
     }
     radius2[sibling] = 0.25 * length_squared(hi - lo);
-    radius[sibling] = std::sqrt(radius2[sibling]);
     cosine_spread[sibling] = node.cosine_spread;
     cosine_reach[sibling] = node.cosine_reach;
     intensity[sibling] = node.two_sided ? -node.intensity : node.intensity;
@@ -290,19 +288,19 @@ ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
     double probability = 1.0;
     Link link = root_;
     while (!link.is_leaf()) {
-        const std::uint32_t pair = link.target();
-        const auto [first, second] = importances(pairs_[pair], at);
+        const Siblings& pair = pairs_[link.target()];
+        const auto [first, second] = importances(pair, at);
         const double sum = first + second;
         if (!(sum > 0.0)) return {};
         const double share = first / sum;
         if (choice < share) {
             choice = std::min(choice / share, 0x1.fffffffffffffp-1);
             probability *= share;
-            link = links_[2 * pair];
+            link = pair.links[0];
         } else {
             choice = std::min((choice - share) / (1.0 - share), 0x1.fffffffffffffp-1);
             probability *= second / sum;
-            link = links_[2 * pair + 1];
+            link = pair.links[1];
         }
     }
     return {link.target(), probability};
@@ -312,7 +310,7 @@ double LightTree::probability(const LitPoint& at, std::size_t light) const {
     if (empty_ || (leaves_[light] == kNone && !pairs_.empty())) return 0.0;
     if (pairs_.empty()) return root_.target() == light ? 1.0 : 0.0;
     double probability = 1.0;
-    for (std::uint32_t node = leaves_[light]; node != kNone; node = parents_[node / 2]) {
+    for (std::uint32_t node = leaves_[light]; node != kNone; node = pairs_[node / 2].parent) {
         const auto [one, two] = importances(pairs_[node / 2], at);
         if (!(one + two > 0.0)) return 0.0;
         probability *= (node % 2 == 0 ? one : two) / (one + two);

@@ -10,7 +10,7 @@
 /// axis only. The energy of a light is its largest intensity.
 /// Conventions: every light that may reach a point has a probability above 0. Leaves hold one
 /// light.
-/// Complexity: O(n log n) to build, 144 bytes a light; O(depth) for a choice or a probability.
+/// Complexity: O(n log n) to build, 132 bytes a light; O(depth) for a choice or a probability.
 /// Threads: const functions may be called from many.
 
 #include <cstddef>
@@ -48,17 +48,6 @@ class LightTree {
         float intensity;
         bool two_sided;
     };
-    /// The numbers of two siblings that an importance depends on, [sibling].
-    struct alignas(64) Siblings {
-        double center[3][2];
-        double radius2[2], radius[2];  ///< of the sphere around the box; the first squared
-        float axis[3][2];
-        float cosine_spread[2];
-        float cosine_reach[2];
-        float intensity[2];  ///< negative: that of two-sided lights
-
-        void set(std::size_t sibling, const Node& node);
-    };
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
     /// What a node leads to: a pair of siblings, or a light.
@@ -78,11 +67,23 @@ class LightTree {
         std::uint32_t bits_ = 0;
     };
 
+    /// Two siblings, [sibling]: the numbers that an importance depends on, and what follows.
+    struct alignas(64) Siblings {
+        double center[3][2];
+        double radius2[2];  ///< squared, of the sphere around the box
+        Link links[2];
+        std::uint32_t parent;  ///< a node, or kNone
+        float axis[3][2];
+        float cosine_spread[2];
+        float cosine_reach[2];
+        float intensity[2];  ///< negative: that of two-sided lights
+
+        void set(std::size_t sibling, const Node& node);
+    };
     [[nodiscard]] bool empty() const { return empty_; }
     [[nodiscard]] Link root() const { return root_; }
-    [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
     /// Node 2 k + i is sibling i of pair k.
-    [[nodiscard]] const std::vector<Link>& links() const { return links_; }
+    [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
 
   private:
     friend class LightTreeBuilder;
@@ -90,9 +91,7 @@ class LightTree {
     bool empty_ = true;
     Link root_;
     std::vector<Siblings> pairs_;
-    std::vector<Link> links_;             ///< [node]
-    std::vector<std::uint32_t> parents_;  ///< [pair]: a node, or kNone
-    std::vector<std::uint32_t> leaves_;   ///< [light]: a node, or kNone
+    std::vector<std::uint32_t> leaves_;  ///< [light]: a node, or kNone
 };
 
 }  // namespace alhazen

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
 #include <algorithm>
+#include <bit>
 
 #include "alhazen/simd/lanes-inl.h"
 
@@ -18,59 +19,84 @@ namespace light_choices {
 
 using Siblings = LightTree::Siblings;
 
-/// Both siblings of two pairs: lanes 0 and 1 belong to one point, 2 and 3 to another.
-using Numbers = Lanes<double, 4>;
-using Mask = LaneMask<double, 4>;
+/// Both siblings of several pairs: lanes 2 i and 2 i + 1 belong to point i. Smaller registers than
+/// those of 512 bits gain nothing from more points than two.
+constexpr std::size_t kPoints = hn::MaxLanes(hn::ScalableTag<double>()) >= 8 ? 8 : 2;
+constexpr std::size_t kLanes = 2 * kPoints;
+using Numbers = Lanes<double, kLanes>;
+using Mask = LaneMask<double, kLanes>;
 
-template <std::size_t N = 4>
-HWY_INLINE Lanes<double, N> joined(const double (&a)[2], const double (&b)[2]) {
-    Lanes<double, N> r;
-    const LaneTag<double, N> tag;
 #if HWY_TARGET != HWY_SCALAR
-    if constexpr (kParts<double, N> == 1) {
-        const hn::Half<LaneTag<double, N>> half;
-        r.part[0] = hn::Combine(tag, hn::LoadU(half, b), hn::LoadU(half, a));
-        return r;
+/// A register of blocks of 16 bytes; block i is at numbers(*of[i]).
+template <class Tag, class Of>
+HWY_INLINE hn::Vec<Tag> blocks_of(Tag tag, const Siblings* const* of, const Of& numbers) {
+    constexpr std::size_t kBlocks = hn::MaxLanes(tag) * sizeof(hn::TFromD<Tag>) / 16;
+    if constexpr (kBlocks == 1) {
+        return hn::LoadU(tag, numbers(*of[0]));
+    } else {
+        const hn::Half<Tag> half;
+        return hn::Combine(tag, blocks_of(half, of + kBlocks / 2, numbers),
+                           blocks_of(half, of, numbers));
     }
-#endif
-    constexpr std::size_t kHere = kParts<double, N> / 2;
-    for (std::size_t i = 0; i < kHere; ++i) {
-        r.part[i] = hn::LoadU(tag, a + i * hn::Lanes(tag));
-        r.part[kHere + i] = hn::LoadU(tag, b + i * hn::Lanes(tag));
-    }
-    return r;
 }
-/// Each lane of a point becomes the other.
-HWY_INLINE Numbers swapped(const Numbers& a) {
-    Numbers r;
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t i = 0; i < 4; ++i) r.part[i] = a.part[i ^ 1];
-#else
-    for (std::size_t i = 0; i < kParts<double, 4>; ++i) r.part[i] = hn::Shuffle01(a.part[i]);
 #endif
+/// Numbers of two siblings, at numbers(*of[i]).
+template <class Of>
+HWY_INLINE Numbers joined(const Siblings* const* of, const Of& numbers) {
+    Numbers r;
+    const LaneTag<double, kLanes> tag;
+    for (std::size_t i = 0; i < kParts<double, kLanes>; ++i) {
+#if HWY_TARGET == HWY_SCALAR
+        r.part[i] = hn::Set(tag, numbers(*of[i / 2])[i % 2]);
+#else
+        r.part[i] = blocks_of(tag, of + i * hn::MaxLanes(tag) / 2, numbers);
+#endif
+    }
     return r;
 }
 /// Two successive numbers of Siblings, as `joined`.
 struct TwoNumbers {
     Numbers first, second;
 };
-HWY_INLINE TwoNumbers joined_floats(const float* a, const float* b) {
+template <class Of>
+HWY_INLINE TwoNumbers joined_floats(const Siblings* const* of, const Of& numbers) {
 #if HWY_TARGET == HWY_SCALAR
     TwoNumbers r;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const float* from = i < 2 ? a + i : b + (i - 2);
-        r.first.part[i] = hn::Set(LaneTag<double, 4>(), double{from[0]});
-        r.second.part[i] = hn::Set(LaneTag<double, 4>(), double{from[2]});
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const float* from = numbers(*of[i / 2]) + i % 2;
+        r.first.part[i] = hn::Set(LaneTag<double, kLanes>(), double{from[0]});
+        r.second.part[i] = hn::Set(LaneTag<double, kLanes>(), double{from[2]});
     }
     return r;
 #else
-    const LaneTag<float, 4> tag;
-    const auto of_a = hn::LoadU(tag, a), of_b = hn::LoadU(tag, b);
-    Lanes<float, 4> first, second;
-    first.part[0] = hn::ConcatLowerLower(tag, of_b, of_a);
-    second.part[0] = hn::ConcatUpperUpper(tag, of_b, of_a);
+    // Two floats are moved as one number.
+    const LaneTag<float, kLanes> tag;
+    const hn::Repartition<std::uint64_t, LaneTag<float, kLanes> > twos;
+    Lanes<float, kLanes> first, second;
+    for (std::size_t i = 0; i < kParts<float, kLanes>; ++i) {
+        constexpr std::size_t kBlocks = hn::MaxLanes(tag) / 4;
+        const Siblings* const* from = of + 2 * i * kBlocks;
+        const auto low = hn::BitCast(twos, blocks_of(tag, from, numbers));
+        const auto high = hn::BitCast(twos, blocks_of(tag, from + kBlocks, numbers));
+        first.part[i] = hn::BitCast(tag, hn::ConcatEven(twos, high, low));
+        second.part[i] = hn::BitCast(tag, hn::ConcatOdd(twos, high, low));
+    }
     return {as_doubles(first), as_doubles(second)};
 #endif
+}
+/// The number of the first, or of the second sibling, for both.
+HWY_INLINE TwoNumbers apart(const Numbers& a) {
+    TwoNumbers r;
+    for (std::size_t i = 0; i < kParts<double, kLanes>; ++i) {
+#if HWY_TARGET == HWY_SCALAR
+        r.first.part[i] = a.part[i & ~std::size_t{1}];
+        r.second.part[i] = a.part[i | 1];
+#else
+        r.first.part[i] = hn::DupEven(a.part[i]);
+        r.second.part[i] = hn::DupOdd(a.part[i]);
+#endif
+    }
+    return r;
 }
 
 /// std::max(b, a) and std::min(b, a) of each lane: a NaN in `a` gives `b`.
@@ -96,42 +122,45 @@ HWY_INLINE Numbers sine_of_difference(const Numbers& cosine_a, const Numbers& si
     return select_lanes(cosine_a > cosine_b, Numbers(0.0), sine_a * cosine_b - cosine_a * sine_b);
 }
 
-/// A point on its way down the tree.
-struct Walker {
-    alignas(16) double point[3][2], normal[3][2];  ///< each number twice
-    double choice;
-    double probability = 1.0;
-    std::uint32_t pair;                   ///< whose siblings are next
-    std::uint32_t place;                  ///< number of the point
-    std::uint32_t both_sides, in_volume;  ///< bits of two lanes
+/// Points on their way down the tree. Each number is there twice, as its lanes.
+struct Walkers {
+    alignas(64) double point[3][kLanes], normal[3][kLanes];
+    alignas(64) double choice[kLanes], probability[kLanes];
+    std::uint32_t both_sides = 0, in_volume = 0;  ///< bits of lanes
+    std::uint32_t left = 0;                       ///< bits of the points on their way
+    const Siblings* pairs[kPoints];               ///< whose siblings are next
 };
 
 /// `importance` (light_importance.h) of both siblings of each point, operation by operation.
-HWY_INLINE Numbers importances_of(const Siblings& n, const Siblings& m, const Walker& v,
-                                  const Walker& w) {
-    const auto [axis_x, axis_y] = joined_floats(n.axis[0], m.axis[0]);
-    const auto [axis_z, spread] = joined_floats(n.axis[2], m.axis[2]);
-    const auto [reach, signed_intensity] = joined_floats(n.cosine_reach, m.cosine_reach);
+HWY_INLINE Numbers importances_of(const Walkers& w) {
+    const auto& of = w.pairs;
+    const auto [axis_x, axis_y] = joined_floats(of, [](const Siblings& s) { return s.axis[0]; });
+    const auto [axis_z, spread] = joined_floats(of, [](const Siblings& s) { return s.axis[2]; });
+    const auto [reach, signed_intensity] =
+        joined_floats(of, [](const Siblings& s) { return s.cosine_reach; });
     const Numbers one(1.0), zero(0.0);
-    const Numbers x = joined(n.center[0], m.center[0]) - joined(v.point[0], w.point[0]);
-    const Numbers y = joined(n.center[1], m.center[1]) - joined(v.point[1], w.point[1]);
-    const Numbers z = joined(n.center[2], m.center[2]) - joined(v.point[2], w.point[2]);
-    const Numbers radius2 = joined(n.radius2, m.radius2), true_squared = x * x + y * y + z * z;
-    const Numbers intensity = abs(signed_intensity);
-    const Mask in_volume = lanes_of_bits<double, 4>(v.in_volume | w.in_volume << 2);
-    const Mask both_sides = lanes_of_bits<double, 4>(v.both_sides | w.both_sides << 2);
+    const auto offset = [&](std::size_t k) {
+        return joined(of, [k](const Siblings& s) { return s.center[k]; }) -
+               load_lanes<kLanes>(w.point[k]);
+    };
+    const Numbers x = offset(0), y = offset(1), z = offset(2);
+    const Numbers radius2 = joined(of, [](const Siblings& s) { return s.radius2; });
+    const Numbers true_squared = x * x + y * y + z * z, intensity = abs(signed_intensity);
+    const Mask in_volume = lanes_of_bits<double, kLanes>(w.in_volume);
+    const Mask both_sides = lanes_of_bits<double, kLanes>(w.both_sides);
     // Inside the sphere around the node all directions are possible.
     const Mask outside = true_squared > radius2;
     const Numbers squared = select_lanes(outside, true_squared, one);
     const Numbers distance = sqrt(squared);
     const Numbers to_x = x / distance, to_y = y / distance, to_z = z / distance;
-    const Numbers sine_b = smaller_of(joined(n.radius, m.radius) / distance, one);
+    const Numbers sine_b = smaller_of(sqrt(radius2) / distance, one);
     const Numbers cosine_b = sqrt(one - sine_b * sine_b);
 
     Numbers cosine_w = -(axis_x * to_x + axis_y * to_y + axis_z * to_z);
     cosine_w = clamped_cosine(select_lanes(signed_intensity < zero, abs(cosine_w), cosine_w));
     Numbers cosine_x = one, sine_x = zero;
-    if (bits_of((!(cosine_w > spread)) & outside) != 0) {
+    // Of few points often all are in the cone.
+    if (kPoints > 2 || bits_of((!(cosine_w > spread)) & outside) != 0) {
         const Numbers sine_w = sine_of(cosine_w), sine_o = sine_of(spread);
         cosine_x = cosine_of_difference(cosine_w, sine_w, spread, sine_o);
         sine_x = sine_of_difference(cosine_w, sine_w, spread, sine_o);
@@ -140,83 +169,87 @@ HWY_INLINE Numbers importances_of(const Siblings& n, const Siblings& m, const Wa
     // Lights other than surfaces have no cosine.
     const Numbers sent = intensity * select_lanes(reach < zero, one, cosine_out);
 
-    const Numbers normal_x = joined(v.normal[0], w.normal[0]);
-    const Numbers normal_y = joined(v.normal[1], w.normal[1]);
-    const Numbers normal_z = joined(v.normal[2], w.normal[2]);
-    Numbers cosine_i = normal_x * to_x + normal_y * to_y + normal_z * to_z;
+    const auto normal = [&](std::size_t k) { return load_lanes<kLanes>(w.normal[k]); };
+    Numbers cosine_i = normal(0) * to_x + normal(1) * to_y + normal(2) * to_z;
     cosine_i = clamped_cosine(select_lanes(both_sides, abs(cosine_i), cosine_i));
     const Numbers received = cosine_of_difference(cosine_i, sine_of(cosine_i), cosine_b, sine_b);
     const Mask arrives = in_volume | (received > zero);
     const Mask leaves = !(cosine_out <= reach);
-    Numbers result = select_lanes(in_volume, sent, sent * received) / squared;
-    result = select_lanes(leaves & arrives, result, zero);
-    if (bits_of(outside) == 15u) return result;
-    return select_lanes(outside, result, intensity / larger_of(Numbers(1e-300), radius2));
+    const Numbers arriving = select_lanes(in_volume, sent, sent * received);
+    const Numbers result = select_lanes(outside, arriving, intensity) /
+                           select_lanes(outside, squared, larger_of(Numbers(1e-300), radius2));
+    return select_lanes((leaves & arrives) | !outside, result, zero);
 }
 
-/// Takes two points one step down the tree, or one if they are the same. Those that go on are
-/// written to `going`, which is moved behind them.
-HWY_INLINE void descend(const LightTree& tree, Walker& v, Walker& w, Walker**& going,
-                        ChosenLight* chosen) {
+/// One step down the tree for each of the points `left`. Keeps those that go on.
+HWY_INLINE void descend(const LightTree& tree, Walkers& w, ChosenLight* chosen) {
     const Siblings* const pairs = tree.pairs().data();
-    const LightTree::Link* const links = tree.links().data();
-    const Numbers own = importances_of(pairs[v.pair], pairs[w.pair], v, w);
-    const Numbers sum = own + swapped(own), one(1.0);
-    const Mask is_lit = sum > Numbers(0.0);
+    const Numbers own = importances_of(w), zero(0.0), one(1.0);
+    const auto [of_first, of_second] = apart(own);
+    const Numbers sum = of_first + of_second;
+    const Mask is_lit = sum > zero;
     // No division of 0 by 0.
-    HWY_ALIGN double shares[4];
-    store_lanes(own / select_lanes(is_lit, sum, one), shares);
-    const std::uint32_t lit = bits_of(is_lit);
-    const std::size_t count = &v == &w ? 1 : 2;
-    for (std::size_t i = 0; i < count; ++i) {
-        Walker& at = i == 0 ? v : w;
-        const double part = shares[2 * i];
-        // Without branches: the choice is not predictable.
-        const std::size_t side = at.choice < part ? 0 : 1;
-        const double below[2] = {0.0, part}, size[2] = {part, 1.0 - part};
-        at.probability *= shares[2 * i + side];
-        const LightTree::Link link = links[2 * at.pair + side];
-        if ((lit >> 2 * i & 1u) == 0) {
-            chosen[at.place] = {};
-        } else if (link.is_leaf()) {
-            chosen[at.place] = {link.target(), at.probability};
-        } else {
-            const double rest = (at.choice - below[side]) / size[side];
-            at.choice = std::min(rest, 0x1.fffffffffffffp-1);
-            at.pair = link.target();
-            // It is read after a step of the other points.
-            const auto* const next = reinterpret_cast<const char*>(pairs + at.pair);
-            __builtin_prefetch(next);
-            __builtin_prefetch(next + 64);
-            __builtin_prefetch(links + 2 * std::size_t{at.pair});
-            *going++ = &at;
+    const auto [part, other] = apart(own / select_lanes(is_lit, sum, one));
+    const Numbers choice = load_lanes<kLanes>(w.choice);
+    const Mask first = choice < part;
+    store_lanes(load_lanes<kLanes>(w.probability) * select_lanes(first, part, other),
+                w.probability);
+    const Numbers rest =
+        (choice - select_lanes(first, zero, part)) / select_lanes(first, part, one - part);
+    // std::min.
+    const Numbers most(0x1.fffffffffffffp-1);
+    store_lanes(select_lanes(most < rest, most, rest), w.choice);
+    const std::uint32_t lit = bits_of(is_lit), second = ~bits_of(first);
+    for (std::uint32_t left = w.left; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        const LightTree::Link link = w.pairs[i]->links[second >> 2 * i & 1u];
+        if ((lit >> 2 * i & 1u) == 0 || link.is_leaf()) {
+            chosen[i] = (lit >> 2 * i & 1u) == 0 ? ChosenLight{}
+                                                 : ChosenLight{link.target(), w.probability[2 * i]};
+            w.left &= ~(1u << i);
+            continue;
         }
+        w.pairs[i] = pairs + link.target();
+        const auto* const next = reinterpret_cast<const char*>(w.pairs[i]);
+        __builtin_prefetch(next);
+        __builtin_prefetch(next + 64);
     }
+}
+
+/// Sets the points first .. first + count - 1.
+HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
+                      std::size_t first, std::size_t count, Walkers& w) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::size_t i = first + lane / 2;
+        for (int k = 0; k < 3; ++k) {
+            w.point[k][lane] = at.point[k][i];
+            w.normal[k][lane] = at.normal[k][i];
+        }
+        w.choice[lane] = choices.of[i];
+        w.probability[lane] = 1.0;
+        w.both_sides |= (at.both_sides >> i & 1u) << lane;
+        w.in_volume |= (at.in_volume >> i & 1u) << lane;
+    }
+    std::fill(std::begin(w.pairs), std::end(w.pairs), &tree.pairs()[tree.root().target()]);
+    w.left = (1u << count) - 1;
 }
 
 inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
                    std::size_t count, ChosenLight* chosen) {
-    Walker walkers[LitPointLanes::kMost];
-    Walker* left[LitPointLanes::kMost];
-    for (std::size_t i = 0; i < count; ++i) {
-        Walker& w = walkers[i];
-        for (int k = 0; k < 3; ++k) {
-            w.point[k][0] = w.point[k][1] = at.point[k][i];
-            w.normal[k][0] = w.normal[k][1] = at.normal[k][i];
-        }
-        w.choice = choices.of[i];
-        w.pair = tree.root().target();
-        w.place = static_cast<std::uint32_t>(i);
-        w.both_sides = (at.both_sides >> i & 1u) * 3u;
-        w.in_volume = (at.in_volume >> i & 1u) * 3u;
-        left[i] = &w;
+    // While one group takes a step, the next nodes of the other are fetched.
+    constexpr std::size_t kGroups = LitPointLanes::kMost / kPoints;
+    Walkers groups[kGroups];
+    std::size_t used = 0;
+    for (std::size_t first = 0; first < count; first += kPoints) {
+        begin(tree, at, choices, first, std::min(kPoints, count - first), groups[used++]);
     }
-    while (count > 0) {
-        Walker** going = left;
-        for (std::size_t i = 0; i < count; i += 2) {
-            descend(tree, *left[i], *left[std::min(i + 1, count - 1)], going, chosen);
+    for (bool any = true; any;) {
+        any = false;
+        for (std::size_t k = 0; k < used; ++k) {
+            if (groups[k].left == 0) continue;
+            descend(tree, groups[k], chosen + k * kPoints);
+            any = any || groups[k].left != 0;
         }
-        count = static_cast<std::size_t>(going - left);
     }
 }
 

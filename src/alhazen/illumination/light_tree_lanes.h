@@ -1,5 +1,6 @@
 #pragma once
-/// `LightTree::choose` for eight points in turn, two with both siblings in lanes at a time.
+/// `LightTree::choose` for sixteen points, several of them with both siblings in lanes at a time:
+/// eight with AVX-512, else two.
 ///
 /// Conventions: the bits are those of LightTree::choose.
 

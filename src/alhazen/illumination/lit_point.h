@@ -46,6 +46,6 @@ struct LitPoints {
     alignas(64) double point[3][kMost] = {}, normal[3][kMost] = {};  ///< [axis][lane]
     std::uint32_t both_sides = 0, in_volume = 0;                     ///< bits of lanes
 };
-using LitPointLanes = LitPoints<8>;
+using LitPointLanes = LitPoints<16>;
 
 }  // namespace alhazen

@@ -47,6 +47,14 @@ HWY_INLINE void draw_rectangles(std::uint32_t lanes, const LightCallLanes& calls
     using Vectors = VectorLanes<N>;
     const D one(1.0), zero(0.0), minus_one(-1.0);
     const Vectors corner = load_vectors<N>(n.corner) - load_vectors<N>(calls.at.point);
+    // `is_sampled_by_area`.
+    const D height_above = dot(corner, load_vectors<N>(n.normal));
+    const LaneMask<double, N> by_area = (dot(corner, corner) > load_lanes<N>(n.far_squared)) |
+                                        (abs(height_above) <= load_lanes<N>(n.in_plane));
+    if ((lanes & ~bits_of(by_area)) == 0) {
+        n.drawn.sampled = n.drawn.shining = 0;
+        return;
+    }
     const Vectors axis_x = load_vectors<N>(n.x), axis_y = load_vectors<N>(n.y);
     Vectors axis_z = load_vectors<N>(n.z);
     D z0 = dot(corner, axis_z);
@@ -83,8 +91,8 @@ HWY_INLINE void draw_rectangles(std::uint32_t lanes, const LightCallLanes& calls
     const Vectors offset = x * axis_x + y * axis_y + z0 * axis_z;
     const D distance = sqrt(dot(offset, offset)), density = one / solid_angle;
 
-    const std::uint32_t sampled = bits_of(before & (solid_angle > D(kLeastSolidAngle)));
-    const std::uint32_t towards = bits_of(dot(corner, load_vectors<N>(n.normal)) < zero);
+    const std::uint32_t sampled = bits_of(before & (solid_angle > D(kLeastSolidAngle)) & !by_area);
+    const std::uint32_t towards = bits_of(height_above < zero);
     n.drawn.sampled = lanes & sampled;
     n.drawn.shining = n.drawn.sampled & (n.two_sided | towards);
     const LaneMask<double, N> set = lanes_of_bits<double, N>(n.drawn.sampled);
@@ -128,6 +136,7 @@ RectangleLanes::RectangleLanes() {
         numbers_.corner[2][lane] = -1.0;
         numbers_.x[0][lane] = numbers_.y[1][lane] = numbers_.z[2][lane] = 1.0;
         numbers_.width[lane] = numbers_.height[lane] = 1.0;
+        numbers_.in_plane[lane] = -1.0;
     }
 }
 
@@ -143,6 +152,8 @@ void RectangleLanes::set_emitter(std::size_t lane, const Emitter& e, const Rgb* 
     put(e.world_from_own.linear.z_axis, numbers_.normal);
     numbers_.width[lane] = e.sides.width;
     numbers_.height[lane] = e.sides.height;
+    numbers_.far_squared[lane] = e.far_squared;
+    numbers_.in_plane[lane] = e.in_plane;
     const std::uint32_t bit = 1u << lane;
     const auto mark = [bit](bool holds, std::uint32_t& lanes) {
         lanes = holds ? lanes | bit : lanes & ~bit;

@@ -2,8 +2,8 @@
 /// Sampling of rectangular emitters by solid angle, for points in lanes.
 ///
 /// Conventions: the bits are those of SphericalRectangle and of Illumination::draw. Lanes that the
-/// kernel does not handle (solid angles up to kLeastSolidAngle, rectangles edge on, NaNs) are left
-/// to `sample`. Threads: used by one thread.
+/// kernel does not handle (rectangles that are sampled by area or seen edge on, NaNs) are left to
+/// `sample`. Threads: used by one thread.
 
 #include <cstddef>
 #include <cstdint>
@@ -51,6 +51,7 @@ class RectangleLanes {
         alignas(64) double x[3][kMost] = {}, y[3][kMost] = {}, z[3][kMost] = {};
         alignas(64) double normal[3][kMost] = {};  ///< outer
         alignas(64) double width[kMost] = {}, height[kMost] = {};
+        alignas(64) double far_squared[kMost] = {}, in_plane[kMost] = {};  ///< those of Emitter
         alignas(64) double radiance[Spectrum::kCount][kMost] = {};
         alignas(64) double probability[kMost] = {};
         alignas(64) double density[kMost] = {};  ///< result, without the probability

@@ -157,5 +157,38 @@ TEST(LightDraws, ManyAtOnceHaveTheBitsOfThoseOneByOne) {
     }
 }
 
+/// Rounding alone decides on which side of the only rectangle they are; others are beside it.
+TEST(LightDraws, PointsInThePlaneOfASoleRectangleHaveTheBitsOfThoseOneByOne) {
+    const Vec3 corner{-3, -2, 0.25}, edge_u{1.5, 0.5, 0.25}, edge_v{-0.5, 1.5, 0};
+    SceneMaker maker;
+    Material shining;
+    shining.emission.color = {2, 3, 4};
+    maker.add(rectangle(corner, edge_u, edge_v), maker.material(shining));
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        LightDraws draws(lights);
+        RandomStream random(7);
+        for (int batch = 0; batch < 200; ++batch) {
+            draws.clear();
+            std::vector<LightDraw> expected;
+            for (std::size_t i = 0; i < LightDraws::kMost; ++i) {
+                const double u = random.uniform(-1, 2), v = random.uniform(-1, 2);
+                const Vec3 away{0, 0, i % 2 == 0 ? 0.0 : 1.0};
+                const LitPoint at{corner + u * edge_u + v * edge_v + away, {0, 0, 1}, true};
+                const Vec2 place{random.uniform(0, 1), random.uniform(0, 1)};
+                draws.add(at, 0.5, place, kColorChannels);
+                expected.push_back(lights.draw(at, 0.5, place, kColorChannels));
+            }
+            draws.draw();
+            for (std::size_t i = 0; i < LightDraws::kMost; ++i) {
+                EXPECT_TRUE(same_bits(draws[i].density, expected[i].density)) << target;
+                EXPECT_TRUE(same_bits(draws[i].to_light, expected[i].to_light)) << target;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -87,7 +87,7 @@ TEST(LightTree, TwoNodesInLanesAreAsOneByOne) {
     EXPECT_GT(dark, 50000);
 }
 
-TEST(LightTree, EightChoicesInLanesAreAsOneByOne) {
+TEST(LightTree, SixteenChoicesInLanesAreAsOneByOne) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         RandomStream random(5);

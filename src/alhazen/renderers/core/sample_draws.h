@@ -24,12 +24,14 @@ class SampleDraws {
         ids_ = ids;
         left_.resize(ids.size());
         for (std::uint32_t i = 0; i < ids.size(); ++i) left_[i] = i;
+        has_all_ = true;
         runs_.clear();
-        for (std::vector<Vec2>& pair : together_) pair.clear();
+        for (Pair& pair : together_) pair.drawn = false;
     }
     /// Limits further draws to the samples `left` of the batch, a subset of those before.
     void keep(std::span<const std::uint32_t> left) {
         left_.assign(left.begin(), left.end());
+        has_all_ = false;
         runs_.clear();
     }
     [[nodiscard]] Vec2 at(std::uint32_t sample, std::uint32_t pair) {
@@ -40,18 +42,28 @@ class SampleDraws {
     }
     /// The numbers of a pair that is drawn for all samples together, [sample]. Valid until `begin`.
     [[nodiscard]] const Vec2* all(std::uint32_t pair) {
-        std::vector<Vec2>& points = together_[pair];
-        if (points.empty()) draw_all(pair, points);
-        return points.data();
+        Pair& of = together_[pair];
+        if (!of.drawn) draw_all(pair, of);
+        return of.points.data();
     }
 
   private:
-    void draw_all(std::uint32_t pair, std::vector<Vec2>& points) {
-        points.resize(ids_.size());
+    struct Pair {
+        std::vector<Vec2> points;  ///< [sample]
+        bool drawn = false;
+    };
+
+    void draw_all(std::uint32_t pair, Pair& of) {
+        of.drawn = true;
+        if (of.points.size() < ids_.size()) of.points.resize(ids_.size());
         if (runs_.empty()) list_runs();
-        drawn_.resize(left_.size());
-        sampler_.points_of(runs_, pair, drawn_);
-        for (std::size_t i = 0; i < left_.size(); ++i) points[left_[i]] = drawn_[i];
+        if (has_all_) {
+            sampler_.points_of(runs_, pair, std::span(of.points).first(ids_.size()));
+            return;
+        }
+        if (drawn_.size() < left_.size()) drawn_.resize(left_.size());
+        sampler_.points_of(runs_, pair, std::span(drawn_).first(left_.size()));
+        for (std::size_t i = 0; i < left_.size(); ++i) of.points[left_[i]] = drawn_[i];
     }
     void list_runs() {
         for (const std::uint32_t sample : left_) {
@@ -69,10 +81,11 @@ class SampleDraws {
 
     const Sampler& sampler_;
     std::span<const SampleId> ids_;
-    std::vector<std::uint32_t> left_;          ///< samples of the batch
-    std::vector<std::vector<Vec2>> together_;  ///< [pair][sample]; empty: not yet drawn
-    std::vector<SampleRun> runs_;              ///< of the samples `left_`; empty: not yet listed
-    std::vector<Vec2> drawn_;                  ///< [left]
+    std::vector<std::uint32_t> left_;  ///< samples of the batch
+    bool has_all_ = true;              ///< `left_` are all, in order
+    std::vector<Pair> together_;       ///< [pair]
+    std::vector<SampleRun> runs_;      ///< of the samples `left_`; empty: not yet listed
+    std::vector<Vec2> drawn_;          ///< [left]
 };
 
 }  // namespace alhazen
