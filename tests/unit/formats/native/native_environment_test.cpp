@@ -2,6 +2,7 @@
 
 #include "alhazen/imaging/image/image.h"
 #include "alhazen/shading/lights/ies_profile.h"
+#include "support/scratch_folder.h"
 #include "unit/formats/native/native_round_trip.h"
 #include "unit/formats/native/native_scene.h"
 
@@ -86,6 +87,30 @@ TEST(NativeEnvironment, ProfilesOfLightsKeepEveryBit) {
     spot.profile = {"lamp.ies", point.profile.profile, spot.direction, n.point()};
     scene.lights.push_back({"", spot, {}});
     expect_round_trip(scene);
+}
+
+TEST(NativeEnvironment, WhatAProfileDoesNotGiveIsSaid) {
+    const ScratchFolder folder;
+    const auto messages = [&](const std::string& tilt, const std::string& candela,
+                              const std::string& keys) {
+        folder.write("lamp.ies", "IESNA:LM-63-1995\nTILT=" + tilt +
+                                     "\n1 1000 1 3 1 1 2 0 0 0\n1 1 100\n0 45 90\n0\n" + candela);
+        Imported read = import_native_file(
+            folder.write("scene.alhazen",
+                         "alhazen 1\npoint_light { position = (0, 0, 0); profile = \"lamp.ies\"; " +
+                             keys + " }\nsphere { radius = 1 }\n"));
+        validate(read.scene, read.diagnostics);
+        return read.messages();
+    };
+    EXPECT_EQ(messages("NONE", "100 50 0", "lumens = 100"), "");
+    EXPECT_NE(messages("lamp.tlt", "100 50 0", "").find("\"lamp.ies\": TILT=lamp.tlt"),
+              std::string::npos);
+    EXPECT_EQ(messages("NONE", "0 0 0", ""), "");
+    for (const char* power : {"lumens = 100", "power_watts = 1"}) {
+        const std::string text = messages("NONE", "0 0 0", power);
+        EXPECT_NE(text.find("\"lamp.ies\" emits nothing"), std::string::npos) << text;
+        EXPECT_EQ(text.find("finite"), std::string::npos) << text;
+    }
 }
 
 TEST(NativeEnvironment, PowersOfLightsAreRadiances) {
