@@ -81,6 +81,7 @@ std::optional<double> read_power(BlockReader& reader, double per_unit) {
     if (reader.has("power_watts") && reader.has("lumens")) {
         reader.error(reader.block(),
                      "'power_watts' and 'lumens' exclude each other; expected one of them");
+        reader.ignore("lumens");
     }
     if (read_positive(reader, "power_watts", power)) return power / per_unit;
     if (read_positive(reader, "lumens", power)) return power / kLumensPerWatt / per_unit;
