@@ -1,41 +1,11 @@
 #include "frame_protocol.h"
 
-#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "alhazen/base/error.h"
+#include "wish_values.h"
 
 namespace alhazen::viewer {
-
-namespace {
-
-/// The largest number of nested brackets.
-int depth_of(std::string_view text) {
-    int depth = 0, most = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string && c == '\\') {
-            ++i;
-        } else if (c == '"') {
-            in_string = !in_string;
-        } else if (!in_string && (c == '[' || c == '{')) {
-            most = std::max(most, ++depth);
-        } else if (!in_string && (c == ']' || c == '}')) {
-            --depth;
-        }
-    }
-    return most;
-}
-
-}  // namespace
-
-nlohmann::ordered_json wish_json(std::string_view text) {
-    constexpr int kDeepest = 64;
-    if (depth_of(text) > kDeepest) throw Error(ErrorKind::Usage, "nested deeper than 64 levels");
-    return nlohmann::ordered_json::parse(text);
-}
 
 ClientMessage client_message(std::string_view text) {
     ClientMessage message;

@@ -8,17 +8,12 @@
 /// least significant first), the text (`id`, `status`, `type`, `facts`), the body.
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 #include "http_server.h"
 
 namespace alhazen::viewer {
-
-/// Parses JSON nested at most 64 deep. Throws nlohmann::json::exception, and Error (Usage) if
-/// nested deeper.
-[[nodiscard]] nlohmann::ordered_json wish_json(std::string_view text);
 
 struct ClientMessage {
     enum class Kind { Bad, Token, Shown, Wish };

@@ -154,9 +154,9 @@ struct HttpServer::State {
         }
         const bool post = request.method() == http::verb::post;
         const std::string_view origin = view_of(request[http::field::origin]);
-        const bool has_origin = request.count(http::field::origin) > 0;
-        const bool needs_origin = post || has_origin || is_upgrade(request);
-        if (needs_origin && origin != "http://" + std::string(host)) {
+        const std::size_t origins = request.count(http::field::origin);
+        const bool needs_origin = post || origins > 0 || is_upgrade(request);
+        if (origins > 1 || (needs_origin && origin != "http://" + std::string(host))) {
             return plain(403, "requests of other pages are refused\n");
         }
         if (!post && request.method() != http::verb::get) {

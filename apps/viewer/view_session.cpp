@@ -17,6 +17,7 @@
 #include "alhazen/session/picture.h"
 #include "frame_protocol.h"
 #include "view_wishes.h"
+#include "wish_values.h"
 
 namespace alhazen::viewer {
 
@@ -101,7 +102,7 @@ class ViewSession::Turn final : public ProgressSink {
     /// `flag` also ends the work; null: the turn has its own.
     Turn(ViewSession& session, const json& wish, std::string what, std::shared_ptr<StopFlag> flag)
         : session_(session),
-          client_(wish.value("client", "")),
+          client_(text_in(wish, "client", "")),
           what_(std::move(what)),
           flag_(flag ? std::move(flag) : std::make_shared<StopFlag>()) {
         const std::lock_guard lock(session.turns_mutex_);
@@ -175,7 +176,7 @@ std::optional<Scene> ViewSession::lit(const Scene& scene, const SceneDescription
 
 Response ViewSession::frame(const json& request, Turn& turn) {
     FrameWish wish = frame_wish(request);
-    const auto here = scenes_.with(request.value("accelerator", ""), turn.flag());
+    const auto here = scenes_.with(text_in(request, "accelerator", ""), turn.flag());
     wish.options.view = &wish.camera;
     wish.options.threads = threads_;
     wish.options.stop = &turn.flag();
@@ -200,7 +201,7 @@ Response ViewSession::frame(const json& request, Turn& turn) {
 
 Response ViewSession::explain(const json& request, Turn& turn) {
     const FrameWish wish = frame_wish(request);
-    const auto here = scenes_.with(request.value("accelerator", ""), turn.flag());
+    const auto here = scenes_.with(text_in(request, "accelerator", ""), turn.flag());
     const auto placed = scenes_.moved(here, wish.lighting.changes, turn.flag());
     const std::optional<Scene> other =
         lit(placed->scene.scene, here->scene.description, wish.lighting);
@@ -215,7 +216,7 @@ Response ViewSession::explain(const json& request, Turn& turn) {
     options.x = whole_in(request, "x", {}, 0, *wish.options.width - 1);
     options.y = whole_in(request, "y", {}, 0, *wish.options.height - 1);
     options.sample = whole_in(request, "sample", 0, 0, wish.options.samples_per_pixel - 1);
-    options.accelerator = request.value("steps", options.accelerator);
+    options.accelerator = text_in(request, "steps", options.accelerator);
     const Interruptible ends(&turn.flag());  // further accelerators are built
     const Explanation explanation = explain_pixel(placed->scene, options);
     if (!explanation.complete) return turn.ended();
@@ -232,7 +233,7 @@ Response ViewSession::blocks(const json& wish) {
 Response ViewSession::stop(const json& wish) {
     scenes_.stop();
     const std::lock_guard lock(turns_mutex_);
-    const auto turn = turns_.find(wish.value("client", ""));
+    const auto turn = turns_.find(text_in(wish, "client", ""));
     if (turn != turns_.end()) turn->second->stop();
     return {200, "application/json", "{}", "", ""};
 }
@@ -265,8 +266,8 @@ Response ViewSession::answer(const Request& request) {
             return {200, "application/json", "{}", "", ""};
         }
         return failure(404, "there is no such question");
-    } catch (const json::exception& error) {
-        return failure(400, error.what());
+    } catch (const json::exception&) {
+        return failure(400, "a value of the request has the wrong type");
     } catch (const Error& error) {
         return failure(error.kind() == ErrorKind::Usage ? 400 : 500, error.what());
     } catch (const std::exception& error) {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/environment_option.h"
+#include "wish_values.h"
 
 namespace alhazen::viewer {
 
@@ -17,33 +17,30 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-Vec3 numbers_in(const json& wish, const char* key) {
-    const json& v = wish.at(key);
-    return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
-}
-Vec3 vector_in(const json& wish, const char* key) {
-    const Vec3 vector = numbers_in(wish, key);
+/// A vector of the camera.
+Vec3 finite_in(const json& wish, const char* key) {
+    const Vec3 vector = vector_in(wish, key);
     if (!is_finite(vector)) throw Error(ErrorKind::Usage, "the camera is not finite");
     return vector;
 }
 
 Camera camera_in(const json& wish) {
-    const Vec3 eye = vector_in(wish, "eye"), look = vector_in(wish, "look");
-    const Vec3 right = vector_in(wish, "right"), up = vector_in(wish, "up");
+    const Vec3 eye = finite_in(wish, "eye"), look = finite_in(wish, "look");
+    const Vec3 right = finite_in(wish, "right"), up = finite_in(wish, "up");
     if (look == Vec3{} || right == Vec3{} || up == Vec3{}) {
         throw Error(ErrorKind::Usage, "the camera has no extent");
     }
-    if (wish.value("parallel", false)) return OrthographicCamera{eye, look, right, up};
+    if (flag_in(wish, "parallel")) return OrthographicCamera{eye, look, right, up};
     return PerspectiveCamera{eye, look, right, up};
 }
 
 ToneMapping tone_in(const json& wish) {
     ToneMapping tone;
-    tone.stops = wish.value("exposure", 0.0);
+    tone.stops = number_in(wish, "exposure", 0.0);
     if (!(std::abs(tone.stops) <= 64.0)) {
         throw Error(ErrorKind::Usage, "exposure must be -64 to 64 stops");
     }
-    const std::string curve = wish.value("curve", "none");
+    const std::string curve = text_in(wish, "curve", "none");
     const auto* const names = std::begin(kToneCurveNames);
     const auto* const found = std::find(names, std::end(kToneCurveNames), curve);
     if (found == std::end(kToneCurveNames)) {
@@ -77,9 +74,9 @@ void select_pixels(RenderOptions& options) {
 /// Environments apply to physically based renderers; other renderers keep that of the scene.
 Lighting lighting_in(const json& wish, const std::string& renderer) {
     Lighting lighting;
-    lighting.off = wish.value("lights_off", std::vector<std::string>());
+    lighting.off = texts_in(wish, "lights_off");
     lighting.changes = light_changes(wish);
-    const std::string name = wish.value("environment", "");
+    const std::string name = text_in(wish, "environment", "");
     if (name.empty()) return lighting;
     std::string known;
     for (const EnvironmentEntry& entry : environments()) {
@@ -92,7 +89,7 @@ Lighting lighting_in(const json& wish, const std::string& renderer) {
 }
 
 const AovEntry* layer_in(const json& wish) {
-    const std::string name = wish.value("layer", "");
+    const std::string name = text_in(wish, "layer", "");
     if (name.empty()) return nullptr;
     std::string known;
     for (const AovEntry& entry : aov_table()) {
@@ -107,32 +104,20 @@ const AovEntry* layer_in(const json& wish) {
 
 std::vector<LightChange> light_changes(const json& wish) {
     std::vector<LightChange> changes;
-    if (!wish.contains("lights")) return changes;
-    for (const json& light : wish.at("lights")) {
+    const json* const lights = find_in(wish, "lights");
+    if (lights == nullptr) return changes;
+    if (!lights->is_array()) throw Error(ErrorKind::Usage, "lights must be a list of objects");
+    for (const json& light : *lights) {
         LightChange& change = changes.emplace_back();
-        change.name = light.at("name").get<std::string>();
-        if (light.contains("position")) change.position = numbers_in(light, "position");
-        if (light.contains("direction")) change.direction = numbers_in(light, "direction");
-        if (light.contains("sizes")) change.sizes = light.at("sizes").get<std::vector<double>>();
+        change.name = text_in(light, "name");
+        if (light.contains("position")) change.position = vector_in(light, "position");
+        if (light.contains("direction")) change.direction = vector_in(light, "direction");
+        if (light.contains("sizes")) change.sizes = numbers_in(light, "sizes");
         if (!light.contains("color")) continue;
-        const Vec3 color = numbers_in(light, "color");
+        const Vec3 color = vector_in(light, "color");
         change.color = Rgb{color.x, color.y, color.z};
     }
     return changes;
-}
-
-int whole_in(const json& wish, const char* key, std::optional<int> fallback, int least, int most) {
-    if (fallback && !wish.contains(key)) return *fallback;
-    const json& found = wish.at(key);
-    // Compared before the conversion to int: 2^32 + 1 must not become 1.
-    const double value =
-        found.is_number() ? found.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    if (!(value >= least && value <= most) || std::trunc(value) != value) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("{} must be a whole number from {} to {}, found {}", key, least,
-                                most, found.dump()));
-    }
-    return static_cast<int>(value);
 }
 
 FrameWish frame_wish(const json& wish) {
@@ -140,9 +125,9 @@ FrameWish frame_wish(const json& wish) {
     RenderOptions& options = result.options;
     options.width = whole_in(wish, "width", 640, 1, 4096);
     options.height = whole_in(wish, "height", 360, 1, 4096);
-    result.camera.camera = camera_in(wish.at("camera"));
+    result.camera.camera = camera_in(value_in(wish, "camera"));
     result.camera.aspect = static_cast<double>(*options.width) / *options.height;
-    options.renderer = wish.value("renderer", "whitted");
+    options.renderer = text_in(wish, "renderer", "whitted");
     options.samples_per_pixel = whole_in(wish, "samples", 1, 1, 1024);
     if (wish.contains("depth")) {
         options.max_depth = whole_in(wish, "depth", 5, 0, 100);
@@ -151,11 +136,11 @@ FrameWish frame_wish(const json& wish) {
     result.layer = layer_in(wish);
     if (result.layer != nullptr) options.aovs.add(result.layer->kind);
     use_exact_areas(options);
-    if (wish.value("selected", false)) select_pixels(options);
+    if (flag_in(wish, "selected")) select_pixels(options);
     result.lighting = lighting_in(wish, options.renderer);
     result.tone = tone_in(wish);
-    result.png = wish.value("png", false);
-    result.raw = wish.value("raw", false) && !result.png;
+    result.png = flag_in(wish, "png");
+    result.raw = flag_in(wish, "raw") && !result.png;
     return result;
 }
 

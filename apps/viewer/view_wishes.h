@@ -1,10 +1,9 @@
 #pragma once
 /// Parses the requests of the viewer's page from JSON.
 ///
-/// Conventions: throws Error (Usage) or an exception of nlohmann::json for values out of range.
+/// Conventions: throws Error (Usage) for values of the wrong type (wish_values.h) or out of range.
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <vector>
 
 #include "alhazen/imaging/image/tone_mapping.h"
@@ -24,10 +23,6 @@ struct FrameWish {
     bool png = false;
     bool raw = false;  ///< red, green, blue, 255 of each pixel, unless `png`
 };
-
-/// An integer of a request; required unless there is a fallback. 3.0 counts as an integer.
-[[nodiscard]] int whole_in(const nlohmann::ordered_json& wish, const char* key,
-                           std::optional<int> fallback, int least, int most);
 
 /// The changes of lights of a request.
 [[nodiscard]] std::vector<LightChange> light_changes(const nlohmann::ordered_json& wish);

@@ -70,6 +70,14 @@ class ViewServer(ServerTest):
             self.assertEqual(self.status(Origin=origin), 403, origin)
         self.assertEqual(self.status("/", b"", "GET", Origin="http://evil.com"), 403)
 
+    def test_repeated_origins_are_refused(self):
+        own, foreign = f"Origin: http://{self.server.host}\r\n", "Origin: http://evil.com\r\n"
+        for origins, status in ((own, b" 200 "), (own + foreign, b" 403 "), (foreign + own, b" 403 "), (own + own, b" 403 ")):
+            for head, body in (("GET / HTTP/1.1", ""), ("POST /state HTTP/1.1", "{}")):
+                text = (f"{head}\r\nHost: {self.server.host}\r\n{origins}Authorization: Bearer {self.server.token}\r\n"
+                        f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n{body}")
+                self.assertIn(status, self.server.raw(text.encode()).split(b"\r\n")[0], (head, origins))
+
     def test_a_simple_request_across_sites_is_refused(self):
         self.assertEqual(self.status("/frame", WISH, Origin="http://evil.com", Authorization=None,
                                      Content_Type="text/plain"), 403)
@@ -129,7 +137,32 @@ class ViewServer(ServerTest):
             status, _, answer = self.server.ask(path, body)
             self.assertEqual(status, 400, (path, body if len(str(body)) < 300 else "...", answer))
             self.assertTrue(json.loads(answer)["error"])
+            self.assertNotIn("json.exception", json.loads(answer)["error"])
         self.assertEqual(self.server.ask("/frame", WISH)[0], 200)
+
+    def test_values_of_the_wrong_type_are_named(self):
+        for path, change, message in (
+                ("/frame", {"renderer": 3}, "renderer must be a text, found 3"),
+                ("/frame", {"png": "yes"}, 'png must be true or false, found "yes"'),
+                ("/frame", {"exposure": None}, "exposure must be a number, found null"),
+                ("/frame", {"samples": "2"}, 'samples must be a whole number from 1 to 1024, found "2"'),
+                ("/frame", {"lights_off": "key"}, 'lights_off must be a list of texts, found "key"'),
+                ("/frame", {"lights_off": [1]}, "lights_off must be a list of texts, found [1]"),
+                ("/frame", {"lights": 1}, "lights must be a list of objects"),
+                ("/frame", {"lights": [1]}, "expected an object, found 1"),
+                ("/frame", {"lights": [{}]}, "name is missing"),
+                ("/frame", {"lights": [{"name": "x", "sizes": 1}]}, "sizes must be a list of numbers, found 1"),
+                ("/frame", {"camera": {**WISH["camera"], "eye": [0, "a", 0]}}, "eye must be a list of numbers"),
+                ("/frame", {"camera": {**WISH["camera"], "up": [0, 1]}}, "up must be three numbers, found [0,1]"),
+                ("/frame", {"camera": [1] * 100}, "expected an object, found [1,1"),
+                ("/frame", {"client": 7}, "client must be a text, found 7"),
+                ("/explain", {"x": [], "y": 0}, "x must be a whole number from 0 to 79, found []"),
+                ("/explain", {"x": 0}, "y is missing"), ("/stop", {"client": {}}, "client must be a text, found {}")):
+            status, _, answer = self.server.ask(path, {**WISH, **change})
+            self.assertEqual(status, 400, (path, change))
+            self.assertIn(message, json.loads(answer)["error"])
+        for body, message in ((b"{", "no JSON, from its byte"), (b'{"x":1e999}', "too large"), (b"[1]", "an object"), (b'"x"', "an object")):
+            self.assertIn(message, json.loads(self.server.ask("/frame", body)[2])["error"])
 
     # ---- answers
     def test_frames_are_the_pictures_of_render(self):

@@ -23,6 +23,7 @@ from typing import Any, Dict, Optional, Tuple, overload
 
 import numpy as np
 
+from ._arrays import array_of
 from ._errors import UsageError
 from ._scene import INVALID_ID, Scene
 
@@ -212,7 +213,9 @@ def _array(values: Any) -> Any:
 def _rows(values: Any, columns: int, name: str) -> np.ndarray:
     """The values as an array (..., columns)."""
     try:
-        array = np.asarray(_array(values))
+        array = array_of(_array(values), name)
+    except UsageError:
+        raise
     except ValueError:
         raise UsageError(f"{name}: expected an array of numbers") from None
     if array.shape[-1:] != (columns,):
@@ -226,7 +229,8 @@ def _triangles_of(mesh: Any) -> Tuple[Any, Any]:
         return mesh.vertex["positions"], mesh.triangle["indices"]
     if not hasattr(mesh, "vertices") or not (hasattr(mesh, "triangles") or hasattr(mesh, "faces")):
         raise UsageError(f"add_triangles: {type(mesh).__name__} is no mesh: expected vertices and triangles or faces")
-    return np.asarray(mesh.vertices), np.asarray(mesh.triangles if hasattr(mesh, "triangles") else mesh.faces)
+    triangles = mesh.triangles if hasattr(mesh, "triangles") else mesh.faces
+    return array_of(mesh.vertices, "vertices"), array_of(triangles, "triangles")
 
 
 def _votes(scene: Scene, points: np.ndarray, nthreads: int, nsamples: int) -> np.ndarray:
@@ -254,7 +258,9 @@ _PINHOLE_ARGUMENTS = (("fov_deg", "center", "eye", "up", "width_px", "height_px"
 
 def _shaped(numbers: Any, shape: Tuple[int, ...], name: str) -> np.ndarray:
     try:
-        array = np.asarray(_array(numbers), dtype=np.float64)
+        array = array_of(_array(numbers), name, np.float64)
+    except UsageError:
+        raise
     except (TypeError, ValueError):
         raise UsageError(f"{name}: expected an array of numbers") from None
     if array.shape != shape:

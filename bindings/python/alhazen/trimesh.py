@@ -18,6 +18,7 @@ from typing import Any, Dict, Tuple, Union
 
 import numpy as np
 
+from ._arrays import array_of
 from ._errors import UsageError
 from ._scene import INVALID_ID, Scene
 
@@ -25,7 +26,7 @@ __all__ = ["ProximityQuery", "RayMeshIntersector"]
 
 
 def _rays(origins: Any, directions: Any) -> np.ndarray:
-    origins, directions = np.asarray(origins), np.asarray(directions)
+    origins, directions = array_of(origins, "ray_origins"), array_of(directions, "ray_directions")
     if origins.ndim != 2 or origins.shape[1:] != (3,) or origins.shape != directions.shape:
         raise UsageError(f"ray_origins and ray_directions: expected the shape (n, 3) of both, found {origins.shape} "
                          f"and {directions.shape}")
@@ -63,7 +64,7 @@ class _MeshQueries:
     def contains_points(self, points: Any) -> np.ndarray:
         """Tests whether each point (n, 3) is inside the mesh: (n,) bool. For a mesh with open edges, whether a line
         through the point crosses it an odd number of times on both sides."""
-        points = np.asarray(points, dtype=np.float64)
+        points = array_of(points, "points", np.float64)
         if points.shape[-1:] != (3,):
             raise UsageError(f"points: expected the shape (n, 3), found {points.shape}")
         scene = self._scene
@@ -137,7 +138,7 @@ class ProximityQuery(_MeshQueries):
     def on_surface(self, points: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The nearest points of the mesh to points (n, 3): closest (n, 3), distance (n,) and triangle_id (n,), int64;
         -1 if the mesh has no triangle."""
-        found = self._scene.closest_points(np.asarray(points, dtype=np.float64))
+        found = self._scene.closest_points(array_of(points, "points", np.float64))
         triangle = found["primitive_ids"]
         return found["points"], found["distance"], np.where(triangle == INVALID_ID, -1, triangle.astype(np.int64))
 
@@ -145,7 +146,7 @@ class ProximityQuery(_MeshQueries):
         """The distance of points (n, 3) from the mesh, positive inside, negative outside: (n,). In a mesh with open
         edges, points that project onto their nearest triangle are outside if its normal points towards them; for others
         ``contains_points`` decides."""
-        points = np.asarray(points, dtype=np.float64)
+        points = array_of(points, "points", np.float64)
         found = self._scene.closest_points(points)
         distance = found["distance"]
         if self._scene.solid_names:

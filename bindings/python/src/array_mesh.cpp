@@ -67,6 +67,7 @@ std::shared_ptr<TriangleMesh> mesh_of_arrays(const py::object& vertices, const p
     auto mesh = std::make_shared<TriangleMesh>();
     mesh->positions.resize(points.count());
     for (std::size_t i = 0; i < points.count(); ++i) mesh->positions[i] = points.vector(i, 0);
+    refuse_masked(faces, "faces");
     const auto corners = py::array::ensure(faces);
     if (!corners || corners.ndim() != 2 || corners.shape(1) != 3) {
         PyErr_Clear();

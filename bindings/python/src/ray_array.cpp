@@ -41,6 +41,7 @@ void check_numbers(const py::array& array, const char* what) {
 
 /// The array itself if it is contiguous and float32 or float64, else a copy as float64.
 py::array as_plain(const py::object& numbers, const char* what) {
+    refuse_masked(numbers, what);
     if (py::isinstance<py::array>(numbers)) {
         const auto array = py::reinterpret_borrow<py::array>(numbers);
         if (py::isinstance<Plain<float>>(array) || py::isinstance<Plain<double>>(array))
@@ -66,6 +67,14 @@ std::string shape_text(const py::array& array) {
 }
 
 }  // namespace
+
+void refuse_masked(const py::object& numbers, const char* what) {
+    if (!py::isinstance<py::array>(numbers) || !py::hasattr(numbers, "_mask")) return;
+    if (!py::module_::import("numpy.ma").attr("is_masked")(numbers).cast<bool>()) return;
+    throw Error(ErrorKind::Usage, std::string(what) +
+                                      ": some numbers are masked; expected an array without a "
+                                      "mask, as of numpy.ma.filled");
+}
 
 NumberArray::NumberArray(const py::object& numbers, std::initializer_list<py::ssize_t> columns,
                          const char* what)

@@ -15,10 +15,13 @@
 
 namespace alhazen::python {
 
+/// Throws Error (Usage) for an array with masked numbers (numpy.ma): its mask would be lost.
+void refuse_masked(const pybind11::object& numbers, const char* what);
+
 class NumberArray {
   public:
     /// Converts arrays of other types and layouts once. Throws Error (Usage) unless the last
-    /// dimension is one of `columns`.
+    /// dimension is one of `columns` and no number is masked.
     NumberArray(const pybind11::object& numbers, std::initializer_list<pybind11::ssize_t> columns,
                 const char* what);
 

@@ -30,6 +30,22 @@ class Trimesh(unittest.TestCase):
         np.testing.assert_allclose(np.cross(offset, self.directions[index_ray]), 0, atol=1e-11)
         self.assertTrue((np.bincount(index_ray) % 2 == 0).all())
 
+    def test_masked_numbers_are_errors(self):
+        masked, message = np.ma.masked_greater(self.origins, 0), "some numbers are masked"
+        for query in (self.ray.intersects_any, self.ray.intersects_first):
+            with self.assertRaisesRegex(alhazen.UsageError, "ray_origins: " + message):
+                query(masked, self.directions)
+        near = alhazen.trimesh.ProximityQuery(self.mesh)
+        for query in (self.ray.contains_points, near.on_surface, near.signed_distance):
+            with self.assertRaisesRegex(alhazen.UsageError, "points: " + message):
+                query(masked)
+        scene = alhazen.raycasting.RaycastingScene()
+        scene.add_triangles(self.mesh.vertices.astype(np.float32), self.mesh.faces.astype(np.uint32))
+        with self.assertRaisesRegex(alhazen.UsageError, "rays: " + message):
+            scene.cast_rays(np.ma.masked_greater(random_rays(9), 0))
+        with self.assertRaisesRegex(alhazen.UsageError, "query_points: " + message):
+            scene.compute_distance(masked)
+
     def test_first_hits_are_among_all_hits(self):
         first = self.ray.intersects_first(self.origins, self.directions)
         any_hit = self.ray.intersects_any(self.origins, self.directions)

@@ -209,6 +209,22 @@ class Arrays(unittest.TestCase):
         with self.assertRaises(alhazen.SceneError):
             alhazen.Scene(np.full((3, 3), np.nan), [[0, 1, 2]])
 
+    def test_masked_numbers_are_errors(self):
+        rays = np.ma.MaskedArray(np.ones((3, 6)), mask=False)
+        self.assertEqual(self.scene.occluded(rays).shape, (3,))
+        rays[1] = np.ma.masked
+        points, message = rays[:, :3], "some numbers are masked"
+        for query in (self.scene.intersect, self.scene.occluded, self.scene.all_hits, self.scene.count_intersections):
+            with self.assertRaisesRegex(alhazen.UsageError, "rays: " + message):
+                query(rays)
+        with self.assertRaisesRegex(alhazen.UsageError, "points: " + message):
+            self.scene.closest_points(points)
+        vertices, faces = cube(-0.5, 0.5)
+        with self.assertRaisesRegex(alhazen.UsageError, "vertices: " + message):
+            alhazen.Scene(np.ma.masked_greater(vertices, 0), faces)
+        with self.assertRaisesRegex(alhazen.UsageError, "faces: " + message):
+            alhazen.Scene(vertices, np.ma.masked_greater(faces, 3))
+
     def test_arrays_too_large_to_copy_are_errors(self):
         for dtype in (np.float32, np.float64, np.int64):
             rays = np.broadcast_to(np.zeros(6, dtype), (10**11, 6))

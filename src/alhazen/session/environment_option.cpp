@@ -10,6 +10,7 @@
 #include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/framing/framing.h"
+#include "alhazen/shading/lights/direction_picture.h"
 #include "alhazen/shading/lights/environment.h"
 
 namespace alhazen {
@@ -48,6 +49,13 @@ EnvironmentSettings settings_of(const std::string& text, const ImageLimits& limi
 
 Vec3 up_of(UpAxis up_axis) {
     return up_axis == UpAxis::Z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+}
+
+std::string of_bad_texels(std::size_t count) {
+    return fmt::format(
+        "{} texels of the environment are negative, above {:g} or no numbers, and are taken as "
+        "black",
+        count, kLargestRadiance);
 }
 
 void set(LoadedScene& loaded, EnvironmentSettings settings) {
@@ -109,10 +117,7 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
         set(loaded, settings_of(text, limits));
         const std::size_t bad = loaded.scene.environment->bad_texels();
         if (bad == 0) return {};
-        return {
-            fmt::format("warning: {} texels of the environment are negative, infinite or no "
-                        "numbers, and are taken as black",
-                        bad)};
+        return {"warning: " + of_bad_texels(bad)};
     }
     const Scene& scene = loaded.scene;
     const bool dark = !scene.environment && scene.background.is_black() &&
@@ -127,11 +132,8 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
 void warn_of_bad_texels(LoadedScene& loaded) {
     const auto& environment = loaded.scene.environment;
     if (!environment || environment->bad_texels() == 0) return;
-    loaded.diagnostics.warning(
-        loaded.description.environment->location,
-        fmt::format("{} texels of the environment are negative, infinite or no numbers, and are "
-                    "taken as black",
-                    environment->bad_texels()));
+    loaded.diagnostics.warning(loaded.description.environment->location,
+                               of_bad_texels(environment->bad_texels()));
 }
 
 }  // namespace alhazen

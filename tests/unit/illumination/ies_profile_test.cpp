@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "alhazen/base/error.h"
 #include "alhazen/illumination/illumination.h"
@@ -36,6 +38,76 @@ TEST(IesProfile, CandelaAreInterpolatedInBothAngles) {
 TEST(IesProfile, AnEvenLampHasTheLumensOfItsCandela) {
     const IesProfile p(file("0", "50 50 50"), "test");
     EXPECT_NEAR(p.lumens(), 4.0 * kPi * 100.0, 1e-6 * p.lumens());
+}
+
+/// The integral of the profile's candela over all directions, interval by interval.
+double summed_lumens(const IesProfile& p, std::vector<double> angles, int columns) {
+    constexpr int kSteps = 400;
+    double sum = 0.0;
+    for (double& angle : angles) angle *= kRadiansPerDegree;
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+        const double width = (angles[i + 1] - angles[i]) / kSteps;
+        for (int step = 0; step < kSteps; ++step) {
+            const double vertical = angles[i] + (step + 0.5) * width;
+            double around = 0.0;
+            for (int j = 0; j < columns; ++j) {
+                around += p.candela(vertical, 2.0 * kPi * (j + 0.5) / columns);
+            }
+            sum += 2.0 * kPi * around / columns * width * std::sin(vertical);
+        }
+    }
+    return sum;
+}
+
+TEST(IesProfile, LumensOfNarrowLobesAreWhole) {
+    for (const double w : {1e-5, 0.01, 0.05, 0.1, 1.0, 10.0, 40.0}) {
+        const std::string text = "IESNA:LM-63-2002\nTILT=NONE\n1 1 1 4 1 1 2 0 0 0 1 1 1\n0 " +
+                                 std::to_string(w) + " " + std::to_string(2 * w) +
+                                 " 90\n0\n1e5 1e5 0 0\n";
+        const IesProfile p(text, "test");
+        const double expected = summed_lumens(p, {0, w, 2 * w, 90}, 1);
+        EXPECT_NEAR(p.lumens() / expected, 1.0, 1e-5) << w;
+    }
+}
+
+TEST(IesProfile, LumensAreThoseOfTheCandelaInEverySymmetry) {
+    for (const char* horizontals :
+         {"0 10 90", "0 40 180", "0 100 360", "90 130 270", "0 100 300", "20 100 300"}) {
+        const IesProfile p(file(horizontals, "10 20 30\n50 90 70\n20 0 5", "3 3"), "test");
+        const double expected = summed_lumens(p, {0, 90, 180}, 36);
+        EXPECT_NEAR(p.lumens() / expected, 1.0, 1e-5) << horizontals;
+    }
+    // Angles beyond the sphere have no part in it.
+    const IesProfile beyond(
+        "IESNA:LM-63-2002\nTILT=NONE\n1 1 1 2 1 1 2 0 0 0 1 1 1\n-90 270\n0\n10 10\n", "test");
+    EXPECT_NEAR(beyond.lumens(), 40.0 * kPi, 1e-12);
+}
+
+TEST(IesProfile, ThePhotometricFactorCountsBefore1995) {
+    const auto candela = [](const std::string& head) {
+        return IesProfile(head + "TILT=NONE\n1 1 1 2 1 1 2 0 0 0\n0.5 0.25 100\n0 90\n0\n80 80\n",
+                          "test")
+            .candela(0, 0);
+    };
+    EXPECT_EQ(candela(""), 10.0);
+    EXPECT_EQ(candela("a luminaire of 1986\n"), 10.0);
+    EXPECT_EQ(candela("IESNA91\n[TEST] x\n"), 10.0);
+    EXPECT_EQ(candela("IESNA:LM-63-1995\n[TEST] x\n"), 40.0);
+    EXPECT_EQ(candela("IESNA:LM-63-2002\n[TEST] x\n"), 40.0);
+    EXPECT_EQ(candela("IES:LM-63-2019\n[TEST] x\n"), 40.0);
+}
+
+TEST(IesProfile, TheLineOfTheTiltMayHaveBlanks) {
+    const auto read = [](const std::string& tilt) {
+        return IesProfile("IESNA91\n" + tilt + "\n1 1 1 2 1 1 2 0 0 0 1 1 1\n0 90\n0\n80 80\n",
+                          "test");
+    };
+    const std::string factors = "\n1\n3\n0 45 90\n1 .9 .5";
+    EXPECT_EQ(read("TILT = NONE \t").ignored_tilt(), "");
+    EXPECT_EQ(read("TILT=INCLUDE\t" + factors).ignored_tilt(), "INCLUDE");
+    EXPECT_EQ(read(" TILT\t=  INCLUDE\r" + factors).candela(0, 0), 80.0);
+    EXPECT_EQ(read("TILT=INCLUDE\n1\n2\n0 90\n1 1").ignored_tilt(), "");
+    EXPECT_EQ(read("TILTED LAMP = 5\nTILT=lamp.tlt").ignored_tilt(), "lamp.tlt");
 }
 
 TEST(IesProfile, WhatIsWrongIsSaid) {

@@ -109,6 +109,7 @@ TEST(EnvironmentOption, APictureIsReadAndBadTexelsAreTold) {
     const auto notes = set_environment(loaded, path.string(), "path_tracing", {});
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_NE(notes[0].find("1 texels"), std::string::npos);
+    EXPECT_NE(notes[0].find("above 1e+15"), std::string::npos);
     EXPECT_NEAR(loaded.scene.environment->radiance({0, -1, 0}).r, 0.5, 1e-6);
 }
 

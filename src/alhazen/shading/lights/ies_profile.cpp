@@ -85,6 +85,32 @@ BetweenAngles between_angles(const std::vector<double>& angles, double angle) {
     return {below, below + 1, (angle - angles[below]) / (angles[below + 1] - angles[below])};
 }
 
+/// sin x - x cos x for x >= 0, also where the difference would cancel.
+double sine_less_cosine(double x) {
+    if (x >= 0.25) return std::sin(x) - x * std::cos(x);
+    const double s = x * x;
+    return x * s *
+           (1.0 / 3.0 - s * (1.0 / 30.0 - s * (1.0 / 840.0 - s * (1.0 / 45360.0 - s / 3991680.0))));
+}
+
+/// Weights of the values at `angles` in the integral of their linear interpolant times the sine
+/// over [0, pi].
+std::vector<double> sine_weights(const std::vector<double>& angles) {
+    std::vector<double> weights(angles.size(), 0.0);
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+        const double from = std::max(angles[i], 0.0), to = std::min(angles[i + 1], kPi);
+        if (!(from < to)) continue;
+        const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+        const double width = angles[i + 1] - angles[i];
+        const double all = 2.0 * std::sin(middle) * std::sin(half);
+        const double upper =
+            ((middle - angles[i]) * all + 2.0 * std::cos(middle) * sine_less_cosine(half)) / width;
+        weights[i] += all - upper;
+        weights[i + 1] += upper;
+    }
+    return weights;
+}
+
 constexpr double kSlack = 1e-9;  // radians
 
 /// The equivalent angle, by symmetry, in the measured range.
@@ -101,20 +127,67 @@ double folded(double angle, double first, double last) {
     return last <= kPi / 2 + kSlack && a > kPi / 2 ? kPi - a : a;
 }
 
+/// Position of an azimuth among the measured horizontal angles.
+BetweenAngles between_columns(const std::vector<double>& angles, double azimuth) {
+    if (angles.size() < 2) return {0, 0, 0.0};
+    const double last = angles.back();
+    const double angle = folded(azimuth, angles.front(), last);
+    const BetweenAngles h = between_angles(angles, angle);
+    // Interpolates from the last angle round to the first if 360 degrees is not measured.
+    const double gap = angles.front() + 2.0 * kPi - last;
+    if (angle > last && gap > kSlack) return {h.below, 0, std::min(1.0, (angle - last) / gap)};
+    return h;
+}
+
+/// The azimuths from 0 to 2 pi between which `between_columns` is linear, ascending.
+std::vector<double> azimuth_breaks(const std::vector<double>& angles) {
+    std::vector<double> breaks{0.0, kPi / 2, kPi, 1.5 * kPi, 2.0 * kPi};
+    for (const double angle : angles) {
+        for (const double image : {angle, -angle, kPi - angle, kPi + angle}) {
+            const double a = std::fmod(image, 2.0 * kPi);
+            breaks.push_back(a < 0.0 ? a + 2.0 * kPi : a);
+        }
+    }
+    std::sort(breaks.begin(), breaks.end());
+    return breaks;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+/// What stands behind 'TILT='; none if the line does not begin so.
+std::optional<std::string_view> tilt_of(std::string_view line) {
+    line = trimmed(line);
+    if (!line.starts_with("TILT")) return std::nullopt;
+    line = trimmed(line.substr(4));
+    if (!line.starts_with('=')) return std::nullopt;
+    return trimmed(line.substr(1));
+}
+
 }  // namespace
 
 IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(text) {
     IesReader reader(text_, name);
     if (text.size() > kMostBytes) reader.fail("the file is larger than 16 MiB");
-    std::string_view tilt;
-    while (!tilt.starts_with("TILT=")) {
+    std::string_view line = reader.line();
+    const bool since_1995 = line.find(":LM-63-") != std::string_view::npos;
+    std::optional<std::string_view> tilt;
+    while (!(tilt = tilt_of(line))) {
         if (reader.at_end()) reader.fail("expected a line 'TILT=...'; is this an IES file?");
-        tilt = reader.line();
+        line = reader.line();
     }
-    if (tilt == "TILT=INCLUDE") {
+    if (*tilt == "INCLUDE") {
         (void)reader.number("lamp to luminaire geometry");
         const std::size_t pairs = reader.count("number of tilt angles", kMostAngles);
-        for (std::size_t i = 0; i < 2 * pairs; ++i) (void)reader.number("tilt");
+        for (std::size_t i = 0; i < pairs; ++i) (void)reader.number("tilt angle");
+        for (std::size_t i = 0; i < pairs; ++i) {
+            if (reader.number("tilt factor") != 1.0) ignored_tilt_ = *tilt;
+        }
+    } else if (*tilt != "NONE") {
+        ignored_tilt_ = *tilt;
     }
     (void)reader.number("number of lamps");
     (void)reader.number("lumens per lamp");
@@ -127,7 +200,8 @@ IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(t
     }
     for (const char* what : {"units", "width", "length", "height"}) (void)reader.number(what);
     scale *= reader.number("ballast factor");
-    (void)reader.number("ballast-lamp photometric factor");
+    const double photometric = reader.number("ballast-lamp photometric factor");
+    if (!since_1995) scale *= photometric;
     (void)reader.number("input watts");
     verticals_ = reader.angles(verticals, "vertical angles");
     horizontals_ = reader.angles(horizontals, "horizontal angles");
@@ -142,15 +216,7 @@ IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(t
 double IesProfile::candela(double vertical, double horizontal) const {
     if (vertical < verticals_.front() - kSlack || vertical > verticals_.back() + kSlack) return 0.0;
     const BetweenAngles v = between_angles(verticals_, vertical);
-    BetweenAngles h{0, 0, 0.0};
-    if (horizontals_.size() > 1) {
-        const double last = horizontals_.back();
-        const double angle = folded(horizontal, horizontals_.front(), last);
-        h = between_angles(horizontals_, angle);
-        // Interpolates from the last angle round to the first if 360 degrees is not measured.
-        const double gap = horizontals_.front() + 2.0 * kPi - last;
-        if (angle > last && gap > kSlack) h = {h.below, 0, std::min(1.0, (angle - last) / gap)};
-    }
+    const BetweenAngles h = between_columns(horizontals_, horizontal);
     const auto column = [&](std::size_t i) {
         return value(i, v.below) + v.share * (value(i, v.above) - value(i, v.below));
     };
@@ -158,15 +224,20 @@ double IesProfile::candela(double vertical, double horizontal) const {
 }
 
 double IesProfile::lumens() const {
-    // Finer than usual spacings of the measured angles.
-    constexpr int kRows = 720, kColumns = 360;
+    const std::vector<double> weights = sine_weights(verticals_);
+    std::vector<double> columns;
+    for (std::size_t i = 0; i < horizontals_.size(); ++i) {
+        double sum = 0.0;
+        for (std::size_t j = 0; j < weights.size(); ++j) sum += weights[j] * value(i, j);
+        columns.push_back(sum);
+    }
+    // The middle of an interval is the mean over it, whatever holds at its ends.
+    const std::vector<double> breaks = azimuth_breaks(horizontals_);
     double sum = 0.0;
-    for (int i = 0; i < kRows; ++i) {
-        const double solid =
-            2.0 * kPi / kColumns * (std::cos(kPi * i / kRows) - std::cos(kPi * (i + 1) / kRows));
-        for (int j = 0; j < kColumns; ++j) {
-            sum += solid * candela(kPi * (i + 0.5) / kRows, 2.0 * kPi * (j + 0.5) / kColumns);
-        }
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        const BetweenAngles h = between_columns(horizontals_, 0.5 * (breaks[i] + breaks[i + 1]));
+        const double mean = (1.0 - h.share) * columns[h.below] + h.share * columns[h.above];
+        sum += (breaks[i + 1] - breaks[i]) * mean;
     }
     return sum;
 }

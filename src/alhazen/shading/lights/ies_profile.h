@@ -2,9 +2,10 @@
 /// The measured angular distribution of a luminaire: an IES file.
 ///
 /// Source: Illuminating Engineering Society, "ANSI/IESNA LM-63-02: Standard File Format for the
-/// Electronic Transfer of Photometric Data", 2002; the versions of 1986, 1991 and 1995 differ in
-/// their first lines only.
-/// Differs: photometric type C only; a tilt is read and ignored.
+/// Electronic Transfer of Photometric Data", 2002. Files of 1986 and 1991 have no line with
+/// ":LM-63-" at their head, and a ballast-lamp photometric factor, which multiplies the candela; in
+/// its place is a number without effect since 1995 (reserved) and 2019 (how the file was made).
+/// Differs: photometric type C only; a tilt is read and ignored (`ignored_tilt`).
 /// Conventions: candela are interpolated in both angles. Horizontal angles that end at 0, 90 or 180
 /// are continued by symmetry, others periodically. Below the first and above the last vertical
 /// angle the intensity is 0. A light of color 1 with inverse-square attenuation emits candela / 683
@@ -34,8 +35,11 @@ class IesProfile {
     /// Luminous intensity; `vertical` from straight down and `horizontal` around it, in radians.
     [[nodiscard]] double candela(double vertical, double horizontal) const;
     [[nodiscard]] double largest_candela() const { return largest_; }
-    /// Total luminous flux.
+    /// Total luminous flux: the exact integral of `candela`.
     [[nodiscard]] double lumens() const;
+    /// "INCLUDE" or a file name: what the file gives of the lamp's dependence on the luminaire's
+    /// tilt, which is not applied; empty if nothing, or factors of 1.
+    [[nodiscard]] const std::string& ignored_tilt() const { return ignored_tilt_; }
     /// The text of the file.
     [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -44,7 +48,7 @@ class IesProfile {
         return candela_[horizontal * verticals_.size() + vertical];
     }
 
-    std::string text_;
+    std::string text_, ignored_tilt_;
     std::vector<double> verticals_, horizontals_;  ///< radians, ascending
     std::vector<double> candela_;                  ///< [horizontal][vertical]
     double largest_ = 0;

@@ -2,6 +2,7 @@
 
 #include "alhazen/imaging/image/image.h"
 #include "alhazen/shading/lights/ies_profile.h"
+#include "support/scratch_folder.h"
 #include "unit/formats/native/native_round_trip.h"
 #include "unit/formats/native/native_scene.h"
 
@@ -46,6 +47,27 @@ TEST(NativeEnvironment, WhatIsWrongIsSaid) {
     says("environment { kind = sky; ground = 2 }", "ground");
     says("environment { kind = studio }\nenvironment { kind = sky }", "one environment");
     says("environment { kind = studio; sun = 3 }", "sun");
+    says("environment { kind = sky; rotation_deg = 1; rotation_rad = 1 }", "exclude each other");
+}
+
+TEST(NativeEnvironment, KeysOfOtherKindsAreUnknown) {
+    const auto messages = [](const std::string& keys) {
+        return import_native("environment { " + keys + " }\nsphere { radius = 1 }\n").messages();
+    };
+    const char* const turns[] = {"rotation_deg = 1", "rotation_rad = 1", "up = (0, 0, 1)"};
+    const char* const of_sky[] = {"turbidity = 3", "to_sun = (1, 0, 0)", "ground = 0.5"};
+    for (const std::string kind : {"constant", "picture", "sky", "studio"}) {
+        const std::string head = "kind = " + kind + "; color = 2; scale = 3; ";
+        const auto is_unknown = [&](const std::string& key) {
+            const std::string name = key.substr(0, key.find(' '));
+            return messages(head + key).find("unknown key '" + name + "'") != std::string::npos;
+        };
+        for (const char* key : turns) EXPECT_EQ(is_unknown(key), kind == "constant") << kind << key;
+        for (const char* key : of_sky) EXPECT_EQ(is_unknown(key), kind != "sky") << kind << key;
+        EXPECT_EQ(is_unknown("file = \"a.hdr\""), kind != "picture") << kind;
+    }
+    // Without a kind no key is unknown.
+    EXPECT_EQ(messages("turbidity = 3; file = \"a.hdr\"").find("unknown"), std::string::npos);
 }
 
 TEST(NativeEnvironment, RoundTripKeepsEveryBit) {
@@ -57,11 +79,15 @@ TEST(NativeEnvironment, RoundTripKeepsEveryBit) {
         settings.kind = kind;
         settings.color = n.color();
         settings.scale = n.positive();
-        settings.rotation = n.any();
-        settings.up = n.point();
-        settings.to_sun = n.point();
-        settings.turbidity = 1.0 + 0.5 * n.positive();
-        settings.ground = 0.05 * n.color();
+        if (kind != EnvironmentKind::Constant) {
+            settings.rotation = n.any();
+            settings.up = n.point();
+        }
+        if (kind == EnvironmentKind::Sky) {
+            settings.to_sun = n.point();
+            settings.turbidity = 1.0 + 0.5 * n.positive();
+            settings.ground = 0.05 * n.color();
+        }
         if (kind == EnvironmentKind::Picture) {
             Image image(3, 2, 3);
             for (float& sample : image.samples) sample = static_cast<float>(n.positive());
@@ -88,6 +114,30 @@ TEST(NativeEnvironment, ProfilesOfLightsKeepEveryBit) {
     expect_round_trip(scene);
 }
 
+TEST(NativeEnvironment, WhatAProfileDoesNotGiveIsSaid) {
+    const ScratchFolder folder;
+    const auto messages = [&](const std::string& tilt, const std::string& candela,
+                              const std::string& keys) {
+        folder.write("lamp.ies", "IESNA:LM-63-1995\nTILT=" + tilt +
+                                     "\n1 1000 1 3 1 1 2 0 0 0\n1 1 100\n0 45 90\n0\n" + candela);
+        Imported read = import_native_file(
+            folder.write("scene.alhazen",
+                         "alhazen 1\npoint_light { position = (0, 0, 0); profile = \"lamp.ies\"; " +
+                             keys + " }\nsphere { radius = 1 }\n"));
+        validate(read.scene, read.diagnostics);
+        return read.messages();
+    };
+    EXPECT_EQ(messages("NONE", "100 50 0", "lumens = 100"), "");
+    EXPECT_NE(messages("lamp.tlt", "100 50 0", "").find("\"lamp.ies\": TILT=lamp.tlt"),
+              std::string::npos);
+    EXPECT_EQ(messages("NONE", "0 0 0", ""), "");
+    for (const char* power : {"lumens = 100", "power_watts = 1"}) {
+        const std::string text = messages("NONE", "0 0 0", power);
+        EXPECT_NE(text.find("\"lamp.ies\" emits nothing"), std::string::npos) << text;
+        EXPECT_EQ(text.find("finite"), std::string::npos) << text;
+    }
+}
+
 TEST(NativeEnvironment, PowersOfLightsAreRadiances) {
     const Imported read = import_native(
         "rectangle_light { corner = (0, 0, 0); edge_u = (2, 0, 0); edge_v = (0, 3, 0);"
@@ -102,11 +152,15 @@ TEST(NativeEnvironment, PowersOfLightsAreRadiances) {
     EXPECT_NEAR(point.color.r * pi * 4 * pi, 1.0, 1e-12);
     EXPECT_EQ(point.attenuation.quadratic, 1.0);
     EXPECT_EQ(point.attenuation.constant, 0.0);
-    EXPECT_NE(import_native("point_light { position = (0, 0, 0); lumens = 1; power_watts = 1 }\n"
-                            "sphere { center = (0, 0, 0); radius = 1 }\n")
-                  .messages()
-                  .find("exclude each other"),
-              std::string::npos);
+    for (const char* light : {"point_light { position = (0, 0, 0);",
+                              "sphere_light { center = (0, 0, 9); radius = 1;"}) {
+        const std::string text =
+            import_native(light +
+                          std::string(" lumens = 1; power_watts = 1 }\nsphere { radius = 1 }\n"))
+                .messages();
+        EXPECT_NE(text.find("exclude each other"), std::string::npos) << text;
+        EXPECT_EQ(text.find("unknown key"), std::string::npos) << text;
+    }
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ TEST(NativeImporter, GlassesHaveTheirIndexByNameByFormulaOrByAbbe) {
     for (const char* bad :
          {"abbe = 0", "abbe = -3", "sellmeier = (1, 2, 3)", "sellmeier = (1, 0.25)",
           "sellmeier = 3", "emission = blackbody(3)", "emission = blackbody()",
+          "emission = blackbody(3000, -1)", "emission = illuminant(\"A\", -0.5)",
           "emission = illuminant(\"F2\")", "emission = illuminant(A)"}) {
         EXPECT_EQ(material(bad).errors(), 1u) << bad << material(bad).messages();
     }

@@ -79,6 +79,35 @@ TEST(NativeImporter, ReadsRangesGreyColorsAndAnglesInRadians) {
             .says("exclude each other"));
 }
 
+TEST(NativeImporter, ThePlaneOfFocusIsInFrontOfTheCamera) {
+    const auto read = [](const std::string& keys) {
+        return import_native(
+            "perspective_camera { eye = (0,0,1); direction = (0,0,-1); lens_radius = 0.1; " + keys +
+            " }\nsphere { }");
+    };
+    const auto focus = [&](const std::string& point) {
+        const Imported i = read("focus_at = " + point);
+        EXPECT_EQ(i.messages(), "");
+        return std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera).lens.focus_distance;
+    };
+    EXPECT_NEAR(focus("(5,0,-2)"), 3.0, 1e-12);
+    for (const char* point : {"(0,0,5)", "(3,0,1)"}) {
+        const Imported i = read("focus_at = " + std::string(point));
+        EXPECT_EQ(i.errors(), 1u);
+        EXPECT_TRUE(i.says("in front of the camera")) << i.messages();
+    }
+    // The right vector of a mirrored camera points to the left.
+    const Imported mirrored = import_native(
+        "sheared_camera { eye = (0,0,0); look = (0,0,-2); right = (-1,0,0); up = (0,1,0); aspect = "
+        "1;"
+        " lens_radius = 0.1; focus_at = (0,0,-4) }\nsphere { }");
+    EXPECT_EQ(mirrored.messages(), "");
+    EXPECT_EQ(std::get<PerspectiveCamera>(mirrored.scene.cameras.at(0).camera).lens.focus_distance,
+              4.0);
+    EXPECT_TRUE(read("focus_distance = 3; blade_turn_deg = 5; blade_turn_rad = 1")
+                    .says("exclude each other"));
+}
+
 TEST(NativeImporter, ReadsFisheyesAndPanoramas) {
     const Imported i = import_native(
         "picture { width = 300; height = 200 }"

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/shading/optics/fresnel.h"
@@ -97,6 +99,47 @@ TEST(ThinFilm, AnIndexBetweenThoseOfAirAndGlassCancelsAtAQuarterOfTheWave) {
     const Rgb base{0.04, 0.04, 0.04};
     EXPECT_LT(thin_film_reflectance(1.0, n, quarter, base).g, 0.005);
     EXPECT_GT(thin_film_reflectance(1.0, n, 2.0 * quarter, base).g, 0.02);
+}
+
+/// Airy's reflectance of a film on a dielectric, the mean of both polarisations.
+double airy_reflectance(double nm, double cosine, double film, double thickness, double body) {
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    const double in_film = std::sqrt(1.0 - sine * sine / (film * film));
+    const double in_body = std::sqrt(1.0 - sine * sine / (body * body));
+    const double phase = 4.0 * kPi * film * thickness * in_film / nm;
+    double sum = 0.0;
+    for (const bool parallel : {false, true}) {
+        const auto face = [&](double n, double c, double other, double other_c) {
+            const double a = parallel ? other * c : n * c;
+            const double b = parallel ? n * other_c : other * other_c;
+            return (a - b) / (a + b);
+        };
+        const double above = face(1.0, cosine, film, in_film);
+        const double below = face(film, in_film, body, in_body);
+        const double cross = 2.0 * above * below * std::cos(phase);
+        const double product = above * below;
+        sum += (above * above + below * below + cross) / (1.0 + product * product + cross);
+    }
+    return sum / 2.0;
+}
+
+TEST(ThinFilm, AtOneWavelengthItIsAirysAtNormalIncidenceAndNearItObliquely) {
+    constexpr double kBody = 1.5;
+    double largest = 0.0;
+    for (const auto& [index, thickness] :
+         {std::pair{1.8, 300.0}, {1.3, 400.0}, {1.38, 100.0}, {2.2, 700.0}}) {
+        for (double nm = 380.0; nm <= 780.0; nm += 1.0) {
+            const auto film = [&](double cosine) {
+                return thin_film_reflectance_at(nm, cosine, index, thickness,
+                                                normal_reflectance_of(kBody));
+            };
+            EXPECT_NEAR(film(1.0), airy_reflectance(nm, 1.0, index, thickness, kBody), 1e-12);
+            const double off = film(0.5) - airy_reflectance(nm, 0.5, index, thickness, kBody);
+            largest = std::max(largest, std::abs(off));
+        }
+    }
+    EXPECT_LT(largest, 0.033);
+    EXPECT_GT(largest, 0.03);  // the figure of docs/design/spectral.md
 }
 
 TEST(ThinFilm, ColoursChangeWithThicknessAndStayBetweenNoneAndAll) {

@@ -1,6 +1,5 @@
 #include "alhazen/formats/native/read/native_cameras.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,16 +46,21 @@ void add_camera(const NativeBlock& block, NativeContext& context, const Camera& 
 /// focus.
 void read_lens(BlockReader& reader, PerspectiveCamera& camera) {
     const bool has_lens = reader.read("lens_radius", camera.lens.radius);
-    double turn_deg = camera.lens.turn / kRadiansPerDegree;
     Vec3 at;
     reader.read("blades", camera.lens.blades);
-    if (reader.read("blade_turn_deg", turn_deg)) camera.lens.turn = turn_deg * kRadiansPerDegree;
-    reader.read("blade_turn_rad", camera.lens.turn);
+    read_angle(reader, "blade_turn_deg", "blade_turn_rad", camera.lens.turn);
     reader.read("focus_distance", camera.lens.focus_distance);
     const bool has_point = reader.read("focus_at", at);
     if (has_point) {
-        const Vec3 normal = normalize(cross(camera.up, camera.right));
-        camera.lens.focus_distance = std::abs(dot(at - camera.eye, normal));
+        Vec3 forward = normalize(cross(camera.up, camera.right));
+        if (dot(forward, camera.look) < 0) forward = -forward;
+        const double distance = dot(at - camera.eye, forward);
+        if (distance > 0) {
+            camera.lens.focus_distance = distance;
+        } else {
+            reader.error(*reader.find("focus_at"),
+                         "'focus_at' must be in front of the camera, not beside or behind it");
+        }
     }
     if (has_point && reader.has("focus_distance")) {
         reader.error(reader.block(),

@@ -62,6 +62,12 @@ void read_profile(BlockReader& reader, NativeContext& context, LightProfile& pro
         context.diagnostics.note_file(path);
         profile.profile = std::make_shared<const IesProfile>(
             read_file(path, IesProfile::kMostBytes), profile.file);
+        if (const std::string& tilt = profile.profile->ignored_tilt(); !tilt.empty()) {
+            context.diagnostics.warning(
+                reader.find("profile")->location(),
+                "IES profile \"" + printable(profile.file) + "\": TILT=" + printable(tilt) +
+                    ", the lamp's output by the tilt of the luminaire, is not applied");
+        }
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::Resource) throw;
         reader.error(*reader.find("profile"), error.what());
@@ -75,6 +81,7 @@ std::optional<double> read_power(BlockReader& reader, double per_unit) {
     if (reader.has("power_watts") && reader.has("lumens")) {
         reader.error(reader.block(),
                      "'power_watts' and 'lumens' exclude each other; expected one of them");
+        reader.ignore("lumens");
     }
     if (read_positive(reader, "power_watts", power)) return power / per_unit;
     if (read_positive(reader, "lumens", power)) return power / kLumensPerWatt / per_unit;
@@ -131,7 +138,12 @@ void read_point_light(const NativeBlock& block, NativeContext& context) {
     read_profile(reader, context, light.profile);
     // Intensity is pi times the colour (illumination.h).
     const double of_color_one = 4 * kPi * kPi * mean_factor(light.profile);
-    if (const auto times = read_power(reader, of_color_one)) {
+    const auto times = read_power(reader, of_color_one);
+    if (times && !(of_color_one > 0.0)) {
+        reader.error(*reader.find("profile"),
+                     "the profile \"" + printable(light.profile.file) +
+                         "\" emits nothing; no colour gives the light its power");
+    } else if (times) {
         light.color = *times * light.color;
         if (!reader.has("attenuation")) light.attenuation = {0, 0, 1};
     }

@@ -246,9 +246,9 @@ void read_illuminant(TextNode value, NativeContext& context, Material& m) {
     const bool is_body = value.is(NodeKind::Entry, "blackbody");
     const char* const expected = is_body
                                      ? "blackbody(KELVIN) or blackbody(KELVIN, luminance), 500 to "
-                                       "1000000 K"
+                                       "1000000 K, with a luminance of at least 0"
                                      : "illuminant(\"NAME\") or illuminant(\"NAME\", luminance), "
-                                       "with the name A, D65 or E";
+                                       "with the name A, D65 or E and a luminance of at least 0";
     const TextNode list = value.empty() ? value : value.first();
     if (value.broken()) return;
     const std::size_t count = list.is(NodeKind::List) ? list.size() : 0;
@@ -271,6 +271,7 @@ void read_illuminant(TextNode value, NativeContext& context, Material& m) {
         if (!known) return (void)values.fail(value, kKey, expected);
     }
     if (count == 2 && !values.read(*++argument, kKey, light.scale)) return;
+    if (!(light.scale >= 0.0)) return (void)values.fail(value, kKey, expected);
     m.illuminant = light;
     const Rgb color = color_of(light);
     m.emission = {{std::max(color.r, 0.0), std::max(color.g, 0.0), std::max(color.b, 0.0)},

@@ -7,8 +7,8 @@
 #include "alhazen/base/file.h"
 #include "alhazen/formats/native/native_words.h"
 #include "alhazen/formats/native/read/native_materials.h"
+#include "alhazen/formats/native/read/native_view_fields.h"
 #include "alhazen/imaging/codecs/image_io.h"
-#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
@@ -67,6 +67,28 @@ void read_given(BlockReader& reader, std::string_view key, std::optional<Vec3>& 
     if (reader.read(key, v)) out = v;
 }
 
+/// Reads the keys that apply to the kind; others remain unknown.
+void read_environment_keys(BlockReader& reader, NativeContext& context,
+                           EnvironmentSettings& settings) {
+    const auto color = [&](std::string_view key, Rgb& out) {
+        const auto value = reader.find(key);
+        if (value) read_native_color(*value, key, reader.values(), out);
+    };
+    if (settings.kind == EnvironmentKind::Picture) {
+        reader.require("file");
+        read_environment_picture(reader, context, settings);
+    }
+    color("color", settings.color);
+    reader.read("scale", settings.scale);
+    if (settings.kind == EnvironmentKind::Constant) return;
+    read_angle(reader, "rotation_deg", "rotation_rad", settings.rotation);
+    read_given(reader, "up", settings.up);
+    if (settings.kind != EnvironmentKind::Sky) return;
+    reader.read("turbidity", settings.turbidity);
+    read_given(reader, "to_sun", settings.to_sun);
+    color("ground", settings.ground);
+}
+
 }  // namespace
 
 void read_environment(const NativeBlock& block, NativeContext& context) {
@@ -78,24 +100,14 @@ void read_environment(const NativeBlock& block, NativeContext& context) {
     }
     EnvironmentSettings settings;
     reader.require("kind");
-    reader.read_word("kind", native_words<EnvironmentKind>(), settings.kind);
-    if (settings.kind == EnvironmentKind::Picture) {
-        reader.require("file");
-        read_environment_picture(reader, context, settings);
-    }
-    for (const auto& [key, out] :
-         {std::pair{"color", &settings.color}, std::pair{"ground", &settings.ground}}) {
-        if (const auto value = reader.find(key)) {
-            read_native_color(*value, key, reader.values(), *out);
+    if (reader.read_word("kind", native_words<EnvironmentKind>(), settings.kind)) {
+        read_environment_keys(reader, context, settings);
+    } else {
+        for (const char* key : {"file", "color", "scale", "rotation_deg", "rotation_rad", "up",
+                                "turbidity", "to_sun", "ground"}) {
+            reader.ignore(key);
         }
     }
-    reader.read("scale", settings.scale);
-    double degrees = 0;
-    if (reader.read("rotation_deg", degrees)) settings.rotation = degrees * kRadiansPerDegree;
-    reader.read("rotation_rad", settings.rotation);
-    reader.read("turbidity", settings.turbidity);
-    read_given(reader, "up", settings.up);
-    read_given(reader, "to_sun", settings.to_sun);
     reader.finish();
     context.scene.environment = EnvironmentDescription{std::move(settings), block.location};
 }

@@ -197,18 +197,22 @@ void write_native_environment(NativeWriteContext& context) {
     const EnvironmentSettings usual;
     NativeBlockText block("environment");
     block.add("kind", std::string(native_word(e.kind)));
-    if (e.picture) {
+    if (e.kind == EnvironmentKind::Picture && e.picture) {
         const PictureFile file = picture_file(stored(*e.picture));
         block.add("file",
                   native_string(context.write_file("environment." + file.suffix, file.bytes)));
     }
     block.add_unless("color", e.color, usual.color);
     block.add_unless("scale", e.scale, usual.scale);
-    if (e.rotation != 0.0) add_angle(block, "rotation", e.rotation);
-    if (e.up) block.add("up", native_value(*e.up));
-    block.add_unless("turbidity", e.turbidity, usual.turbidity);
-    if (e.to_sun) block.add("to_sun", native_value(*e.to_sun));
-    block.add_unless("ground", e.ground, usual.ground);
+    if (e.kind != EnvironmentKind::Constant) {
+        if (e.rotation != 0.0) add_angle(block, "rotation", e.rotation);
+        if (e.up) block.add("up", native_value(*e.up));
+    }
+    if (e.kind == EnvironmentKind::Sky) {
+        block.add_unless("turbidity", e.turbidity, usual.turbidity);
+        if (e.to_sun) block.add("to_sun", native_value(*e.to_sun));
+        block.add_unless("ground", e.ground, usual.ground);
+    }
     context.append(block);
 }
 
