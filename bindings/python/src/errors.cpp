@@ -60,7 +60,9 @@ std::string with_arguments(std::string_view message) {
             std::find_if(kArguments.begin(), kArguments.end(),
                          [&](const Argument& argument) { return argument.option == option; });
         result += message.substr(0, begin);
-        result += known == kArguments.end() ? option : known->name;
+        const bool begins_word = begin == 0 || std::string_view(" '(\n").find(message[begin - 1]) !=
+                                                   std::string_view::npos;
+        result += known == kArguments.end() || !begins_word ? option : known->name;
         message.remove_prefix(end);
     }
     return result;

@@ -263,6 +263,11 @@ class Pictures(unittest.TestCase):
             self.assertIn(words, str(raised.exception))
             self.assertNotIn("--", str(raised.exception))
 
+    def test_names_of_files_in_messages_stay(self):
+        with self.assertRaises(alhazen.FileError) as raised:
+            alhazen.load("no--spp.alhazen")
+        self.assertIn("no--spp.alhazen", str(raised.exception))
+
     def test_a_picture_is_an_array_with_layers(self):
         picture = small_scene().render(layers=("depth", "N"))
         self.assertEqual((picture.shape, picture.dtype), ((48, 64, 3), np.float32))

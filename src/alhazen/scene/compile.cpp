@@ -1,47 +1,83 @@
 #include <algorithm>
+#include <optional>
 
 #include "alhazen/scene/compile_materials.h"
 #include "alhazen/scene/geometry_compiler.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
 
 namespace {
 
-bool tints_by_distance(const ShadingConventions& c) {
-    return c.refraction_tint == ShadingConventions::RefractionTint::PerDistance ||
-           c.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
-}
-
-/// True if the part's surface encloses a volume and lets light through.
-bool encloses(const SceneDescription& d, const Scene& scene, const Part& part) {
-    const auto passes = [&](MaterialId id) {
-        return opacity_of(scene.materials[static_cast<std::size_t>(id)]) != Opacity::Opaque;
-    };
-    if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
-        return passes(part.material) &&
-               std::visit([](const auto& s) { return s.closed(); }, *shape);
-    }
-    const auto* index = std::get_if<MeshIndex>(&part.what);
-    if (index == nullptr) return false;
-    const TriangleMesh& mesh = *d.meshes[static_cast<std::size_t>(*index)].mesh;
-    const std::vector<std::uint32_t>& own = mesh.vertex_materials;
-    return (own.empty() ? passes(part.material)
-                        : std::any_of(own.begin(), own.end(),
-                                      [&](std::uint32_t id) { return passes(MaterialId{id}); })) &&
-           mesh.closed();
-}
-
-void find_closed_parts(const SceneDescription& d, Scene& scene) {
-    if (scene.all_opaque || !tints_by_distance(scene.conventions.shading)) return;
-    for (const ObjectDescription& object : d.objects) {
-        for (const Part& part : object.parts) {
-            scene.closed_parts.push_back(encloses(d, scene, part) ? 1 : 0);
+class ClosedParts {
+  public:
+    ClosedParts(const SceneDescription& description, const std::vector<Material>& materials)
+        : d_(description),
+          materials_(materials),
+          in_solid_(description.objects.size()),
+          meshes_(description.meshes.size()) {
+        for (std::size_t k = 0; k < d_.objects.size(); ++k) {
+            if (d_.objects[k].combine != Combine::Group) mark_solid(k);
         }
     }
-}
+
+    [[nodiscard]] std::vector<std::uint8_t> find() {
+        std::vector<std::uint8_t> closed;
+        for (std::size_t k = 0; k < d_.objects.size(); ++k) {
+            for (const Part& part : d_.objects[k].parts) {
+                closed.push_back(in_solid_[k] || encloses(part) ? 1 : 0);
+            }
+        }
+        return closed;
+    }
+
+  private:
+    void mark_solid(std::size_t object) {
+        if (in_solid_[object]) return;
+        in_solid_[object] = true;
+        for (const Part& part : d_.objects[object].parts) {
+            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                mark_solid(static_cast<std::size_t>(*child));
+            }
+        }
+    }
+    [[nodiscard]] bool passes(MaterialId id) const {
+        return opacity_of(materials_[static_cast<std::size_t>(id)]) != Opacity::Opaque;
+    }
+    /// True if the part's surface encloses a volume and lets light through.
+    [[nodiscard]] bool encloses(const Part& part) {
+        if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+            return passes(part.material) &&
+                   std::visit([](const auto& s) { return s.closed(); }, *shape);
+        }
+        const auto* index = std::get_if<MeshIndex>(&part.what);
+        if (index == nullptr) return false;
+        const TriangleMesh& mesh = *d_.meshes[static_cast<std::size_t>(*index)].mesh;
+        const std::vector<std::uint32_t>& own = mesh.vertex_materials;
+        const bool clear = own.empty() ? passes(part.material)
+                                       : std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
+                                             return passes(MaterialId{id});
+                                         });
+        if (!clear) return false;
+        std::optional<bool>& known = meshes_[static_cast<std::size_t>(*index)];
+        // Rays would enter a mesh that faces inward where they leave it.
+        if (!known) known = mesh_edges(mesh).oriented() && signed_volume(mesh) > 0.0;
+        return *known;
+    }
+
+    const SceneDescription& d_;
+    const std::vector<Material>& materials_;
+    std::vector<bool> in_solid_;               ///< [object] it, or one that uses it, is a solid
+    std::vector<std::optional<bool>> meshes_;  ///< [mesh] closed and facing outward
+};
 
 }  // namespace
+
+std::vector<std::uint8_t> closed_parts_of(const SceneDescription& description,
+                                          const std::vector<Material>& materials) {
+    return ClosedParts(description, materials).find();
+}
 
 Scene compile_without_geometry(const SceneDescription& description) {
     Scene scene;
@@ -49,7 +85,9 @@ Scene compile_without_geometry(const SceneDescription& description) {
     scene.all_opaque =
         std::all_of(scene.materials.begin(), scene.materials.end(),
                     [](const Material& m) { return opacity_of(m) == Opacity::Opaque; });
-    find_closed_parts(description, scene);
+    if (!scene.all_opaque && scene.conventions.shading.tints_by_distance()) {
+        scene.closed_parts = closed_parts_of(description, scene.materials);
+    }
     scene.has_scattering =
         std::any_of(scene.materials.begin(), scene.materials.end(),
                     [](const Material& m) { return !m.scattering.coefficient.is_black(); });

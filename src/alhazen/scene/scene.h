@@ -55,8 +55,7 @@ struct Scene {
     bool has_solid_textures = false;
     /// [material] 1: its appearance depends on texture coordinates; empty: none does.
     std::vector<std::uint8_t> reads_coordinates;
-    /// [part] 1: a surface that lets light through encloses a volume; empty unless kt acts by
-    /// distance (ShadingConventions).
+    /// closed_parts_of; empty unless kt acts by distance (ShadingConventions).
     std::vector<std::uint8_t> closed_parts;
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
     std::string accelerator;  ///< name of the accelerator; empty without an aggregate
@@ -69,6 +68,11 @@ struct Scene {
         return part < closed_parts.size() && closed_parts[part] != 0;
     }
 };
+
+/// [part] 1: part of a solid of constructive geometry, or a surface that lets light through and
+/// encloses a volume, facing outward. Parts are numbered as by PartNumbers.
+[[nodiscard]] std::vector<std::uint8_t> closed_parts_of(const SceneDescription& description,
+                                                        const std::vector<Material>& materials);
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";

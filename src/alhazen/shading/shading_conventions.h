@@ -41,6 +41,11 @@ struct ShadingConventions {
                       ///< refraction itself is not attenuated
     };
     RefractionTint refraction_tint = RefractionTint::PerEvent;
+    /// True if kt is the transmittance of a unit of length for some rays.
+    [[nodiscard]] bool tints_by_distance() const {
+        return refraction_tint == RefractionTint::PerDistance ||
+               shadow_tint == ShadowTint::PerDistance;
+    }
 
     /// Coefficient of ambient light: ka of the material, or kd for formats without ka.
     enum class AmbientFactor { Ambient, Diffuse };

@@ -95,6 +95,8 @@ TEST(IesProfile, ThePhotometricFactorCountsBefore1995) {
     EXPECT_EQ(candela("IESNA:LM-63-1995\n[TEST] x\n"), 40.0);
     EXPECT_EQ(candela("IESNA:LM-63-2002\n[TEST] x\n"), 40.0);
     EXPECT_EQ(candela("IES:LM-63-2019\n[TEST] x\n"), 40.0);
+    EXPECT_EQ(candela("\nIESNA LM-63-1995\n[TEST] x\n"), 40.0);
+    EXPECT_EQ(candela("IESNA:LM-63-1986\n[TEST] x\n"), candela("IESNA91\n[TEST] x\n"));
 }
 
 TEST(IesProfile, TheLineOfTheTiltMayHaveBlanks) {
@@ -104,6 +106,8 @@ TEST(IesProfile, TheLineOfTheTiltMayHaveBlanks) {
     };
     const std::string factors = "\n1\n3\n0 45 90\n1 .9 .5";
     EXPECT_EQ(read("TILT = NONE \t").ignored_tilt(), "");
+    EXPECT_EQ(read("TILT=none").ignored_tilt(), "");
+    EXPECT_EQ(read("TILT=Include\n" + factors).ignored_tilt(), "Include");
     EXPECT_EQ(read("TILT=INCLUDE\t" + factors).ignored_tilt(), "INCLUDE");
     EXPECT_EQ(read(" TILT\t=  INCLUDE\r" + factors).candela(0, 0), 80.0);
     EXPECT_EQ(read("TILT=INCLUDE\n1\n2\n0 90\n1 1").ignored_tilt(), "");

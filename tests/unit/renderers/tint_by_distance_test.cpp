@@ -177,5 +177,125 @@ TEST(TintByDistance, AFloorInsideABodyIsLitAndSeenThroughIt) {
     }
 }
 
+/// Both ends of the shadow ray lie in the outer body, and nothing is between them.
+TEST(TintByDistance, ALightBesideTheFloorInABodyIsTintedWithoutACrossing) {
+    for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
+        const auto inside = [](double inner) {
+            return [inner](SceneMaker& m) {
+                add_wall(m, 0, matt({1, 1, 1}));
+                add_box(m, 2, tinted(0.5));
+                if (inner > 0) {
+                    BoxShape box;
+                    box.lo = {-0.5, -0.5, 0.5};
+                    box.hi = {0.5, 0.5, 1};
+                    m.add(box, m.material(tinted(inner)));
+                }
+                m.light(PointLight{
+                    .position = {0.8, 0, 0.6}, .color = {1, 1, 1}, .attenuation = {1, 0, 0}});
+            };
+        };
+        // Two units of the eye's ray and one of the light's, which is 3, 4, 5 over 5.
+        EXPECT_NEAR(color_of(renderer, inside(0)).r, 0.6 * std::pow(0.5, 3.0), 1e-6) << renderer;
+        EXPECT_NEAR(color_of(renderer, inside(1)).r, 0.6 * std::pow(0.5, 2.5), 1e-6) << renderer;
+    }
+}
+
+TEST(TintByDistance, APaneInABodyDoesNotEndIt) {
+    for (const bool turned : {false, true}) {
+        for (const std::string more : {"", "fresnel=on"}) {
+            const Fill fill = [&](SceneMaker& m) {
+                m.description().conventions.shading.optics.fresnel = !more.empty();
+                add_box(m, 1, tinted(0.5));
+                Rectangle pane{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}};
+                if (turned) std::swap(pane.edge_u, pane.edge_v);
+                m.add(pane, m.material(tinted(1)));
+                add_wall(m, -3, shining({1, 1, 1}));
+            };
+            for (const char* renderer : {"whitted", "beam_tracing", "cone_tracing"}) {
+                if (!more.empty() && renderer != std::string("whitted")) continue;
+                EXPECT_NEAR(color_of(renderer, fill).r, 0.25, 1e-6) << renderer << more << turned;
+            }
+        }
+    }
+}
+
+TEST(TintByDistance, CutFacesOfASolidBoundItsVolumeWhateverCutThem) {
+    const Fill fill = [](SceneMaker& m) {
+        const MaterialId clear = m.material(tinted(0.5)), opaque = m.material(matt({1, 1, 1}));
+        const ObjectIndex solid = m.object("solid");
+        ObjectDescription& object = m.description().objects.back();
+        object.combine = Combine::Difference;
+        object.cut_material = CutMaterial::Minuend;
+        m.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, clear, {}, solid);
+        m.add(BoxShape{{-2, -2, -2}, {2, 2, 0}}, opaque, {}, solid);
+        m.add(solid);
+        add_wall(m, -3, shining({1, 1, 1}));
+    };
+    for (const char* renderer : {"whitted", "distributed"}) {
+        EXPECT_NEAR(color_of(renderer, fill).r, 0.5, 1e-9) << renderer;
+    }
+}
+
+TEST(TintByDistance, ASheetThatCoversInPartLeavesTheWayToItTinted) {
+    const Fill fill = [](SceneMaker& m) {
+        add_box(m, 1, tinted(0.5));
+        Material half = matt({0, 0, 0});
+        half.alpha_mode = AlphaMode::Blend;
+        half.alpha.value = 0.5;
+        add_wall(m, 0, half);
+        add_wall(m, -0.5, shining({1, 1, 1}));
+    };
+    for (const char* renderer : {"whitted", "distributed", "cone_tracing"}) {
+        EXPECT_NEAR(color_of(renderer, fill).r, 0.5 * std::pow(0.5, 1.5), 1e-6) << renderer;
+    }
+}
+
+TEST(TintByDistance, BodiesThatOverlapAreLeftInAnyOrder) {
+    expect_color(
+        [](SceneMaker& m) {
+            BoxShape first, second;
+            first.lo = {-4, -4, 0};
+            first.hi = {4, 4, 2};
+            second.lo = {-4, -4, -1};
+            second.hi = {4, 4, 1};
+            m.add(first, m.material(tinted(0.5)));
+            m.add(second, m.material(tinted(1)));
+            add_wall(m, -0.5, shining({1, 1, 1}));
+        },
+        // From 2 to 1 in the first alone, to 0 in both, where the surface left is the first's.
+        {0.25, 1, 0.25 * 0.25 * std::pow(0.5, 0.5)});
+}
+
+TEST(TintByDistance, ShadowsAloneMayBeTintedByDistance) {
+    for (const std::string renderer : {"whitted", "distributed", "beam_tracing"}) {
+        const Rgb found = color_of(renderer, [](SceneMaker& m) {
+            m.description().conventions.shading.refraction_tint =
+                ShadingConventions::RefractionTint::PerEvent;
+            add_wall(m, 0, matt({1, 1, 1}));
+            add_box(m, 2, tinted(0.5));
+            m.light(PointLight{
+                .position = {0.8, 0, 0.6}, .color = {1, 1, 1}, .attenuation = {1, 0, 0}});
+        });
+        EXPECT_NEAR(found.r, 0.5 * 0.6 * 0.5, 1e-6) << renderer;
+    }
+}
+
+/// A mesh of a closed tetrahedron of which one face is turned, and one that faces inward.
+TEST(TintByDistance, AMeshThatFacesInwardOrBothWaysIsNoBody) {
+    for (const bool inward : {false, true}) {
+        TriangleMesh mesh;
+        mesh.positions = {{-4, -4, -1}, {4, -4, -1}, {0, 6, -1}, {0, 0, 1}};
+        mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+        for (std::size_t k = 0; k < (inward ? 4u : 1u); ++k) {
+            std::swap(mesh.triangles[k][0], mesh.triangles[k][1]);
+        }
+        SceneMaker maker;
+        maker.description().conventions.shading.refraction_tint =
+            ShadingConventions::RefractionTint::PerDistance;
+        maker.add(maker.mesh(std::move(mesh)), maker.material(tinted(0.5)));
+        EXPECT_FALSE(maker.compile().is_closed(0)) << inward;
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

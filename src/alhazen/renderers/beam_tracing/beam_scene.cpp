@@ -45,6 +45,10 @@ class BeamGatherer {
             "beams support only planar facets: polygons, rectangles, boxes, polyhedra and "
             "triangle meshes, of materials without alpha (with a tolerance other bounded shapes "
             "are tessellated)");
+        // Tessellated solids have other parts than the compiled scene.
+        if (!scene_.closed_parts.empty()) {
+            result_.closed_parts = closed_parts_of(d_, scene_.materials);
+        }
         result_.tree = FacetTree(std::move(pool_), std::move(pieces_));
         return std::move(result_);
     }

@@ -40,7 +40,8 @@ struct BeamScene {
     std::vector<BeamSource> sources;
     std::vector<BeamFacet> facets;
     FacetTree tree;
-    std::vector<std::string> notes;  ///< one line for each repaired polygon
+    std::vector<std::uint8_t> closed_parts;  ///< as Scene::closed_parts, of the parts gathered
+    std::vector<std::string> notes;          ///< one line for each repaired polygon
 
     [[nodiscard]] const FacetPlane& plane(std::uint32_t facet) const {
         return tree.pool().planes[facet];

@@ -78,7 +78,8 @@ void BeamShading::attenuate(double distance, Way& way) const {
 
 void BeamShading::pass(RayKind kind, double distance, Way& way) {
     const MaterialSample& material = *point_.material;
-    way.share = way.share * tint_along(conventions_, point_, tinted_, way.medium, distance);
+    way.share = way.share * tint_along(conventions_, point_, is_closed(point_.surface), tinted_,
+                                       way.medium, distance);
     if (kind == RayKind::Reflection) {
         way.share = way.share * material.reflective;
         return;
@@ -89,7 +90,7 @@ void BeamShading::pass(RayKind kind, double distance, Way& way) {
     if (material.thin) return;
     way.inside = point_.entering;
     way.absorption = point_.entering ? material.absorption : Rgb{};
-    way.medium = tinted_medium_behind(scene_, point_, tinted_, way.medium);
+    way.medium = tinted_medium_behind(point_, is_closed(point_.surface), tinted_, way.medium);
 }
 
 void BeamShading::follow(std::uint32_t facet, RayKind kind) {
@@ -121,7 +122,7 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
         chain_.push_back(p);
     }
     way_ = {};
-    tinted_ = {};
+    tinted_.release(1);
     filter_ = {1, 1, 1};
     Vec3 from = eye.origin;
     true_ = {eye.origin, eye.direction};
@@ -149,7 +150,8 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
                    : length(true_.at + t * true_.direction - point_.surface.point);
     }
     if (!point_.material->unlit) {
-        filter_ = tint_along(conventions_, point_, tinted_, way_.medium, distance);
+        filter_ = tint_along(conventions_, point_, is_closed(point_.surface), tinted_, way_.medium,
+                             distance);
     }
 }
 
@@ -166,7 +168,8 @@ Rgb BeamShading::light(const BeamLight& light) {
     const double cosine = dot(point_.normal, l.to_light);
     if (!(cosine > 0.0)) return {};
     Rgb color = l.intensity * reflected_fraction(conventions_, point_, l, cosine);
-    if (!light.part.through.empty()) color = color * tint(light.part.through, l);
+    const bool in_air = !way_.inside && way_.medium == TintedMedia::kOutside;
+    if (!light.part.through.empty() || !in_air) color = color * tint(light.part.through, l);
     return way_.share * filter_ * color;
 }
 
@@ -185,8 +188,8 @@ Rgb BeamShading::tint(std::span<const std::uint32_t> through, const LightSample&
         set_surface_of(facet, ray, t, between_);
         const MaterialSample material = material_at(scene_, between_);
         const bool leaving = dot(ray.direction, between_.normal) >= 0.0;
-        const Crossing crossing = cross(conventions_, material, material, leaving,
-                                        scene_.is_closed(between_.part), t - last, volumes_);
+        const Crossing crossing = cross(conventions_, between_, material, material, leaving,
+                                        is_closed(between_), t - last, volumes_);
         result = result * crossing.way * crossing.surface;
         if (!material.physical || !material.thin) last = t;
     }

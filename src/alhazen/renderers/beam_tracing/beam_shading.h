@@ -44,6 +44,10 @@ class BeamShading {
     /// Continues the true ray through a facet, whose material `point_` has.
     void follow(std::uint32_t facet, RayKind kind);
     void pass(RayKind kind, double distance, Way& way);
+    [[nodiscard]] bool is_closed(const Surface& surface) const {
+        const std::vector<std::uint8_t>& closed = geometry_.closed_parts;
+        return surface.part < closed.size() && closed[surface.part] != 0;
+    }
     [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
 
     const RenderJob& job_;

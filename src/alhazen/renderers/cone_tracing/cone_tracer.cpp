@@ -235,7 +235,8 @@ Rgb ConeTracer::color_of(const Seen& seen, const ShadingPoint& point) {
         if (conventions_.trace_reflections) color += reflected(seen, point);
         if (conventions_.trace_refractions) color += transmitted(seen, point);
     }
-    return color * tint_along(conventions_, point, tinted_, seen.path.medium, seen.t);
+    return color * tint_along(conventions_, point, scene_.is_closed(point.surface.part), tinted_,
+                              seen.path.medium, seen.t);
 }
 
 Rgb ConeTracer::direct_light(const Seen& seen, const ShadingPoint& point) {
@@ -476,7 +477,8 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
     if (!material.thin) {
         path.inside = point.entering;
         path.absorption = point.entering ? material.absorption : Rgb{};
-        path.medium = tinted_medium_behind(scene_, point, tinted_, seen.path.medium);
+        path.medium = tinted_medium_behind(point, scene_.is_closed(point.surface.part), tinted_,
+                                           seen.path.medium);
     }
     if (geometry_.sources[source].closed) {
         set_inside(path.start, source, seen.piece.front);

@@ -24,11 +24,19 @@ namespace alhazen {
 class CrossedVolumes {
   public:
     void clear() { volumes_.clear(); }
-    /// `kt`: transmittance of a unit of length, in addition to the absorption.
-    void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}) {
-        volumes_.push_back({absorption, kt});
+    [[nodiscard]] bool empty() const { return volumes_.empty(); }
+    /// `kt`: transmittance of a unit of length, in addition to the absorption. `body`: what bounds
+    /// the volume; 0 is unknown.
+    void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}, std::uint64_t body = 0) {
+        volumes_.push_back({absorption, kt, body});
     }
-    void leave() {
+    /// Leaves the body, or the innermost volume if it is not around the ray.
+    void leave(std::uint64_t body) {
+        for (std::size_t k = volumes_.size(); k-- > 0;) {
+            if (volumes_[k].body != body) continue;
+            volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(k));
+            return;
+        }
         if (!volumes_.empty()) volumes_.pop_back();
     }
     /// The transmittance of the innermost volume; white outside.
@@ -42,14 +50,15 @@ class CrossedVolumes {
   private:
     struct Volume {
         Rgb absorption, kt;
+        std::uint64_t body;
     };
     std::vector<Volume> volumes_;
 };
 
 /// The closed bodies around rays where kt is the transmittance of a unit of length
 /// (RefractionTint::PerDistance).
-/// Conventions: a medium is a number: 0 is outside all bodies, others identify the innermost body
-/// and the medium around it. Threads: used by one at a time.
+/// Conventions: a medium is a number: 0 is outside all bodies, others identify the body entered
+/// last and the medium around it. Bodies may be left in any order. Threads: used by one at a time.
 class TintedMedia {
   public:
     static constexpr std::uint32_t kOutside = 0;
@@ -61,15 +70,25 @@ class TintedMedia {
     /// White outside.
     [[nodiscard]] const Rgb& kt(std::uint32_t medium) const { return media_[medium].kt; }
     [[nodiscard]] std::uint32_t around(std::uint32_t medium) const { return media_[medium].around; }
+    [[nodiscard]] std::uint64_t body(std::uint32_t medium) const { return media_[medium].body; }
     /// The medium inside a body of `kt` that lies in the medium `around`.
-    [[nodiscard]] std::uint32_t enter(const Rgb& kt, std::uint32_t around) {
-        media_.push_back({kt, around});
+    [[nodiscard]] std::uint32_t enter(const Rgb& kt, std::uint64_t body, std::uint32_t around) {
+        media_.push_back({kt, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
+    }
+    /// `medium` without the body; volumes inside it are kept.
+    [[nodiscard]] std::uint32_t leave(std::uint64_t body, std::uint32_t medium) {
+        if (medium == kOutside) return kOutside;
+        const Medium innermost = media_[medium];
+        if (innermost.body == body) return innermost.around;
+        const std::uint32_t around = leave(body, innermost.around);
+        return around == innermost.around ? medium : enter(innermost.kt, innermost.body, around);
     }
 
   private:
     struct Medium {
         Rgb kt{1, 1, 1};
+        std::uint64_t body = 0;
         std::uint32_t around = kOutside;
     };
     std::vector<Medium> media_{Medium{}};

@@ -135,7 +135,9 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
     if (surface.media.known) return known_sides_of(surface, around);
     Sides sides{media_[around].index, material.index, around};
     if (bounds_a_volume(material)) {
-        const Medium inside = medium_of(surface, material);
+        Medium inside = medium_of(surface, material);
+        const bool is_open = !material.physical && !optics_.beer && !scene_.is_closed(surface.part);
+        if (is_open && !tints_events_) inside.absorption = media_[around].absorption;
         if (entering) {
             sides.behind = enter(inside, around);
         } else {
@@ -181,8 +183,7 @@ ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
     medium.index = sample.index;
     if (sample.physical) {
         medium.absorption = sample.absorption;
-    } else if (optics_.beer ||
-               (!tints_events_ && (surface.media.known || scene_.is_closed(surface.part)))) {
+    } else if (!tints_events_) {
         medium.absorption = absorption_of_unit_length(sample.transmissive);
     }
     return medium;

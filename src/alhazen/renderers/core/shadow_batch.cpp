@@ -144,7 +144,8 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     count_.hit += blocked || !crossings_.empty();
     if (blocked) return {};
     if (optics_ != nullptr) return tint_by_optics(ray, path);
-    return crossings_.empty() && !path.inside ? Rgb{1, 1, 1} : tint_of_crossings(ray, path);
+    const bool in_air = !path.inside && path.medium == TintedMedia::kOutside;
+    return crossings_.empty() && in_air ? Rgb{1, 1, 1} : tint_of_crossings(ray, path);
 }
 
 const Surface& ShadowBatch::crossed(const Ray& ray, const Hit& hit, float time) {
@@ -189,8 +190,8 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         }
         // Light passes through the back of a single-sided surface.
         if (!leaving && is_unseen_from_behind(*material)) continue;
-        const Crossing crossing = cross(scene_.conventions.shading, *material, *medium, leaving,
-                                        closed, met - last, volumes_);
+        const Crossing crossing = cross(scene_.conventions.shading, surface, *material, *medium,
+                                        leaving, closed, met - last, volumes_);
         tint = tint * crossing.way;
         Rgb through = crossing.surface;
         if (material->coverage < 1.0) {

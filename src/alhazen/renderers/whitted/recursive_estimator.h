@@ -35,17 +35,19 @@ struct NoRandomness {
     [[nodiscard]] static float time(std::uint32_t /*sample*/) { return 0.0f; }
 };
 
-/// A `Randomness` that observes the tree of rays. `use` is called once, with exact optics only. For
-/// some rays of a generation the calls are, in order: `begin_rays`; for each surface `see_light`
-/// for the lights it faces, then `meet`; `miss` for rays that hit nothing; `gather`, after the next
-/// generation, with the surfaces in the order of `meet`; `give_up` if rays have passed
-/// kMaxPassedSurfaces; `end_rays`, when the radiance is known.
+/// A `Randomness` that observes the tree of rays. `use` is called once, with the media of
+/// Path::medium. For some rays of a generation the calls are, in order: `begin_rays`; for each
+/// surface `see_light` for the lights it faces, then `meet`; `miss` for rays that hit nothing;
+/// `gather`, after the next generation, with the surfaces in the order of `meet`; `give_up` if rays
+/// have passed kMaxPassedSurfaces; `end_rays`, when the radiance is known.
 template <class Randomness>
 concept TreeWatcher = requires(Randomness& random, const GenerationPart& part,
                                const ShadingPoint& point, const Path& path, const MetSurface& met,
                                const Wavefront& front, const LightSample& light, const Rgb& left,
-                               ExactOptics& optics, std::uint32_t ray, double t, int depth) {
+                               ExactOptics& optics, const TintedMedia& tinted, std::uint32_t ray,
+                               double t, int depth) {
     random.use(optics);
+    random.use(tinted);
     random.begin_rays(part, depth);
     random.see_light(std::size_t{}, light, t);
     random.meet(point, t, path, depth, met);
@@ -180,6 +182,7 @@ class RecursiveEstimator {
             shade({*point, rays[k], t, path, depth}, met, front);
             if constexpr (TreeWatcher<Randomness>) random_.meet(*point, t, path, depth, met);
             left = (1.0 - coverage) * left;
+            if (met.filtered) left = left * met.filter;
             if (!(left.max() >= kLeastTransmittance)) return;
             front.next_active.push_back(i);
             front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
@@ -245,16 +248,14 @@ class RecursiveEstimator {
             if (conventions_.trace_reflections) reflect(seen, from, met, front.next);
             if (conventions_.trace_refractions) transmit(seen, from, met, front);
         }
-        met.filtered = tints_by_distance();
-        if (met.filtered) {
-            met.filter = tint_along(conventions_, point, tinted_, seen.path.medium, seen.t);
-        }
+        if (!tracks_media()) return;
+        met.filter = tint_along(conventions_, point, scene_.is_closed(point.surface.part), tinted_,
+                                seen.path.medium, seen.t);
+        met.filtered = met.filter != Rgb{1, 1, 1};
     }
 
-    [[nodiscard]] bool tints_by_distance() const {
-        return conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-               !optics_;
-    }
+    /// True if kt acts by distance; exact optics track media by themselves.
+    [[nodiscard]] bool tracks_media() const { return conventions_.tints_by_distance() && !optics_; }
 
     void add_direct_light(const Seen& seen, const LeavingRays& from, Rgb& sum) {
         const ShadingPoint& point = seen.point;
@@ -325,8 +326,9 @@ class RecursiveEstimator {
                                                  : Rgb{};
             if (optics_) {
                 onward.medium = behind.medium;
-            } else if (tints_by_distance()) {
-                onward.medium = tinted_medium_behind(scene_, point, tinted_, seen.path.medium);
+            } else if (tracks_media()) {
+                onward.medium = tinted_medium_behind(point, scene_.is_closed(point.surface.part),
+                                                     tinted_, seen.path.medium);
             }
         }
         if (!material.thin && onward.nm == 0.0f && disperses(seen)) {

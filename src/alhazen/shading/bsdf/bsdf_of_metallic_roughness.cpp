@@ -145,7 +145,7 @@ class LayerMaker {
             } else if (ggx_.x < kSmoothAlpha) {
                 bsdf_.add(grey(clear), ThinSheet{base_}, below);
             } else {
-                bsdf_.add(clear * base_, RoughSheet(ggx_), below);
+                bsdf_.add(clear * base_, RoughSheet(ggx_, axis_), below);
             }
             return;
         }

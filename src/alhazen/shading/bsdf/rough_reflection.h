@@ -78,7 +78,9 @@ class RoughSheet {
     static constexpr bool kSingular = false, kTransmits = true;
 
     RoughSheet() = default;
-    explicit RoughSheet(const Ggx& ggx) : reflection_(ggx, SchlickTerm{}) {}
+    /// `axis`: unit tangent along which the roughness is ggx.x.
+    explicit RoughSheet(const Ggx& ggx, const Vec2& axis = {1, 0})
+        : reflection_(ggx, SchlickTerm{}, axis) {}
 
     [[nodiscard]] Spectrum value(const Vec3& view, const Vec3& direction,
                                  Transport transport) const;

@@ -167,26 +167,39 @@ std::optional<std::string_view> tilt_of(std::string_view line) {
     return trimmed(line.substr(1));
 }
 
+/// True if the line names the standard of 1995 or a later one.
+bool names_standard_since_1995(std::string_view line) {
+    const std::size_t at = line.find("LM-63-");
+    return at != std::string_view::npos && line.size() >= at + 10 &&
+           line.substr(at + 6, 4) >= "1995";
+}
+
+bool is_word(std::string_view text, std::string_view capitals) {
+    return std::equal(text.begin(), text.end(), capitals.begin(), capitals.end(),
+                      [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - 32 : a) == b; });
+}
+
 }  // namespace
 
 IesProfile::IesProfile(std::string_view text, const std::string& name) : text_(text) {
     IesReader reader(text_, name);
     if (text.size() > kMostBytes) reader.fail("the file is larger than 16 MiB");
     std::string_view line = reader.line();
-    const bool since_1995 = line.find(":LM-63-") != std::string_view::npos;
+    bool since_1995 = false;
     std::optional<std::string_view> tilt;
     while (!(tilt = tilt_of(line))) {
         if (reader.at_end()) reader.fail("expected a line 'TILT=...'; is this an IES file?");
+        since_1995 = since_1995 || names_standard_since_1995(line);
         line = reader.line();
     }
-    if (*tilt == "INCLUDE") {
+    if (is_word(*tilt, "INCLUDE")) {
         (void)reader.number("lamp to luminaire geometry");
         const std::size_t pairs = reader.count("number of tilt angles", kMostAngles);
         for (std::size_t i = 0; i < pairs; ++i) (void)reader.number("tilt angle");
         for (std::size_t i = 0; i < pairs; ++i) {
             if (reader.number("tilt factor") != 1.0) ignored_tilt_ = *tilt;
         }
-    } else if (*tilt != "NONE") {
+    } else if (!is_word(*tilt, "NONE")) {
         ignored_tilt_ = *tilt;
     }
     (void)reader.number("number of lamps");

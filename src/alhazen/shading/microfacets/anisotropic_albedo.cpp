@@ -202,7 +202,7 @@ struct Recent {
 };
 
 Recent& recent_of(const Ggx& ggx) {
-    constexpr std::size_t kPairs = 16;
+    constexpr std::size_t kPairs = 64;
     // Made at first use: as a thread-local value it would be cleared for every thread.
     thread_local const auto pairs = std::make_unique<std::array<Recent, kPairs>>();
     const std::uint64_t x = std::bit_cast<std::uint64_t>(ggx.x);

@@ -76,6 +76,22 @@ TEST(BsdfOf, AThinSheetOfGlassDoesNotBend) {
     EXPECT_EQ(s->direction, -view);
 }
 
+TEST(BsdfOf, GroovesOfAThinSheetTurnWhatItTransmits) {
+    Material m = glass(1.5, 0);
+    m.metallic_roughness->roughness.value = 0.4;
+    m.metallic_roughness->anisotropy.strength = 0.9;
+    const Bsdf along = of(m);
+    m.metallic_roughness->anisotropy.rotation = kPi / 2;
+    const Bsdf turned = of(m);
+    const Vec3 view = view_at(0.9), behind = normalize(Vec3{0.5, 0.1, -1});
+    const auto quarter = [](const Vec3& v) { return Vec3{-v.y, v.x, v.z}; };
+    const double value = along.value(view, behind, Transport::Radiance).a;
+    EXPECT_GT(value, 0.01);
+    EXPECT_NEAR(turned.value(quarter(view), quarter(behind), Transport::Radiance).a, value,
+                1e-12 * value);
+    EXPECT_GT(std::abs(turned.value(view, behind, Transport::Radiance).a - value), 0.01 * value);
+}
+
 TEST(BsdfOf, AnIndexOfZeroReflectsAll) {
     Material m = glass(0, 1);
     const Bsdf bsdf = of(m);
