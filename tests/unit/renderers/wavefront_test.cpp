@@ -135,7 +135,8 @@ class Watched final : public Aggregate {
 
     mutable std::vector<std::size_t> generations;  ///< rays of each, in the order of the calls
     mutable std::size_t single_rays = 0;
-    StopFlag* stop = nullptr;  ///< requested by call number `stop_at`
+    mutable std::vector<Coherence> shadows;  ///< the hints of batches of shadow rays
+    StopFlag* stop = nullptr;                ///< requested by call number `stop_at`
     std::size_t stop_at = 0;
 
     const PrimitiveTable& primitives() const override { return inner_->primitives(); }
@@ -159,6 +160,11 @@ class Watched final : public Aggregate {
         if (stop != nullptr && generations.size() == stop_at) stop->request();
         generations.push_back(rays.size());
         inner_->closest_batch(rays, hits, query, coherence);
+    }
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
+                        Coherence coherence) const override {
+        shadows.push_back(coherence);
+        inner_->occluded_batch(rays, occluded, query, coherence);
     }
 
   private:
@@ -232,6 +238,28 @@ TEST(Wavefront, AStopEndsTheWorkWithTheGenerationAtHand) {
         Whitted(16).render_tile(job, {0, 0, 8, 8}, film, counters);
         EXPECT_EQ(watched->generations.size(), call + 1);
         EXPECT_EQ(film.at(0, 0), Rgb{}) << "a pixel that was given up was written";
+    }
+}
+
+TEST(Wavefront, ShadowRaysToAPointAndParallelOnesAreCoherent) {
+    for (const bool parallel : {false, true}) {
+        SceneMaker maker;
+        const MaterialId matte = maker.material(shiny(0.5, 0.0));
+        maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}},
+                  matte);
+        if (parallel) {
+            maker.light(DirectionalLight{.to_light = {0.1, 0.2, 1}});
+        } else {
+            maker.light(PointLight{.position = {1, 1, 3}});
+        }
+        Scene scene = maker.compile();
+        const auto watched = std::make_shared<Watched>(scene.aggregate);
+        scene.aggregate = watched;
+        Film film(8, 8, {0, 0, 8, 8});
+        RayCounters counters;
+        Whitted(64).render_tile({scene, scene.cameras[0].camera}, {0, 0, 8, 8}, film, counters);
+        ASSERT_FALSE(watched->shadows.empty());
+        EXPECT_EQ(watched->shadows.front(), Coherence::Coherent) << parallel;
     }
 }
 

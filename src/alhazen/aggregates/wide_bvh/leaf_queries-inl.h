@@ -22,6 +22,7 @@
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_tests-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/primitives/unused_shear.h"
+#include "alhazen/shapes/core/first_hit.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -169,11 +170,41 @@ struct LeafQuery {
                 if constexpr (std::is_same_v<Block, SphereBlock>) {
                     if (visit_sphere(*blocks, lane, stats)) return true;
                 } else {
-                    if (query().shape(id, stats)) return true;
+                    if (visit_shape<Block>(id, stats)) return true;
                 }
             }
         }
         return false;
+    }
+
+    /// The kinds that most blocks hold are tested without the table's search for their column.
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_shape(BlockId id, Stats stats) {
+        if constexpr (Query::kFirstOnly) {
+            const std::uint32_t kind = scene.table->kind(id.id());
+            if constexpr (std::is_same_v<Block, FrustumBlock>) {
+                if (HWY_LIKELY(kind == column_of<Cylinder>())) {
+                    return visit_first<Cylinder>(id, stats);
+                }
+            } else {
+                if (kind == column_of<Polygon>()) return visit_first<Polygon>(id, stats);
+            }
+        }
+        return query().shape(id, stats);
+    }
+    /// The first crossing with a shape of a known kind.
+    template <class S, class Stats>
+    HWY_NOINLINE bool visit_first(BlockId id, Stats stats) {
+        const auto& column = std::get<ShapeColumn<S>>(scene.table->columns);
+        const std::uint32_t i =
+            static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<S>());
+        if (HWY_UNLIKELY(column.placements[i] != kNoPlacement)) return query().shape(id, stats);
+        if (!scene.sees(id.id())) return false;
+        stats.primitives(1);
+        ShapeHit hit;
+        if (!find_first_hit(column.shapes[i], ray, hit)) return false;
+        stats.primitive_hits(1);
+        return query().accept(id, hit);
     }
 
     /// The first crossing with a sphere, or both.

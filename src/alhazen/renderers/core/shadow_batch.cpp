@@ -87,17 +87,12 @@ void ShadowBatch::find_met(std::span<bool> met) {
     scene_.aggregate->occluded_batch_at(rays(), times_, met, query(), coherence_);
 }
 
-Coherence ShadowBatch::coherence_to(std::size_t light) const {
-    return place_of(scene_.lights[light]) == LightPlace::Point ? Coherence::Coherent
-                                                               : Coherence::Any;
-}
-
 void ShadowBatch::find_met_by_light(std::span<bool> met) {
     const Aggregate& aggregate = *scene_.aggregate;
     const std::size_t light = waiting().front().light;
     if (std::all_of(waiting().begin(), waiting().end(),
                     [&](const Waiting& w) { return w.light == light; })) {
-        return aggregate.occluded_batch(rays(), met, query(), coherence_to(light));
+        return aggregate.occluded_batch(rays(), met, query(), coherence_);
     }
     // Counting sort: `begins_` holds the number of rays of each light, then the place of its next
     // ray.
@@ -118,7 +113,7 @@ void ShadowBatch::find_met_by_light(std::span<bool> met) {
         const std::size_t count = begins_[number] - first;
         if (count == 0) continue;
         aggregate.occluded_batch(std::span<const Ray>(sorted_).subspan(first, count),
-                                 found.subspan(first, count), query(), coherence_to(number));
+                                 found.subspan(first, count), query(), coherence_);
         first += count;
     }
     for (std::size_t i = 0; i < met.size(); ++i) met[i] = found[places_[i]];

@@ -39,7 +39,7 @@ class ShadowBatch {
     /// Casts the gathered rays.
     void finish();
     /// Sets the coherence of further surfaces; no ray may be gathered. Coherent: the surfaces are
-    /// neighbours; rays to the same light are cast together, as coherent ones if it is a point.
+    /// neighbours; rays to the same light are cast together: they meet in a point or are parallel.
     void expect(Coherence coherence);
 
     /// True if batches are no faster than `arriving`, with which the reflected fraction need be
@@ -66,7 +66,6 @@ class ShadowBatch {
     }
     void find_met(std::span<bool> met);
     void find_met_by_light(std::span<bool> met);
-    [[nodiscard]] Coherence coherence_to(std::size_t light) const;
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.

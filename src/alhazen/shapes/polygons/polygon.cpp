@@ -1,10 +1,12 @@
 #include "alhazen/shapes/polygons/polygon.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "alhazen/shapes/polygons/polygon_cells.h"
+#include "alhazen/shapes/polygons/polygon_sides.h"
 
 namespace alhazen {
 
@@ -46,42 +48,77 @@ Vec3 first_edge_direction(const Polygon& polygon) {
     return perpendicular(polygon.normal);
 }
 
-/// Odd-even rule around the ray, in sheared space.
-bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
-    const RayShear shear(ray.direction);
-    const Vec3* const vertices = polygon.vertices.data();
-    const auto vertex = [&](std::size_t i) {
-        const Vec3& p = vertices[i];
-        return sheared<double>(p[shear.kx], p[shear.ky], p[shear.kz], ray.origin[shear.kx],
-                               ray.origin[shear.ky], ray.origin[shear.kz], shear.sx, shear.sy);
-    };
-    bool inside = false;
-    std::size_t first = 0;
-    for (const std::size_t end : polygon.loop_ends) {
+/// A polygon's vertices in the sheared space of a ray.
+class ShearedPolygon {
+  public:
+    ShearedPolygon(const Polygon& polygon, const Ray& ray)
+        : polygon_(polygon), origin_(ray.origin), shear_(ray.direction) {}
+
+    /// Odd-even rule around the ray.
+    [[nodiscard]] bool surrounds_ray() const {
+        bool inside = false;
+        std::size_t first = 0;
+        for (const std::size_t end : polygon_.loop_ends) {
+            inside ^= polygon_.cells ? crossed_of_many(first, end) : crossed_of_few(first, end);
+            first = end;
+        }
+        return inside;
+    }
+
+  private:
+    [[nodiscard]] ShearedVertex<double> vertex(std::size_t i) const {
+        const Vec3& p = polygon_.vertices.data()[i];
+        return sheared<double>(p[shear_.kx], p[shear_.ky], p[shear_.kz], origin_[shear_.kx],
+                               origin_[shear_.ky], origin_[shear_.kz], shear_.sx, shear_.sy);
+    }
+    /// True if an edge, whose ends lie on different sides, crosses the positive x axis; usually
+    /// decided by the signs of x.
+    [[nodiscard]] static bool crosses(const ShearedVertex<double>& a,
+                                      const ShearedVertex<double>& b) {
+        if (a.x > 0.0 && b.x > 0.0) return true;
+        if (a.x < 0.0 && b.x < 0.0) return false;
+        return (resolved_edge_sign(a, b) > 0) == (b.y > 0.0);
+    }
+    /// Whether an odd number of the edges of a loop crosses the positive x axis.
+    [[nodiscard]] bool crossed_of_few(std::size_t first, std::size_t end) const {
+        bool odd = false;
         bool before = vertex(end - 1).y > 0.0;
         for (std::size_t i = first; i < end; ++i) {
             // Computes only y for most edges.
             const bool here = vertex(i).y > 0.0;
-            if (before != here) {
-                const ShearedVertex<double> a = vertex(i > first ? i - 1 : end - 1), b = vertex(i);
-                // True if the edge crosses the positive x axis; usually decided by the signs of x.
-                if (a.x > 0.0 && b.x > 0.0) {
-                    inside = !inside;
-                } else if (!(a.x < 0.0 && b.x < 0.0)) {
-                    if ((resolved_edge_sign(a, b) > 0) == (b.y > 0.0)) inside = !inside;
-                }
-            }
+            if (before != here) odd ^= crosses(vertex(i > first ? i - 1 : end - 1), vertex(i));
             before = here;
         }
-        first = end;
+        return odd;
     }
-    return inside;
-}
+    [[nodiscard]] bool crossed_of_many(std::size_t first, std::size_t end) const {
+        const SideRay ray{shear_.kz, origin_[shear_.ky], origin_[shear_.kz], shear_.sy};
+        bool odd = false;
+        std::uint64_t before = vertex(end - 1).y > 0.0;
+        for (std::size_t at = first; at < end; at += kMostSides) {
+            const std::size_t count = std::min(end - at, kMostSides);
+            const std::uint64_t above =
+                corners_above(std::span(polygon_.vertices).subspan(at, count), ray);
+            std::uint64_t changes = above ^ (above << 1 | before);
+            changes &= ~std::uint64_t{0} >> (kMostSides - count);
+            before = above >> (count - 1) & 1;
+            for (; changes != 0; changes &= changes - 1) {
+                const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(changes));
+                odd ^= crosses(vertex(i > first ? i - 1 : end - 1), vertex(i));
+            }
+        }
+        return odd;
+    }
 
-/// Where the cells place a ray that meets the plane at t; NearEdge: `surrounds_ray` decides.
+    const Polygon& polygon_;
+    const Vec3& origin_;
+    RayShear shear_;
+};
+
+/// Where the cells place a ray that meets the plane at t; NearEdge: `ShearedPolygon` decides.
 /// `size`: as in `intersect`.
 ///
-/// The sheared vertices of surrounds_ray are those that the ray sees at points within e1 =
+/// The sheared vertices of ShearedPolygon are those that the ray sees at points within e1 =
 /// gamma_4 (|point - o| + R) of the vertices along each axis, R the reach of the bounds. Such a
 /// point is within off_plane + gamma_6 R + 2 e1 of the plane, and moves by that over the cosine
 /// times d along the ray. The crossing at t is off by gamma_16 (size_x + size_y + size_z) over the
@@ -226,7 +263,9 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
     const PolygonCells::Place place =
         cells ? place_in_cells(*this, ray, t, cosine, size) : PolygonCells::Place::NearEdge;
     if (place == PolygonCells::Place::Outside) return 0;
-    if (place == PolygonCells::Place::NearEdge && !surrounds_ray(*this, ray)) return 0;
+    if (place == PolygonCells::Place::NearEdge && !ShearedPolygon(*this, ray).surrounds_ray()) {
+        return 0;
+    }
     return report_crossing(ray, {clamped_to_box(t, ray, bounds, near_faces), 0, 0, 0}, hits);
 }
 

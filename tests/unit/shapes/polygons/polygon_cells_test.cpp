@@ -130,6 +130,36 @@ TEST(PolygonCells, HitsAreThoseWithoutCells) {
     EXPECT_GT(hits, 20000);
 }
 
+TEST(PolygonCells, HitsNearEdgesAreTheSameOnEveryInstructionSet) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        Random random(74);
+        int near_edges = 0;
+        for (int i = 0; i < 60; ++i) {
+            const Polygon polygon = many_cornered(random);
+            const Polygon plain = without_cells(polygon);
+            const std::size_t n = polygon.vertices.size();
+            for (std::size_t k = 0; k < n; ++k) {
+                // Over the middle of an edge, and off the two ends of its line.
+                const Vec3 a = polygon.vertices[k], b = polygon.vertices[(k + 1) % n];
+                const Vec3 at = a + random.uniform(-0.2, 1.2) * (b - a);
+                const Vec3 from = at + random.uniform(0.1, 3) * length(b - a) * polygon.normal +
+                                  random.log_uniform(1e-9, 1e-2) * (b - a);
+                const Ray ray{from, at - from};
+                ShapeHit hit, expected;
+                const int count = polygon.intersect(ray, &hit);
+                ASSERT_EQ(count, plain.intersect(ray, &expected))
+                    << target << ", polygon " << i << ", " << to_text(ray);
+                if (count == 1) {
+                    ASSERT_TRUE(same_bits(hit, expected)) << to_text(ray);
+                }
+                near_edges += count;
+            }
+        }
+        EXPECT_GT(near_edges, 1000);
+    }
+}
+
 TEST(PolygonCells, HitsInLanesAreThoseWithoutCells) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
