@@ -454,7 +454,8 @@ HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& 
                                        Stats stats) {
     const WideBvh& tree = batch.scene.layout->tree;
     LanePacket packet;
-    std::uint32_t rest = packet.load(batch.frame, rays, wanted);
+    // Shadow rays end in one point, if in any.
+    std::uint32_t rest = packet.load(batch.frame, rays, wanted, Leaves::kOrdered);
     const std::uint32_t alone = wanted & ~rest;
     if (rest == 0) return alone;
     Leaves leaves(batch.scene, batch.scene.waits ? &batch.prefetch_table : nullptr, rays, results,

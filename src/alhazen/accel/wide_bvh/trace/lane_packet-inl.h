@@ -87,9 +87,10 @@ struct alignas(64) LanePacket {
     };
     Pinhole pinhole;
 
-    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes.
+    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes. `may_share`:
+    /// they are likely to begin in one point, with one range.
     [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const GivenRays& given,
-                                     std::uint32_t wanted);
+                                     std::uint32_t wanted, bool may_share);
     /// Chooses those of the rays that go the way of the first, and makes their frustum.
     [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
 
@@ -144,12 +145,11 @@ struct alignas(64) LanePacket {
     HWY_INLINE std::uint32_t load_apart(const LaneFrame& lane_frame, const GivenRays& given);
     HWY_INLINE std::uint32_t load_from_one_start(const LaneFrame& lane_frame,
                                                  const GivenRays& given);
-    HWY_INLINE LaneMask<float, kLoadedRays> store_start(const LoadedFloats (&o)[3],
+    HWY_INLINE LaneMask<float, kLoadedRays> store_start(const LoadedFloats* o,
                                                         const LoadedFloats& t_min,
                                                         const LoadedFloats& t_max, std::size_t at);
     HWY_INLINE LaneMask<float, kLoadedRays> store_direction(const LaneFrame& lane_frame,
-                                                            const LoadedFloats (&d)[3],
-                                                            std::size_t at);
+                                                            const LoadedFloats* d, std::size_t at);
     void take_group(std::size_t group, const GivenRays& given);
     void make_frustum(std::uint32_t set, std::size_t first);
 
@@ -194,10 +194,10 @@ struct LaneSlabs {
     }
 };
 
-/// Fills sixteen lanes of the rows of origins and ends; the rays that can be traced.
+/// Fills sixteen lanes of the rows of origins, three of them given, and ends; the rays that can be
+/// traced.
 HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_start(
-    const LoadedFloats (&o)[3], const LoadedFloats& t_min, const LoadedFloats& t_max,
-    std::size_t at) {
+    const LoadedFloats* o, const LoadedFloats& t_min, const LoadedFloats& t_max, std::size_t at) {
     using F = LoadedFloats;
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) store_lanes(o[k], origin[k] + at);
@@ -216,7 +216,7 @@ HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_start(
 }
 /// Likewise of directions.
 HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_direction(
-    const LaneFrame& lane_frame, const LoadedFloats (&d)[3], std::size_t at) {
+    const LaneFrame& lane_frame, const LoadedFloats* d, std::size_t at) {
     using F = LoadedFloats;
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) store_lanes(d[k], direction[k] + at);
@@ -249,8 +249,8 @@ HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame,
             load_local(lane_frame,
                        std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows);
         }
-        const auto begins = store_start({rows[0], rows[1], rows[2]}, rows[6], rows[7], at);
-        const auto moves = store_direction(lane_frame, {rows[3], rows[4], rows[5]}, at);
+        const auto begins = store_start(rows, rows[6], rows[7], at);
+        const auto moves = store_direction(lane_frame, rows + 3, at);
         usable |= bits_of(begins & moves) << at;
     }
     return usable;
@@ -279,9 +279,9 @@ HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_f
 }
 
 inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRays& given,
-                                      std::uint32_t wanted) {
+                                      std::uint32_t wanted, bool may_share) {
     const LocalFrame& frame = lane_frame.frame;
-    one_start_ = given.size() >= kPacketLanes && given.share_start<kPacketLanes>();
+    one_start_ = may_share && given.size() >= kPacketLanes && given.share_start<kPacketLanes>();
     const std::uint32_t usable = wanted & (one_start_ ? load_from_one_start(lane_frame, given)
                                                       : load_apart(lane_frame, given));
     if (usable == 0) return 0;

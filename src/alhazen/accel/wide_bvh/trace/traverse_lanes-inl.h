@@ -48,7 +48,7 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, 
     const LaneSlabs slabs(packet);
     const std::size_t base = height;
     while (hit != 0) {
-        const auto slot = static_cast<std::size_t>(31 ^ std::countl_zero(hit));
+        const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
         hit &= ~(1u << slot);
         const std::uint32_t met = lanes & slabs.meet(node, slot, packet);
         if (met == 0) continue;
