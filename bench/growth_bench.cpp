@@ -50,19 +50,15 @@ std::vector<Point> measure_size(double wanted, const Settings& settings) {
     std::vector<Point> points;
     for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
         if (set.name != "shuffled" && set.name != "lines") continue;
+        OurTracer ours(*aggregate, set);
         std::vector<Contender> tracers{
-            {"wide_bvh", "single", {}, [&] { return trace_single(*aggregate, set); }, {}},
-            {"wide_bvh", "batch", {}, [&] { return trace_batches(*aggregate, set); }, {}}};
+            our_contender("wide_bvh", "single", [&](bool counts) { return ours.single(counts); }),
+            our_contender("wide_bvh", "batch", [&](bool counts) { return ours.batches(counts); })};
 #ifdef ALHAZEN_HAVE_EMBREE
         const auto packets = make_embree_packets(set, 1);
-        tracers.push_back({"Embree",
-                           "robust",
-                           [&] { packets->reset(); },
-                           [&] {
-                               packets->trace(robust.handle(), false);
-                               return std::size_t{0};
-                           },
-                           {}});
+        tracers.push_back({"Embree", "robust", [&] { packets->reset(); },
+                           [&] { packets->trace(robust.handle(), false); },
+                           [&] { return packets->count_hits(); }});
 #endif
         for (const Measured& m : measure(tracers, set.rays.size(), settings.rounds)) {
             points.push_back(point_of(set, triangles, m));

@@ -72,20 +72,20 @@ class Peers {
 #endif
 };
 
-std::vector<Contender> our_tracers(const Aggregate& aggregate, const Aggregate& fast,
-                                   const RaySet& set, const RayColumns& columns) {
-    return {{kOurs, "single", {}, [&] { return trace_single(aggregate, set); }, {}},
-            {kOurs, "batch", {}, [&] { return trace_batches(aggregate, set); }, {}},
-            {kOurs, "columns", {}, [&] { return trace_columns(aggregate, set, columns); }, {}},
-            {kOursFast, "single", {}, [&] { return trace_single(fast, set); }, {}},
-            {kOursFast, "batch", {}, [&] { return trace_batches(fast, set); }, {}}};
+std::vector<Contender> our_contenders(OurTracer& ours, OurTracer& fast, const RayColumns& columns) {
+    return {
+        our_contender(kOurs, "single", [&](bool counts) { return ours.single(counts); }),
+        our_contender(kOurs, "batch", [&](bool counts) { return ours.batches(counts); }),
+        our_contender(kOurs, "columns", [&](bool counts) { return ours.columns(columns, counts); }),
+        our_contender(kOursFast, "single", [&](bool counts) { return fast.single(counts); }),
+        our_contender(kOursFast, "batch", [&](bool counts) { return fast.batches(counts); })};
 }
 
-void add_masked(const Aggregate& masked, const RaySet& set, std::vector<Contender>& tracers) {
+void add_masked(OurTracer& masked, std::vector<Contender>& tracers) {
     tracers.push_back(
-        {kOursMasked, "single", {}, [&] { return trace_single(masked, set, kSeeing); }, {}});
+        our_contender(kOursMasked, "single", [&](bool counts) { return masked.single(counts); }));
     tracers.push_back(
-        {kOursMasked, "batch", {}, [&] { return trace_batches(masked, set, kSeeing); }, {}});
+        our_contender(kOursMasked, "batch", [&](bool counts) { return masked.batches(counts); }));
 }
 
 #ifdef ALHAZEN_HAVE_EMBREE
@@ -100,10 +100,7 @@ void add_peers(const Peers& peers, const RaySet& set,
             RTCScene scene = peer.scene->handle();
             tracers.push_back({peer.group, fmt::format("{}{}{}", width, flag, peer.suffix),
                                [rays] { rays->reset(); },
-                               [rays, scene, coherent] {
-                                   rays->trace(scene, coherent);
-                                   return std::size_t{0};
-                               },
+                               [rays, scene, coherent] { rays->trace(scene, coherent); },
                                [rays] { return rays->count_hits(); }});
         };
         for (const PeerScene& peer : peers.list) {
@@ -128,8 +125,10 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
         if (!settings.only.empty() && set.name != settings.only) continue;
         if (set.rays.empty()) continue;
         const ColumnsOfRays columns(set);
-        std::vector<Contender> tracers = our_tracers(*aggregate, *fast, set, columns.rays());
-        if (masked != nullptr) add_masked(*masked, set, tracers);
+        OurTracer ours(*aggregate, set), ours_fast(*fast, set);
+        std::vector<Contender> tracers = our_contenders(ours, ours_fast, columns.rays());
+        std::optional<OurTracer> ours_masked;
+        if (masked != nullptr) add_masked(ours_masked.emplace(*masked, set, kSeeing), tracers);
 #ifdef ALHAZEN_HAVE_EMBREE
         std::vector<std::unique_ptr<EmbreePackets>> packets;
         add_peers(peers, set, packets, tracers);

@@ -54,7 +54,7 @@ std::vector<LeakContender> our_tracers(const Aggregate& aggregate) {
     const auto batch = [&aggregate](bool any_hit) {
         return [&aggregate, any_hit](RaySet& set) {
             set.any_hit = any_hit;
-            return set.rays.size() - trace_batches(aggregate, set);
+            return set.rays.size() - OurTracer(aggregate, set).batches(true);
         };
     };
     return {{"wide_bvh closest", batch(false), true}, {"wide_bvh occluded", batch(true), true}};

@@ -31,10 +31,10 @@ std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t
         for (std::size_t i = 0; i < tracers.size(); ++i) {
             if (tracers[i].prepare) tracers[i].prepare();
             const double begin = processor_seconds();
-            results[i].hits = tracers[i].trace();
+            tracers[i].trace();
             const double seconds = processor_seconds() - begin;
             if (round > 0) results[i].rates.push_back(1e-6 * static_cast<double>(rays) / seconds);
-            if (round == rounds && tracers[i].count_hits) results[i].hits = tracers[i].count_hits();
+            if (round == rounds) results[i].hits = tracers[i].count_hits();
         }
     }
     return results;

@@ -21,10 +21,8 @@ struct Contender {
     std::string group;              ///< tracer family: "alhazen", "robust", "fast"
     std::string name;               ///< variant within the group
     std::function<void()> prepare;  ///< before each round, not timed; may be empty
-    std::function<std::size_t()> trace;
-    /// The number of hits; called after the last round, not timed. If empty, the result of `trace`
-    /// is used.
-    std::function<std::size_t()> count_hits;
+    std::function<void()> trace;
+    std::function<std::size_t()> count_hits;  ///< after the last round, not timed
 };
 
 struct Measured {

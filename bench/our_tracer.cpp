@@ -62,35 +62,61 @@ std::shared_ptr<const Aggregate> build_masked(const KernelScene& scene,
     return build(std::move(table), options);
 }
 
-std::size_t trace_single(const Aggregate& aggregate, const RaySet& set, RayMask mask) {
-    const RayQuery query(nullptr, mask);
-    std::size_t hits = 0;
-    for (const Ray& ray : set.rays) {
-        if (set.any_hit) {
-            hits += aggregate.occluded(ray, query);
+OurTracer::OurTracer(const Aggregate& aggregate, const RaySet& set, RayMask mask)
+    : aggregate_(aggregate),
+      set_(set),
+      query_(nullptr, mask),
+      hits_(kBatch),
+      t_(kBatch),
+      u_(kBatch),
+      v_(kBatch),
+      ids_(kBatch),
+      occluded_(std::make_unique<bool[]>(kBatch)) {}
+
+std::size_t OurTracer::single(bool counts) {
+    std::size_t count = 0;
+    for (const Ray& ray : set_.rays) {
+        bool found;
+        if (set_.any_hit) {
+            found = aggregate_.occluded(ray, query_);
         } else {
             Hit hit;
-            hits += aggregate.closest(ray, hit, query);
+            found = aggregate_.closest(ray, hit, query_);
         }
+        if (counts) count += found;
     }
-    return hits;
+    return count;
 }
 
-std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set, RayMask mask) {
-    const RayQuery query(nullptr, mask);
-    std::vector<Hit> hits(kBatch);
-    const auto occluded = std::make_unique<bool[]>(kBatch);
+std::size_t OurTracer::batches(bool counts) {
     std::size_t count = 0;
-    const Coherence coherence = set.coherent ? Coherence::Coherent : Coherence::Any;
-    for (std::size_t i = 0; i < set.rays.size(); i += kBatch) {
-        const std::size_t n = std::min(kBatch, set.rays.size() - i);
-        const std::span<const Ray> rays(&set.rays[i], n);
-        if (set.any_hit) {
-            aggregate.occluded_batch(rays, {occluded.get(), n}, query, coherence);
-            for (std::size_t k = 0; k < n; ++k) count += occluded[k];
+    const Coherence coherence = set_.coherent ? Coherence::Coherent : Coherence::Any;
+    for (std::size_t i = 0; i < set_.rays.size(); i += kBatch) {
+        const std::size_t n = std::min(kBatch, set_.rays.size() - i);
+        const std::span<const Ray> rays(&set_.rays[i], n);
+        if (set_.any_hit) {
+            aggregate_.occluded_batch(rays, {occluded_.get(), n}, query_, coherence);
+            for (std::size_t k = 0; counts && k < n; ++k) count += occluded_[k];
         } else {
-            aggregate.closest_batch(rays, std::span(hits).first(n), query, coherence);
-            for (std::size_t k = 0; k < n; ++k) count += hits[k].found();
+            aggregate_.closest_batch(rays, std::span(hits_).first(n), query_, coherence);
+            for (std::size_t k = 0; counts && k < n; ++k) count += hits_[k].found();
+        }
+    }
+    return count;
+}
+
+std::size_t OurTracer::columns(const RayColumns& rays, bool counts) {
+    std::size_t count = 0;
+    const Coherence coherence = set_.coherent ? Coherence::Coherent : Coherence::Any;
+    for (std::size_t i = 0; i < rays.size(); i += kBatch) {
+        const std::size_t n = std::min(kBatch, rays.size() - i);
+        if (set_.any_hit) {
+            aggregate_.occluded_columns(rays.part(i, n), {occluded_.get(), n}, query_, coherence);
+            for (std::size_t k = 0; counts && k < n; ++k) count += occluded_[k];
+        } else {
+            const HitColumns hits = HitColumns{t_, u_, v_, ids_}.part(0, n);
+            aggregate_.closest_columns(rays.part(i, n), hits, query_, coherence);
+            for (std::size_t k = 0; counts && k < n; ++k) count += ids_[k] != kNoPrimitive;
         }
     }
     return count;
@@ -124,27 +150,6 @@ ColumnsOfRays::ColumnsOfRays(const RaySet& set) {
     } else {
         rays_.t_max = numbers_[7];
     }
-}
-
-std::size_t trace_columns(const Aggregate& aggregate, const RaySet& set, const RayColumns& rays) {
-    const RayQuery query(nullptr, kAllRays);
-    std::vector<double> t(kBatch), u(kBatch), v(kBatch);
-    std::vector<PrimitiveId> ids(kBatch);
-    const auto occluded = std::make_unique<bool[]>(kBatch);
-    std::size_t count = 0;
-    const Coherence coherence = set.coherent ? Coherence::Coherent : Coherence::Any;
-    for (std::size_t i = 0; i < rays.size(); i += kBatch) {
-        const std::size_t n = std::min(kBatch, rays.size() - i);
-        if (set.any_hit) {
-            aggregate.occluded_columns(rays.part(i, n), {occluded.get(), n}, query, coherence);
-            for (std::size_t k = 0; k < n; ++k) count += occluded[k];
-        } else {
-            const HitColumns hits = HitColumns{t, u, v, ids}.part(0, n);
-            aggregate.closest_columns(rays.part(i, n), hits, query, coherence);
-            for (std::size_t k = 0; k < n; ++k) count += ids[k] != kNoPrimitive;
-        }
-    }
-    return count;
 }
 
 WorkPerRay count_work(const Aggregate& aggregate, const RaySet& set) {

@@ -2,12 +2,16 @@
 /// wide_bvh over a benchmark scene; traces rays one by one and in batches.
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "alhazen/accel/wide_bvh/build/build_options.h"
 #include "alhazen/primitives/aggregate.h"
 #include "kernel_rays.h"
+#include "measure.h"
 
 namespace alhazen::bench {
 
@@ -24,13 +28,6 @@ inline constexpr std::size_t kBatch = 1024;
                                                             const BuildOptions& options);
 inline constexpr RayMask kSeeing = 1;
 
-/// Traces all rays of the set by `closest` or `occluded`; returns the number of hits.
-[[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set,
-                                       RayMask mask = kAllRays);
-/// Traces by `closest_batch` or `occluded_batch`, kBatch rays per call; returns the number of hits.
-[[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set,
-                                        RayMask mask = kAllRays);
-
 /// The rays of a set in columns of floats, as the library takes them: one origin and one range
 /// where all rays have the same.
 class ColumnsOfRays {
@@ -42,10 +39,39 @@ class ColumnsOfRays {
     std::array<std::vector<float>, 8> numbers_;  ///< origin, direction, t_min, t_max
     RayColumns rays_;
 };
-/// Traces by `closest_columns` or `occluded_columns`, kBatch rays per call, with t, u, v and ids of
-/// closest hits; returns the number of hits. `rays` are those of the set.
-[[nodiscard]] std::size_t trace_columns(const Aggregate& aggregate, const RaySet& set,
-                                        const RayColumns& rays);
+/// Traces the rays of a set in the ways the library has. The memory for the results is there before
+/// a clock starts, as that of Embree's packets is. Each way returns the number of hits if it
+/// `counts`, else 0.
+class OurTracer {
+  public:
+    OurTracer(const Aggregate& aggregate, const RaySet& set, RayMask mask = kAllRays);
+
+    /// By `closest` or `occluded`.
+    std::size_t single(bool counts);
+    /// By `closest_batch` or `occluded_batch`, kBatch rays per call.
+    std::size_t batches(bool counts);
+    /// By `closest_columns` or `occluded_columns`, kBatch rays per call, with t, u, v and ids of
+    /// closest hits. `rays` are those of the set.
+    std::size_t columns(const RayColumns& rays, bool counts);
+
+  private:
+    const Aggregate& aggregate_;
+    const RaySet& set_;
+    RayQuery query_;
+    std::vector<Hit> hits_;
+    std::vector<double> t_, u_, v_;
+    std::vector<PrimitiveId> ids_;
+    std::unique_ptr<bool[]> occluded_;
+};
+/// `trace(counts)` as above: hits are counted outside the clock, as Embree's are.
+template <class Trace>
+[[nodiscard]] Contender our_contender(std::string group, std::string name, Trace trace) {
+    return {std::move(group),
+            std::move(name),
+            {},
+            [trace] { (void)trace(false); },
+            [trace] { return trace(true); }};
+}
 
 /// Mean counted work per ray of the set.
 struct WorkPerRay {

@@ -112,20 +112,19 @@ int run(int argc, char** argv) {
 #endif
     fmt::print("\n| rays | tracer | M rays/s | quartiles | hits |\n|---|---|---|---|---|\n");
     for (const RaySet& set : ray_sets(kernel, *scene.aggregate, side)) {
+        OurTracer ours(*scene.aggregate, set), mesh(*triangles, set);
         std::vector<Contender> tracers{
-            {"patches", "single", {}, [&] { return trace_single(*scene.aggregate, set); }, {}},
-            {"patches", "batch", {}, [&] { return trace_batches(*scene.aggregate, set); }, {}},
-            {"mesh", "batch", {}, [&] { return trace_batches(*triangles, set); }, {}}};
+            our_contender("patches", "single", [&](bool counts) { return ours.single(counts); }),
+            our_contender("patches", "batch", [&](bool counts) { return ours.batches(counts); }),
+            our_contender("mesh", "batch", [&](bool counts) { return mesh.batches(counts); })};
 #ifdef ALHAZEN_HAVE_EMBREE
         const auto one = make_embree_packets(set, 1), eight = make_embree_packets(set, 8);
         for (const auto& [name, packets] : {std::pair{"mesh, rtcIntersect1", one.get()},
                                             std::pair{"mesh, rtcIntersect8", eight.get()}}) {
-            tracers.push_back({"Embree", name, [packets] { packets->reset(); },
-                               [packets, &robust, &set] {
-                                   packets->trace(robust.handle(), set.coherent);
-                                   return std::size_t{0};
-                               },
-                               [packets] { return packets->count_hits(); }});
+            tracers.push_back(
+                {"Embree", name, [packets] { packets->reset(); },
+                 [packets, &robust, &set] { packets->trace(robust.handle(), set.coherent); },
+                 [packets] { return packets->count_hits(); }});
         }
 #endif
         print_rates(set, measure(tracers, set.rays.size(), rounds));

@@ -17,8 +17,9 @@ struct ShearedVertex {
 template <class Real>
 inline ShearedVertex<Real> sheared(const Real& vx, const Real& vy, const Real& vz, const Real& ox,
                                    const Real& oy, const Real& oz, const Real& sx, const Real& sy) {
-    const Real z = vz - oz;
-    return {(vx - ox) - sx * z, (vy - oy) - sy * z, z};
+    // Written so that no lanes are copied: compilers copy them by smaller registers than the one
+    // that then waits for the copy.
+    return {(vx - ox) - sx * (vz - oz), (vy - oy) - sy * (vz - oz), vz - oz};
 }
 
 /// Twice the signed area of (origin, a, b); zero or of the correct sign.
@@ -80,6 +81,5 @@ inline TriangleSolution<Real> solve_triangle(const Real& eu, const Real& ev, con
                                              const Real& az, const Real& bz, const Real& cz,
                                              const Real& sz) {
     const Real det = eu + ev + ew;
-    const Real t = (eu * az + ev * bz + ew * cz) * sz / det;
-    return {t, ev / det, ew / det};
+    return {(eu * az + ev * bz + ew * cz) * sz / det, ev / det, ew / det};
 }

@@ -12,7 +12,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
@@ -21,6 +20,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
+
+/// A row of places, by registers as wide as those that read it at once: what was stored by smaller
+/// ones is waited for.
+HWY_INLINE void set_places(const PacketFloats& bits, TrianglePlace (&places)[kPacketLanes]) {
+    const LaneTag<float, kPacketLanes> d;
+    const LaneTag<TrianglePlace, kPacketLanes> to;
+    for (std::size_t i = 0; i < kParts<float, kPacketLanes>; ++i) {
+        hn::Store(hn::BitCast(to, bits.part[i]), to, places + i * hn::Lanes(d));
+    }
+}
+HWY_INLINE void set_places(TrianglePlace place, TrianglePlace (&places)[kPacketLanes]) {
+    set_places(PacketFloats(std::bit_cast<float>(place)), places);
+}
 
 /// The candidates of the rays of a packet. Most rays have one: it is kept in lanes, further ones in
 /// a list.
@@ -58,7 +70,7 @@ class LaneCandidates {
         const std::uint32_t lanes = bits_of((lo < PacketFloats(kNone)) & (lo <= load_row(s_max)));
         if (lanes != 0) {
             alignas(64) TrianglePlace places[kPacketLanes];
-            std::memcpy(places, place_, sizeof(places));
+            set_places(load_row(place_), places);
             resolve(lanes, places);
         }
         store_lanes(PacketFloats(kNone), lo_);
@@ -72,7 +84,7 @@ class LaneCandidates {
             const std::uint32_t lanes = b.lanes & ~bits_of(load_row(b.lo) > load_row(s_max));
             if (lanes == 0) continue;
             alignas(64) TrianglePlace places[kPacketLanes];
-            for (TrianglePlace& place : places) place = b.place;
+            set_places(b.place, places);
             resolve(lanes, places);
         }
         overflow_count_ = 0;

@@ -107,6 +107,7 @@ class LaneHits {
         const std::uint32_t count = static_cast<std::uint32_t>(hits.size());
         const std::uint32_t every = count == 32 ? ~0u : (1u << count) - 1;
         if (HWY_LIKELY(all)) {
+            if (changed_ == 0) return write_none(hits);
             std::size_t i = 0;
             if constexpr (kParts<double, 4> == 1 && !kPlain) {
                 for (; i + 4 <= count; i += 4) write_four(i, &hits[i]);
@@ -181,6 +182,15 @@ class LaneHits {
             hits[k].path.clear();
         }
 #endif
+    }
+    /// As the rest, but no ray has a hit.
+    static HWY_INLINE void write_none(std::span<Hit> hits) {
+        HWY_ALIGN static constexpr ShapeHit none{std::numeric_limits<double>::infinity(), 0, 0, 0};
+        for (Hit& hit : hits) {
+            static_cast<ShapeHit&>(hit) = none;
+            hit.primitive = kNoPrimitive;
+            hit.path.clear();
+        }
     }
     HWY_INLINE void write(std::size_t i, Hit& hit) const {
         hit.t = t_[i];

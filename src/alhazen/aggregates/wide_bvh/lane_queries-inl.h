@@ -130,6 +130,7 @@ class LaneLeaves : public LaneShapes<Derived> {
         const TriangleBlock& block = scene_.layout->triangles[number];
         if constexpr (Derived::kOrdered) {
             if (packet_.pinhole.used) {
+                if (HWY_UNLIKELY(!packet_.pinhole.made)) packet_.make_pinhole();
                 const PinholeTriangles seen(block, packet_);
                 return visit_met(number, seen.met, seen, lanes, stats);
             }
@@ -365,7 +366,7 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
         const std::uint32_t unsure = found.candidates & ~found.sure;
         if (unsure != 0) {
             alignas(64) TrianglePlace places[kPacketLanes];
-            for (TrianglePlace& p : places) p = place;
+            set_places(place, places);
             resolve(unsure, places, Dropped{results_, hit}, stats);
         }
         wanting_ &= ~hit;
@@ -385,9 +386,7 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             if (!block.ids[lane].used() || !scene_.sees(block.ids[lane].id())) continue;
             alignas(64) TrianglePlace places[kPacketLanes];
-            for (TrianglePlace& p : places) {
-                p = static_cast<TrianglePlace>(number * kBlockWidth + lane);
-            }
+            set_places(static_cast<TrianglePlace>(number * kBlockWidth + lane), places);
             std::uint32_t hit = 0;
             resolve(1u << i, places, Dropped{results_, hit}, stats);
             if (hit != 0) return drop(i);
@@ -455,7 +454,8 @@ HWY_NOINLINE std::uint32_t trace_lanes(const LaneBatch& batch, const GivenRays& 
                                        Stats stats) {
     const WideBvh& tree = batch.scene.layout->tree;
     LanePacket packet;
-    std::uint32_t rest = packet.load(batch.frame, rays, wanted);
+    // Shadow rays end in one point, if in any.
+    std::uint32_t rest = packet.load(batch.frame, rays, wanted, Leaves::kOrdered);
     const std::uint32_t alone = wanted & ~rest;
     if (rest == 0) return alone;
     Leaves leaves(batch.scene, batch.scene.waits ? &batch.prefetch_table : nullptr, rays, results,

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "alhazen/accel/wide_bvh/nodes/local_frame.h"
@@ -52,6 +54,15 @@ class GivenRays {
         scratch = columns_->ray(first_ + i);
         return scratch;
     }
+    /// Whether N rays begin in one point, bit for bit, and have one range. Precondition: there are
+    /// as many.
+    template <std::size_t N>
+    [[nodiscard]] HWY_INLINE bool share_start() const {
+        if (columns_ != nullptr) {
+            return columns_->from_one_point() && columns_->t_min.empty() && columns_->t_max.empty();
+        }
+        return share_start_of_array<N>();
+    }
     /// Has N rays fetched, from `first` on.
     template <std::size_t N>
     HWY_INLINE void prefetch(std::size_t first) const {
@@ -75,6 +86,54 @@ class GivenRays {
     }
 
   private:
+    template <std::size_t N>
+    [[nodiscard]] HWY_INLINE bool share_start_of_array() const {
+        const Ray* const rays = array();
+#if HWY_TARGET == HWY_SCALAR
+        for (std::size_t i = 1; i < N; ++i) {
+            if (std::memcmp(&rays[i].origin, &rays[0].origin, sizeof(Vec3)) != 0 ||
+                std::memcmp(&rays[i].t_min, &rays[0].t_min, 2 * sizeof(double)) != 0) {
+                return false;
+            }
+        }
+        return true;
+#else
+        // Of the eight numbers of a ray all but its direction.
+        HWY_ALIGN static constexpr std::uint64_t kStart[8] = {~0ull, ~0ull, ~0ull, 0,
+                                                              0,     0,     ~0ull, ~0ull};
+        const hn::CappedTag<double, 8> d;
+        const hn::RebindToUnsigned<decltype(d)> bits;
+        constexpr std::size_t kEach = hn::MaxLanes(d), kRegisters = 8 / kEach;
+        using Part = hn::Vec<decltype(bits)>;
+        Part first[kRegisters], differ[kRegisters];
+        const auto numbers = [&](std::size_t i, std::size_t part) HWY_ATTR {
+            return hn::BitCast(bits, hn::Load(d, &rays[i].origin.x + part * kEach));
+        };
+        const auto same = [&]() HWY_ATTR {
+            Part any = hn::And(differ[0], hn::Load(bits, kStart));
+            for (std::size_t part = 1; part < kRegisters; ++part) {
+                any = hn::Or(any, hn::And(differ[part], hn::Load(bits, kStart + part * kEach)));
+            }
+            return hn::AllTrue(bits, hn::Eq(any, hn::Zero(bits)));
+        };
+        HWY_UNROLL(8)
+        for (std::size_t part = 0; part < kRegisters; ++part) {
+            first[part] = numbers(0, part);
+            differ[part] = hn::Xor(first[part], numbers(1, part));
+        }
+        // Most packets whose rays begin apart end here, without waiting for the last ray.
+        if (!same()) return false;
+        HWY_UNROLL(32)
+        for (std::size_t i = 2; i < N; ++i) {
+            HWY_UNROLL(8)
+            for (std::size_t part = 0; part < kRegisters; ++part) {
+                differ[part] = hn::Or(differ[part], hn::Xor(first[part], numbers(i, part)));
+            }
+        }
+        return same();
+#endif
+    }
+
     const Ray* rays_;
     const RayColumns* columns_;
     std::size_t first_, count_;
@@ -85,7 +144,23 @@ class GivenRays {
 struct LaneFrame {
     const LocalFrame& frame;
     alignas(64) double from[8], by[8];
-    float origin[3], range[2];  ///< local ones of rays that have them in common
+    float origin[3], range[2];  ///< local ones of columns that have them in common
+
+    /// Where a packet begins, and its range, in the local frame, if its rays have them in common.
+    HWY_INLINE void start_of(const GivenRays& rays, float (&point)[3], float (&ends)[2]) const {
+        if (rays.columns() != nullptr) {
+            std::copy_n(origin, 3, point);
+            std::copy_n(range, 2, ends);
+            return;
+        }
+        const Ray& ray = *rays.array();
+        const double given[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            point[k] = static_cast<float>((given[k] - from[k]) * by[k]);
+        }
+        ends[0] = static_cast<float>(ray.t_min * by[6]);
+        ends[1] = static_cast<float>(ray.t_max * by[7]);
+    }
 
     LaneFrame(const LocalFrame& f, const GivenRays& rays)
         : frame(f), from{f.center.x, f.center.y, f.center.z, 0.0, 0.0, 0.0, 0.0, 0.0}, by{f.scale,
@@ -152,6 +227,52 @@ HWY_INLINE void load_local(const LaneFrame& frame, std::span<const Ray, 16> give
 #endif
 }
 
+/// The directions of sixteen rays, in lanes.
+HWY_INLINE void load_directions(std::span<const Ray, 16> given, Lanes<float, 16> (&rows)[3]) {
+#if HWY_CAP_GE512
+    const hn::CappedTag<double, 4> d;
+    const hn::CappedTag<float, 4> quarter;
+    const hn::CappedTag<float, 8> half;
+    const hn::CappedTag<float, 16> whole;
+    const hn::CappedTag<double, 8> pairs;
+    // With the beginning of the range, which is not used.
+    const auto quad = [&](std::size_t i) HWY_ATTR {
+        return hn::DemoteTo(quarter, hn::LoadU(d, &given[i].direction.x));
+    };
+    const auto quads = [&](std::size_t i) HWY_ATTR {
+        return hn::Combine(whole, hn::Combine(half, quad(i + 12), quad(i + 8)),
+                           hn::Combine(half, quad(i + 4), quad(i)));
+    };
+    const auto a = quads(0), b = quads(1), c = quads(2), e = quads(3);
+    const auto xy01 = hn::BitCast(pairs, hn::InterleaveLower(whole, a, b));
+    const auto xy23 = hn::BitCast(pairs, hn::InterleaveLower(whole, c, e));
+    const auto z01 = hn::BitCast(pairs, hn::InterleaveUpper(whole, a, b));
+    const auto z23 = hn::BitCast(pairs, hn::InterleaveUpper(whole, c, e));
+    rows[0].part[0] = hn::BitCast(whole, hn::InterleaveLower(pairs, xy01, xy23));
+    rows[1].part[0] = hn::BitCast(whole, hn::InterleaveUpper(pairs, xy01, xy23));
+    rows[2].part[0] = hn::BitCast(whole, hn::InterleaveLower(pairs, z01, z23));
+#else
+    Lanes<float, 4> quads[4][4];
+    HWY_UNROLL(4)
+    for (std::size_t g = 0; g < 4; ++g) {
+        HWY_UNROLL(4)
+        for (std::size_t i = 0; i < 4; ++i) {
+            quads[g][i] = as_floats(load_unaligned<4>(&given[4 * g + i].direction.x));
+        }
+        transpose(quads[g]);
+    }
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        rows[k] = joined<16>(quads[0][k], quads[1][k], quads[2][k], quads[3][k]);
+    }
+#endif
+}
+HWY_INLINE void load_directions(const RayColumns& columns, std::size_t first,
+                                Lanes<float, 16> (&rows)[3]) {
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) rows[k] = load_unaligned<16>(&columns.directions[k][first]);
+}
+
 /// Sixteen numbers of a column, as (numbers - from) by, in double.
 HWY_INLINE Lanes<float, 16> local_numbers(const float* numbers, double from, double by) {
 #if HWY_CAP_GE512
@@ -186,6 +307,39 @@ HWY_INLINE void load_local(const LaneFrame& frame, const RayColumns& columns, st
     rows[7] = ends(columns.t_max, 1);
 }
 
+#if HWY_CAP_GE512
+/// Eight rays, turned about in registers of eight: those that read the rows are as wide, and would
+/// wait for rows stored by halves.
+HWY_INLINE void take_lanes_whole(std::span<const Ray, kRayLanes> rays, RayLanes& lanes) {
+    static_assert(sizeof(RayLanes) >= 8 * kRayLanes * sizeof(double) &&
+                  offsetof(RayLanes, origin) == 0 &&
+                  offsetof(RayLanes, direction) == 3 * kRayLanes * sizeof(double) &&
+                  offsetof(RayLanes, t_min) == 6 * kRayLanes * sizeof(double));
+    const hn::CappedTag<double, 8> d;
+    double* const numbers = reinterpret_cast<double*>(&lanes);
+    HWY_UNROLL(2)
+    for (std::size_t odd = 0; odd < 2; ++odd) {
+        // [pair of rays] blocks of two: every other number of both.
+        hn::Vec<hn::CappedTag<double, 8>> pair[4];
+        HWY_UNROLL(4)
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto a = hn::Load(d, &rays[2 * i].origin.x);
+            const auto b = hn::Load(d, &rays[2 * i + 1].origin.x);
+            pair[i] = odd == 0 ? hn::InterleaveLower(d, a, b) : hn::InterleaveUpper(d, a, b);
+        }
+        const auto even01 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(pair[1]), pair[0]);
+        const auto even23 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(pair[3]), pair[2]);
+        const auto odd01 = hn::OddEvenBlocks(pair[1], hn::SwapAdjacentBlocks(pair[0]));
+        const auto odd23 = hn::OddEvenBlocks(pair[3], hn::SwapAdjacentBlocks(pair[2]));
+        double* const to = numbers + odd * kRayLanes;
+        hn::Store(hn::ConcatLowerLower(d, even23, even01), d, to);
+        hn::Store(hn::ConcatLowerLower(d, odd23, odd01), d, to + 2 * kRayLanes);
+        hn::Store(hn::ConcatUpperUpper(d, even23, even01), d, to + 4 * kRayLanes);
+        hn::Store(hn::ConcatUpperUpper(d, odd23, odd01), d, to + 6 * kRayLanes);
+    }
+}
+#endif
+
 /// Up to eight rays in double, in lanes; the last is repeated.
 HWY_INLINE void take_lanes(const GivenRays& rays, RayLanes& lanes) {
     const RayColumns* const columns = rays.columns();
@@ -197,12 +351,25 @@ HWY_INLINE void take_lanes(const GivenRays& rays, RayLanes& lanes) {
         return;
     }
     if (columns == nullptr) {
-        return take_lanes(std::span<const Ray, kRayLanes>(rays.array(), kRayLanes), lanes);
+        const std::span<const Ray, kRayLanes> given(rays.array(), kRayLanes);
+#if HWY_CAP_GE512
+        return take_lanes_whole(given, lanes);
+#else
+        return take_lanes(given, lanes);
+#endif
     }
     const auto row = [&](std::span<const float> column, float common, double* to) HWY_ATTR {
+#if HWY_CAP_GE512
+        const hn::CappedTag<double, 8> d;
+        const hn::CappedTag<float, 8> narrow;
+        hn::Store(column.empty() ? hn::Set(d, static_cast<double>(common))
+                                 : hn::PromoteTo(d, hn::LoadU(narrow, &column[rays.first()])),
+                  d, to);
+#else
         store_lanes(column.empty() ? Doubles(static_cast<double>(common))
                                    : as_doubles(load_unaligned(&column[rays.first()])),
                     to);
+#endif
     };
     for (std::size_t k = 0; k < 3; ++k) {
         row(columns->origins[k], columns->origin[k], lanes.origin[k]);

@@ -78,7 +78,8 @@ struct alignas(64) LanePacket {
     /// Rays of a set that begin in one point. Axes and slopes as in TriangleFilterRay.
     struct alignas(64) Pinhole {
         PacketRow aside[2];  ///< slopes beside the middle one
-        bool used;           ///< else nothing more is set
+        bool used;           ///< whether the set is one of them
+        bool made;           ///< else nothing more is set: see make_pinhole
         float origin[3];
         float middle[2], wide[2];  ///< a slope is the middle one and up to `wide` more or less
         float least_step;          ///< the least reciprocal along the main axis, its magnitude
@@ -86,9 +87,10 @@ struct alignas(64) LanePacket {
     };
     Pinhole pinhole;
 
-    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes.
+    /// Takes up to kPacketLanes rays; those of `wanted` that can be traced in lanes. `may_share`:
+    /// they are likely to begin in one point, with one range.
     [[nodiscard]] std::uint32_t load(const LaneFrame& lane_frame, const GivenRays& given,
-                                     std::uint32_t wanted);
+                                     std::uint32_t wanted, bool may_share);
     /// Chooses those of the rays that go the way of the first, and makes their frustum.
     [[nodiscard]] std::uint32_t choose_set(std::uint32_t among);
 
@@ -96,6 +98,9 @@ struct alignas(64) LanePacket {
     HWY_INLINE void lay_out(std::size_t group, const GivenRays& given) {
         if (!laid_out_[group]) take_group(group, given);
     }
+
+    /// Sets the rest of `pinhole`, which only triangles need. Precondition: it is used.
+    void make_pinhole();
 
     /// After rays have been limited.
     HWY_INLINE void shrink() {
@@ -135,14 +140,23 @@ struct alignas(64) LanePacket {
   private:
     static constexpr std::size_t kLoadedRays = 16;  ///< at a time
 
-    HWY_INLINE std::uint32_t load_rows(const LaneFrame& lane_frame,
-                                       const Lanes<float, kLoadedRays> (&rows)[8], std::size_t at);
+    using LoadedFloats = Lanes<float, kLoadedRays>;
+
+    HWY_INLINE std::uint32_t load_apart(const LaneFrame& lane_frame, const GivenRays& given);
+    HWY_INLINE std::uint32_t load_from_one_start(const LaneFrame& lane_frame,
+                                                 const GivenRays& given);
+    HWY_INLINE LaneMask<float, kLoadedRays> store_start(const LoadedFloats* o,
+                                                        const LoadedFloats& t_min,
+                                                        const LoadedFloats& t_max, std::size_t at);
+    HWY_INLINE LaneMask<float, kLoadedRays> store_direction(const LaneFrame& lane_frame,
+                                                            const LoadedFloats* d, std::size_t at);
     void take_group(std::size_t group, const GivenRays& given);
     void make_frustum(std::uint32_t set, std::size_t first);
-    HWY_INLINE void make_pinhole(const PacketMask& in_set, std::size_t first);
 
     std::uint32_t set_ = 0;
-    float slack_ = 0;  ///< of a box, in space
+    bool one_start_ = false;      ///< all rays have `start_`
+    alignas(16) float start_[4];  ///< origin and s_min
+    float slack_ = 0;             ///< of a box, in space
     bool laid_out_[kLaneGroups] = {};
     alignas(16) float set_near_[4], set_near_offset_[4], set_far_[4], set_far_offset_[4];
     float set_s_min_ = 0, set_s_max_ = 0;
@@ -180,19 +194,13 @@ struct LaneSlabs {
     }
 };
 
-/// Fills sixteen lanes of the rows of origins, directions and ends; bits of the rays that can be
+/// Fills sixteen lanes of the rows of origins, three of them given, and ends; the rays that can be
 /// traced.
-HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
-                                               const Lanes<float, kLoadedRays> (&rows)[8],
-                                               std::size_t at) {
-    using F = Lanes<float, kLoadedRays>;
-    const F o[3] = {rows[0], rows[1], rows[2]}, d[3] = {rows[3], rows[4], rows[5]};
-    const F t_min = rows[6], t_max = rows[7];
+HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_start(
+    const LoadedFloats* o, const LoadedFloats& t_min, const LoadedFloats& t_max, std::size_t at) {
+    using F = LoadedFloats;
     HWY_UNROLL(3)
-    for (std::size_t k = 0; k < 3; ++k) {
-        store_lanes(o[k], origin[k] + at);
-        store_lanes(d[k], direction[k] + at);
-    }
+    for (std::size_t k = 0; k < 3; ++k) store_lanes(o[k], origin[k] + at);
     // As local_ray_nearby.
     const F begin = min_lanes(t_min, F(1e37f)), end = min_lanes(t_max, F(1e37f));
     const F less(1.0f - 0x1p-22f), more(1.0f + 0x1p-22f), tiny(0x1p-100f);
@@ -200,17 +208,20 @@ HWY_INLINE std::uint32_t LanePacket::load_rows(const LaneFrame& lane_frame,
     store_lanes(mul_add(begin, more, tiny), sure_min + at);
     store_lanes(mul_sub(end, less, tiny), sure_max + at);
     store_lanes(mul_add(end, more, tiny), s_max + at);
-    // A NaN is near nothing. Rounding keeps the order of the ends; those that are equal then are
-    // left to others, as is a beginning of -0, which may have been less.
-    const F least(lane_frame.frame.slack.least_length);
-    LaneMask<float, kLoadedRays> usable = (t_min < t_max) & (copysign(F(1.0f), t_min) > F(0.0f));
-    LaneMask<float, kLoadedRays> moves = abs(d[0]) >= least;
+    // A NaN is near nothing, and beyond everything by its bits. Rounding keeps the order of the
+    // ends; those that are equal then are left to others, as is a beginning of -0, which may have
+    // been less.
+    const F far = larger_by_bits(larger_by_bits(abs(o[0]), abs(o[1])), abs(o[2]));
+    return (t_min < t_max) & (copysign(F(1.0f), t_min) > F(0.0f)) & (far <= F(8.0f));
+}
+/// Likewise of directions.
+HWY_INLINE LaneMask<float, LanePacket::kLoadedRays> LanePacket::store_direction(
+    const LaneFrame& lane_frame, const LoadedFloats* d, std::size_t at) {
+    using F = LoadedFloats;
     HWY_UNROLL(3)
-    for (std::size_t k = 0; k < 3; ++k) {
-        usable = usable & (abs(o[k]) <= F(8.0f)) & (abs(d[k]) <= F(0x1p40f));
-        moves = moves | (abs(d[k]) >= least);
-    }
-    return bits_of(usable & moves);
+    for (std::size_t k = 0; k < 3; ++k) store_lanes(d[k], direction[k] + at);
+    const F most = larger_by_bits(larger_by_bits(abs(d[0]), abs(d[1])), abs(d[2]));
+    return (most <= F(0x1p40f)) & (most >= F(lane_frame.frame.slack.least_length));
 }
 
 inline void LanePacket::take_group(std::size_t group, const GivenRays& given) {
@@ -220,12 +231,11 @@ inline void LanePacket::take_group(std::size_t group, const GivenRays& given) {
     take_lanes(given.part(first, std::min(kRayLanes, given.size() - first)), rays[group]);
 }
 
-inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRays& given,
-                                      std::uint32_t wanted) {
-    const LocalFrame& frame = lane_frame.frame;
+HWY_INLINE std::uint32_t LanePacket::load_apart(const LaneFrame& lane_frame,
+                                                const GivenRays& given) {
     std::uint32_t usable = 0;
     for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
-        Lanes<float, kLoadedRays> rows[8];
+        LoadedFloats rows[8];
         if (HWY_UNLIKELY(given.size() < at + kLoadedRays)) {
             Ray repeated[kLoadedRays];
             for (std::size_t i = 0; i < kLoadedRays; ++i) {
@@ -239,14 +249,51 @@ inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRa
             load_local(lane_frame,
                        std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), rows);
         }
-        usable |= load_rows(lane_frame, rows, at) << at;
+        const auto begins = store_start(rows, rows[6], rows[7], at);
+        const auto moves = store_direction(lane_frame, rows + 3, at);
+        usable |= bits_of(begins & moves) << at;
     }
-    usable &= wanted;
+    return usable;
+}
+
+HWY_INLINE std::uint32_t LanePacket::load_from_one_start(const LaneFrame& lane_frame,
+                                                         const GivenRays& given) {
+    float ends[2], point[3];
+    lane_frame.start_of(given, point, ends);
+    const LoadedFloats o[3] = {LoadedFloats(point[0]), LoadedFloats(point[1]),
+                               LoadedFloats(point[2])};
+    std::uint32_t usable = 0;
+    for (std::size_t at = 0; at < kPacketLanes; at += kLoadedRays) {
+        LoadedFloats d[3];
+        if (given.columns() != nullptr) {
+            load_directions(*given.columns(), given.first() + at, d);
+        } else {
+            load_directions(std::span<const Ray, kLoadedRays>(given.array() + at, kLoadedRays), d);
+        }
+        const auto begins = store_start(o, LoadedFloats(ends[0]), LoadedFloats(ends[1]), at);
+        usable |= bits_of(begins & store_direction(lane_frame, d, at)) << at;
+    }
+    for (std::size_t k = 0; k < 3; ++k) start_[k] = point[k];
+    start_[3] = s_min[0];
+    return usable;
+}
+
+inline std::uint32_t LanePacket::load(const LaneFrame& lane_frame, const GivenRays& given,
+                                      std::uint32_t wanted, bool may_share) {
+    const LocalFrame& frame = lane_frame.frame;
+    one_start_ = may_share && given.size() >= kPacketLanes && given.share_start<kPacketLanes>();
+    const std::uint32_t usable = wanted & (one_start_ ? load_from_one_start(lane_frame, given)
+                                                      : load_apart(lane_frame, given));
     if (usable == 0) return 0;
-    PacketFloats most(0.0f);
-    for (const PacketRow& row : origin) most = max_lanes(most, abs(load_row(row)));
-    const float distance =
-        most_of(select_lanes(lanes_of_bits<float, kPacketLanes>(usable), most, PacketFloats(0.0f)));
+    float distance = 0.0f;
+    if (one_start_) {
+        for (std::size_t k = 0; k < 3; ++k) distance = std::max(distance, std::abs(start_[k]));
+    } else {
+        PacketFloats most(0.0f);
+        for (const PacketRow& row : origin) most = max_lanes(most, abs(load_row(row)));
+        distance = most_of(
+            select_lanes(lanes_of_bits<float, kPacketLanes>(usable), most, PacketFloats(0.0f)));
+    }
     slack_ = frame.slack.slab.at(distance);
     const float reach = frame.slack.reach.at(distance), delta = frame.slack.delta.at(distance);
     const float unit = 0x1p-24f, error = 13.2f * unit * reach + 4.0f * delta;
@@ -297,33 +344,44 @@ inline void LanePacket::make_frustum(std::uint32_t set, std::size_t first) {
     const auto row_of_set = [&](const PacketRow& row) HWY_ATTR {
         return select_lanes(in_set, load_row(row), PacketFloats(row[first]));
     };
-    const PacketFloats starts[4] = {row_of_set(origin[0]), row_of_set(origin[1]),
-                                    row_of_set(origin[2]), row_of_set(s_min)};
+    F4 least_start, most_start;
+    if (one_start_) {
+        least_start = most_start = load_lanes<4>(start_);
+    } else {
+        const PacketFloats starts[4] = {row_of_set(origin[0]), row_of_set(origin[1]),
+                                        row_of_set(origin[2]), row_of_set(s_min)};
+        const LaneExtremes<kPacketLanes> o(starts);
+        least_start = o.least;
+        most_start = o.most;
+    }
     const PacketFloats steps[4] = {abs(row_of_set(reciprocal[0])), abs(row_of_set(reciprocal[1])),
                                    abs(row_of_set(reciprocal[2])), row_of_set(s_max)};
-    const LaneExtremes<kPacketLanes> o(starts), a(steps);
+    const LaneExtremes<kPacketLanes> a(steps);
     std::uint32_t ways = 0;
     for (std::size_t k = 0; k < 3; ++k) ways |= std::uint32_t{near_row[k] == k} << k;
     const auto up = lanes_of_bits<float, 4>(ways);
-    const F4 o_least = o.least - F4(slack_), o_most = o.most + F4(slack_);
+    const F4 o_least = least_start - F4(slack_), o_most = most_start + F4(slack_);
     const F4 near = select_lanes(up, a.least, -a.least), far = select_lanes(up, a.most, -a.most);
     store_lanes(near, set_near_);
     store_lanes(far, set_far_);
     store_lanes(-select_lanes(up, o_most, o_least) * near, set_near_offset_);
     store_lanes(-select_lanes(up, o_least, o_most) * far, set_far_offset_);
     HWY_ALIGN float ends[2][4];
-    store_lanes(o.least, ends[0]);
+    store_lanes(least_start, ends[0]);
     store_lanes(a.most, ends[1]);
     set_s_min_ = ends[0][3];
     set_s_max_ = ends[1][3];
     const PacketFloats sz = load_row(reciprocal[kz]);
     store_lanes(load_row(direction[kx]) * sz, slope[0]);
     store_lanes(load_row(direction[ky]) * sz, slope[1]);
-    pinhole.used = (bits_of(o.least >= o.most) & 7) == 7;
-    if (pinhole.used) make_pinhole(in_set, first);
+    pinhole.used = one_start_ || (bits_of(least_start >= most_start) & 7) == 7;
+    pinhole.made = false;
 }
 
-HWY_INLINE void LanePacket::make_pinhole(const PacketMask& in_set, std::size_t first) {
+inline void LanePacket::make_pinhole() {
+    pinhole.made = true;
+    const PacketMask in_set = lanes_of_bits<float, kPacketLanes>(set_);
+    const auto first = static_cast<std::size_t>(std::countr_zero(set_));
     const PacketFloats x = load_row(slope[0]), y = load_row(slope[1]);
     const PacketFloats own_x = select_lanes(in_set, x, PacketFloats(slope[0][first]));
     const PacketFloats own_y = select_lanes(in_set, y, PacketFloats(slope[1][first]));
