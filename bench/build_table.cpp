@@ -8,6 +8,7 @@
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/base/file.h"
+#include "alhazen/base/heap.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/bounded_primitives.h"
 #include "alhazen/session/stopwatch.h"
@@ -156,6 +157,7 @@ std::string head(int rounds, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    prepare_heap();  // as in the program: freed memory stays, for both sides
     const CommandLine line(argc, argv, {"--rounds", "--threads", "--only", "--markdown"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));

@@ -33,8 +33,11 @@ std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t
             const double begin = processor_seconds();
             tracers[i].trace();
             const double seconds = processor_seconds() - begin;
-            if (round > 0) results[i].rates.push_back(1e-6 * static_cast<double>(rays) / seconds);
-            if (round == rounds) results[i].hits = tracers[i].count_hits();
+            if (round > 0) {
+                results[i].rates.push_back(1e-6 * static_cast<double>(rays) / seconds);
+            } else {
+                results[i].hits = tracers[i].count_hits();
+            }
         }
     }
     return results;

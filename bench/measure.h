@@ -22,7 +22,7 @@ struct Contender {
     std::string name;               ///< variant within the group
     std::function<void()> prepare;  ///< before each round, not timed; may be empty
     std::function<void()> trace;
-    std::function<std::size_t()> count_hits;  ///< after the last round, not timed
+    std::function<std::size_t()> count_hits;  ///< after the first round, not timed
 };
 
 struct Measured {

@@ -65,12 +65,12 @@ struct alignas(64) Emitter {
     /// The same forms: nearer to its plane a point may lie in it, but for rounding.
     double in_plane = -1;
     Affine world_from_own;
-    Rgb radiance;                          ///< mean over the surface
-    std::optional<Illuminant> illuminant;  ///< its spectrum, if known
-    RectangleSides sides;                  ///< Rectangle with perpendicular edges
-    double inner = 0;                      ///< Disc: radius of the hole
+    Rgb radiance;      ///< mean over the surface
+    double inner = 0;  ///< Disc: radius of the hole
     std::shared_ptr<const EmitterParts> parts;
     std::shared_ptr<const EmittingPatch> patch;
+    std::optional<Illuminant> illuminant;  ///< its spectrum, if known
+    RectangleSides sides;                  ///< Rectangle with perpendicular edges
 };
 
 /// Sets `area`, `right_angled`, `sides`, `far_squared` and `in_plane`. False if the area is 0 or

@@ -117,7 +117,7 @@ void LightDraws::choose_near(std::uint32_t lanes, ChosenLight* chosen) {
     const auto count = static_cast<std::size_t>(std::popcount(lanes));
     if ((lanes & (lanes + 1)) == 0) {
         // No gaps.
-        for (std::size_t i = 0; i < kMost; ++i) choices.of[i] = calls_.choice[i] / d.near_share;
+        for (std::size_t i = 0; i < count; ++i) choices.of[i] = calls_.choice[i] / d.near_share;
         return d.choose_near(calls_.at, choices, count, chosen);
     }
     LitPointLanes points;

@@ -62,7 +62,7 @@ HWY_INLINE void draw_rectangles(std::uint32_t lanes, const LightCallLanes& calls
     axis_z = select_lanes(turned, -axis_z, axis_z);
     z0 = select_lanes(turned, -z0, z0);
     // A rectangle edge on is sampled by `sample`; -1 avoids a division by 0 in its lane.
-    const LaneMask<double, N> before = z0 < zero;
+    const auto before = (z0 < zero) & !by_area;
     z0 = select_lanes(before, z0, minus_one);
     const D x0 = dot(corner, axis_x), y0 = dot(corner, axis_y);
     const D x1 = x0 + load_lanes<N>(n.width), y1 = y0 + load_lanes<N>(n.height);
