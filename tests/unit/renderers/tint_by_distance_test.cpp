@@ -29,7 +29,7 @@ Rgb color_of(const std::string& renderer, const Fill& fill) {
     c.shadow_tint = ShadingConventions::ShadowTint::PerDistance;
     c.max_depth = 10;
     maker.description().cameras[0].camera =
-        OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {1e-4, 0, 0}, {0, 1e-4, 0}};
+        OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {1e-6, 0, 0}, {0, 1e-6, 0}};
     fill(maker);
     const Scene scene = maker.compile();
     const RenderJob job{

@@ -76,13 +76,13 @@ class TintedMedia {
         media_.push_back({kt, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
     }
-    /// `medium` without the body; volumes inside it are kept.
+    /// `medium` without the body, or without the innermost one if the body is not among them (faces
+    /// of a solid belong to several parts). Volumes inside the body are kept.
     [[nodiscard]] std::uint32_t leave(std::uint64_t body, std::uint32_t medium) {
-        if (medium == kOutside) return kOutside;
-        const Medium innermost = media_[medium];
-        if (innermost.body == body) return innermost.around;
-        const std::uint32_t around = leave(body, innermost.around);
-        return around == innermost.around ? medium : enter(innermost.kt, innermost.body, around);
+        for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
+            if (media_[k].body == body) return without(k, medium);
+        }
+        return media_[medium].around;
     }
 
   private:
@@ -91,6 +91,12 @@ class TintedMedia {
         std::uint64_t body = 0;
         std::uint32_t around = kOutside;
     };
+    std::uint32_t without(std::uint32_t left, std::uint32_t medium) {
+        if (medium == left) return media_[left].around;
+        const Medium kept = media_[medium];
+        return enter(kept.kt, kept.body, without(left, kept.around));
+    }
+
     std::vector<Medium> media_{Medium{}};
 };
 

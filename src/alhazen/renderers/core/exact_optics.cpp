@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/shading/bsdf/dispersing.h"
@@ -135,10 +136,11 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
     if (surface.media.known) return known_sides_of(surface, around);
     Sides sides{media_[around].index, material.index, around};
     if (bounds_a_volume(material)) {
-        Medium inside = medium_of(surface, material);
+        const Medium inside = medium_of(surface, material);
         const bool is_open = !material.physical && !optics_.beer && !scene_.is_closed(surface.part);
-        if (is_open && !tints_events_) inside.absorption = media_[around].absorption;
-        if (entering) {
+        if (is_open && !tints_events_) {
+            if (!entering) std::swap(sides.here, sides.beyond);
+        } else if (entering) {
             sides.behind = enter(inside, around);
         } else {
             sides.behind = without(inside, around);

@@ -14,13 +14,18 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
+// A name of its own, because several kernels may be compiled as one source.
+namespace side_formulas {
 #include "alhazen/geometry/watertight_triangle_formulas-inl.h"
+}  // namespace side_formulas
 
 /// y of a corner; x is not used.
 template <class Real>
 HWY_INLINE Real sheared_y(const Real& y, const Real& z, const SideRay& ray) {
     const Real zero(0.0);
-    return sheared<Real>(zero, y, z, zero, Real(ray.oy), Real(ray.oz), zero, Real(ray.sy)).y;
+    return side_formulas::sheared<Real>(zero, y, z, zero, Real(ray.oy), Real(ray.oz), zero,
+                                        Real(ray.sy))
+        .y;
 }
 
 /// Eight corners along two axes.
