@@ -13,17 +13,26 @@ struct NamedRoom {
     Scene scene;
 };
 
-/// A room of 2 x 2 x 2, open to the eye, with what `fill` adds.
-inline Scene room(const std::function<void(SceneMaker&)>& fill) {
-    SceneMaker maker;
-    const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
+/// The camera and the walls of a room of 2 x 2 x 2, open to the eye, but the green one on the
+/// right.
+inline void add_walls(SceneMaker& maker, const Rgb& white) {
+    const MaterialId plain = maker.material(matt(white));
     maker.description().cameras[0].camera =
         look_along({0, -3.8, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
-    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
-    maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), white);
-    maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
+    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), plain);
+    maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), plain);
+    maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), plain);
     maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
+}
+inline void add_room(SceneMaker& maker, const Rgb& white) {
+    add_walls(maker, white);
     maker.add(rectangle({1, -1, 0}, {0, 0, 2}, {0, 2, 0}), maker.material(matt({0.1, 0.5, 0.1})));
+}
+
+/// A room with what `fill` adds.
+inline Scene room(const std::function<void(SceneMaker&)>& fill) {
+    SceneMaker maker;
+    add_room(maker, {0.7, 0.7, 0.7});
     fill(maker);
     return maker.compile("wide_bvh");
 }

@@ -15,10 +15,13 @@
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
+#include "support/lit_rooms.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::add_lamp;
+using testing::add_room;
 using testing::ball;
 using testing::expect_same_light;
 using testing::floor_from_above;
@@ -169,24 +172,6 @@ struct NamedScene {
     std::string name;
     Scene scene;
 };
-
-void add_room(SceneMaker& maker, const Rgb& color) {
-    const MaterialId white = maker.material(matt(color));
-    maker.description().cameras[0].camera =
-        look_along({0, -3.8, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
-    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
-    maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), white);
-    maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
-    maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
-    maker.add(rectangle({1, -1, 0}, {0, 0, 2}, {0, 2, 0}), maker.material(matt({0.1, 0.5, 0.1})));
-}
-
-void add_lamp(SceneMaker& maker, double half, const Rgb& radiance) {
-    Material lamp = shining(radiance);
-    lamp.double_sided = false;
-    maker.add(rectangle({-half, -half, 1.98}, {0, 2 * half, 0}, {2 * half, 0, 0}),
-              maker.material(lamp));
-}
 
 std::vector<NamedScene> scenes() {
     std::vector<NamedScene> all;

@@ -10,6 +10,7 @@
 #include "alhazen/renderers/manifold/normal_change.h"
 #include "alhazen/renderers/manifold/sphere_chains.h"
 #include "support/light_pictures.h"
+#include "support/lit_rooms.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
 
@@ -364,17 +365,6 @@ TEST(Manifold, APoolOfWaterIsLitFromAbove) {
     EXPECT_NEAR(seen, expected, 0.02 * expected);
 }
 
-/// Adds a small room, rendered by light paths and by specular chains.
-void add_room(SceneMaker& maker) {
-    const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
-    maker.description().cameras[0].camera =
-        look_along({0, -3.8, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
-    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
-    maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), white);
-    maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
-    maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
-}
-
 /// Hides the last part from the eye, because light paths do not find surfaces seen in mirrors and
 /// through glass.
 void hide_last(SceneMaker& maker) {
@@ -388,7 +378,7 @@ constexpr double kMostT = 5.4;
 void expect_chains(const std::string& name, int depth, const std::string& other,
                    const std::function<void(SceneMaker&)>& fill, int samples = 24) {
     SceneMaker maker;
-    add_room(maker);
+    testing::add_walls(maker, {0.7, 0.7, 0.7});
     fill(maker);
     const std::string of_depth = ":depth=" + std::to_string(depth);
     expect_same_light(maker.compile("wide_bvh"), name,
@@ -477,7 +467,7 @@ TEST(Manifold, LightOfLampsThatCanBeHitIsNotCountedTwice) {
 
 TEST(Manifold, PicturesDependOnNoThreadsAndNoTiles) {
     SceneMaker maker;
-    add_room(maker);
+    testing::add_walls(maker, {0.7, 0.7, 0.7});
     maker.add(ball({0.2, 0, 0.7}, 0.4), maker.material(clear_glass(1.5)));
     maker.add(ball({0, 0, 0}, 1), maker.material(mirror()),
               Affine::translate({-0.5, 0, 0.4}) * Affine::scale({0.3, 0.2, 0.3}));
@@ -490,7 +480,7 @@ TEST(Manifold, PicturesDependOnNoThreadsAndNoTiles) {
 
 TEST(Manifold, ScenesWithoutMirrorsAreRenderedToTheSameBits) {
     SceneMaker maker;
-    add_room(maker);
+    testing::add_walls(maker, {0.7, 0.7, 0.7});
     maker.light(lamp_at({0.3, -0.3, 1.8}, 2));
     const Scene scene = maker.compile();
     const Film off = picture_of(scene, "path_tracing", 8, 4);
