@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "alhazen/base/error.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 
@@ -17,6 +18,10 @@ class UnsupportedParts {
         list_ += what;
         if (!name.empty()) list_ += " '" + name + "'";
         if (where.line > 0) list_ += " (line " + std::to_string(where.line) + ")";
+    }
+
+    void add(const ObjectDescription& solid) {
+        add("solid of constructive geometry", solid.name, solid.location);
     }
 
     /// Throws Error (Usage) with what is supported and the parts noted, if there are any.

@@ -7,8 +7,8 @@
 
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/renderers/beam_tracing/repaired_polygon.h"
-#include "alhazen/renderers/core/unsupported_parts.h"
 #include "alhazen/scene_model/part_traversal.h"
+#include "alhazen/scene_model/unsupported_parts.h"
 #include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
@@ -38,9 +38,7 @@ class BeamGatherer {
     BeamScene gather() {
         visit_parts(
             d_, kAllRays, [&](const WorldPart& placed) { add_part(placed); },
-            [&](const ObjectDescription& solid) {
-                unsupported_.add("solid of constructive geometry", solid.name, solid.location);
-            });
+            [&](const ObjectDescription& solid) { unsupported_.add(solid); });
         unsupported_.throw_if_any(
             "beams support only planar facets: polygons, rectangles, boxes, polyhedra and "
             "triangle meshes, of materials without alpha (with a tolerance other bounded shapes "

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "alhazen/primitives/placed_surface.h"
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/refraction.h"
 
 namespace alhazen {

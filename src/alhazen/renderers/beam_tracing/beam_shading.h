@@ -9,6 +9,7 @@
 #include "alhazen/renderers/beam_tracing/beam_tree.h"
 #include "alhazen/renderers/core/aov_geometry.h"
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/tinted_media.h"
 
 namespace alhazen {
 

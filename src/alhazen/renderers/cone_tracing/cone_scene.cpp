@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/renderers/core/unsupported_parts.h"
 #include "alhazen/scene_model/part_traversal.h"
+#include "alhazen/scene_model/unsupported_parts.h"
 #include "alhazen/shapes/polygons/face_loops.h"
 
 namespace alhazen {
@@ -93,9 +93,7 @@ class ConeGatherer {
     ConeScene gather() {
         visit_parts(
             d_, kAllRays, [&](const WorldPart& placed) { add_part(placed); },
-            [&](const ObjectDescription& solid) {
-                unsupported_.add("solid of constructive geometry", solid.name, solid.location);
-            });
+            [&](const ObjectDescription& solid) { unsupported_.add(solid); });
         unsupported_.throw_if_any(
             "cones support only spheres, planes, polygons, boxes, polyhedra, rectangles and "
             "triangle meshes");

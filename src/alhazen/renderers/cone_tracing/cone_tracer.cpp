@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "alhazen/primitives/placed_surface.h"
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/refraction.h"
 #include "alhazen/renderers/core/rough_lobe.h"
 

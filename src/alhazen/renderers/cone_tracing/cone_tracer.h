@@ -16,6 +16,7 @@
 #include "alhazen/renderers/core/aov_geometry.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/tinted_media.h"
 
 namespace alhazen {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/shading/bsdf/dispersing.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <new>
 
-#include "alhazen/base/inline_vector.h"
 #include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
@@ -201,90 +200,6 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     } else {
         set_media(scene, point);
     }
-}
-
-namespace {
-
-/// Identifies what bounds the volumes of a surface; a solid of several media is one body.
-std::uint64_t body_of(const Surface& surface) {
-    const std::uint64_t instance = std::uint64_t{surface.instance} << 32;
-    return instance | (surface.media.known ? 0xFFFFFFFFu : surface.part);
-}
-
-}  // namespace
-
-Rgb tint_along(const ShadingConventions& conventions, const ShadingPoint& point, bool closed,
-               const TintedMedia& media, std::uint32_t around, double t) {
-    if (conventions.refraction_tint != ShadingConventions::RefractionTint::PerDistance) {
-        return {1, 1, 1};
-    }
-    const bool in_body = around != TintedMedia::kOutside;
-    const bool leaves = point.surface.media.known
-                            ? point.surface.media.before.has_value()
-                            : !point.entering && !point.medium.is_black() && (closed || !in_body);
-    if (leaves && (point.inside || in_body)) {
-        return point.medium_is_physical ? Rgb{1, 1, 1} : power(point.medium, t);
-    }
-    return in_body ? power(media.kt(around), t) : Rgb{1, 1, 1};
-}
-
-Crossing cross(const ShadingConventions& conventions, const Surface& surface,
-               const MaterialSample& material, const MaterialSample& medium, bool leaving,
-               bool closed, double length, CrossedVolumes& volumes) {
-    const bool by_distance = !material.physical && !material.transmissive.is_black() &&
-                             conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
-    Crossing result;
-    if (!by_distance) result.surface = material.transmissive;
-    if (medium.physical && medium.thin) return result;
-    if (by_distance && leaving && (closed || volumes.empty())) {
-        result.surface = power(medium.transmissive, length);
-    } else {
-        result.way = volumes.through(length);
-    }
-    if (!medium.physical && !(by_distance && closed)) return result;
-    if (leaving) {
-        volumes.leave(body_of(surface));
-    } else {
-        volumes.enter(medium.absorption, by_distance ? medium.transmissive : Rgb{1, 1, 1},
-                      body_of(surface));
-    }
-    return result;
-}
-
-void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
-                  std::uint32_t medium, bool inside, const Rgb& absorption,
-                  CrossedVolumes& volumes) {
-    volumes.clear();
-    const bool tints = medium != TintedMedia::kOutside &&
-                       conventions.shadow_tint == ShadingConventions::ShadowTint::PerDistance;
-    if (tints) {
-        InlineVector<std::uint32_t, 8> outward;  // of more than eight bodies the innermost
-        for (std::uint32_t k = medium; k != TintedMedia::kOutside && !outward.full();
-             k = tinted.around(k)) {
-            outward.push_back(k);
-        }
-        for (std::size_t k = outward.size(); k-- > 0;) {
-            const std::uint32_t m = outward[k];
-            volumes.enter(inside && k == 0 ? absorption : Rgb{}, tinted.kt(m), tinted.body(m));
-        }
-    } else if (inside) {
-        volumes.enter(absorption);
-    }
-}
-
-std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed, TintedMedia& media,
-                                   std::uint32_t around) {
-    if (point.material->thin) return around;
-    const Surface& surface = point.surface;
-    const std::uint64_t body = body_of(surface);
-    if (surface.media.known) {
-        if (surface.media.before) around = media.leave(body, around);
-        return point.behind.inside ? media.enter(point.behind.kt, body, around) : around;
-    }
-    if (!closed) return around;
-    if (!point.entering) return media.leave(body, around);
-    const MaterialSample& material = *point.material;
-    return media.enter(material.physical ? Rgb{1, 1, 1} : material.transmissive, body, around);
 }
 
 bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/scene/scene.h"
 
@@ -76,32 +75,6 @@ struct ShadingPoint {
 /// of the surface.
 [[nodiscard]] SolidAperture aperture_at(const Surface& surface, const Vec3& direction,
                                         double width);
-
-/// The transmittance by kt^distance of the medium through which a ray of length `t` came, if
-/// RefractionTint is PerDistance; white otherwise. `around`: the ray's medium in `media`. A ray
-/// that leaves a body has the kt of the surface, any other that of the closed body that it entered.
-/// `closed`: the surface bounds a volume (closed_parts_of).
-[[nodiscard]] Rgb tint_along(const ShadingConventions& conventions, const ShadingPoint& point,
-                             bool closed, const TintedMedia& media, std::uint32_t around, double t);
-
-/// The transmittances of a surface crossed without bending, and of the way to it.
-struct Crossing {
-    Rgb way{1, 1, 1}, surface{1, 1, 1};
-};
-/// Crosses `surface` of `material`, at which the volume of `medium` is entered or left, `length`
-/// behind the last crossing. `closed`: it bounds a volume.
-[[nodiscard]] Crossing cross(const ShadingConventions& conventions, const Surface& surface,
-                             const MaterialSample& material, const MaterialSample& medium,
-                             bool leaving, bool closed, double length, CrossedVolumes& volumes);
-/// Sets the volumes around a ray that starts in a medium of `tinted` and, `inside` a solid, of an
-/// absorption.
-void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
-                  std::uint32_t medium, bool inside, const Rgb& absorption,
-                  CrossedVolumes& volumes);
-
-/// The medium in `media` of a ray that passes through the surface from the medium `around`.
-[[nodiscard]] std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed,
-                                                 TintedMedia& media, std::uint32_t around);
 
 /// The medium on one side of the surface (`surface.media`), with textures evaluated at the surface.
 [[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/scene/scene.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/renderers/core/unsupported_parts.h"
 #include "alhazen/scene_model/part_traversal.h"
+#include "alhazen/scene_model/unsupported_parts.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/patches/nurbs/trim_region.h"
 #include "alhazen/shapes/polygons/face_loops.h"
@@ -42,9 +42,7 @@ class ScanGatherer {
     ScanScene gather() {
         visit_parts(
             d_, mask_of(RayKind::Eye), [&](const WorldPart& placed) { add_part(placed); },
-            [&](const ObjectDescription& solid) {
-                unsupported_.add("solid of constructive geometry", solid.name, solid.location);
-            });
+            [&](const ObjectDescription& solid) { unsupported_.add(solid); });
         unsupported_.throw_if_any(
             "scan lines support only patches, the shapes that are patches, and polygons");
         return std::move(result_);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "alhazen/math/constants.h"
-#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/tinted_media.h"
 
 namespace alhazen {
 

@@ -9,12 +9,12 @@
 #include <deque>
 #include <optional>
 
-#include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/estimator.h"
 #include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
 #include "alhazen/renderers/core/shadow_batch.h"
+#include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/renderers/whitted/wave_split.h"

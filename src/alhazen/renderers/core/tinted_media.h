@@ -1,0 +1,135 @@
+#pragma once
+/// Attenuation along a distance: by absorption, and in bodies whose kt is the transmittance of a
+/// unit of length.
+///
+/// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (kt); Beer,
+/// "Bestimmung der Absorption des rothen Lichts in farbigen Fluessigkeiten", 1852.
+/// Differs: kt acts by the way inside the innermost closed body; open surfaces have no inside.
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/renderers/core/local_shading.h"
+
+namespace alhazen {
+
+/// Beer's law: exp(-absorption * distance). A channel without absorption has 1 even at infinite
+/// distance.
+[[nodiscard]] inline Rgb transmittance(const Rgb& absorption, double distance) {
+    const auto of = [&](double a) { return a > 0.0 ? std::exp(-a * distance) : 1.0; };
+    return {of(absorption.r), of(absorption.g), of(absorption.b)};
+}
+
+[[nodiscard]] inline Rgb power(const Rgb& base, double exponent) {
+    return {std::pow(base.r, exponent), std::pow(base.g, exponent), std::pow(base.b, exponent)};
+}
+
+/// The volumes around a ray that passes surfaces without bending, innermost last.
+class CrossedVolumes {
+  public:
+    void clear() { volumes_.clear(); }
+    [[nodiscard]] bool empty() const { return volumes_.empty(); }
+    /// `kt`: transmittance of a unit of length, in addition to the absorption. `body`: what bounds
+    /// the volume; 0 is unknown.
+    void enter(const Rgb& absorption, const Rgb& kt = {1, 1, 1}, std::uint64_t body = 0) {
+        volumes_.push_back({absorption, kt, body});
+    }
+    /// Leaves the body, or the innermost volume if it is not around the ray.
+    void leave(std::uint64_t body) {
+        for (std::size_t k = volumes_.size(); k-- > 0;) {
+            if (volumes_[k].body != body) continue;
+            volumes_.erase(volumes_.begin() + static_cast<std::ptrdiff_t>(k));
+            return;
+        }
+        if (!volumes_.empty()) volumes_.pop_back();
+    }
+    /// The transmittance of the innermost volume; white outside.
+    [[nodiscard]] Rgb through(double distance) const {
+        if (volumes_.empty()) return {1, 1, 1};
+        const Volume& innermost = volumes_.back();
+        const Rgb tint = transmittance(innermost.absorption, distance);
+        return innermost.kt == Rgb{1, 1, 1} ? tint : tint * power(innermost.kt, distance);
+    }
+
+  private:
+    struct Volume {
+        Rgb absorption, kt;
+        std::uint64_t body;
+    };
+    std::vector<Volume> volumes_;
+};
+
+/// The closed bodies around rays where kt is the transmittance of a unit of length
+/// (RefractionTint::PerDistance).
+/// Conventions: a medium is a number: 0 is outside all bodies, others identify the body entered
+/// last and the medium around it. Bodies may be left in any order. Threads: used by one at a time.
+class TintedMedia {
+  public:
+    static constexpr std::uint32_t kOutside = 0;
+
+    /// `release(mark)` removes all media created since `mark()` returned `mark`.
+    [[nodiscard]] std::size_t mark() const { return media_.size(); }
+    void release(std::size_t mark) { media_.resize(mark); }
+
+    /// White outside.
+    [[nodiscard]] const Rgb& kt(std::uint32_t medium) const { return media_[medium].kt; }
+    [[nodiscard]] std::uint32_t around(std::uint32_t medium) const { return media_[medium].around; }
+    [[nodiscard]] std::uint64_t body(std::uint32_t medium) const { return media_[medium].body; }
+    /// The medium inside a body of `kt` that lies in the medium `around`.
+    [[nodiscard]] std::uint32_t enter(const Rgb& kt, std::uint64_t body, std::uint32_t around) {
+        media_.push_back({kt, body, around});
+        return static_cast<std::uint32_t>(media_.size() - 1);
+    }
+    /// `medium` without the body, or without the innermost one if the body is not among them (faces
+    /// of a solid belong to several parts). Volumes inside the body are kept.
+    [[nodiscard]] std::uint32_t leave(std::uint64_t body, std::uint32_t medium) {
+        for (std::uint32_t k = medium; k != kOutside; k = media_[k].around) {
+            if (media_[k].body == body) return without(k, medium);
+        }
+        return media_[medium].around;
+    }
+
+  private:
+    struct Medium {
+        Rgb kt{1, 1, 1};
+        std::uint64_t body = 0;
+        std::uint32_t around = kOutside;
+    };
+    std::uint32_t without(std::uint32_t left, std::uint32_t medium) {
+        if (medium == left) return media_[left].around;
+        const Medium kept = media_[medium];
+        return enter(kept.kt, kept.body, without(left, kept.around));
+    }
+
+    std::vector<Medium> media_{Medium{}};
+};
+
+/// The transmittance by kt^distance of the medium through which a ray of length `t` came, if
+/// RefractionTint is PerDistance; white otherwise. `around`: the ray's medium in `media`. A ray
+/// that leaves a body has the kt of the surface, any other that of the closed body that it entered.
+/// `closed`: the surface bounds a volume (closed_parts_of).
+[[nodiscard]] Rgb tint_along(const ShadingConventions& conventions, const ShadingPoint& point,
+                             bool closed, const TintedMedia& media, std::uint32_t around, double t);
+
+/// The transmittances of a surface crossed without bending, and of the way to it.
+struct Crossing {
+    Rgb way{1, 1, 1}, surface{1, 1, 1};
+};
+/// Crosses `surface` of `material`, at which the volume of `medium` is entered or left, `length`
+/// behind the last crossing. `closed`: it bounds a volume.
+[[nodiscard]] Crossing cross(const ShadingConventions& conventions, const Surface& surface,
+                             const MaterialSample& material, const MaterialSample& medium,
+                             bool leaving, bool closed, double length, CrossedVolumes& volumes);
+/// Sets the volumes around a ray that starts in a medium of `tinted` and, `inside` a solid, of an
+/// absorption.
+void start_inside(const ShadingConventions& conventions, const TintedMedia& tinted,
+                  std::uint32_t medium, bool inside, const Rgb& absorption,
+                  CrossedVolumes& volumes);
+
+/// The medium in `media` of a ray that passes through the surface from the medium `around`.
+[[nodiscard]] std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed,
+                                                 TintedMedia& media, std::uint32_t around);
+
+}  // namespace alhazen
