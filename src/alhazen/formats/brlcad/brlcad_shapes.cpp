@@ -25,6 +25,17 @@ Vec3 as_long_as(const Vec3& direction, const Vec3& other) {
     return (length(other) / length(direction)) * direction;
 }
 
+/// True if two axes that the solid's definition takes as perpendicular are not.
+bool is_oblique(const Vec3& a, const Vec3& b) {
+    constexpr double kLargestCosine = 1e-4;
+    return std::abs(dot(a, b)) > kLargestCosine * length(a) * length(b);
+}
+/// True if two axes that the definition takes as parallel are not. A zero axis is parallel to all.
+bool is_turned(const Vec3& a, const Vec3& b) {
+    constexpr double kLargestSine = 1e-4;
+    return length(cross(a, b)) > kLargestSine * length(a) * length(b);
+}
+
 /// The boundary plane of a half space, through its point nearest to the origin.
 OrientedPlane plane_of(const BrlcadHalfSpace& half) {
     return {(half.distance / dot(half.normal, half.normal)) * half.normal, half.normal};
@@ -41,6 +52,10 @@ struct Maker {
         ellipsoid.axis_a = given.a;
         ellipsoid.axis_b = given.b;
         ellipsoid.axis_c = given.c;
+        if (is_oblique(given.a, given.b) || is_oblique(given.b, given.c) ||
+            is_oblique(given.c, given.a)) {
+            made.doubt = "its semi-axes are not perpendicular; it is read as an oblique ellipsoid";
+        }
         add(made, ellipsoid);
     }
     void operator()(const BrlcadTgc& given) {
@@ -51,6 +66,11 @@ struct Maker {
         tgc.axis_b = given.b;
         tgc.axis_c = given.c;
         tgc.axis_d = given.d;
+        if (is_turned(given.a, given.c) || is_turned(given.b, given.d)) {
+            made.doubt =
+                "its upper semi-axes C and D are not parallel to A and B; of them only the lengths "
+                "are used";
+        }
         // Only the lengths of the upper semi-axes are used; they are parallel to those of the base.
         if (length(given.a) > 0.0) tgc.axis_c = as_long_as(given.a, given.c);
         if (length(given.b) > 0.0) tgc.axis_d = as_long_as(given.b, given.d);
@@ -82,8 +102,8 @@ struct Maker {
         const double height = length(particle.height);
         const double shrink = particle.base_radius - particle.top_radius;
         // If one sphere contains the other, it is the whole solid.
-        const bool base = height > -shrink;
         const bool top = height > shrink;
+        const bool base = height > -shrink || !top;
         const auto add_sphere = [&](const Vec3& center, double radius) {
             if (radius == 0.0 && base && top) return;  // the apex of a cone
             Sphere sphere;
@@ -106,7 +126,12 @@ struct Maker {
         cone.top_radius = c * particle.top_radius;
         add(made, cone);
     }
-    void operator()(const BrlcadConicCylinder& given) { add_quadric(brlcad_quadric(given)); }
+    void operator()(const BrlcadConicCylinder& given) {
+        if (is_oblique(given.height, given.breadth)) {
+            made.doubt = "B is not perpendicular to H; it is read as an oblique solid";
+        }
+        add_quadric(brlcad_quadric(given));
+    }
     void operator()(const BrlcadConicDome& given) { add_quadric(brlcad_quadric(given)); }
     void operator()(const BrlcadHyperboloid& given) {
         if (!(given.neck > 0.0 && given.neck < 1.0)) {

@@ -24,6 +24,7 @@ struct BrlcadPieces {
     std::vector<BrlcadPiece> pieces;
     bool closed = true;   ///< true if the solid bounds a volume
     std::string refused;  ///< reason if there are no pieces
+    std::string doubt;    ///< what contradicts the solid's definition; empty: nothing
 };
 
 [[nodiscard]] BrlcadPieces brlcad_pieces(const BrlcadSolid& solid);

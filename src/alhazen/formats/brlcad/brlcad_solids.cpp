@@ -155,6 +155,11 @@ BrlcadBuilder::Operand BrlcadBuilder::solid(const BrlcadObject& object, Material
         if (const auto* mesh = std::get_if<BrlcadMesh>(&given.form)) {
             tell_about_mesh(object, *mesh, entry->second);
         }
+        if (!entry->second.doubt.empty() && entry->second.refused.empty()) {
+            diagnostics_.warning(
+                database_.at(object.place),
+                "solid '" + object.name + "' (" + given.type + "): " + entry->second.doubt);
+        }
     }
     const BrlcadPieces& pieces = entry->second;
     if (!pieces.refused.empty()) {
