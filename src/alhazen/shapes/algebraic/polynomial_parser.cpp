@@ -55,7 +55,9 @@ class Parser {
         const auto known = std::find_if(nodes_.begin(), nodes_.end(),
                                         [&](const Node& n) { return is_same(n, node); });
         if (known != nodes_.end()) return static_cast<std::uint16_t>(known - nodes_.begin());
-        if (nodes_.size() >= kMaxNodes) fail("the expression is too long");
+        if (nodes_.size() >= kMaxNodes)
+            fail("the expression is too long: at most " + std::to_string(kMaxNodes) +
+                 " operations");
         nodes_.push_back(node);
         return static_cast<std::uint16_t>(nodes_.size() - 1);
     }
@@ -205,11 +207,15 @@ class Parser {
             node.b = place[node.b];
             node.first = static_cast<std::uint16_t>(coefficients);
             coefficients += node.degree + 1;
-            if (coefficients > PolynomialExpression::kMaxCoefficients) {
-                throw Error(ErrorKind::Scene, "the expression is too long");
-            }
             place[i] = static_cast<std::uint16_t>(kept.size());
             kept.push_back(node);
+        }
+        constexpr int kMost = PolynomialExpression::kMaxCoefficients;
+        if (coefficients > kMost) {
+            throw Error(ErrorKind::Scene,
+                        "the expression is too long: its parts along a line have " +
+                            std::to_string(coefficients) + " coefficients, at most " +
+                            std::to_string(kMost) + " are supported; nested products have fewer");
         }
         return kept;
     }
