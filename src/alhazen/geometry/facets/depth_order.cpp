@@ -84,9 +84,14 @@ class DepthSorter {
     [[nodiscard]] bool may_precede(const DepthItem& a, const DepthItem& b) const {
         if (a.hi_x < b.lo_x || b.hi_x < a.lo_x || a.hi_y < b.lo_y || b.hi_y < a.lo_y) return true;
         const FacetPlane of_a = towards_apex(a.piece.facet), of_b = towards_apex(b.piece.facet);
-        return side_range(of_a, pool_.corners(b.piece)).most <= margin_ ||
-               side_range(of_b, pool_.corners(a.piece)).least >= -margin_ ||
-               edge_parts(a.piece, b.piece) || edge_parts(b.piece, a.piece);
+        const SideRange b_to_a = side_range(of_a, pool_.corners(b.piece));
+        // Of polygons in one plane the one of lower index hides the other.
+        const bool in_plane = b_to_a.most <= margin_ && b_to_a.least >= -margin_;
+        const bool behind = in_plane
+                                ? a.piece.facet <= b.piece.facet
+                                : b_to_a.most <= margin_ ||
+                                      side_range(of_b, pool_.corners(a.piece)).least >= -margin_;
+        return behind || edge_parts(a.piece, b.piece) || edge_parts(b.piece, a.piece);
     }
     [[nodiscard]] FacetPlane towards_apex(std::uint32_t facet) const {
         const FacetPlane& plane = pool_.planes[facet];

@@ -300,6 +300,32 @@ TEST(DepthOrder, ComesNearestFirst) {
     }
 }
 
+TEST(DepthOrder, OfPolygonsInOnePlaneTheFirstIsNearest) {
+    const auto square = [](double x, double size) {
+        return std::array<Vec3, 4>{
+            {{x, -size, 0}, {x + 2 * size, -size, 0}, {x + 2 * size, size, 0}, {x, size, 0}}};
+    };
+    const Vec3 from{0.2, 0.1, 4};
+    const Beam beam = narrow_beam(from, {0, 0, -1}, 0.6);
+    // In either order of the list, and of either orientation.
+    for (const bool reversed : {false, true}) {
+        for (const bool turned : {false, true}) {
+            Polygons polygons;
+            for (int k = 0; k < 4; ++k) {
+                std::array<Vec3, 4> corners = square(-1 + 0.1 * k, 1);
+                if (turned && k % 2 == 1) std::reverse(corners.begin(), corners.end());
+                polygons.add(corners);
+            }
+            if (reversed) std::reverse(polygons.pieces.begin(), polygons.pieces.end());
+            DepthOrderReport report;
+            const auto order = depth_order(polygons.pool, polygons.pieces, beam.apex,
+                                           beam.projection, beam.sides, 1e-11, report);
+            ASSERT_EQ(order.size(), 4u);
+            for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(order[k].facet, k);
+        }
+    }
+}
+
 double reach(std::span<const Vec3> points, const Vec3& along) {
     double most = -std::numeric_limits<double>::infinity();
     for (const Vec3& p : points) most = std::max(most, dot(along, p));
