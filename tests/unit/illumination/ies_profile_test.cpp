@@ -35,6 +35,22 @@ TEST(IesProfile, CandelaAreInterpolatedInBothAngles) {
     EXPECT_EQ(p.largest_candela(), 140.0);
 }
 
+TEST(IesProfile, AnglesAllRoundAreInterpolatedAcrossZero) {
+    const IesProfile p(file("20 140 340", "10 10 10\n50 50 50\n30 30 30", "3 3"), "test");
+    const auto at = [&](double degrees) { return p.candela(1.0, degrees * kRadiansPerDegree); };
+    EXPECT_NEAR(at(340), 60.0, 1e-12);
+    EXPECT_NEAR(at(350), 50.0, 1e-9);
+    EXPECT_NEAR(at(0), 40.0, 1e-9);
+    EXPECT_NEAR(at(10), 30.0, 1e-9);
+    EXPECT_NEAR(at(-10), 50.0, 1e-9);
+    EXPECT_NEAR(at(20), 20.0, 1e-12);
+    EXPECT_NEAR(at(80), 60.0, 1e-12);
+    // Measured from within 90 to 270: the outermost values hold beyond, by symmetry.
+    const IesProfile half(file("100 260", "10 10 10\n50 50 50", "3 2"), "test");
+    EXPECT_NEAR(half.candela(1.0, kPi / 2), 20.0, 1e-12);
+    EXPECT_NEAR(half.candela(1.0, 1.5 * kPi), 100.0, 1e-12);
+}
+
 TEST(IesProfile, AnEvenLampHasTheLumensOfItsCandela) {
     const IesProfile p(file("0", "50 50 50"), "test");
     EXPECT_NEAR(p.lumens(), 4.0 * kPi * 100.0, 1e-6 * p.lumens());

@@ -113,16 +113,24 @@ std::vector<double> sine_weights(const std::vector<double>& angles) {
 
 constexpr double kSlack = 1e-9;  // radians
 
+/// True if measured from 90 to 270 degrees: symmetric about the plane through 90 and 270.
+bool is_of_far_half(double first, double last) {
+    return first >= kPi / 2 - kSlack && last <= 1.5 * kPi + kSlack;
+}
+/// True if measured all round.
+bool is_periodic(double first, double last) {
+    return last > kPi + kSlack && !is_of_far_half(first, last);
+}
+
 /// The equivalent angle, by symmetry, in the measured range.
 double folded(double angle, double first, double last) {
     double a = std::fmod(angle, 2.0 * kPi);
     if (a < 0.0) a += 2.0 * kPi;
-    if (first >= kPi / 2 - kSlack && last <= 1.5 * kPi + kSlack) {
-        // Measured from 90 to 270: symmetric about the plane through 90 and 270.
+    if (is_of_far_half(first, last)) {
         if (a < kPi / 2) return kPi - a;
         return a > 1.5 * kPi ? 3.0 * kPi - a : a;
     }
-    if (last > kPi + kSlack) return a;
+    if (is_periodic(first, last)) return a < first ? a + 2.0 * kPi : a;
     if (a > kPi) a = 2.0 * kPi - a;
     return last <= kPi / 2 + kSlack && a > kPi / 2 ? kPi - a : a;
 }
@@ -135,7 +143,9 @@ BetweenAngles between_columns(const std::vector<double>& angles, double azimuth)
     const BetweenAngles h = between_angles(angles, angle);
     // Interpolates from the last angle round to the first if 360 degrees is not measured.
     const double gap = angles.front() + 2.0 * kPi - last;
-    if (angle > last && gap > kSlack) return {h.below, 0, std::min(1.0, (angle - last) / gap)};
+    if (angle > last && gap > kSlack && !is_of_far_half(angles.front(), last)) {
+        return {h.below, 0, std::min(1.0, (angle - last) / gap)};
+    }
     return h;
 }
 
