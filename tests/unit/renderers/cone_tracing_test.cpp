@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "alhazen/base/error.h"
 #include "alhazen/cameras/pixel_cones.h"
@@ -54,6 +55,40 @@ TEST(ConeTracing, AnEdgeCoversItsSegmentOfThePixel) {
         SceneMaker maker;
         maker.add(upright(x, 9), maker.material(glowing({1, 1, 1})));
         EXPECT_NEAR(one_pixel(maker), segment_area(kRadius, x), 1e-12) << x;
+    }
+}
+
+/// Looks along +y from the origin, 9 x 7 pixels.
+Film picture_from_origin(SceneMaker& maker) {
+    return picture_of(maker, look_along({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1.0, 9.0 / 7.0), 9, 7);
+}
+
+TEST(ConeTracing, AnEyeInsideSolidsSeesTheirInnerSides) {
+    const std::vector<std::pair<const char*, std::function<void(SceneMaker&, MaterialId)>>> rooms{
+        {"box",
+         [](auto& m, auto id) {
+             m.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, id);
+         }},
+        {"sphere",
+         [](auto& m, auto id) {
+             m.add(Sphere{{0, 0, 0}, 2}, id);
+         }},
+        {"half space",
+         [](auto& m, auto id) {
+             m.add(HalfSpace{{0, 2, 0}, {0, 1, 0}}, id);
+         }},
+        {"mesh", [](auto& m, auto id) { m.add(m.mesh(testing::tetrahedron()), id); }},
+    };
+    for (const auto& [name, add] : rooms) {
+        SceneMaker maker;
+        add(maker, maker.material(glowing({0.5, 0.5, 0.5})));
+        // Another solid around the room is behind it.
+        maker.add(Sphere{{0, 0, 0}, 50}, maker.material(glowing({1, 1, 1})));
+        const Film film = picture_from_origin(maker);
+        for (int y = 0; y < 7; ++y) {
+            for (int x = 0; x < 9; ++x)
+                EXPECT_NEAR(film.at(x, y).r, 0.5, 1e-12) << name << x << " " << y;
+        }
     }
 }
 

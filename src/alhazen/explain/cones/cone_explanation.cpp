@@ -95,7 +95,7 @@ ConeExplanation explain_cones(const RenderJob& job, int x, int y, int width, int
         tracer.set_watcher(&recorder);
         const PixelCones cones(job.camera, width, height, 1);
         const PointSampler middle(job, width, height);
-        (void)tracer.trace(cones.at(middle.at(x, y)), {}, 0);
+        (void)tracer.trace_eye(cones.at(middle.at(x, y)));
         return recorder.take();
     } catch (const Error& error) {
         ConeExplanation none;

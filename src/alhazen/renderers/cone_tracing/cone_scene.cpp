@@ -319,7 +319,7 @@ class ConeGatherer {
     }
 
     void build_tree() {
-        std::vector<Box3> boxes;
+        std::vector<Box3> boxes, solid_boxes;
         for (const ConeItem& item : result_.items) {
             const ConeSource& source = result_.sources[item.source];
             Box3 box;
@@ -334,8 +334,19 @@ class ConeGatherer {
                 }
             }
             boxes.push_back(box);
+            if (!source.closed) continue;
+            // The faces of a solid follow each other.
+            const bool begins = item.face == ConeItem::kNoFace || result_.solids.empty() ||
+                                result_.solids.back().source != item.source;
+            if (begins) {
+                result_.solids.push_back({item.source, item.face, item.face});
+                solid_boxes.push_back(box);
+            }
+            solid_boxes.back().include(box);
+            if (item.face != ConeItem::kNoFace) ++result_.solids.back().end_face;
         }
         result_.tree = ConeTree(boxes);
+        result_.solid_tree = ConeTree(solid_boxes);
     }
 
     const SceneDescription& d_;

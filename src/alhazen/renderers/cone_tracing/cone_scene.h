@@ -52,12 +52,20 @@ struct ConeItem {
     std::uint32_t source = 0, face = kNoFace;
 };
 
+/// A closed source.
+struct ConeSolid {
+    std::uint32_t source = 0;
+    std::uint32_t first_face = 0, end_face = 0;  ///< its faces, if it has any
+};
+
 struct ConeScene {
     std::vector<ConeSource> sources;
     std::vector<ConeFace> faces;
     std::vector<ConeItem> items;
     std::vector<std::uint32_t> planes;  ///< unbounded sources
     ConeTree tree;                      ///< over `items`
+    std::vector<ConeSolid> solids;      ///< the bounded ones
+    ConeTree solid_tree;                ///< over `solids`
     std::map<const TriangleMesh*, std::unique_ptr<ConeTree>> mesh_trees;
     std::uint32_t surfaces = 0;
 };

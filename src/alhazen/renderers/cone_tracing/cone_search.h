@@ -12,10 +12,9 @@
 
 #include <vector>
 
-#include "alhazen/base/inline_vector.h"
 #include "alhazen/geometry/cones/cone_coverage.h"
 #include "alhazen/geometry/ray_mask.h"
-#include "alhazen/renderers/cone_tracing/cone_scene.h"
+#include "alhazen/renderers/cone_tracing/cone_containment.h"
 
 namespace alhazen {
 
@@ -36,7 +35,7 @@ struct ConeStart {
     std::uint32_t source = kNone, part = kNone;  ///< where it starts
     double clear = 0;  ///< pieces of that source at a smaller distance are ignored
     ConeRange range;
-    InlineVector<std::uint32_t, 8> inside;  ///< solids that contain its start
+    SolidsAround inside;  ///< solids that contain its start
 
     [[nodiscard]] bool is_inside(std::uint32_t s) const {
         for (const std::uint32_t k : inside) {

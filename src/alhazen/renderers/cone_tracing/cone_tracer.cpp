@@ -35,7 +35,7 @@ Ray line_of(const ConeRay& cone, const Vec2& at) {
 
 /// Adds a solid to the solids that contain the start of a cone, or removes it.
 void set_inside(ConeStart& start, std::uint32_t source, bool inside) {
-    InlineVector<std::uint32_t, 8> around;
+    SolidsAround around;
     for (const std::uint32_t k : start.inside) {
         if (k != source) around.push_back(k);
     }
@@ -126,6 +126,14 @@ ConeTracer::ConeTracer(const RenderJob& job, const ConeScene& scene, bool tables
       ambient_(ambient_terms(job.scene.lights)),
       depth_(job.camera),
       search_(scene, tables) {}
+
+Rgb ConeTracer::trace_eye(const ConeRay& cone, PixelGeometry* geometry) {
+    if (eye_ != cone.origin) {
+        eye_ = cone.origin;
+        eye_path_.start.inside = solids_around(geometry_, cone.origin);
+    }
+    return trace(cone, eye_path_, 0, geometry);
+}
 
 Rgb ConeTracer::trace(const ConeRay& whole, const ConePath& path, int depth,
                       PixelGeometry* geometry) {

@@ -10,6 +10,7 @@
 /// Conventions: as in Whitted. Threads: used by one thread; memory is reused.
 
 #include <deque>
+#include <optional>
 
 #include "alhazen/geometry/cones/wavefront_curvature.h"
 #include "alhazen/renderers/cone_tracing/cone_pieces.h"
@@ -63,6 +64,8 @@ class ConeTracer {
     /// All arguments must outlive the object.
     ConeTracer(const RenderJob& job, const ConeScene& scene, bool tables, RayCounters& counters);
 
+    /// A cone from the eye, which may lie inside solids. `geometry`: as of `trace`.
+    [[nodiscard]] Rgb trace_eye(const ConeRay& cone, PixelGeometry* geometry = nullptr);
     /// `geometry` receives the geometry of the piece with the largest share; may be null.
     [[nodiscard]] Rgb trace(const ConeRay& cone, const ConePath& path, int depth,
                             PixelGeometry* geometry = nullptr);
@@ -118,6 +121,8 @@ class ConeTracer {
     ConeSearch search_;
     TintedMedia tinted_;
     ConeWatcher* watcher_ = nullptr;
+    std::optional<Vec3> eye_;                    ///< of the last cone from the eye
+    ConePath eye_path_;                          ///< its path
     std::deque<std::vector<SeenPiece>> frames_;  ///< by depth of recursion
 };
 

@@ -32,8 +32,7 @@ class ConeTileRenderer final : public TileRenderer {
                     if (job_.stop_requested()) return;
                     const Vec2 at =
                         job_.samples_per_pixel == 1 ? middle.at(i, j) : several.at(i, j, s);
-                    const Rgb color =
-                        tracer_.trace(cones.at(at), {}, 0, layers ? &geometry : nullptr);
+                    const Rgb color = tracer_.trace_eye(cones.at(at), layers ? &geometry : nullptr);
                     counters_.non_finite += !filter.add(color);
                 }
                 if (job_.stop_requested()) return;

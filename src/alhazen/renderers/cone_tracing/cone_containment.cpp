@@ -1,0 +1,99 @@
+#include "alhazen/renderers/cone_tracing/cone_containment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace alhazen {
+
+namespace {
+
+/// Calls `visit` with each item of the tree whose leaf's box passes `test`.
+template <class Test, class Visit>
+void for_items(const ConeTree& tree, const Test& test, const Visit& visit) {
+    if (tree.empty()) return;
+    std::vector<std::uint32_t> waiting{0};
+    while (!waiting.empty()) {
+        const ConeTree::Node& node = tree.node(waiting.back());
+        waiting.pop_back();
+        if (!test(node)) continue;
+        if (node.count == 0) {
+            waiting.push_back(node.first);
+            waiting.push_back(node.first + 1);
+        }
+        for (std::uint32_t k = 0; k < node.count; ++k) visit(tree.item(node.first + k));
+    }
+}
+
+/// True if the edge from `a` to `b` passes `p` on the side of greater y, in the plane of y and z.
+/// Both directions of an edge have the same answer.
+bool passes_above(Vec3 a, Vec3 b, const Vec3& p) {
+    if ((a.z > p.z) == (b.z > p.z)) return false;
+    if (b.z < a.z) std::swap(a, b);
+    return (p.z - a.z) * (b.y - a.y) > (p.y - a.y) * (b.z - a.z);
+}
+
+/// True if the line from `p` along x crosses the triangle.
+bool crosses(const std::array<Vec3, 3>& t, const Vec3& p) {
+    bool in = false;
+    for (std::size_t k = 0; k < 3; ++k) in ^= passes_above(t[k], t[(k + 1) % 3], p);
+    if (!in) return false;
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+    // The distance along x to the plane, times the x of the normal.
+    return (dot(normal, t[0] - p) > 0.0) == (normal.x > 0.0);
+}
+
+bool contains(const ConeSource& source, const TriangleMesh& mesh, const Vec3& point) {
+    const Vec3 p = source.placed ? source.placement.inner_from_outer.point(point) : point;
+    bool in = false;
+    const auto meets_line = [&](const ConeTree::Node& node) {
+        return std::abs(p.y - node.center.y) <= node.half.y &&
+               std::abs(p.z - node.center.z) <= node.half.z && p.x <= node.center.x + node.half.x;
+    };
+    for_items(*source.tree, meets_line, [&](std::uint32_t k) {
+        const auto& t = mesh.triangles[k];
+        in ^= crosses({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, p);
+    });
+    return in;
+}
+
+bool contains(const ConeScene& scene, const ConeSolid& solid, const Vec3& p) {
+    const ConeSource& source = scene.sources[solid.source];
+    switch (source.kind) {
+        case ConeSource::Kind::Sphere:
+            return length_squared(p - source.point) < source.radius * source.radius;
+        case ConeSource::Kind::Plane:
+            return dot(p - source.point, source.normal) < 0.0;
+        case ConeSource::Kind::Faces:
+            for (std::uint32_t k = solid.first_face; k < solid.end_face; ++k) {
+                const ConeFace& face = scene.faces[k];
+                const double height = dot(p - face.point, face.normal);
+                if (source.inward ? !(height > 0.0) : !(height < 0.0)) return false;
+            }
+            return true;
+        case ConeSource::Kind::Mesh:
+            return contains(source, *source.mesh.mesh, p);
+    }
+    return false;
+}
+
+}  // namespace
+
+SolidsAround solids_around(const ConeScene& scene, const Vec3& point) {
+    SolidsAround result;
+    const auto add = [&](const ConeSolid& solid) {
+        if (!result.full() && contains(scene, solid, point)) result.push_back(solid.source);
+    };
+    for (const std::uint32_t source : scene.planes) {
+        if (scene.sources[source].closed) add({source});
+    }
+    const auto holds_point = [&](const ConeTree::Node& node) {
+        const Vec3 d = point - node.center;
+        return std::abs(d.x) <= node.half.x && std::abs(d.y) <= node.half.y &&
+               std::abs(d.z) <= node.half.z;
+    };
+    for_items(scene.solid_tree, holds_point, [&](std::uint32_t k) { add(scene.solids[k]); });
+    return result;
+}
+
+}  // namespace alhazen
