@@ -131,10 +131,10 @@ void Bsdf::add(const Bsdf& other, double weight) {
     }
 }
 
-double Bsdf::through(CoverSet covers, double cosine) const {
+double Bsdf::through(CoverSet covers, const Vec3& direction) const {
     double share = 1.0;
     for (std::size_t i = 0; covers >> i != 0; ++i) {
-        if ((covers >> i & 1) != 0) share *= covers_[i].value.transmittance(cosine);
+        if ((covers >> i & 1) != 0) share *= covers_[i].value.transmittance(direction);
     }
     return share;
 }
@@ -152,7 +152,7 @@ Bsdf::Choice Bsdf::choose(const Vec3& view) const {
         double share = (part.weight * albedo_of(part.lobe, view)).max();
         // Above 0 even below a cover that is opaque to the view: for importance the other direction
         // counts.
-        if (part.covers != 0) share *= std::max(0.02, through(part.covers, view.z));
+        if (part.covers != 0) share *= std::max(0.02, through(part.covers, view));
         choice.share[i] = share > 0.0 ? share : 0.0;
         sum += choice.share[i];
     }
@@ -179,13 +179,13 @@ Spectrum Bsdf::value(const Vec3& view, const Vec3& direction, Transport transpor
                      bool only_matt) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return {};
     if (matt_.is) return direction.z > 0.0 ? matt_.value : Spectrum{};
-    const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
+    const Vec3& outer = transport == Transport::Radiance ? view : direction;
     Spectrum sum;
     for (const Part& part : parts_) {
         if (only_matt && !is_matt(part.lobe)) continue;
         const Spectrum value = part.weight * value_of(part.lobe, view, direction, transport);
         if (!is_usable(value)) continue;
-        sum += part.covers != 0 ? through(part.covers, cosine) * value : value;
+        sum += part.covers != 0 ? through(part.covers, outer) * value : value;
     }
     return sum;
 }
@@ -240,9 +240,8 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Ve
         part.lobe);
     if (!sample || sample->direction.z == 0.0) return std::nullopt;
     if (sample->singular) {
-        const double cosine =
-            transport == Transport::Radiance ? view.z : std::abs(sample->direction.z);
-        sample->weight = (through(part.covers, cosine) / share) * part.weight * sample->weight;
+        const Vec3& outer = transport == Transport::Radiance ? view : sample->direction;
+        sample->weight = (through(part.covers, outer) / share) * part.weight * sample->weight;
         sample->density *= share;
     } else {
         sample->density = density(shares, view, sample->direction);
@@ -273,7 +272,7 @@ Spectrum Bsdf::albedo(const Vec3& view) const {
     Spectrum sum;
     for (const Part& part : parts_) {
         const Spectrum albedo =
-            through(part.covers, view.z) * part.weight * albedo_of(part.lobe, view);
+            through(part.covers, view) * part.weight * albedo_of(part.lobe, view);
         if (is_usable(albedo)) sum += albedo;
     }
     return sum;
@@ -295,7 +294,7 @@ Spectrum Bsdf::straight(const Vec3& view) const {
     for (const Part& part : parts_) {
         const auto* const sheet = std::get_if<ThinSheet>(&part.lobe);
         if (sheet == nullptr) continue;
-        sum += through(part.covers, view.z) * (part.weight * sheet->albedo(view));
+        sum += through(part.covers, view) * (part.weight * sheet->albedo(view));
     }
     return sum;
 }
@@ -309,13 +308,21 @@ double Bsdf::straight_probability(const Vec3& view) const {
     return sum;
 }
 
+/// Refracted from `view`, with this cosine to the normal below.
+static Vec3 direction_behind(const Vec3& view, double cosine) {
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double length = std::sqrt(view.x * view.x + view.y * view.y);
+    const double scale = length > 0.0 ? -sine / length : 0.0;
+    return {scale * view.x, scale * view.y, -cosine};
+}
+
 SingularLight Bsdf::singular(const Vec3& view, Transport transport) const {
     SingularLight light;
     if (!(view.z > 0.0)) return light;
     for (const Part& part : parts_) {
         const auto add = [&](const Spectrum& share, const Vec3& direction, Spectrum& sum) {
-            const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
-            const Spectrum own = through(part.covers, cosine) * (part.weight * share);
+            const Vec3& outer = transport == Transport::Radiance ? view : direction;
+            const Spectrum own = through(part.covers, outer) * (part.weight * share);
             if (is_usable(own)) sum += own;
         };
         if (const auto* const mirror = std::get_if<Mirror>(&part.lobe)) {
@@ -323,7 +330,8 @@ SingularLight Bsdf::singular(const Vec3& view, Transport transport) const {
         } else if (const auto* const glass = std::get_if<SmoothDielectric>(&part.lobe)) {
             const SmoothDielectric::Shares shares = glass->shares(view, transport);
             add(shares.reflected, view, light.reflected);
-            add(shares.transmitted, {0, 0, -shares.cosine_behind}, light.transmitted);
+            add(shares.transmitted, direction_behind(view, shares.cosine_behind),
+                light.transmitted);
             light.eta = glass->eta;
         }
     }
@@ -336,7 +344,7 @@ PlaneMueller Bsdf::polarization(const Vec3& view, const Vec3& direction, bool si
     for (const Part& part : parts_) {
         if (is_singular(part.lobe) != singular) continue;
         const PolarizedValue own = polarized_value(part.lobe, view, direction);
-        const Spectrum weight = through(part.covers, view.z) * part.weight;
+        const Spectrum weight = through(part.covers, view) * part.weight;
         if (!is_usable(weight * own.all)) continue;
         all += weight * own.all;
         const Spectrum share = weight * own.part;

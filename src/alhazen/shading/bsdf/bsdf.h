@@ -139,8 +139,8 @@ class Bsdf {
         bool any = false;
     };
     [[nodiscard]] Choice choose(const Vec3& view) const;
-    /// Product of the transmittances of `covers` at this cosine.
-    [[nodiscard]] double through(CoverSet covers, double cosine) const;
+    /// Product of the transmittances of `covers` for this direction.
+    [[nodiscard]] double through(CoverSet covers, const Vec3& direction) const;
     [[nodiscard]] double density(const Choice& choice, const Vec3& view,
                                  const Vec3& direction) const;
 

@@ -113,7 +113,7 @@ class LayerMaker {
             }
             f90 = 1.0;
         }
-        return Cover::face(std::sqrt(ggx_.x * ggx_.y), most, f90);
+        return Cover::face(ggx_, axis_, most, f90);
     }
 
     void add_dielectric() {

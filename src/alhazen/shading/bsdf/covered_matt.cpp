@@ -10,8 +10,7 @@ CoveredMatt::CoveredMatt(const Spectrum& color, const Cover& cover)
 
 Spectrum CoveredMatt::value(const Vec3& view, const Vec3& direction, Transport) const {
     if (!(direction.z > 0.0)) return {};
-    return matt_rest(cover_.transmittance(view.z), cover_.transmittance(direction.z), mean_) *
-           color_;
+    return matt_rest(cover_.transmittance(view), cover_.transmittance(direction), mean_) * color_;
 }
 
 double CoveredMatt::density(const Vec3&, const Vec3& direction) const {
@@ -26,7 +25,7 @@ std::optional<BsdfSample> CoveredMatt::sample(const Vec3& view, double, const Ve
 }
 
 Spectrum CoveredMatt::albedo(const Vec3& view) const {
-    return cover_.transmittance(view.z) * color_;
+    return cover_.transmittance(view) * color_;
 }
 
 }  // namespace alhazen

@@ -1,6 +1,7 @@
 #include "alhazen/shading/bsdf/rough_reflection.h"
 
 #include "alhazen/shading/microfacets/anisotropic_albedo.h"
+#include "alhazen/shading/microfacets/anisotropic_split.h"
 #include "alhazen/shading/microfacets/ggx_albedo.h"
 #include "alhazen/shading/microfacets/local_directions.h"
 
@@ -71,11 +72,8 @@ std::optional<BsdfSample> RoughReflection::sample(const Vec3& view, double choic
 }
 
 Spectrum RoughReflection::albedo(const Vec3& view) const {
-    SplitAlbedo one = ggx_albedo(view.z, mean_alpha_);
-    if (is_anisotropic()) {
-        const double scale = single(turned(view)) / one.sum();
-        one = {scale * one.at_f0, scale * one.at_f90};
-    }
+    const SplitAlbedo one = is_anisotropic() ? anisotropic_split_albedo(turned(view), ggx_)
+                                             : ggx_albedo(view.z, mean_alpha_);
     const SchlickTerm fit = schlick_fit(fresnel_, view.z);
     return one.at_f0 * fit.f0 + one.at_f90 * fit.f90 + (1.0 - one.sum()) * several_;
 }

@@ -6,8 +6,7 @@
 /// equation 20; Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
 /// course (the matt lobe); Turquin, "Practical Multiple Scattering Compensation for Microfacet
 /// Models", 2019 (its colour).
-/// Differs: for unequal alphas the albedos depend on the azimuth of the direction too. `albedo`
-/// splits them by Schlick's formula as those of the geometric mean.
+/// Differs: for unequal alphas the albedos depend on the azimuth of the direction too.
 
 #include <optional>
 

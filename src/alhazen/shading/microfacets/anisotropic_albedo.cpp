@@ -11,6 +11,7 @@
 #include "alhazen/sampling/random.h"
 #include "alhazen/shading/microfacets/cubic_table.h"
 #include "alhazen/shading/microfacets/gauss_legendre.h"
+#include "alhazen/shading/microfacets/visible_normals.h"
 
 namespace alhazen {
 
@@ -26,12 +27,6 @@ Ggx clamped(const Ggx& ggx) {
 bool same(const Ggx& a, const Ggx& b) {
     return a.x == b.x && a.y == b.y;
 }
-/// By symmetry, of the first quadrant.
-Vec3 stretched(const Vec3& view, const Ggx& ggx) {
-    const Vec3 s{ggx.x * std::abs(view.x), ggx.y * std::abs(view.y), view.z};
-    return s / length(s);
-}
-
 /// The axes of the table, -1..1 each.
 ///
 /// Of alpha: denser towards 0.
@@ -81,53 +76,8 @@ void transform(std::vector<double>& values, std::size_t stride) {
 }
 
 /// Share of the light lost by a view whose stretched direction is `s`.
-///
-/// The integral of 1 - G2 / G1 over the visible normals, by the azimuth of the stretched normal h
-/// and the tangent t of its angle to z. Of each azimuth those up to `most`, the root of a
-/// quadratic equation, reflect the view upwards. Lengths are relative to the z of the view.
 double lost_share(const Vec3& s, const Ggx& ggx) {
-    static const GaussLegendre<10> turns, tangents;
-    const double ax = ggx.x * ggx.x, ay = ggx.y * ggx.y;
-    const double vx = s.x / s.z, vy = s.y / s.z, v = 1.0 / s.z;
-    // Pieces between the azimuths across the view, and the axis of least roughness, near which
-    // the functions change fast.
-    const double azimuth = std::atan2(s.y, s.x), axis = ax < ay ? 0.0 : 0.5 * kPi;
-    std::array<double, 5> ends{azimuth - 0.5 * kPi, azimuth + 0.5 * kPi, azimuth + 1.5 * kPi, axis,
-                               axis + kPi};
-    for (double& end : ends) {
-        if (end < ends[0]) end += 2.0 * kPi;
-    }
-    std::sort(ends.begin(), ends.end());
-    double sum = 0;
-    for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece) {
-        const double width = ends[piece + 1] - ends[piece];
-        for (std::size_t i = 0; i < turns.points.size(); ++i) {
-            const double turn = ends[piece] + width * turns.points[i];
-            const double c = std::cos(turn), d = std::sin(turn);
-            const double along = s.x * c + s.y * d, q = ax * c * c + ay * d * d;
-            const double root = std::sqrt(along * along + s.z * s.z * q);
-            const double most = along < 0.0 ? s.z / (root - along) : (along + root) / (s.z * q);
-            const double last = most / (1.0 + most);
-            double inner = 0;
-            for (std::size_t j = 0; j < tangents.points.size(); ++j) {
-                // Denser towards the last.
-                const double y = 1.0 - tangents.points[j];
-                const double u = last * (1.0 - y * y), t = u / (1.0 - u);
-                const double weight =
-                    tangents.weights[j] * 2.0 * y * last / ((1.0 - u) * (1.0 - u));
-                // The reflected direction, stretched.
-                const double facet = 2.0 * (along * t * v + 1.0) / (1.0 + q * t * t);
-                const double lx = facet * ax * t * c - vx, ly = facet * ay * t * d - vy;
-                const double lz = std::max(0.0, facet - 1.0);
-                const double l = std::sqrt(lx * lx + ly * ly + lz * lz);
-                const double shadowing = lz * (1.0 + v) / (l + lz * v);
-                const double tt = 1.0 + t * t;
-                inner += weight * (along * t + s.z) * t / (tt * tt) * shadowing;
-            }
-            sum += width * turns.weights[i] * inner;
-        }
-    }
-    return 1.0 - 2.0 * sum / (kPi * (1.0 + s.z));
+    return 1.0 - over_visible_normals(s, ggx, [](double, double) { return 1.0; });
 }
 
 /// Coefficients of the lost shares, by the alphas, the turn and the height.

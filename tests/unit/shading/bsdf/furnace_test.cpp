@@ -47,6 +47,9 @@ TEST(Furnace, AlbedoIsWhatTheFurnaceShows) {
             {"rough plastic face",
              bsdf_of_lobe(RoughReflection({alpha, alpha},
                                           SchlickTerm{Spectrum::all(0.04), Spectrum::all(1)}))},
+            {"face with grooves",
+             bsdf_of_lobe(RoughReflection({0.1 + 0.9 * alpha, alpha},
+                                          SchlickTerm{Spectrum::all(0.04), Spectrum::all(1)}))},
             {"rough tinted glass", bsdf_of_lobe(RoughDielectric(alpha, 1 / 1.5, grey, grey))},
         };
         for (const NamedBsdf& b : list) {
@@ -122,6 +125,32 @@ TEST(Furnace, GroovesGiveBackAllLightSeenAlongAndAcross) {
                 expect_furnace({name, bsdf_of_parameters(p)}, 1.0, turn);
             }
         }
+    }
+}
+
+TEST(Furnace, LayersOverAndUnderGroovesGiveBackAllLight) {
+    const auto add = [](std::vector<NamedBsdf>& list, std::string name, double roughness,
+                        double strength, const auto& change) {
+        MetallicRoughness p;
+        p.roughness.value = roughness;
+        p.metallic.value = 0;
+        p.anisotropy.strength = strength;
+        p.anisotropy.rotation = 0.4;
+        change(p);
+        name += ", roughness " + std::to_string(roughness);
+        list.push_back({name, bsdf_of_parameters(p)});
+    };
+    std::vector<NamedBsdf> list;
+    for (const auto& [r, strength] : {std::pair{0.1, 1.0}, {0.4, 0.5}}) {
+        add(list, "plastic", r, strength, [](auto&) {});
+        add(list, "thin glass", r, strength, [](auto& p) { p.transmission.value = 1; });
+    }
+    add(list, "half metal, polished along its grooves", 0.0, 0.6,
+        [](auto& p) { p.metallic.value = 0.5; });
+    add(list, "coated leaf", 0.3, 0.7,
+        [](auto& p) { p.diffuse_transmission.share.value = 0.6, p.coat.strength.value = 0.5; });
+    for (const NamedBsdf& b : list) {
+        for (const double turn : {0.4, 0.9 + 0.5 * kPi}) expect_furnace(b, 1.0, turn);
     }
 }
 
