@@ -167,9 +167,15 @@ int run_figure(const CompareArguments& args) {
     return kDone;
 }
 
+std::string json_text(std::span<const Comparison> comparisons) {
+    return comparison_json(comparisons)
+               .dump(2, ' ', true, nlohmann::json::error_handler_t::replace) +
+           "\n";
+}
+
 void write_reports(const CompareArguments& args, std::span<const Comparison> comparisons) {
     if (!args.json.empty() && args.json != "-") {
-        write_report(args.json, comparison_json(comparisons).dump(2) + "\n");
+        write_report(args.json, json_text(comparisons));
     }
     if (!args.html.empty()) write_report(args.html, comparison_page(comparisons));
 }
@@ -190,7 +196,7 @@ int run_scenes(const CompareArguments& args) {
         if (args.json != "-") print("{}\n", comparison_table(comparisons.back()));
         write_reports(args, comparisons);
     }
-    if (args.json == "-") write_report(args.json, comparison_json(comparisons).dump(2) + "\n");
+    if (args.json == "-") write_report(args.json, json_text(comparisons));
     const bool holds = std::all_of(comparisons.begin(), comparisons.end(),
                                    [](const Comparison& c) { return c.holds(); });
     if (!holds) tell("alhazen: the accelerators do not agree\n");

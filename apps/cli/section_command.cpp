@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/parallel/parallel.h"
@@ -61,7 +62,7 @@ Chosen choose(const SolidScene& solids, const std::vector<std::string>& objects)
         const Box3 box = IsolatedSolid(solids.solids(), id).box();
         if (!box.bounded()) {
             tell("alhazen: '{}' is not bounded: it has neither area nor outline\n",
-                 solids.name(id));
+                 escape_controls(solids.name(id)));
             continue;
         }
         chosen.solids.push_back(id);
@@ -183,7 +184,7 @@ void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved,
     if (args.json != "-") {
         for (const Cut& cut : cuts) {
             print("{} {}: area {:.12g} +- {:.2g}\n", static_cast<std::uint64_t>(cut.solid),
-                  cut.name, cut.area.area.value, cut.area.area.half_width);
+                  escape_controls(cut.name), cut.area.area.value, cut.area.area.half_width);
         }
         if (cuts.empty()) print("the plane cuts nothing\n");
     }

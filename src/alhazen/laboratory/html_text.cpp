@@ -1,12 +1,19 @@
 #include "alhazen/laboratory/html_text.h"
 
+#include <algorithm>
+
+#include "alhazen/base/control_characters.h"
 #include "alhazen/imaging/codecs/png.h"
 
 namespace alhazen {
 
 std::string html_escaped(std::string_view text) {
+    std::string blanked(text);
+    std::replace_if(
+        blanked.begin(), blanked.end(),
+        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
     std::string safe;
-    for (const char c : text) {
+    for (const char c : escape_controls(blanked)) {
         switch (c) {
             case '&':
                 safe += "&amp;";
@@ -21,7 +28,7 @@ std::string html_escaped(std::string_view text) {
                 safe += "&quot;";
                 break;
             default:
-                safe += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+                safe += c;
         }
     }
     return safe;

@@ -12,7 +12,8 @@
 
 namespace alhazen {
 
-/// Escapes text and double-quoted attributes; control characters become blanks.
+/// Escapes text and double-quoted attributes; control characters become blanks, bytes
+/// that are not UTF-8 are escaped as \x1b.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/scene_model/scene_description.h"
 
@@ -16,7 +17,7 @@ class UnsupportedParts {
         if (++count_ > kMostNamed) return;
         if (!list_.empty()) list_ += "; ";
         list_ += what;
-        if (!name.empty()) list_ += " '" + name + "'";
+        if (!name.empty()) list_ += " '" + escape_controls(name) + "'";
         if (where.line > 0) list_ += " (line " + std::to_string(where.line) + ")";
     }
 

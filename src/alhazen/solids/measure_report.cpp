@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/base/control_characters.h"
+
 namespace alhazen {
 
 namespace {
@@ -111,7 +113,7 @@ std::string inertia_text(const SolidMeasures& m, std::optional<double> density) 
 
 std::string solid_text(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
-    std::string out = fmt::format("{} {}\n", static_cast<std::uint64_t>(r.solid), r.name);
+    std::string out = fmt::format("{} {}\n", static_cast<std::uint64_t>(r.solid), escape_controls(r.name));
     const auto line = [&](const char* what, const std::string& value) {
         out += fmt::format("  {:<10}{}\n", what, value);
     };
@@ -157,8 +159,8 @@ std::string solid_text(const SolidReport& r) {
 }
 
 std::string pair_text(const PairReport& r) {
-    std::string out = fmt::format("{} {} and {} {}\n", static_cast<std::uint64_t>(r.a), r.name_a,
-                                  static_cast<std::uint64_t>(r.b), r.name_b);
+    std::string out = fmt::format("{} {} and {} {}\n", static_cast<std::uint64_t>(r.a), escape_controls(r.name_a),
+                                  static_cast<std::uint64_t>(r.b), escape_controls(r.name_b));
     if (r.overlap) {
         out += fmt::format("  overlap   {}{}\n", text_of(r.overlap->volume),
                            r.overlap->reached ? "" : " (the wanted error was not reached)");

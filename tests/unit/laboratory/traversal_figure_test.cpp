@@ -110,6 +110,7 @@ TEST(ConvexCorners, ACubeHasEightAndACutOneTen) {
 
 TEST(HtmlText, IsSafeAndBase64IsThatOfTheStandard) {
     EXPECT_EQ(html_escaped("<b a=\"1\">&\n"), "&lt;b a=&quot;1&quot;&gt;&amp; ");
+    EXPECT_EQ(html_escaped("a\xff\u00e9"), "a\\xff\u00e9");
     const auto encoded = [](std::string_view text) {
         return base64(std::as_bytes(std::span(text.data(), text.size())));
     };

@@ -167,13 +167,14 @@ void add_looks(Report& report, const json& info) {
                (m["double_sided"].get<bool>() ? "" : ", single-sided");
     });
     report.list("textures", info["textures"], [](const json& t) {
+        if (t.contains("solid")) return "solid, " + t["solid"].get<std::string>();
         return fmt::format("{} x {}, {} x {} bit, {}, {}", t["width"].get<int>(),
                            t["height"].get<int>(), t["channels"].get<int>(), t["bits"].get<int>(),
                            t["filter"].get<std::string>(), bytes_text(t["bytes"].get<double>()));
     });
     report.list("cameras", info["cameras"], [](const json& c) {
         const std::string extent =
-            c["kind"] == "perspective"
+            c.contains("fov_x_deg")
                 ? fmt::format("{:.4g} x {:.4g} degrees", c["fov_x_deg"].get<double>(),
                               c["fov_y_deg"].get<double>())
                 : fmt::format("{} x {}", number(c["width"]), number(c["height"]));
