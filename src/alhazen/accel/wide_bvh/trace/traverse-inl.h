@@ -19,6 +19,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
@@ -105,13 +106,26 @@ HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool fo
     return node.child[slot];
 }
 
-/// Pushes the children that are hit, the nearest last; returns the new height.
+/// Pushes the children that are hit, but for the nearest, the nearer later; returns the slot of the
+/// nearest. Of two that are entered at the same parameter the one of the higher slot is nearer.
+/// Precondition: at least two are hit.
 template <std::size_t W>
-HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit, const float* entry,
-                                   StackEntry* stack, std::size_t height) {
+HWY_INLINE std::size_t push_but_nearest(const WideNodeOf<W>& node, std::uint32_t hit,
+                                        const float* entry, StackEntry* stack,
+                                        std::size_t& height) {
     const std::size_t base = height;
-    for (; hit != 0; hit &= hit - 1) {
+    auto nearest = static_cast<std::size_t>(std::countr_zero(hit));
+    hit &= hit - 1;
+    auto other = static_cast<std::size_t>(std::countr_zero(hit));
+    if (entry[other] <= entry[nearest]) std::swap(nearest, other);
+    stack[height++] = {entry[other], node.child[other]};
+    for (hit &= hit - 1; hit != 0; hit &= hit - 1) {
         const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
+        if (entry[slot] <= entry[nearest]) {
+            stack[height++] = {entry[nearest], node.child[nearest]};
+            nearest = slot;
+            continue;
+        }
         const StackEntry child{entry[slot], node.child[slot]};
         std::size_t place = height++;
         while (place > base && stack[place - 1].is_nearer_than(child)) {
@@ -120,7 +134,7 @@ HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit,
         }
         stack[place] = child;
     }
-    return height;
+    return nearest;
 }
 
 /// Visits the leaves that the ray meets, nearest first if `kOrdered`, else in the order of slots,
@@ -163,15 +177,15 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 }
                 if constexpr (kOrdered) {
                     hit |= 1u << first | 1u << second;
-                    height = push_sorted(node, hit, entry, stack, height);
-                    ref = stack[--height].ref();
+                    ref =
+                        child_of(node, push_but_nearest(node, hit, entry, stack, height), follows);
                 } else {
                     hit |= 1u << second;
                     for (; hit != 0; hit &= ~(0x80000000u >> std::countl_zero(hit))) {
                         const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
                         stack[height++] = {entry[slot], node.child[slot]};
                     }
-                    ref = node.child[first];
+                    ref = child_of(node, first, follows);
                 }
                 continue;
             }
