@@ -23,12 +23,24 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// Whether a ray begins close to the one that this thread asked about before, whatever the tree.
+HWY_INLINE bool begins_near_last(const LocalFrame& frame, const Ray& ray) {
+    using D = Lanes<double, 4>;
+    constexpr double kNear = 0x1p-5;  // in the local frame, where the scene is 2 wide
+    alignas(32) static thread_local double last[4];
+    const D origin = load_unaligned<4>(&ray.origin.x);  // and a component of the direction
+    const D moved = abs(origin - load_lanes<4>(last));
+    store_lanes(origin, last);
+    return (bits_of(moved <= D(kNear * frame.inverse_scale)) & 7) == 7;
+}
+
+/// `follows`: as in `traverse`.
 template <std::size_t W, class Query, class Stats>
-HWY_INLINE bool run(Query& query, Stats stats) {
+HWY_INLINE bool run(Query& query, bool follows, Stats stats) {
     if (!query.valid) return false;
     const WideBvh& tree = query.scene.layout->tree;
-    const bool stopped =
-        traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root, query.slabs, query, stats);
+    const bool stopped = traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root, query.slabs,
+                                                   follows, query, stats);
     if constexpr (requires { query.finish(stats); }) query.finish(stats);
     return stopped;
 }

@@ -31,13 +31,15 @@ struct Kernels {
 
     static void closest(const WideBvhScene& scene, const Ray& ray, Hit& best,
                         TraversalStats* stats) {
+        const bool follows = begins_near_last(scene.layout->frame, ray);
         Closest query(scene, ray, best);
-        run<W>(query, policy(stats));
+        run<W>(query, follows, policy(stats));
     }
     static bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
         bool result = false;
+        const bool follows = begins_near_last(scene.layout->frame, ray);
         Occluded query(scene, ray, result);
-        return run<W>(query, policy(stats));
+        return run<W>(query, follows, policy(stats));
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
                          TraversalStats* stats) {
@@ -137,7 +139,7 @@ struct Kernels {
                                      std::vector<Hit>& hits, bool stops_at_opaque,
                                      TraversalStats* stats) {
         CollectQuery query(scene, ray, hits, stops_at_opaque);
-        return run<W>(query, policy(stats));
+        return run<W>(query, begins_near_last(scene.layout->frame, ray), policy(stats));
     }
     static HWY_INLINE Stats policy([[maybe_unused]] TraversalStats* stats) {
         if constexpr (Stats::kCounts) {

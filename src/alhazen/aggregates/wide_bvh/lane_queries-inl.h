@@ -80,8 +80,8 @@ class LaneLeaves : public LaneShapes<Derived> {
                 continue;
             }
             LoneRay<Derived> ray(scene_, packet_, i, derived());
-            (void)traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs, ray,
-                                              stats);
+            (void)traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs,
+                                              false, ray, stats);
         }
         if (in_turn_ == nullptr) derived().left();
     }

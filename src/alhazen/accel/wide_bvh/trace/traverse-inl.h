@@ -3,7 +3,7 @@
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
 /// Differs: slab test with all slack in the ray's constants (`SlabRay`); separate code for one and
-/// two children hit.
+/// two children hit; the next child by a jump that can be foreseen (`child_of`).
 /// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` has `bool visit(NodeRef,
 /// stats)`, which returns true to stop, and `float s_max`, the parameter up to which hits are
 /// searched; boxes that begin exactly there are visited.
@@ -19,6 +19,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "alhazen/accel/wide_bvh/nodes/wide_node.h"
 #include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
@@ -75,13 +76,56 @@ class StackEntry {
     std::uint64_t bits_;
 };
 
-/// Pushes the children that are hit, the nearest last; returns the new height.
+/// The child of a slot. `follows`: by a jump to the load of each slot. A processor that foresees
+/// the jump, because the rays before took it, fetches the child before the boxes are tested; one
+/// that does not loses the time of a branch.
 template <std::size_t W>
-HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit, const float* entry,
-                                   StackEntry* stack, std::size_t height) {
+HWY_INLINE NodeRef child_of(const WideNodeOf<W>& node, std::size_t slot, bool follows) {
+    if constexpr (W == 8) {
+        if (follows) {
+            switch (slot) {
+                case 0:
+                    return node.child[0];
+                case 1:
+                    return node.child[1];
+                case 2:
+                    return node.child[2];
+                case 3:
+                    return node.child[3];
+                case 4:
+                    return node.child[4];
+                case 5:
+                    return node.child[5];
+                case 6:
+                    return node.child[6];
+                default:
+                    return node.child[7];
+            }
+        }
+    }
+    return node.child[slot];
+}
+
+/// Pushes the children that are hit, but for the nearest, the nearer later; returns the slot of the
+/// nearest. Of two that are entered at the same parameter the one of the higher slot is nearer.
+/// Precondition: at least two are hit.
+template <std::size_t W>
+HWY_INLINE std::size_t push_but_nearest(const WideNodeOf<W>& node, std::uint32_t hit,
+                                        const float* entry, StackEntry* stack,
+                                        std::size_t& height) {
     const std::size_t base = height;
-    for (; hit != 0; hit &= hit - 1) {
+    auto nearest = static_cast<std::size_t>(std::countr_zero(hit));
+    hit &= hit - 1;
+    auto other = static_cast<std::size_t>(std::countr_zero(hit));
+    if (entry[other] <= entry[nearest]) std::swap(nearest, other);
+    stack[height++] = {entry[other], node.child[other]};
+    for (hit &= hit - 1; hit != 0; hit &= hit - 1) {
         const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
+        if (entry[slot] <= entry[nearest]) {
+            stack[height++] = {entry[nearest], node.child[nearest]};
+            nearest = slot;
+            continue;
+        }
         const StackEntry child{entry[slot], node.child[slot]};
         std::size_t place = height++;
         while (place > base && stack[place - 1].is_nearer_than(child)) {
@@ -90,14 +134,15 @@ HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit,
         }
         stack[place] = child;
     }
-    return height;
+    return nearest;
 }
 
 /// Visits the leaves that the ray meets, nearest first if `kOrdered`, else in the order of slots,
-/// until `leaf.visit` returns true; returns whether it did.
+/// until `leaf.visit` returns true; returns whether it did. `follows`: the ray probably
+/// takes the way of the one before it.
 template <bool kOrdered, std::size_t W, class Leaf, class Stats>
-HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, Leaf& leaf,
-                         Stats stats) {
+HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, bool follows,
+                         Leaf& leaf, Stats stats) {
     StackEntry stack[kTraversalStackSize<W>];
     std::size_t height = 0;
     NodeRef ref = root;
@@ -116,7 +161,7 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                 const auto first = static_cast<std::size_t>(std::countr_zero(hit));
                 hit &= hit - 1;
                 if (hit == 0) {
-                    ref = node.child[first];
+                    ref = child_of(node, first, follows);
                     continue;
                 }
                 HWY_ALIGN float entry[W];
@@ -127,20 +172,20 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
                     const bool swap = kOrdered && entry[second] < entry[first];
                     const std::size_t later = swap ? first : second;
                     stack[height++] = {entry[later], node.child[later]};
-                    ref = node.child[swap ? second : first];
+                    ref = child_of(node, swap ? second : first, follows);
                     continue;
                 }
                 if constexpr (kOrdered) {
                     hit |= 1u << first | 1u << second;
-                    height = push_sorted(node, hit, entry, stack, height);
-                    ref = stack[--height].ref();
+                    ref =
+                        child_of(node, push_but_nearest(node, hit, entry, stack, height), follows);
                 } else {
                     hit |= 1u << second;
                     for (; hit != 0; hit &= ~(0x80000000u >> std::countl_zero(hit))) {
                         const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
                         stack[height++] = {entry[slot], node.child[slot]};
                     }
-                    ref = node.child[first];
+                    ref = child_of(node, first, follows);
                 }
                 continue;
             }

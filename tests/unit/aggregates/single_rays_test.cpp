@@ -1,0 +1,75 @@
+// A single ray that begins near the one before it takes the children of nodes by jumps, another by
+// their slots: the hits and the work are the same.
+
+#include <gtest/gtest.h>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/simd/targets.h"
+#include "unit/aggregates/compare_aggregates.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace testing;
+
+/// The nearest hits and the occlusion of rays, asked one by one, and the work.
+struct Sequence {
+    std::vector<Hit> hits;
+    std::vector<bool> occluded;
+    TraversalStats nearest, any;
+};
+/// With a ray from far away before each query, unless the rays are to follow one another.
+Sequence ask_one_by_one(const Aggregate& tested, const std::vector<Ray>& rays, bool follow) {
+    const auto go_away = [&](TraversalStats* stats) {
+        const Ray far{{9, 9, 9}, {1, 0, 0}, 0, 1};
+        if (follow) return;
+        ASSERT_FALSE(tested.occluded(far, stats));
+    };
+    Sequence answers;
+    TraversalStats skipped;
+    for (const Ray& ray : rays) {
+        Hit hit, counted;
+        go_away(nullptr);
+        (void)tested.closest(ray, hit, nullptr);
+        answers.hits.push_back(hit);
+        go_away(nullptr);
+        answers.occluded.push_back(tested.occluded(ray, nullptr));
+        go_away(&skipped);
+        (void)tested.closest(ray, counted, &answers.nearest);
+        go_away(&skipped);
+        (void)tested.occluded(ray, &answers.any);
+    }
+    return answers;
+}
+
+TEST(SingleRays, RaysThatFollowOneAnotherDoAndHitWhatOthersDo) {
+    const PrimitiveTable table = random_triangles(600, 1, 0.3, 51);
+    const auto list = make_aggregate("list", table);
+    std::vector<Ray> rays;
+    RandomEngine random(52);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 origin = Vec3{1.5, 0.2, -0.1} + uniform_point(random, 1e-3);
+        rays.push_back({origin, uniform_point(random, 1) - origin});
+    }
+    const Sequence expected = ask_one_by_one(*list, rays, true);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tested = make_aggregate("wide_bvh", table);
+        const Sequence near = ask_one_by_one(*tested, rays, true);
+        const Sequence apart = ask_one_by_one(*tested, rays, false);
+        EXPECT_EQ(near.occluded, expected.occluded) << target;
+        EXPECT_EQ(apart.occluded, expected.occluded) << target;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_TRUE(same(near.hits[i], expected.hits[i])) << target << ": " << show(rays[i]);
+            ASSERT_TRUE(same(apart.hits[i], expected.hits[i])) << target << ": " << show(rays[i]);
+        }
+        for (const auto work : {&Sequence::nearest, &Sequence::any}) {
+            EXPECT_GT((near.*work).node_visits, rays.size()) << target;
+            EXPECT_EQ((near.*work).node_visits, (apart.*work).node_visits) << target;
+            EXPECT_EQ((near.*work).primitive_tests, (apart.*work).primitive_tests) << target;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
