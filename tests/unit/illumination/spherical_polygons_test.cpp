@@ -40,9 +40,9 @@ TEST(SphericalPolygons, ARectangleIsTwoTriangles) {
 }
 
 /// The solid angle of the rectangle from x0 to x1 and y0 to y1 at a height.
-long double solid_angle(double x0, double x1, double y0, double y1, double height) {
+long double solid_angle(double x0, double x1, double y0, double y1, long double height) {
     const auto from_foot = [&](long double x, long double y) {
-        const long double distance = std::sqrt(x * x + y * y + (long double){height} * height);
+        const long double distance = std::sqrt(x * x + y * y + height * height);
         return std::atan2(x * y, height * distance);
     };
     return from_foot(x1, y1) - from_foot(x0, y1) - from_foot(x1, y0) + from_foot(x0, y0);
