@@ -23,7 +23,7 @@ import tempfile
 MODULES = {
     "base": [],
     "math": ["base"],
-    "simd": ["base"],
+    "simd": ["math"],
     "parallel": ["base"],
     "sampling": ["math"],
     "geometry": ["math"],

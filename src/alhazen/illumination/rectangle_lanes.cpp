@@ -8,8 +8,8 @@
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
 #include "alhazen/math/constants.h"
+#include "alhazen/simd/angles-inl.h"
 #include "alhazen/simd/lane_vectors-inl.h"
-#include "alhazen/simd/trigonometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -27,11 +27,6 @@ template <std::size_t N>
 HWY_INLINE Lanes<double, N> larger(const Lanes<double, N>& a, const Lanes<double, N>& b) {
     return select_lanes(a < b, b, a);
 }
-template <std::size_t N>
-HWY_INLINE Lanes<double, N> root_of_sum(const Lanes<double, N>& a, const Lanes<double, N>& b) {
-    return sqrt(a * a + b * b);
-}
-
 /// Sets the lanes of `to` that are in `lanes`.
 template <std::size_t N>
 HWY_INLINE void set_lanes(const LaneMask<double, N>& lanes, const Lanes<double, N>& from,
@@ -45,7 +40,7 @@ HWY_INLINE void draw_rectangles(std::uint32_t lanes, const LightCallLanes& calls
                                 RectangleLanes::Numbers& n, LightDrawLanes& results) {
     using D = Lanes<double, N>;
     using Vectors = VectorLanes<N>;
-    const D one(1.0), zero(0.0), minus_one(-1.0);
+    const D one(1.0), zero(0.0);
     const Vectors corner = load_vectors<N>(n.corner) - load_vectors<N>(calls.at.point);
     // `is_sampled_by_area`.
     const D height_above = dot(corner, load_vectors<N>(n.normal));
@@ -63,31 +58,37 @@ HWY_INLINE void draw_rectangles(std::uint32_t lanes, const LightCallLanes& calls
     z0 = select_lanes(turned, -z0, z0);
     // A rectangle edge on is sampled by `sample`; -1 avoids a division by 0 in its lane.
     const auto before = (z0 < zero) & !by_area;
-    z0 = select_lanes(before, z0, minus_one);
+    z0 = select_lanes(before, z0, D(-1.0));
     const D x0 = dot(corner, axis_x), y0 = dot(corner, axis_y);
     const D x1 = x0 + load_lanes<N>(n.width), y1 = y0 + load_lanes<N>(n.height);
-    const auto across = [&](const D& a) { return one / root_of_sum(a, z0); };
-    const D z_of_0 = -y0 * across(y0), z_of_1 = x1 * across(x1);
-    const D z_of_2 = y1 * across(y1), z_of_3 = -x0 * across(x0);
-    const auto product = [&](const D& a, const D& b) { return clamped(-a * b, minus_one, one); };
-    const D cosines[4] = {product(z_of_0, z_of_1), product(z_of_1, z_of_2), product(z_of_2, z_of_3),
-                          product(z_of_3, z_of_0)};
-    D g[4];
-    acos_of_lanes(cosines, g);
-    const D k = D(2.0 * kPi) - g[2] - g[3];
-    const D solid_angle = larger(zero, g[0] + g[1] - k);
+    const D unit = one / -z0;
+    const D ux0 = x0 * unit, ux1 = x1 * unit, uy0 = y0 * unit, uy1 = y1 * unit;
+    const D xx0 = ux0 * ux0, xx1 = ux1 * ux1, yy0 = one + uy0 * uy0, yy1 = one + uy1 * uy1;
+    const D w0 = sqrt(yy0), w1 = sqrt(yy1);
+    const D r00 = sqrt(xx0 + yy0), r01 = sqrt(xx0 + yy1);
+    const D r10 = sqrt(xx1 + yy0), r11 = sqrt(xx1 + yy1);
+    const D yy = uy0 * uy1, size = one / ((one + xx0) * (w0 * w1));
+    const D start_cosine = (xx0 * yy + r00 * r01) * size;
+    const D start_sine = ux0 * (uy1 * r00 - uy0 * r01) * size;
+    const D end_x = xx1 * yy + r10 * r11, end_y = ux1 * (uy1 * r10 - uy0 * r11);
+    const D sine_of_all = end_y * start_cosine - end_x * start_sine;
+    const D angle = angle_from_axis(sine_of_all, end_x * start_cosine + end_y * start_sine);
+    const LaneMask<double, N> is_reflex = (end_y > zero) & (start_sine < zero);
+    const D reflex = select_lanes(is_reflex, D(2.0 * kPi) - angle, zero);
+    const D solid_angle = select_lanes(sine_of_all < zero, reflex, angle);
 
-    const D au = load_lanes<N>(calls.u[0]) * solid_angle + k;
-    const SineCosine<N> of_au = sine_cosine_of_lanes(au);
-    const D fu = (of_au.cosine * z_of_0 - z_of_2) / of_au.sine;
-    const D cu = clamped(copysign(one, fu) / sqrt(fu * fu + z_of_0 * z_of_0), minus_one, one);
-    const D x = clamped(-(cu * z0) / sqrt(larger(zero, one - cu * cu)), x0, x1);
-    const D d = root_of_sum(x, z0);
-    const D h0 = y0 / root_of_sum(d, y0), h1 = y1 / root_of_sum(d, y1);
+    const SineCosine<N> share = sine_cosine_at(load_lanes<N>(calls.u[0]) * solid_angle);
+    const D sine = start_sine * share.cosine + start_cosine * share.sine;
+    const D cosine = start_cosine * share.cosine - start_sine * share.sine;
+    const D p = w0 * uy1 - w1 * uy0 * cosine, q = w1 * sine;
+    const D rest_of_x = larger(D(SphericalRectangle::kTiny), (p - q) * (p + q));
+    const D x = clamped(w0 * q / sqrt(rest_of_x) * -z0, x0, x1);
+    const D d = x * x + z0 * z0;
+    const D h0 = y0 / sqrt(d + y0 * y0), h1 = y1 / sqrt(d + y1 * y1);
     const D h = h0 + load_lanes<N>(calls.u[1]) * (h1 - h0), rest = one - h * h;
     const LaneMask<double, N> inner = rest > D(1e-14);
-    const D root = sqrt(select_lanes(inner, rest, one));
-    const D y = select_lanes(inner, clamped(h * d / root, y0, y1), y1);
+    const D y =
+        select_lanes(inner, clamped(h * sqrt(d / select_lanes(inner, rest, one)), y0, y1), y1);
     const Vectors offset = x * axis_x + y * axis_y + z0 * axis_z;
     const D distance = sqrt(dot(offset, offset)), density = one / solid_angle;
 

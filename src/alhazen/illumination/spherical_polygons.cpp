@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/math/angles.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
@@ -17,11 +18,6 @@ Vec3 beside(const Vec3& v, const Vec3& axis) {
 
 double root_of_rest(double cosine) {
     return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-}
-
-/// sqrt(a^2 + b^2), without protection from overflow and underflow.
-double root_of_sum(double a, double b) {
-    return std::sqrt(a * a + b * b);
 }
 
 }  // namespace
@@ -76,31 +72,41 @@ SphericalRectangle::SphericalRectangle(const Vec3& corner, const RectangleSides&
     x1_ = x0_ + sides.width;
     y1_ = y0_ + sides.height;
     if (!(z0_ < 0.0)) return;
-    // Normals of the planes through the sides, in the local frame; only these parts matter.
-    const auto across = [&](double a) { return 1.0 / root_of_sum(a, z0_); };
-    const double n0 = across(y0_), n1 = across(x1_), n2 = across(y1_), n3 = across(x0_);
-    // Normals: n0 = (0, z0, -y0), n1 = (-z0, 0, x1), n2 = (0, -z0, y1), n3 = (z0, 0, -x0).
-    const double z_of_0 = -y0_ * n0, z_of_1 = x1_ * n1, z_of_2 = y1_ * n2, z_of_3 = -x0_ * n3;
-    const auto angle = [](double a, double b) { return std::acos(std::clamp(-a * b, -1.0, 1.0)); };
-    const double g0 = angle(z_of_0, z_of_1), g1 = angle(z_of_1, z_of_2);
-    const double g2 = angle(z_of_2, z_of_3), g3 = angle(z_of_3, z_of_0);
-    b0_ = z_of_0;
-    b1_ = z_of_2;
-    k_ = 2.0 * kPi - g2 - g3;
-    solid_angle_ = std::max(0.0, g0 + g1 - k_);
+    // In units of the height: the rectangle is in the plane z = -1.
+    const double unit = 1.0 / -z0_;
+    const double x0 = x0_ * unit, x1 = x1_ * unit, y0 = y0_ * unit, y1 = y1_ * unit;
+    const double xx0 = x0 * x0, xx1 = x1 * x1, yy0 = 1.0 + y0 * y0, yy1 = 1.0 + y1 * y1;
+    w0_ = std::sqrt(yy0);
+    w1_ = std::sqrt(yy1);
+    w0_y1_ = w0_ * y1;
+    w1_y0_ = w1_ * y0;
+    // Distances of the corners.
+    const double r00 = std::sqrt(xx0 + yy0), r01 = std::sqrt(xx0 + yy1);
+    const double r10 = std::sqrt(xx1 + yy0), r11 = std::sqrt(xx1 + yy1);
+    // The solid angle from x = 0 to x0, as a unit vector, and to x1, as a vector.
+    const double yy = y0 * y1, size = 1.0 / ((1.0 + xx0) * (w0_ * w1_));
+    start_ = {(xx0 * yy + r00 * r01) * size, x0 * (y1 * r00 - y0 * r01) * size};
+    const Vec2 end{xx1 * yy + r10 * r11, x1 * (y1 * r10 - y0 * r11)};
+    const double sine = end.y * start_.x - end.x * start_.y;
+    const double angle = angle_from_axis(sine, end.x * start_.x + end.y * start_.y);
+    // Above pi the parts on both sides of x = 0 add up; otherwise the sine is negative by rounding.
+    const double reflex = end.y > 0.0 && start_.y < 0.0 ? 2.0 * kPi - angle : 0.0;
+    solid_angle_ = sine < 0.0 ? reflex : angle;
 }
 
 Vec3 SphericalRectangle::point(const Vec2& u) const {
-    const double au = u.x * solid_angle_ + k_;
-    const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
-    const double cu =
-        std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + b0_ * b0_), -1.0, 1.0);
-    const double x = std::clamp(-(cu * z0_) / root_of_rest(cu), x0_, x1_);
-    const double d = root_of_sum(x, z0_);
-    const double h0 = y0_ / root_of_sum(d, y0_), h1 = y1_ / root_of_sum(d, y1_);
+    // The solid angle from x = 0 to x.
+    const Vec2 share = direction_at(u.x * solid_angle_);
+    const double sine = start_.y * share.x + start_.x * share.y;
+    const double cosine = start_.x * share.x - start_.y * share.y;
+    const double p = w0_y1_ - w1_y0_ * cosine, q = w1_ * sine;
+    const double rest_of_x = std::max(kTiny, (p - q) * (p + q));
+    const double x = std::clamp(w0_ * q / std::sqrt(rest_of_x) * -z0_, x0_, x1_);
+    const double d = x * x + z0_ * z0_;
+    const double h0 = y0_ / std::sqrt(d + y0_ * y0_), h1 = y1_ / std::sqrt(d + y1_ * y1_);
     const double h = h0 + u.y * (h1 - h0);
     const double rest = 1.0 - h * h;
-    const double y = rest > 1e-14 ? std::clamp(h * d / std::sqrt(rest), y0_, y1_) : y1_;
+    const double y = rest > 1e-14 ? std::clamp(h * std::sqrt(d / rest), y0_, y1_) : y1_;
     return x * x_ + y * y_ + z0_ * z_;
 }
 

@@ -5,9 +5,12 @@
 /// Eng. 30(2), 1983; Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995; Urena,
 /// Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013.
 /// Differs: the sine and cosine of the angle of a triangle come from the products of its corners.
-/// Conventions: corners are relative to the point of view; `solid_angle` is 0 for degenerate
-/// polygons and those seen edge on. Exact up to rounding for solid angles above about 1e-6; smaller
-/// ones should be sampled by area. Either side may face the point.
+/// The solid angle of a rectangle is the angle of a product of complex numbers, one for each
+/// corner: that of the part between x = 0 and a corner (x, y) is the angle of (distance, x y), in
+/// units of the height. Its sine and cosine, not those of the angles at the corners, determine a
+/// point. Conventions: corners are relative to the point of view; `solid_angle` is 0 for degenerate
+/// polygons and those seen edge on; its error is about 1e-15. Solid angles below about 1e-6 should
+/// be sampled by area. Either side may face the point.
 /// Threads: const functions may be called from many.
 
 #include <array>
@@ -47,10 +50,16 @@ class SphericalRectangle {
     /// The point for `u` in the unit square, relative to the point of view.
     [[nodiscard]] Vec3 point(const Vec2& u) const;
 
+    /// Instead of squares that vanish by rounding.
+    static constexpr double kTiny = 1e-300;
+
   private:
-    Vec3 x_, y_, z_;                  ///< unit; the rectangle is in the plane z = z0 < 0
-    double x0_, x1_, y0_, y1_, z0_;   ///< of the rectangle
-    double b0_ = 0, b1_ = 0, k_ = 0;  ///< as in the paper
+    Vec3 x_, y_, z_;                 ///< unit; the rectangle is in the plane z = z0 < 0
+    double x0_, x1_, y0_, y1_, z0_;  ///< of the rectangle
+    Vec2 start_;  ///< cosine and sine of the solid angle from x = 0 to x0; negative for x0 < 0
+    /// In units of the height: distances of the points (0, y0) and (0, y1), and each times the
+    /// other y.
+    double w0_ = 0, w1_ = 0, w0_y1_ = 0, w1_y0_ = 0;
     double solid_angle_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/illumination/emitter.h"
@@ -34,8 +35,56 @@ TEST(SphericalPolygons, ARectangleIsTwoTriangles) {
         const double two = SphericalTriangle(corner, corner + u, corner + u + v).solid_angle() +
                            SphericalTriangle(corner, corner + u + v, corner + v).solid_angle();
         const double one = rectangle(corner, u, v).solid_angle();
-        // Of one seen nearly edge on the angles cancel: to 10^-7 sr.
-        EXPECT_NEAR(one, two, 1e-7) << i;
+        EXPECT_NEAR(one, two, 1e-13) << i;
+    }
+}
+
+/// The solid angle of the rectangle from x0 to x1 and y0 to y1 at a height.
+long double solid_angle(double x0, double x1, double y0, double y1, long double height) {
+    const auto from_foot = [&](long double x, long double y) {
+        const long double distance = std::sqrt(x * x + y * y + height * height);
+        return std::atan2(x * y, height * distance);
+    };
+    return from_foot(x1, y1) - from_foot(x0, y1) - from_foot(x1, y0) + from_foot(x0, y0);
+}
+
+TEST(SphericalPolygons, SolidAnglesOfRectanglesAreExactFromEverywhere) {
+    Random random(4);
+    double largest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        // Seen from far and near, nearly edge on, and from points that almost touch it.
+        const double height = random.log_uniform(1e-8, 100);
+        const double width = random.log_uniform(1e-3, 3), depth = random.log_uniform(1e-3, 3);
+        const double x = -width * random.uniform(-2, 3), y = -depth * random.uniform(-2, 3);
+        const SphericalRectangle seen({x, y, -height},
+                                      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, width, depth});
+        const long double exact = solid_angle(x, x + width, y, y + depth, height);
+        EXPECT_NEAR(seen.solid_angle(), static_cast<double>(exact), 4e-15) << i;
+        largest = std::max(largest, seen.solid_angle());
+    }
+    EXPECT_GT(largest, 2 * kPi - 1e-3);
+}
+
+TEST(SphericalPolygons, TheFirstNumberIsTheShareOfARectangleBeforeTheDraw) {
+    Random random(7);
+    for (int i = 0; i < 20000; ++i) {
+        const double height = random.log_uniform(1e-3, 10);
+        const double width = random.log_uniform(0.1, 3), depth = random.log_uniform(0.1, 3);
+        const double x = -width * random.uniform(-1, 2), y = -depth * random.uniform(-1, 2);
+        const SphericalRectangle seen({x, y, -height},
+                                      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, width, depth});
+        if (!(seen.solid_angle() > kLeastSolidAngle)) continue;
+        const Vec2 u{random.uniform(0, 1), random.uniform(0, 1)};
+        const Vec3 drawn = seen.point(u);
+        const long double before = solid_angle(x, drawn.x, y, y + depth, height);
+        EXPECT_NEAR(static_cast<double>(before / seen.solid_angle()), u.x, 1e-7) << i;
+        // The second is that of the height over the plane of the first.
+        const auto rise = [&](double at) {
+            return at / std::sqrt(drawn.x * drawn.x + height * height + at * at);
+        };
+        const double share = (rise(drawn.y) - rise(y)) / (rise(y + depth) - rise(y));
+        EXPECT_NEAR(share, u.y, 1e-7) << i;
+        EXPECT_EQ(drawn.z, -height);
     }
 }
 

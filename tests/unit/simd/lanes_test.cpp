@@ -1,5 +1,5 @@
 // Lanes have the bits of the scalar code on every instruction set: operators, triangle and sphere,
-// arc cosine, sine and cosine.
+// angles and points of the unit circle.
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 
 #include "alhazen/geometry/sphere_roots.h"
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/math/angles.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/simd/dispatch.h"
 #include "alhazen/simd/targets.h"
@@ -22,9 +23,9 @@
 #define HWY_TARGET_INCLUDE "unit/simd/lanes_test.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // Must follow foreach_target.h.
+#include "alhazen/simd/angles-inl.h"
 #include "alhazen/simd/lane_rows-inl.h"
 #include "alhazen/simd/lanes-inl.h"
-#include "alhazen/simd/trigonometry-inl.h"
 
 #ifndef ALHAZEN_LANES_TEST_ONCE
 #define ALHAZEN_LANES_TEST_ONCE
@@ -152,31 +153,22 @@ HWY_INLINE void store_blocks(const Lanes<double, 16>& a, double* first, double* 
     store_lanes(load_lanes(both + 8), second);
 }
 
-void arc_cosine(Case& c) {
-    const Doubles x = load_lanes(c.in[0]), all[4] = {x, -x, x * Doubles(0.5), x};
-    Doubles found[4];
-    acos_of_lanes(all, found);
-    for (std::size_t i = 0; i < 4; ++i) store_lanes(found[i], c.out[i]);
-    using D = Lanes<double, 16>;
-    const D wide = two_blocks(c.in[0], -0.5), all_wide[4] = {wide, -wide, wide * D(0.5), wide};
-    D found_wide[4];
-    acos_of_lanes(all_wide, found_wide);
-    for (std::size_t i = 0; i < 4; ++i) store_blocks(found_wide[i], c.out[4 + i], c.out[8 + i]);
-}
-
-void arc_tangent(Case& c) {
-    store_lanes(atan2_of_lanes(load_lanes(c.in[0]), load_lanes(c.in[1])), c.out[0]);
-    store_blocks(atan2_of_lanes(two_blocks(c.in[0], 0.25), two_blocks(c.in[1], -0.5)), c.out[1],
+void angle(Case& c) {
+    store_lanes(angle_from_axis(load_lanes(c.in[0]), load_lanes(c.in[1])), c.out[0]);
+    store_blocks(angle_from_axis(two_blocks(c.in[0], 0.25), two_blocks(c.in[1], -0.5)), c.out[1],
                  c.out[2]);
 }
 
-void sine_cosine(Case& c) {
-    const SineCosine found = sine_cosine_of_lanes(load_lanes(c.in[0]));
-    store_lanes(found.sine, c.out[0]);
-    store_lanes(found.cosine, c.out[1]);
-    const SineCosine wide = sine_cosine_of_lanes(two_blocks(c.in[0], 0.5));
-    store_blocks(wide.sine, c.out[2], c.out[4]);
-    store_blocks(wide.cosine, c.out[3], c.out[5]);
+void direction(Case& c) {
+    const SineCosine at = sine_cosine_at(load_lanes(c.in[0]));
+    store_lanes(at.cosine, c.out[0]);
+    store_lanes(at.sine, c.out[1]);
+    const SineCosine wide = sine_cosine_at(two_blocks(c.in[0], 0.5));
+    store_blocks(wide.cosine, c.out[2], c.out[4]);
+    store_blocks(wide.sine, c.out[3], c.out[5]);
+    const SineCosine after = sine_cosine_after(load_lanes(c.in[0]) * Doubles(0.125));
+    store_lanes(after.cosine, c.out[6]);
+    store_lanes(after.sine, c.out[7]);
 }
 
 }  // namespace
@@ -192,9 +184,8 @@ ALHAZEN_KERNEL_TABLE(operators);
 ALHAZEN_KERNEL_TABLE(triangle);
 ALHAZEN_KERNEL_TABLE(sphere);
 ALHAZEN_KERNEL_TABLE(turn_rows);
-ALHAZEN_KERNEL_TABLE(arc_cosine);
-ALHAZEN_KERNEL_TABLE(arc_tangent);
-ALHAZEN_KERNEL_TABLE(sine_cosine);
+ALHAZEN_KERNEL_TABLE(angle);
+ALHAZEN_KERNEL_TABLE(direction);
 
 using lanes_test::Case;
 using lanes_test::kInputs;
@@ -429,73 +420,33 @@ void compare_numbers(const std::vector<double>& all, std::size_t outputs, const 
     }
 }
 
-TEST(Lanes, ArcCosinesHaveTheBitsOfTheLibrary) {
-    compare_numbers(
-        numbers(-1, 1, {-1, -0.5, 0, 0.5, 1}), 12,
+TEST(Lanes, AnglesHaveTheBitsOfTheScalar) {
+    compare(
+        3,
         [](Case& c) {
-            ALHAZEN_KERNEL(arc_cosine)
+            ALHAZEN_KERNEL(angle)
             (c);
         },
-        [](double x) {
-            Scalar result{};
-            const double arguments[] = {x, -0.5 * x};
-            for (std::size_t block = 0; block < 3; ++block) {
-                const double of = arguments[block / 2];
-                const double of_all[] = {of, -of, 0.5 * of, of};
-                for (std::size_t i = 0; i < 4; ++i) result[4 * block + i] = std::acos(of_all[i]);
-            }
-            return result;
-        });
-}
-
-Scalar arc_tangents_of(double y, double x) {
-    return Scalar{std::atan2(y, x), std::atan2(y, x), std::atan2(0.25 * y, -0.5 * x)};
-}
-
-TEST(Lanes, ArcTangentsHaveTheBitsOfTheLibrary) {
-    const auto kernel = [](Case& c) {
-        ALHAZEN_KERNEL(arc_tangent)
-        (c);
-    };
-    compare(
-        3, kernel, [](const double* in) { return arc_tangents_of(in[0], in[1]); },
+        [](const double* in) {
+            return Scalar{angle_from_axis(in[0], in[1]), angle_from_axis(in[0], in[1]),
+                          angle_from_axis(0.25 * in[0], -0.5 * in[1])};
+        },
         [](std::size_t, double a, double b) { return same(a, b); });
-    // Near to the multiples of a quarter, between which the arc tangent is interpolated, and near
-    // to the ends of their ranges.
-    std::vector<double> special;
-    for (int eighth = -9; eighth <= 9; ++eighth) special.push_back(0.125 * eighth);
-    for (const double x : {1.0, -1.0, 0.75}) {
-        compare_numbers(
-            numbers(-1.25, 1.25, special), 3,
-            [&](Case& c) {
-                std::fill_n(c.in[1], 8, x);
-                kernel(c);
-            },
-            [&](double y) { return arc_tangents_of(y, x); });
-        compare_numbers(
-            numbers(-1.25, 1.25, special), 3,
-            [&](Case& c) {
-                std::copy_n(c.in[0], 8, c.in[1]);
-                std::fill_n(c.in[0], 8, x);
-                kernel(c);
-                std::copy_n(c.in[1], 8, c.in[0]);
-            },
-            [&](double other) { return arc_tangents_of(x, other); });
-    }
 }
 
-TEST(Lanes, SinesAndCosinesHaveTheBitsOfTheLibrary) {
+TEST(Lanes, DirectionsHaveTheBitsOfTheScalar) {
     std::vector<double> special;
     for (int eighth = 0; eighth <= 8; ++eighth) special.push_back(0.25 * kPi * eighth);
     compare_numbers(
-        numbers(0, 7, special), 6,
+        numbers(0, 7, special), 8,
         [](Case& c) {
-            ALHAZEN_KERNEL(sine_cosine)
+            ALHAZEN_KERNEL(direction)
             (c);
         },
         [](double x) {
-            return Scalar{std::sin(x), std::cos(x),       std::sin(x),
-                          std::cos(x), std::sin(0.5 * x), std::cos(0.5 * x)};
+            const Vec2 whole = direction_at(x), half = direction_at(0.5 * x);
+            const Vec2 after = direction_after(0.125 * x);
+            return Scalar{whole.x, whole.y, whole.x, whole.y, half.x, half.y, after.x, after.y};
         });
 }
 

@@ -7,8 +7,7 @@
 #define HWY_TARGET_INCLUDE "alhazen/renderers/light_transport/matt_directions.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/math/constants.h"
-#include "alhazen/simd/trigonometry-inl.h"
+#include "alhazen/simd/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -22,7 +21,7 @@ void matt_directions_of_target(std::span<const Vec2> u, Vec3* directions) {
         y[i] = u[i].y;
     }
     const Doubles share = load_lanes(x), radius = sqrt(share);
-    const SineCosine angle = sine_cosine_of_lanes(Doubles(2.0 * kPi) * load_lanes(y));
+    const SineCosine angle = sine_cosine_after(load_lanes(y));
     store_lanes(radius * angle.cosine, x);
     store_lanes(radius * angle.sine, y);
     store_lanes(sqrt(Doubles(1.0) - share), z);

@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "alhazen/math/constants.h"
+#include "alhazen/simd/angles-inl.h"
 #include "alhazen/simd/lane_vectors-inl.h"
-#include "alhazen/simd/trigonometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -52,7 +52,7 @@ struct GgxLanes {
                                                            const D& u1) const {
         const D zero(0.0), one(1.0);
         const VectorLanes<N> s = VectorLanes<N>{x * v.x, y * v.y, v.z} / stretched_length(v);
-        const SineCosine<N> angle = sine_cosine_of_lanes(D(2.0 * kPi) * u0);
+        const SineCosine<N> angle = sine_cosine_after(u0);
         const D z = (one - u1) * (one + s.z) - s.z, rest = one - z * z;
         const D radius = sqrt(select_lanes(zero < rest, rest, zero));
         const VectorLanes<N> h = VectorLanes<N>{radius * angle.cosine, radius * angle.sine, z} + s;

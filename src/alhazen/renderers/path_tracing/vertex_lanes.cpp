@@ -10,8 +10,8 @@
 #include "alhazen/math/constants.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/primitives/surface.h"
+#include "alhazen/simd/angles-inl.h"
 #include "alhazen/simd/lane_vectors-inl.h"
-#include "alhazen/simd/trigonometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -102,7 +102,7 @@ HWY_INLINE void scatter(const LightDrawLanes& lights, VertexLanes& v) {
 
     // cosine_direction.
     const D share = load_lanes<N>(v.u[0]), radius = sqrt(share);
-    const SineCosine<N> angle = sine_cosine_of_lanes(D(2.0 * kPi) * load_lanes<N>(v.u[1]));
+    const SineCosine<N> angle = sine_cosine_after(load_lanes<N>(v.u[1]));
     const Vectors next{radius * angle.cosine, radius * angle.sine, sqrt(one - share)};
     const D density = cosine_density(next.z);
     v.sampled = v.used & bits_of(seen);

@@ -7,11 +7,9 @@
 #define HWY_TARGET_INCLUDE "alhazen/shading/lights/direction_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include <cmath>
-
 #include "alhazen/math/constants.h"
+#include "alhazen/simd/angles-inl.h"
 #include "alhazen/simd/lane_vectors-inl.h"
-#include "alhazen/simd/trigonometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -21,21 +19,23 @@ namespace direction_lanes {
 template <std::size_t N>
 HWY_INLINE void find_places(DirectionLanes& d) {
     using D = Lanes<double, N>;
-    const D angle = atan2_of_lanes(load_lanes<N>(d.x), load_lanes<N>(d.y));
-    store_lanes(D(0.5) + angle / D(2.0 * kPi), d.column);
-    const D below = atan2_of_lanes(load_lanes<N>(d.across), load_lanes<N>(d.z));
+    const D x = load_lanes<N>(d.x), y = load_lanes<N>(d.y);
+    const D longitude = copysign(angle_from_axis(x, y), x);
+    store_lanes(D(0.5) + longitude / D(2.0 * kPi), d.column);
+    const D below = angle_from_axis(sqrt(x * x + y * y), load_lanes<N>(d.z));
     store_lanes(below / D(kPi), d.row);
 }
 
 template <std::size_t N>
 HWY_INLINE void find_directions(DirectionLanes& d) {
     using D = Lanes<double, N>;
-    const D longitude = load_lanes<N>(d.longitude), z = load_lanes<N>(d.z), zero(0.0);
+    const D z = load_lanes<N>(d.z), zero(0.0);
     const D rest = D(1.0) - z * z;
     const D across = sqrt(select_lanes(rest > zero, rest, zero));
-    const SineCosine angle = sine_cosine_of_lanes(abs(longitude));
-    store_lanes(across * select_lanes(longitude < zero, -angle.sine, angle.sine), d.x);
-    store_lanes(across * angle.cosine, d.y);
+    // Longitude 0 is in the middle of the picture.
+    const SineCosine<N> from_edge = sine_cosine_after(load_lanes<N>(d.column));
+    store_lanes(across * -from_edge.sine, d.x);
+    store_lanes(across * -from_edge.cosine, d.y);
 }
 
 }  // namespace direction_lanes
@@ -62,8 +62,6 @@ ALHAZEN_KERNEL_TABLE(find_places_of_target);
 ALHAZEN_KERNEL_TABLE(find_directions_of_target);
 
 void DirectionLanes::find_places(std::size_t count) {
-    // The library's function is not correctly rounded, and fast.
-    for (std::size_t i = 0; i < count; ++i) across[i] = std::hypot(x[i], y[i]);
     ALHAZEN_KERNEL(find_places_of_target)((1u << count) - 1, *this);
 }
 void DirectionLanes::find_directions(std::size_t count) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Directions and their places in a DirectionPicture, for up to sixteen in lanes.
 ///
-/// Conventions: those of DirectionPicture; the bits are those of <cmath>.
+/// Conventions: those of DirectionPicture; the bits are those of math/angles.h.
 
 #include <cstddef>
 
@@ -13,13 +13,11 @@ struct DirectionLanes {
 
     /// Sets `column` and `row` of the first `count` directions.
     void find_places(std::size_t count);
-    /// Sets x and y of the first `count` directions by `longitude` and z.
+    /// Sets x and y of the first `count` directions by `column` and z.
     void find_directions(std::size_t count);
 
     alignas(64) Numbers x = {}, y = {}, z = {};  ///< unit directions
-    alignas(64) Numbers longitude = {};          ///< in [-pi, pi], 0 at the front
     alignas(64) Numbers column = {}, row = {};   ///< in fractions of the picture
-    alignas(64) Numbers across = {};             ///< hypot(x, y); of `find_places`
 };
 
 }  // namespace alhazen

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "alhazen/imaging/image/encoding.h"
+#include "alhazen/math/angles.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/shading/lights/direction_lanes.h"
 
@@ -20,11 +21,13 @@ double mean_of(const Rgb& c) {
 
 /// Longitude as a fraction of the picture's width.
 double column_of(const Vec3& direction) {
-    return 0.5 + std::atan2(direction.x, direction.y) / (2.0 * kPi);
+    const double longitude = std::copysign(angle_from_axis(direction.x, direction.y), direction.x);
+    return 0.5 + longitude / (2.0 * kPi);
 }
 
 double row_of(const Vec3& direction) {
-    return std::atan2(std::hypot(direction.x, direction.y), direction.z) / kPi;
+    const double across = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+    return angle_from_axis(across, direction.z) / kPi;
 }
 
 /// The number of entries up to the first above `wanted`, which lies between `least` and `most`, in
@@ -262,18 +265,18 @@ double DirectionPicture::height_of(const Search& search) const {
     return top + search.share_y * (bottom - top);
 }
 
-double DirectionPicture::longitude_of(const Search& search) const {
+double DirectionPicture::column_at(const Search& search) const {
     const std::span<const float> shares = shares_of(search.row);
     const double from = shares[search.column], to = shares[search.column + 1];
     const double share_x = std::clamp((search.u.x - from) / (to - from), 0.0, 1.0);
-    const double column = static_cast<double>(search.column) + share_x;
-    return 2.0 * kPi * (column / picture_.width - 0.5);
+    return (static_cast<double>(search.column) + share_x) / picture_.width;
 }
 
 Vec3 DirectionPicture::direction(const Search& search) const {
-    const double z = height_of(search), angle = longitude_of(search);
-    const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
-    return {across * std::sin(angle), across * std::cos(angle), z};
+    const double z = height_of(search), across = std::sqrt(std::max(0.0, 1.0 - z * z));
+    // Longitude 0 is in the middle of the picture.
+    const Vec2 from_edge = direction_after(column_at(search));
+    return {across * -from_edge.y, across * -from_edge.x, z};
 }
 
 void DirectionPicture::find_directions(std::span<const Search> searches, Vec3* directions) const {
@@ -282,7 +285,7 @@ void DirectionPicture::find_directions(std::span<const Search> searches, Vec3* d
         const std::size_t count = std::min(DirectionLanes::kMost, searches.size() - done);
         for (std::size_t i = 0; i < count; ++i) {
             lanes.z[i] = height_of(searches[done + i]);
-            lanes.longitude[i] = longitude_of(searches[done + i]);
+            lanes.column[i] = column_at(searches[done + i]);
         }
         lanes.find_directions(count);
         for (std::size_t i = 0; i < count; ++i) {

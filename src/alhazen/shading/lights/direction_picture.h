@@ -75,7 +75,8 @@ class DirectionPicture {
     [[nodiscard]] std::size_t row_for(double share) const;
     [[nodiscard]] const std::uint32_t* guide_for(const Search& search) const;
     [[nodiscard]] double height_of(const Search& search) const;
-    [[nodiscard]] double longitude_of(const Search& search) const;
+    /// In fractions of the picture.
+    [[nodiscard]] double column_at(const Search& search) const;
     /// Prefetches what `radiance_at` and `density_at` read.
     void fetch(const Place& place) const;
     /// The cumulative shares of a row.

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/math/angles.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/vec.h"
 
@@ -55,10 +56,10 @@ struct Ggx {
     /// Samples a normal visible from `v`, with the density of `visible_normals`.
     [[nodiscard]] Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
         const Vec3 s = Vec3{x * v.x, y * v.y, v.z} / stretched_length(v);
-        const double angle = 2.0 * kPi * u.x;
+        const Vec2 around = direction_after(u.x);
         const double z = (1.0 - u.y) * (1.0 + s.z) - s.z;
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
-        const Vec3 h = Vec3{radius * std::cos(angle), radius * std::sin(angle), z} + s;
+        const Vec3 h = Vec3{radius * around.x, radius * around.y, z} + s;
         // At grazing views the sampled facet may be edge-on and lean away: z is clamped.
         return h == Vec3{} ? Vec3{0, 0, 1} : normalize(Vec3{x * h.x, y * h.y, std::max(h.z, 0.0)});
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/math/angles.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/vec.h"
 
@@ -11,8 +12,9 @@ namespace alhazen {
 
 /// Samples a direction above the surface with density cosine / pi; u in [0, 1)^2.
 [[nodiscard]] inline Vec3 cosine_direction(const Vec2& u) {
-    const double radius = std::sqrt(u.x), angle = 2.0 * kPi * u.y;
-    return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0 - u.x)};
+    const double radius = std::sqrt(u.x);
+    const Vec2 around = direction_after(u.y);
+    return {radius * around.x, radius * around.y, std::sqrt(1.0 - u.x)};
 }
 [[nodiscard]] inline double cosine_density(const Vec3& direction) {
     return std::max(0.0, direction.z) / kPi;
