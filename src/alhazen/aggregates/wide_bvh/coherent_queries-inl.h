@@ -152,6 +152,10 @@ HWY_INLINE bool has_lane_packets(const WideBvhScene& scene) {
                CoherentTraversal::Lanes;
 }
 
+/// Hits of rays in no packet that are cleared together, before their rays are traced, so that they
+/// stay in the cache.
+inline constexpr std::size_t kClearedTogether = 512;
+
 /// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
 /// in WideBvhKernels::closest_batch and occluded_batch, except that lanes write to `sink`.
 template <class Leaves, class InLanes, class Result, class Sink, class Stats, class Otherwise>
@@ -165,15 +169,20 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
             return run_lanes<InLanes>(scene, GivenRays(rays), sink, stats, otherwise);
         }
     }
-    clear_unset(sink);
     if (layout.is_indexed() || coherent_traversal(layout, kAnyHit, kParts<float, 16>,
                                                   scene.others_alone) == CoherentTraversal::Alone) {
-        return otherwise(0, rays.size());
+        for (std::size_t i = 0; i < rays.size(); i += kClearedTogether) {
+            const std::size_t count = std::min(kClearedTogether, rays.size() - i);
+            clear_unset(sink, i, count);
+            otherwise(i, count);
+        }
+        return;
     }
     const PrefetchTable prefetch_table = prefetch_table_of(layout);
     PacketTrials trials(scene.failures);
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);
+        clear_unset(sink, i, count);
         for (const Ray& next :
              rays.subspan(i + count).first(std::min(kPacketRays, rays.size() - i - count))) {
             hwy::Prefetch(&next);

@@ -109,9 +109,11 @@ class LaneHits {
         if (HWY_LIKELY(all)) {
             if (changed_ == 0) return write_none(hits);
             std::size_t i = 0;
-            if constexpr (kParts<double, 4> == 1 && !kPlain) {
+#if HWY_CAP_GE256
+            if constexpr (kIdFollowsPart) {
                 for (; i + 4 <= count; i += 4) write_four(i, &hits[i]);
             }
+#endif
             for (; i < count; ++i) write(i, hits[i]);
             return;
         }
@@ -159,35 +161,54 @@ class LaneHits {
             hn::StoreU(hn::Load(d, row + i), d, reinterpret_cast<T*>(to) + i);
         }
     }
-    /// Four hits, the parameters of each by one store.
-    HWY_INLINE void write_four([[maybe_unused]] std::size_t i, [[maybe_unused]] Hit* hits) const {
-#if HWY_TARGET != HWY_SCALAR
-        static_assert(offsetof(ShapeHit, u) == 8 && offsetof(ShapeHit, v) == 16 &&
-                      offsetof(ShapeHit, part) == 24 && sizeof(ShapeHit) == 32);
-        const hn::CappedTag<double, 4> d;
-        const hn::RebindToUnsigned<decltype(d)> wide;
-        const auto t = hn::Load(d, t_ + i), u = hn::Load(d, u_ + i), v = hn::Load(d, v_ + i);
-        const auto part = hn::BitCast(
-            d, hn::PromoteTo(wide, hn::Load(hn::Rebind<std::uint32_t, decltype(d)>(), part_ + i)));
-        const auto tu_even = hn::InterleaveLower(d, t, u), tu_odd = hn::InterleaveUpper(d, t, u);
-        const auto vp_even = hn::InterleaveLower(d, v, part);
-        const auto vp_odd = hn::InterleaveUpper(d, v, part);
-        hn::StoreU(hn::ConcatLowerLower(d, vp_even, tu_even), d, &hits[0].t);
-        hn::StoreU(hn::ConcatLowerLower(d, vp_odd, tu_odd), d, &hits[1].t);
-        hn::StoreU(hn::ConcatUpperUpper(d, vp_even, tu_even), d, &hits[2].t);
-        hn::StoreU(hn::ConcatUpperUpper(d, vp_odd, tu_odd), d, &hits[3].t);
-        HWY_UNROLL(4)
-        for (std::size_t k = 0; k < 4; ++k) {
-            hits[k].primitive = PrimitiveId{id_[i + k]};
-            hits[k].path.clear();
-        }
-#endif
+#if HWY_CAP_GE256
+    // The layout of a class with a base is the compiler's business.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winvalid-offsetof"
+    static constexpr bool kIdFollowsPart = offsetof(Hit, t) == 0 && offsetof(Hit, u) == 8 &&
+                                           offsetof(Hit, v) == 16 && offsetof(Hit, part) == 24 &&
+                                           offsetof(Hit, primitive) == 28;
+#pragma GCC diagnostic pop
+    using FourNumbers = hn::Vec<hn::CappedTag<double, 4>>;
+
+    /// Writes t, u, v, and part and id in the place of a fourth number, by one store.
+    static HWY_INLINE void put(const FourNumbers& numbers, Hit& hit) {
+        hn::StoreU(numbers, hn::CappedTag<double, 4>(), &hit.t);
+        hit.path.clear();
     }
+    HWY_INLINE void write_four(std::size_t i, Hit* hits) const {
+        const hn::CappedTag<double, 4> d;
+        const hn::CappedTag<double, 2> half;
+        const hn::CappedTag<std::uint32_t, 4> narrow;
+        const auto t = hn::Load(d, t_ + i), u = hn::Load(d, u_ + i), v = hn::Load(d, v_ + i);
+        const auto part = hn::Load(narrow, part_ + i), id = hn::Load(narrow, id_ + i);
+        const auto last = hn::Combine(d, hn::BitCast(half, hn::InterleaveUpper(narrow, part, id)),
+                                      hn::BitCast(half, hn::InterleaveLower(narrow, part, id)));
+        const auto tu_even = hn::InterleaveLower(d, t, u), tu_odd = hn::InterleaveUpper(d, t, u);
+        const auto vl_even = hn::InterleaveLower(d, v, last);
+        const auto vl_odd = hn::InterleaveUpper(d, v, last);
+        put(hn::ConcatLowerLower(d, vl_even, tu_even), hits[0]);
+        put(hn::ConcatLowerLower(d, vl_odd, tu_odd), hits[1]);
+        put(hn::ConcatUpperUpper(d, vl_even, tu_even), hits[2]);
+        put(hn::ConcatUpperUpper(d, vl_odd, tu_odd), hits[3]);
+    }
+#endif
     /// As the rest, but no ray has a hit.
     static HWY_INLINE void write_none(std::span<Hit> hits) {
-        HWY_ALIGN static constexpr ShapeHit none{std::numeric_limits<double>::infinity(), 0, 0, 0};
+#if HWY_CAP_GE256
+        if constexpr (kIdFollowsPart) {
+            constexpr std::uint64_t id = static_cast<std::uint32_t>(kNoPrimitive);
+            HWY_ALIGN static constexpr std::uint64_t kNone[4] = {
+                std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity()), 0, 0,
+                id << 32};
+            const hn::CappedTag<std::uint64_t, 4> d;
+            const FourNumbers none = hn::BitCast(hn::CappedTag<double, 4>(), hn::Load(d, kNone));
+            for (Hit& hit : hits) put(none, hit);
+            return;
+        }
+#endif
         for (Hit& hit : hits) {
-            static_cast<ShapeHit&>(hit) = none;
+            static_cast<ShapeHit&>(hit) = {std::numeric_limits<double>::infinity(), 0, 0, 0};
             hit.primitive = kNoPrimitive;
             hit.path.clear();
         }
@@ -227,9 +248,9 @@ struct HitArraySink {
     }
 };
 
-HWY_INLINE void clear_unset(const HitArraySink& sink) {
+HWY_INLINE void clear_unset(const HitArraySink& sink, std::size_t first, std::size_t count) {
     if (!sink.unset) return;
-    for (Hit& hit : sink.hits) hit = Hit{};
+    for (Hit& hit : sink.hits.subspan(first, count)) hit = Hit{};
 }
 
 /// Writes to columns of hits.
@@ -257,7 +278,7 @@ struct OcclusionSink {
     }
     HWY_INLINE void end(std::size_t, std::size_t, const std::span<bool>&) const {}
 };
-HWY_INLINE void clear_unset(const OcclusionSink&) {}
+HWY_INLINE void clear_unset(const OcclusionSink&, std::size_t, std::size_t) {}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen

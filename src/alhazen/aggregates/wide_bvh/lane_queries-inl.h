@@ -86,10 +86,21 @@ class LaneLeaves : public LaneShapes<Derived> {
         if (in_turn_ == nullptr) derived().left();
     }
     [[nodiscard]] HWY_INLINE bool any_alone() const { return alone_count_ != 0; }
-    /// Traces the rays that are to go on alone, several in turn as the stream does. A ray may be in
-    /// turn in several subtrees.
+    /// Traces the rays that are to go on alone: those in leaves, which have been fetched meanwhile,
+    /// then those in nodes, several in turn as the stream does. A ray may be in turn in several
+    /// subtrees.
     template <class Stats>
     HWY_NOINLINE void trace_alone(Stats stats) {
+        std::size_t in_nodes = 0;
+        for (std::size_t n = 0; n < alone_count_; ++n) {
+            const AloneIn in = alone_[n];
+            if (!in.ref.is_leaf()) {
+                alone_[in_nodes++] = in;
+            } else if (derived().wants(in.lane)) {
+                (void)LoneRay<Derived>(scene_, packet_, in.lane, derived()).visit(in.ref, stats);
+            }
+        }
+        alone_count_ = in_nodes;
         StreamSlot<Alone, WideNode::kWidth> slots[kStreamSlots];
         StreamSlot<Alone, WideNode::kWidth>* active[kStreamSlots];
         std::size_t next = 0, count = 0;

@@ -131,14 +131,13 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
-    const bool unset = takes_whole(coherence);
+    // A packet fetches the rays of the next one, those of the next part it does not.
+    if (takes_whole(coherence)) return trace_closest(rays, hits, true, query, coherence);
     for (std::size_t i = 0; i < rays.size(); i += kInCache) {
         const std::size_t count = std::min(kInCache, rays.size() - i);
         const std::span<Hit> here = hits.subspan(i, count);
-        if (!unset) {
-            for (Hit& hit : here) hit = Hit{};
-        }
-        trace_closest(rays.subspan(i, count), here, unset, query, coherence);
+        for (Hit& hit : here) hit = Hit{};
+        trace_closest(rays.subspan(i, count), here, false, query, coherence);
     }
 }
 

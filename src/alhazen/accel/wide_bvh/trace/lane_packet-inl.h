@@ -51,6 +51,14 @@ using PacketRow = float[kPacketLanes];
 HWY_INLINE PacketFloats load_row(const PacketRow& row) {
     return load_lanes<kPacketLanes>(row);
 }
+#if HWY_CAP_GE512 && HWY_ARCH_X86
+/// As for any lanes (simd/lanes-inl.h), but both masks are joined before they leave their
+/// registers.
+HWY_INLINE std::uint32_t bits_of(const PacketMask& a) {
+    static_assert(kPacketLanes == 32);
+    return _cvtmask32_u32(_mm512_kunpackw(a.part[1].raw, a.part[0].raw));
+}
+#endif
 HWY_INLINE float least_of(const PacketFloats& a) {
     const LaneTag<float, kPacketLanes> d;
     auto least = a.part[0];
