@@ -35,11 +35,11 @@ using testing::SceneMaker;
 using testing::shining;
 using testing::smooth_glass;
 
-const char* const kPhotonRenderers[] = {"photon_mapping:photons=20000,caustics=20000,nearest=50",
-                                        "photon_mapping:photons=20000,gather=8,nearest=50",
-                                        "photon_mapping:photons=20000,gather=64,cache=0.3",
-                                        "photon_mapping:photons=20000,every=2,irradiance=on",
-                                        "sppm:photons=20000"};
+const char* const kPhotonRenderers[] = {
+    "photon_mapping:photons=20000,caustics=20000,nearest=50",
+    "photon_mapping:photons=20000,caustics=20000,gather=8,nearest=50",
+    "photon_mapping:photons=20000,caustics=20000,gather=64,cache=0.3",
+    "photon_mapping:photons=20000,caustics=20000,every=2,irradiance=on", "sppm:photons=20000"};
 
 /// A closed sphere of albedo a that glows with e shows e / (1 - a) everywhere.
 TEST(PhotonRenderers, AnIntegratingSphereShowsTheSumOfTheSeries) {
