@@ -221,7 +221,8 @@ TEST(PhotonRenderers, AgreeWithPathTracingInSixRooms) {
     const Case cases[] = {
         {"photon_mapping:photons=10000,caustics=6000,nearest=24,filter=disc,projection=off", 0.03,
          4},
-        {"photon_mapping:photons=6000,caustics=6000,nearest=16,filter=disc,gather=4", 0.03, 3},
+        {"photon_mapping:photons=6000,caustics=6000,nearest=16,filter=disc,gather=4,projection=off",
+         0.03, 12},
         {"photon_mapping:photons=10000,caustics=6000,nearest=24,filter=disc,every=4,irradiance=on",
          0.03, 8},
         {"sppm:photons=2000,radius=0.08", 0.02, 12},
