@@ -1,8 +1,10 @@
 #pragma once
 /// Checks for all BSDFs, and a BSDF of each lobe.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,15 +22,22 @@ inline Vec3 view_at(double cosine, double turn = 0.4) {
     return {s * std::cos(turn), s * std::sin(turn), cosine};
 }
 
+/// Scrambled Sobol points of three coordinates, the same for all BSDFs.
+inline std::span<const std::array<double, 3>> furnace_points(int count) {
+    static std::vector<std::array<double, 3>> points;
+    for (auto i = static_cast<std::uint32_t>(points.size()); int(i) < count; ++i) {
+        points.push_back(
+            {scrambled_sobol(7, i, 0), scrambled_sobol(7, i, 1), scrambled_sobol(7, i, 2)});
+    }
+    return std::span(points).first(static_cast<std::size_t>(count));
+}
+
 /// White-furnace test: light to `view` from surroundings of radiance 1 times the square of their
-/// index, by `samples` points of a Kronecker lattice.
+/// index.
 inline Spectrum furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 15) {
     Spectrum sum;
-    for (int i = 0; i < samples; ++i) {
-        const auto u = [&](int dimension) {
-            return scrambled_sobol(7, static_cast<std::uint32_t>(i), dimension);
-        };
-        const auto sample = bsdf.sample(view, u(0), {u(1), u(2)}, Transport::Radiance);
+    for (const auto& [choice, u, v] : furnace_points(samples)) {
+        const auto sample = bsdf.sample(view, choice, {u, v}, Transport::Radiance);
         // Behind a boundary, radiance is larger by the square of the index.
         if (sample) sum += sample->eta * sample->eta * sample->weight;
     }

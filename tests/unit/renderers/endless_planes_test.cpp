@@ -69,7 +69,7 @@ TEST(EndlessPlanes, StrategiesAgreeBesideAndBelowThem) {
         maker.add(c.plane, maker.material(c.material));
         const Scene scene = maker.compile();
         std::vector<std::string> renderers{"path_tracing:depth=5", "bidirectional:depth=5",
-                                           "vcm:photons=400,radius=0.02,pilot=off,depth=5"};
+                                           "vcm:photons=100,radius=0.04,pilot=off,depth=5"};
         if (c.all) renderers.push_back("light_tracing:depth=5");
         expect_same_light(scene, c.name, renderers, 24, kMost);
     }
@@ -122,7 +122,7 @@ TEST(EndlessPlanes, WaterWithoutEndTakesLightFromAfar) {
         maker.add(c.plane, maker.material(c.material));
         const Scene scene = maker.compile();
         std::vector<std::string> renderers{"path_tracing:depth=5", "bidirectional:depth=5",
-                                           "vcm:photons=400,radius=0.02,pilot=off,depth=5"};
+                                           "vcm:photons=100,radius=0.04,pilot=off,depth=5"};
         // Fog outside the disc of the light paths stays dark to light tracing.
         if (!scene.has_scattering) renderers.push_back("light_tracing:depth=5");
         expect_same_light(scene, c.name, renderers, 24, kMost);

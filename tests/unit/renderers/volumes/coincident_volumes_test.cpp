@@ -21,7 +21,7 @@ std::string eye_paths(int depth) {
 }
 std::vector<std::string> renderers(int depth) {
     return {eye_paths(depth), "bidirectional:depth=" + std::to_string(depth),
-            "vcm:photons=400,radius=0.03,pilot=off,depth=" + std::to_string(depth)};
+            "vcm:photons=100,radius=0.06,pilot=off,depth=" + std::to_string(depth)};
 }
 constexpr int kFew = 6, kMany = 64;
 
