@@ -37,7 +37,8 @@ struct Kernels {
     static bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
         bool result = false;
         Occluded query(scene, ray, result);
-        return run<W>(query, policy(stats));
+        run<W>(query, policy(stats));
+        return result;
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
                          TraversalStats* stats) {
