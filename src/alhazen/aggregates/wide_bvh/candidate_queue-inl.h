@@ -15,6 +15,8 @@
 #include <cstring>
 #include <limits>
 
+#include <utility>
+
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 
@@ -49,6 +51,52 @@ class RayCandidates {
         std::uint32_t lane;
         float lo;
     } candidates_[kMaxCount];
+};
+
+/// Shapes that wait for their test in double: what one ray, or rays of a packet, may hit, though
+/// the filter is not sure.
+template <std::size_t kMostShapes>
+class WaitingShapes {
+  public:
+    struct Shape {
+        const void* block;
+        LeafType type;
+        std::uint32_t lane;
+        std::uint32_t rays;  ///< bits of the rays of a packet
+        float lo;
+    };
+
+    /// False if there is no room.
+    template <class Block>
+    HWY_INLINE bool add(const Block& block, std::size_t lane, std::uint32_t rays, float lo) {
+        if (HWY_UNLIKELY(count_ == kMostShapes)) return false;
+        shapes_[count_++] = {&block, type_of(block), static_cast<std::uint32_t>(lane), rays, lo};
+        return true;
+    }
+    /// Calls `test(block, lane, rays, lo)` for each until it returns true, and removes all.
+    template <class Test>
+    HWY_INLINE bool take_all(Test&& test) {
+        const std::uint32_t count = std::exchange(count_, 0);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Shape& s = shapes_[i];
+            const auto here = [&](const auto* block)
+                                  HWY_ATTR { return test(*block, s.lane, s.rays, s.lo); };
+            if (s.type == LeafType::Spheres    ? here(static_cast<const SphereBlock*>(s.block))
+                : s.type == LeafType::Frustums ? here(static_cast<const FrustumBlock*>(s.block))
+                                               : here(static_cast<const BoxBlock*>(s.block))) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+  private:
+    static LeafType type_of(const SphereBlock&) { return LeafType::Spheres; }
+    static LeafType type_of(const FrustumBlock&) { return LeafType::Frustums; }
+    static LeafType type_of(const BoxBlock&) { return LeafType::Others; }
+
+    std::uint32_t count_ = 0;
+    Shape shapes_[kMostShapes];
 };
 
 /// The candidates of the rays of a packet: one per ray in lanes, further ones in a list.

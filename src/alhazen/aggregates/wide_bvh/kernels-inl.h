@@ -39,7 +39,8 @@ struct Kernels {
         bool result = false;
         const bool follows = begins_near_last(scene.layout->frame, ray);
         Occluded query(scene, ray, result);
-        return run<W>(query, follows, policy(stats));
+        run<W>(query, follows, policy(stats));
+        return result;
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
                          TraversalStats* stats) {

@@ -113,38 +113,61 @@ HWY_INLINE AxisRows<PacketFloats> slopes_of(const LanePacket& packet) {
     return {load_row(packet.slope[0]), load_row(packet.slope[1]), PacketFloats(1.0f)};
 }
 
-/// Bits of the rays of `lanes` that may hit a shape: shape_candidates with rays in the lanes.
-HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
-                                      const LanePacket& packet, std::uint32_t lanes) {
+HWY_INLINE SureRange<PacketFloats> sure_range(const LanePacket& packet) {
     using F = PacketFloats;
-    const auto [sx, sy, sz] = slopes_of(packet);
-    const auto [x, y, z] = from_center(block.center, i, packet);
-    const F inverse = F(1.0f) / mul_add(sx, sx, mul_add(sy, sy, sz));
-    const F middle = -(mul_add(x, sx, mul_add(y, sy, z)) * inverse);
-    // Where it passes the center.
-    const F nx = mul_add(middle, sx, x), ny = mul_add(middle, sy, y), nz = z + middle;
-    const F radius(block.radius[i] + kRoundSlack * packet.edge_slack);
-    const F room = radius * radius - mul_add(nx, nx, mul_add(ny, ny, nz * nz));
-    lanes &= ~bits_of(room < F(0.0f));
-    if (lanes == 0) return 0;
-    const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
-    return reaching({middle - half, middle + half}, packet, lanes);
+    const F sz = load_row(packet.reciprocal[packet.kz]);
+    return {sz, F(packet.place_error) * abs(sz), load_row(packet.sure_min),
+            load_row(packet.sure_max)};
 }
-HWY_INLINE std::uint32_t filter_lanes(const FrustumBlock& block, std::size_t i,
-                                      const LanePacket& packet, std::uint32_t lanes) {
+
+/// Bits of the rays of `lanes` that may hit a shape: shape_candidates with rays in the lanes. If
+/// `kSure`, sets `sure` to those that certainly do.
+template <bool kSure>
+HWY_INLINE std::uint32_t filter_lanes(const SphereBlock& block, std::size_t i,
+                                      const LanePacket& packet, std::uint32_t lanes,
+                                      std::uint32_t& sure) {
     using F = PacketFloats;
     const float slack = kRoundSlack * packet.edge_slack;
-    Chord<F> chord;
+    const RoundLine<F> line(from_center(block.center, i, packet), slopes_of(packet));
     std::uint32_t missed;
-    if (!frustum_chord(from_center(block.center, i, packet), slopes_of(packet),
-                       for_rays(block.axis, i, packet), F(block.half_height[i] + slack),
-                       F(block.radius[i] + slack), lanes, missed, chord)) {
-        return 0;
-    }
-    return reaching(chord, packet, lanes & ~missed);
+    const Chord<F> chord = line.chord(F(block.radius[i] + slack), missed);
+    lanes &= ~missed;
+    sure = 0;
+    if (lanes == 0) return 0;
+    lanes = reaching(chord, packet, lanes);
+    if (!kSure || lanes == 0) return lanes;
+    F hi;
+    sure = lanes & bits_of(line.sure(chord, F(block.radius[i] - 2.0f * slack), whole_line<F>(),
+                                     sure_range(packet), hi));
+    return lanes;
 }
+template <bool kSure>
+HWY_INLINE std::uint32_t filter_lanes(const FrustumBlock& block, std::size_t i,
+                                      const LanePacket& packet, std::uint32_t lanes,
+                                      std::uint32_t& sure) {
+    using F = PacketFloats;
+    const float slack = kRoundSlack * packet.edge_slack;
+    const CylinderLine<F> line(from_center(block.center, i, packet), slopes_of(packet),
+                               for_rays(block.axis, i, packet));
+    std::uint32_t missed;
+    const Chord<F> side = line.round.chord(F(block.radius[i] + slack), missed);
+    lanes &= ~missed;
+    sure = 0;
+    if (lanes == 0) return 0;
+    const SlabLine<F> slab = line_in_slab(line.along, line.climb);
+    Chord<F> chord = side;
+    meet_slab(slab, F(block.half_height[i] + slack), chord);
+    lanes = reaching(chord, packet, lanes);
+    if (!kSure || lanes == 0 || (block.certain >> i & 1) == 0) return lanes;
+    F hi;
+    sure = lanes & bits_of(line.sure(side, slab, F(block.half_height[i]), F(block.radius[i]),
+                                     F(slack), sure_range(packet), hi));
+    return lanes;
+}
+template <bool kSure>
 HWY_INLINE std::uint32_t filter_lanes(const BoxBlock& block, std::size_t i,
-                                      const LanePacket& packet, std::uint32_t lanes) {
+                                      const LanePacket& packet, std::uint32_t lanes,
+                                      std::uint32_t& sure) {
     using F = PacketFloats;
     const float slack = kSlabSlack * packet.edge_slack;
     const AxisRows<F> direction[3] = {for_rays(block.direction[0], i, packet),
@@ -152,9 +175,15 @@ HWY_INLINE std::uint32_t filter_lanes(const BoxBlock& block, std::size_t i,
                                       for_rays(block.direction[2], i, packet)};
     const F half[3] = {F(block.half[0][i] + slack), F(block.half[1][i] + slack),
                        F(block.half[2][i] + slack)};
-    return reaching(
-        box_chord(from_center(block.center, i, packet), slopes_of(packet), direction, half), packet,
-        lanes);
+    const BoxLine<F> line(from_center(block.center, i, packet), slopes_of(packet), direction);
+    lanes = reaching(line.chord(half, F(block.inset[i])), packet, lanes);
+    sure = 0;
+    if (!kSure || lanes == 0 || !(block.inset[i] < BoxBlock::kNoInset)) return lanes;
+    const F less(2.0f * slack + block.inset[i]);
+    F hi;
+    sure =
+        lanes & bits_of(line.sure(half[0] - less, half[1] - less, half[2], sure_range(packet), hi));
+    return lanes;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -21,6 +21,7 @@
 
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_lanes-inl.h"
+#include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_candidates-inl.h"
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
@@ -80,8 +81,10 @@ class LaneLeaves : public LaneShapes<Derived> {
                 continue;
             }
             LoneRay<Derived> ray(scene_, packet_, i, derived());
-            (void)traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs,
-                                              false, ray, stats);
+            if (!traverse<Derived::kOrdered>(scene_.layout->tree.nodes.data(), ref, ray.slabs,
+                                             false, ray, stats)) {
+                ray.finish(stats);
+            }
         }
         if (in_turn_ == nullptr) derived().left();
     }
@@ -97,7 +100,8 @@ class LaneLeaves : public LaneShapes<Derived> {
             if (!in.ref.is_leaf()) {
                 alone_[in_nodes++] = in;
             } else if (derived().wants(in.lane)) {
-                (void)LoneRay<Derived>(scene_, packet_, in.lane, derived()).visit(in.ref, stats);
+                LoneRay<Derived> ray(scene_, packet_, in.lane, derived());
+                if (!ray.visit(in.ref, stats)) ray.finish(stats);
             }
         }
         alone_count_ = in_nodes;
@@ -125,6 +129,8 @@ class LaneLeaves : public LaneShapes<Derived> {
         while (count > 0) {
             for (std::size_t i = 0; i < count; ++i) {
                 if (advance(*active[i], nodes, *in_turn_, stats)) continue;
+                Alone& alone = active[i]->query();
+                if (derived().wants(static_cast<std::uint32_t>(alone.lane))) alone.finish(stats);
                 if (!start(*active[i])) active[i--] = active[--count];
             }
         }
@@ -260,6 +266,11 @@ class ClosestLanes : public LaneLeaves<ClosestLanes> {
             add(static_cast<TrianglePlace>(number * kBlockWidth + lane), 1u << i,
                 PacketFloats(found.lo[lane]), load_row(packet_.s_max), stats);
         }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool sure(std::size_t i, float hi, float& s_max, Stats) {
+        if (hi < s_max) limit(i, s_max = hi);
         return false;
     }
     template <class Stats>
@@ -405,6 +416,12 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
         return false;
     }
     template <class Stats>
+    HWY_INLINE bool sure(std::size_t i, float, float&, Stats stats) {
+        stats.primitives(1);
+        stats.primitive_hits(1);
+        return drop(i);
+    }
+    template <class Stats>
     HWY_INLINE bool sphere(std::size_t i, PrimitiveId id, const Sphere& sphere, float& s_max,
                            Stats stats) {
         SphereCrossings met;
@@ -427,9 +444,29 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
             scene_.table->occluded(id, rays_.ray(i, scratch), kUnusedShear, stats, scene_.mask);
         return hit && drop(i);
     }
+    /// Rays that certainly hit a shape.
+    HWY_INLINE void drop_all(std::uint32_t lanes) {
+        wanting_ &= ~lanes;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            results_[static_cast<std::size_t>(std::countr_zero(lanes))] = true;
+        }
+    }
+    /// False if the rays cannot wait for the test of a shape that the filter is not sure of.
+    template <class Block>
+    HWY_INLINE bool put_off(const Block& block, std::size_t lane, std::uint32_t rays) {
+        return waiting_.add(block, lane, rays, 0.0f);
+    }
     HWY_INLINE void left() {}
+    /// Tests the shapes that wait.
     template <class Stats>
-    HWY_INLINE void finish(Stats) {}
+    HWY_INLINE void finish(Stats stats) {
+        (void)waiting_.take_all(
+            [&](const auto& block, std::uint32_t lane, std::uint32_t rays, float) HWY_ATTR {
+                const std::uint32_t rest = rays & wanting_;
+                if (rest != 0) (void)this->meet(block, lane, rest, stats);
+                return false;
+            });
+    }
 
   private:
     struct Dropped {
@@ -448,6 +485,7 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
 
     std::span<bool> results_;
     std::uint32_t wanting_ = ~0u;
+    WaitingShapes<32> waiting_;
 };
 
 /// What the packets of a batch have in common.

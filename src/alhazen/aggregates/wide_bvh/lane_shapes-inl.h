@@ -83,19 +83,40 @@ class LaneShapes {
                 met &= ~(1u << lane);
                 const PrimitiveId id = block.ids[lane].id();
                 if (!block.ids[lane].used() || !scene_.sees(id)) continue;
-                const std::uint32_t rest = filter_lanes(block, lane, packet_, lanes);
+                std::uint32_t sure;
+                std::uint32_t rest =
+                    filter_lanes<!Derived::kOrdered>(block, lane, packet_, lanes, sure);
                 stats.primitives(static_cast<std::uint64_t>(std::popcount(lanes & ~rest)));
-                if constexpr (std::is_same_v<Block, SphereBlock>) {
+                if constexpr (!Derived::kOrdered) {
+                    stats.primitives(static_cast<std::uint64_t>(std::popcount(sure)));
+                    stats.primitive_hits(static_cast<std::uint64_t>(std::popcount(sure)));
+                    derived().drop_all(sure);
+                    lanes &= ~sure;
+                    rest &= ~sure;
                     if (rest == 0) continue;
-                    lanes &= ~meet_sphere(id, sphere_of(scene_, block, lane), rest, stats);
-                } else if constexpr (std::is_same_v<Block, FrustumBlock>) {
-                    lanes &= ~meet_frustum(id, rest, stats);
-                } else {
-                    lanes &= ~meet_other(id, rest, stats);
+                    if ((block.may_be_sure() >> lane & 1) != 0 &&
+                        derived().put_off(block, lane, rest)) {
+                        continue;
+                    }
                 }
+                lanes &= ~meet(block, lane, rest, stats);
             }
         }
         derived().left();
+    }
+    /// Tests a shape with rays. Returns those that need no more.
+    template <class Block, class Stats>
+    HWY_INLINE std::uint32_t meet(const Block& block, std::size_t lane, std::uint32_t rays,
+                                  Stats stats) {
+        if (rays == 0) return 0;
+        const PrimitiveId id = block.ids[lane].id();
+        if constexpr (std::is_same_v<Block, SphereBlock>) {
+            return meet_sphere(id, sphere_of(scene_, block, lane), rays, stats);
+        } else if constexpr (std::is_same_v<Block, FrustumBlock>) {
+            return meet_frustum(id, rays, stats);
+        } else {
+            return meet_other(id, rays, stats);
+        }
     }
     /// Tests a shape ray by ray. Returns the rays that need no more, as the two below.
     template <class Stats>

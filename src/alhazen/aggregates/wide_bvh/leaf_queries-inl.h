@@ -113,6 +113,20 @@ struct LeafQuery {
         return hits_triangle_scalar(id.id(), hit);
     }
 
+  protected:
+    /// Tests the shapes that wait.
+    template <class Stats>
+    HWY_INLINE void finish_shapes(Stats stats) {
+        (void)query().waiting.take_all(
+            [&](const auto& block, std::uint32_t lane, std::uint32_t, float lo) HWY_ATTR {
+                if (lo > s_max) {
+                    stats.primitives(1);
+                    return false;
+                }
+                return visit_lane(block, lane, stats);
+            });
+    }
+
   private:
     HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
 
@@ -150,7 +164,12 @@ struct LeafQuery {
             FilteredShapes found;
             std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
             // The query counts the shapes that it tests.
-            stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
+            stats.primitives(filtered_out(*blocks, rest));
+            if (rest == 0) continue;
+            if constexpr (Query::kFirstOnly) {
+                if (query().take_sure(*blocks, found, stats)) return true;
+            }
+            const std::uint32_t may_wait = Query::kFirstOnly ? blocks->may_be_sure() : 0;
             while (rest != 0) {
                 auto lane = static_cast<std::size_t>(std::countr_zero(rest));
                 if constexpr (Query::kOrdered) {
@@ -167,14 +186,27 @@ struct LeafQuery {
                     stats.primitives(1);
                     continue;
                 }
-                if constexpr (std::is_same_v<Block, SphereBlock>) {
-                    if (visit_sphere(*blocks, lane, stats)) return true;
-                } else {
-                    if (visit_shape<Block>(id, stats)) return true;
+                if constexpr (Query::kFirstOnly) {
+                    // Those that are not sure and begin with the ray are mostly what it leaves.
+                    const bool waits =
+                        (found.sure >> lane & 1) != 0 || found.lo[lane] <= slabs.s_min;
+                    if (waits && (may_wait >> lane & 1) != 0 &&
+                        query().waiting.add(*blocks, lane, 1, found.lo[lane])) {
+                        continue;
+                    }
                 }
+                if (visit_lane(*blocks, lane, stats)) return true;
             }
         }
         return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool visit_lane(const SphereBlock& block, std::size_t lane, Stats stats) {
+        return visit_sphere(block, lane, stats);
+    }
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_lane(const Block& block, std::size_t lane, Stats stats) {
+        return visit_shape<Block>(block.ids[lane], stats);
     }
 
     /// The kinds that most blocks hold are tested without the table's search for their column.
@@ -264,6 +296,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
 
     Hit& best;
     RayCandidates candidates;
+    WaitingShapes<8> waiting;
 
     /// `found` may hold an earlier hit.
     HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
@@ -313,6 +346,15 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
         ray.t_max = best.t;
         return false;
     }
+    /// Sure shapes limit the search, and wait.
+    template <class Block, class Stats>
+    HWY_INLINE bool take_sure(const Block& block, const FilteredShapes& found, Stats) {
+        for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            if (found.hi[lane] < s_max && scene.sees(block.ids[lane].id())) s_max = found.hi[lane];
+        }
+        return false;
+    }
     template <class Stats>
     HWY_INLINE bool shape(BlockId id, Stats stats) {
         const double last = ray.t_max;
@@ -329,12 +371,14 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
     /// Resolves the candidates.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
+        this->finish_shapes(stats);
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane)
                                        HWY_ATTR { resolve(block, lane, stats); });
     }
     /// As `finish`, in lanes together with candidates of other rays.
     template <class Stats>
     HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
+        this->finish_shapes(stats);
         candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
             resolution.add(*this->source, this->filter, best, block, lane, stats);
         });
@@ -362,6 +406,7 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     static constexpr bool kOrdered = false;
     static constexpr bool kFirstOnly = true;
     bool& occluded;
+    WaitingShapes<8> waiting;
 
     HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
         : Base(s, r), occluded(result) {}
@@ -388,6 +433,22 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
         return false;
     }
     HWY_INLINE bool accept(BlockId, const ShapeHit&) { return occluded = true; }
+    /// A sure shape is the answer.
+    template <class Block, class Stats>
+    HWY_INLINE bool take_sure(const Block& block, const FilteredShapes& found, Stats stats) {
+        for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
+            const BlockId id = block.ids[static_cast<std::size_t>(std::countr_zero(rest))];
+            if (!id.used() || !scene.sees(id.id())) continue;
+            stats.primitives(1);
+            stats.primitive_hits(1);
+            return occluded = true;
+        }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE void finish(Stats stats) {
+        if (!occluded) this->finish_shapes(stats);
+    }
     template <class Stats>
     HWY_INLINE bool shape(BlockId id, Stats stats) {
         return occluded = scene.table->occluded(id.id(), ray, kUnusedShear, stats, scene.mask);

@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "alhazen/accel/wide_bvh/trace/lane_packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
@@ -29,8 +30,9 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The query that `traverse` takes. `Leaves` has `triangles(lane, block number, found, s_max,
-/// stats)`, `sphere(lane, id, sphere, s_max, stats)` and, for all other primitives, `shape(lane,
-/// id, s_max, stats)`. These may lower `s_max`, and return true to stop.
+/// stats)`, `sphere(lane, id, sphere, s_max, stats)`, for all other primitives `shape(lane, id,
+/// s_max, stats)`, and `sure(lane, hi, s_max, stats)` for a shape that is certainly hit up to `hi`.
+/// These may lower `s_max`, and return true to stop.
 template <class Leaves>
 struct LoneRay {
     SlabRay slabs;
@@ -91,6 +93,19 @@ struct LoneRay {
         return true;
     }
 
+    /// Tests the shapes that wait; after the traversal, unless that was stopped.
+    template <class Stats>
+    HWY_INLINE void finish(Stats stats) {
+        (void)waiting.take_all([&](const auto& block, std::uint32_t i, std::uint32_t, float lo)
+                                   HWY_ATTR {
+                                       if (lo > s_max) {
+                                           stats.primitives(1);
+                                           return false;
+                                       }
+                                       return visit_lane(block, i, stats);
+                                   });
+    }
+
     /// A block of triangles.
     template <class Stats>
     HWY_INLINE bool visit_block(std::uint32_t number, Stats stats) {
@@ -108,7 +123,14 @@ struct LoneRay {
             FilteredShapes found;
             std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
             // The shapes that are tested are counted there.
-            stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
+            stats.primitives(filtered_out(*blocks, rest));
+            if (rest == 0) continue;
+            for (std::uint32_t sure = found.sure; sure != 0; sure &= sure - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(sure));
+                if (!blocks->ids[i].used() || !scene.sees(blocks->ids[i].id())) continue;
+                if (leaves.sure(lane, found.hi[i], s_max, stats)) return true;
+            }
+            const std::uint32_t may_wait = blocks->may_be_sure();
             for (; rest != 0; rest &= rest - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(rest));
                 const BlockId id = blocks->ids[i];
@@ -116,17 +138,27 @@ struct LoneRay {
                     stats.primitives(1);
                     continue;
                 }
-                if constexpr (std::is_same_v<Block, SphereBlock>) {
-                    if (scene.sees(id.id()) &&
-                        leaves.sphere(lane, id.id(), sphere_of(scene, *blocks, i), s_max, stats))
-                        return true;
-                } else {
-                    if (leaves.shape(lane, id.id(), s_max, stats)) return true;
+                // As in LeafQuery.
+                const bool waits = (found.sure >> i & 1) != 0 || found.lo[i] <= slabs.s_min;
+                if (waits && (may_wait >> i & 1) != 0 && waiting.add(*blocks, i, 1, found.lo[i])) {
+                    continue;
                 }
+                if (visit_lane(*blocks, i, stats)) return true;
             }
         }
         return false;
     }
+    template <class Stats>
+    HWY_INLINE bool visit_lane(const SphereBlock& block, std::size_t i, Stats stats) {
+        const PrimitiveId id = block.ids[i].id();
+        return scene.sees(id) && leaves.sphere(lane, id, sphere_of(scene, block, i), s_max, stats);
+    }
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_lane(const Block& block, std::size_t i, Stats stats) {
+        return leaves.shape(lane, block.ids[i].id(), s_max, stats);
+    }
+
+    WaitingShapes<8> waiting;
 };
 
 }  // namespace HWY_NAMESPACE

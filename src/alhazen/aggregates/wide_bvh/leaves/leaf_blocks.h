@@ -78,6 +78,13 @@ template <class Block>
     return count;
 }
 
+/// The number of used lanes that are not among the candidates.
+template <class Block>
+[[nodiscard]] std::uint32_t filtered_out(const Block& block, std::uint32_t candidates) {
+    const std::uint32_t used = used_lanes(block);
+    return used - static_cast<std::uint32_t>(std::popcount(candidates & ((1u << used) - 1)));
+}
+
 /// Spheres without a placement.
 struct alignas(64) SphereBlock {
     float center[3][kBlockWidth];  ///< [axis][lane]
@@ -85,6 +92,8 @@ struct alignas(64) SphereBlock {
     BlockId ids[kBlockWidth];
     std::uint32_t lanes = 0;  ///< bits of the used lanes; the others repeat the first
 
+    /// Bits of the lanes whose filter may be sure of a hit.
+    [[nodiscard]] std::uint32_t may_be_sure() const { return lanes; }
     /// The sphere of a lane that is exact: the radius is one step above its own.
     [[nodiscard]] Sphere sphere(std::size_t lane, const LocalFrame& frame) const {
         const auto bits = std::bit_cast<std::uint32_t>(radius[lane]) - 1;
@@ -101,7 +110,10 @@ struct alignas(64) FrustumBlock {
     float half_height[kBlockWidth];
     float radius[kBlockWidth];  ///< the larger one
     BlockId ids[kBlockWidth];
-    std::uint32_t lanes = 0;  ///< as in a SphereBlock
+    std::uint32_t lanes = 0;    ///< as in a SphereBlock
+    std::uint32_t certain = 0;  ///< bits of the cylinders, whose filter may be sure of a hit
+
+    [[nodiscard]] std::uint32_t may_be_sure() const { return certain; }
 };
 static_assert(sizeof(FrustumBlock) == 320);
 
@@ -112,7 +124,19 @@ struct alignas(64) BoxBlock {
     float direction[3][3][kBlockWidth];  ///< [k][axis][lane]; of length 1, up to rounding
     float half[3][kBlockWidth];          ///< [k][lane]; -inf for an unused lane
     float radius[kBlockWidth];
+    /// Of a polygon or rectangle across direction_2: a line that crosses that slab within the two
+    /// others, narrowed by this on each side, hits it. Else kNoInset, or kNotFlat.
+    float inset[kBlockWidth];
     BlockId ids[kBlockWidth];
+    static constexpr float kNoInset = 0x1p60f, kNotFlat = 0x1p61f;
+
+    /// As in a SphereBlock.
+    [[nodiscard]] std::uint32_t may_be_sure() const {
+        std::uint32_t lanes = 0;
+        for (std::uint32_t i = 0; i < kBlockWidth; ++i)
+            lanes |= std::uint32_t{inset[i] < kNoInset} << i;
+        return lanes;
+    }
 };
 static_assert(sizeof(BoxBlock) == 576);
 

@@ -5,11 +5,15 @@
 #include <tuple>
 #include <type_traits>
 
+#include "alhazen/aggregates/wide_bvh/leaves/flat_shapes.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
 namespace {
+
+/// Covers the rounding of the box around a polygon, as a factor of its coordinates.
+constexpr double kPolygonPad = 0x1p-46;
 
 template <class S>
 const S& shape_of(const PrimitiveTable& table, PrimitiveId id) {
@@ -37,7 +41,8 @@ SlantedBounds bounds_of(const Rectangle& r) {
     return {r.corner,
             {r.edge_u, r.edge_v, Vec3{}},
             {unit_or(r.u_of, {1, 0, 0}), unit_or(r.v_of, {0, 1, 0}), r.unit_normal},
-            {}};
+            {},
+            true};
 }
 
 /// The distance along each axis by which `box` extends beyond the corners of the bounds.
@@ -91,12 +96,18 @@ RoundBounds round_bounds(const PrimitiveTable& table, PrimitiveId id) {
 SlantedBounds slanted_bounds(const PrimitiveTable& table, PrimitiveId id) {
     const Box3 outer = table.box(static_cast<std::uint32_t>(id));
     const Placement* placement = table.placement_of(id);
-    const bool flat = table.kind(id) == column_of<Rectangle>() && placement == nullptr;
-    SlantedBounds bounds =
-        flat ? bounds_of(shape_of<Rectangle>(table, id))
-             : placed_box(table.inner_box(id),
-                          placement != nullptr ? placement->outer_from_inner : Affine{});
-    bounds.pad = reach_beyond(bounds, outer);
+    SlantedBounds bounds;
+    if (table.kind(id) == column_of<Polygon>() && placement == nullptr) {
+        bounds = bounds_of(shape_of<Polygon>(table, id));
+        bounds.pad = kPolygonPad * (abs(outer.lo) + abs(outer.hi));
+    } else if (table.kind(id) == column_of<Rectangle>() && placement == nullptr) {
+        bounds = bounds_of(shape_of<Rectangle>(table, id));
+        bounds.pad = reach_beyond(bounds, outer);
+    } else {
+        bounds = placed_box(table.inner_box(id),
+                            placement != nullptr ? placement->outer_from_inner : Affine{});
+        bounds.pad = reach_beyond(bounds, outer);
+    }
     // If the frame takes numbers out of range: the axis-aligned box, which is finite.
     const double reach = max_component(abs(outer.lo)) + max_component(abs(outer.hi));
     if (is_finite(bounds.pad) && max_component(bounds.pad) <= reach) return bounds;

@@ -47,6 +47,7 @@ struct SlantedBounds {
     Vec3 edge[3];
     Vec3 direction[3];  ///< unit; perpendicular to the two other edges, unless these are parallel
     Vec3 pad;           ///< largest distance by which the shape extends beyond it along each axis
+    bool flat = false;  ///< of a flat shape across direction[2] (flat_shapes.h)
 };
 
 /// Approximate surface area of a primitive; for shapes other than triangles, of the bounding body.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "alhazen/aggregates/wide_bvh/leaves/flat_shapes.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/primitives/triangle_bounds.h"
@@ -200,6 +201,10 @@ void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const Pri
         return false;
     });
     block.lanes = (1u << ids.size()) - 1;
+    block.certain = 0;
+    for (std::size_t lane = 0; lane < ids.size(); ++lane) {
+        block.certain |= std::uint32_t{table.kind(ids[lane]) == column_of<Cylinder>()} << lane;
+    }
 }
 
 namespace {
@@ -248,6 +253,25 @@ double radius_of(const SlantedBounds& bounds, const BoundingSphere& sphere, cons
     return kMore * (of_sphere < of_body ? of_sphere : of_body);
 }
 
+/// BoxBlock::inset. Between a corner and the center float rounds once, and so do the halves.
+float inset_of(const FlatOutline& outline, const BoxBlock& block, std::size_t lane,
+               const LocalFrame& frame) {
+    std::vector<SlabPoint> corners;
+    corners.reserve(outline.vertices.size());
+    const Vec3 center = center_of(block, lane);
+    const auto along = [&](std::size_t slab, const Vec3& p) {
+        const auto& d = block.direction[slab];
+        return dot(Vec3{d[0][lane], d[1][lane], d[2][lane]}, p);
+    };
+    for (const Vec3& vertex : outline.vertices) {
+        const Vec3 p = frame.local(vertex) - center;
+        corners.push_back({along(0, p), along(1, p)});
+    }
+    const double inset =
+        inset_of(corners, outline.loop_ends, block.half[0][lane], block.half[1][lane]);
+    return inset < 2.0 ? round_up(kMore * inset + 2.0 * kExactTestSlack) : BoxBlock::kNoInset;
+}
+
 }  // namespace
 
 void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
@@ -263,6 +287,8 @@ void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const Primiti
             set_point(block.direction[slab], lane, bounds.direction[slab]);
             block.half[slab][lane] = round_up(half_of(bounds, block, lane, slab, frame));
         }
+        block.inset[lane] = bounds.flat ? inset_of(flat_outline(table, id), block, lane, frame)
+                                        : BoxBlock::kNotFlat;
         return false;
     });
     for (std::size_t lane = ids.size(); lane < kBlockWidth; ++lane) {

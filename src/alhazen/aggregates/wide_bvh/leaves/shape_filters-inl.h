@@ -21,9 +21,11 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The first parameters at which the lanes that passed a filter may be hit, in the local frame.
+/// Parameters, in the local frame, of the lanes that passed a filter.
 struct FilteredShapes {
-    HWY_ALIGN float lo[kBlockWidth];
+    std::uint32_t sure;               ///< bits of the lanes that are hit for certain
+    HWY_ALIGN float lo[kBlockWidth];  ///< not beyond the first hit
+    HWY_ALIGN float hi[kBlockWidth];  ///< of sure lanes: not before the first hit
 };
 
 /// Three rows of lanes, along the axes of the ray: `F` has a lane for each shape, for one ray, or
@@ -57,14 +59,43 @@ struct Chord {
     F first, last;
 };
 
+/// The crossings of a line with a slab: `middle`, give or take half the width times `stretch`.
 template <class F>
-HWY_INLINE void meet_slab(const F& along, const F& slope, const F& half, Chord<F>& chord) {
+struct SlabLine {
+    F middle, stretch;
+};
+template <class F>
+HWY_INLINE SlabLine<F> line_in_slab(const F& along, const F& slope) {
     const F steep = copysign(max_lanes(abs(slope), F(0x1p-40f)), slope);
     const F inverse = F(1.0f) / steep;
-    const F middle = -(along * inverse);
-    const F reach = half * abs(inverse);
-    chord.first = max_lanes(chord.first, middle - reach);
-    chord.last = min_lanes(chord.last, middle + reach);
+    return {-(along * inverse), abs(inverse)};
+}
+template <class F>
+HWY_INLINE void meet_slab(const SlabLine<F>& line, const F& half, Chord<F>& chord) {
+    const F reach = half * line.stretch;
+    chord.first = max_lanes(chord.first, line.middle - reach);
+    chord.last = min_lanes(chord.last, line.middle + reach);
+}
+template <class F>
+HWY_INLINE Chord<F> whole_line() {
+    return {F(-std::numeric_limits<float>::infinity()), F(std::numeric_limits<float>::infinity())};
+}
+
+/// What is certainly in the range of a ray.
+template <class F>
+struct SureRange {
+    F sz, slack;  ///< of a coordinate along the main axis: its parameter, and the error of that
+    F min, max;
+
+    /// The lanes whose part from `first` to `last` is in the range; `hi`: parameters not before it.
+    HWY_INLINE auto holds(const F& first, const F& last, F& hi) const {
+        const F a = first * sz, b = last * sz;
+        hi = max_lanes(a, b) + slack;
+        return (min_lanes(a, b) - slack >= min) & (hi <= max);
+    }
+};
+HWY_INLINE SureRange<Floats> sure_range(const TriangleFilterRay& ray) {
+    return {Floats(ray.sz), Floats(ray.s_slack), Floats(ray.sure_min), Floats(ray.sure_max)};
 }
 
 /// Bits of the lanes whose chord is not empty and overlaps the range of the ray.
@@ -82,53 +113,88 @@ HWY_INLINE std::uint32_t finish_filter(const Chord<Floats>& chord, const Triangl
 HWY_INLINE bool passes_all(const TriangleFilterRay& ray, FilteredShapes& out) {
     if (HWY_LIKELY(ray.edge_slack < std::numeric_limits<float>::infinity())) return false;
     store_lanes(Floats(-std::numeric_limits<float>::infinity()), out.lo);
+    out.sure = 0;
     return true;
 }
 
-/// Sets `chord` to that of a line `from` + z `slope` in a circle or a sphere around 0. False,
-/// without setting anything, if all lanes miss it.
+/// A line that passes round bodies around 0.
 template <class F>
-HWY_INLINE bool round_chord(const AxisRows<F>& from, const AxisRows<F>& slope, const F& radius,
-                            std::uint32_t used, std::uint32_t& missed, Chord<F>& chord) {
-    const F squared = max_lanes(dot_rows(slope, slope), F(0x1p-60f));
-    const F inverse = F(1.0f) / squared;
-    const F middle = -(dot_rows(from, slope) * inverse);
-    const AxisRows<F> nearest = minus_scaled(from, -middle, slope);
-    const F room = radius * radius - dot_rows(nearest, nearest);
-    missed = bits_of(room < F(0.0f));
-    if ((used & ~missed) == 0) return false;
-    const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
-    chord = {middle - half, middle + half};
-    return true;
-}
+struct RoundLine {
+    F middle;    ///< where it is nearest to 0
+    F inverse;   ///< one over its squared slope
+    F distance;  ///< there, squared
+
+    HWY_INLINE RoundLine(const AxisRows<F>& from, const AxisRows<F>& slope) {
+        const F squared = max_lanes(dot_rows(slope, slope), F(0x1p-60f));
+        inverse = F(1.0f) / squared;
+        middle = -(dot_rows(from, slope) * inverse);
+        const AxisRows<F> nearest = minus_scaled(from, -middle, slope);
+        distance = dot_rows(nearest, nearest);
+    }
+    /// The chord in a circle or a sphere, and which lanes miss it.
+    HWY_INLINE Chord<F> chord(const F& radius, std::uint32_t& missed) const {
+        const F room = radius * radius - distance;
+        missed = bits_of(room < F(0.0f));
+        const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
+        return {middle - half, middle + half};
+    }
+    /// The lanes that cross a circle or sphere between `narrow` and the radius of `outer` for
+    /// certain, in the range and in `within`. `hi`: as in FilteredShapes.
+    HWY_INLINE auto sure(const Chord<F>& outer, const F& narrow, const Chord<F>& within,
+                         const SureRange<F>& range, F& hi) const {
+        const F room = narrow * narrow - distance, never(std::numeric_limits<float>::infinity());
+        const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
+        const F in = middle - half, out = middle + half;
+        F hi_in, hi_out;
+        const auto inside = (room > F(0.0f)) & (narrow > F(0.0f));
+        const auto enters = inside & range.holds(outer.first, in, hi_in) &
+                            (within.first <= outer.first) & (in <= within.last);
+        const auto leaves = inside & range.holds(out, outer.last, hi_out) & (within.first <= out) &
+                            (outer.last <= within.last);
+        hi = min_lanes(select_lanes(enters, hi_in, never), select_lanes(leaves, hi_out, never));
+        return enters | leaves;
+    }
+};
 
 HWY_NOINLINE inline std::uint32_t shape_candidates(const SphereBlock& block,
                                                    const TriangleFilterRay& ray, float s_min,
                                                    float s_max, FilteredShapes& out) {
     if (passes_all(ray, out)) return block.lanes;
     const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
-    const Floats radius = load_lanes(block.radius) + Floats(kRoundSlack * ray.edge_slack);
-    Chord<Floats> chord;
+    const Floats radius = load_lanes(block.radius), slack(kRoundSlack * ray.edge_slack);
+    const RoundLine<Floats> line(from_center(block.center, ray), slope);
     std::uint32_t missed;
-    if (!round_chord(from_center(block.center, ray), slope, radius, block.lanes, missed, chord)) {
-        return 0;
-    }
-    return block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
+    const Chord<Floats> chord = line.chord(radius + slack, missed);
+    if ((block.lanes & ~missed) == 0) return 0;
+    const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
+    if (met == 0) return 0;
+    Floats hi;
+    out.sure = met & bits_of(line.sure(chord, radius - slack - slack, whole_line<Floats>(),
+                                       sure_range(ray), hi));
+    store_lanes(hi, out.hi);
+    return met;
 }
 
-/// The chord in the cylinder around a shape; false if all of `used` miss it.
+/// A line in the cylinder around a shape: across the axis, and along it.
 template <class F>
-HWY_INLINE bool frustum_chord(const AxisRows<F>& from, const AxisRows<F>& slope,
-                              const AxisRows<F>& axis, const F& half_height, const F& radius,
-                              std::uint32_t used, std::uint32_t& missed, Chord<F>& chord) {
-    const F along = dot_rows(axis, from), climb = dot_rows(axis, slope);
-    if (!round_chord(minus_scaled(from, along, axis), minus_scaled(slope, climb, axis), radius,
-                     used, missed, chord)) {
-        return false;
+struct CylinderLine {
+    F along, climb;
+    RoundLine<F> round;
+
+    HWY_INLINE CylinderLine(const AxisRows<F>& from, const AxisRows<F>& slope,
+                            const AxisRows<F>& axis)
+        : along(dot_rows(axis, from)),
+          climb(dot_rows(axis, slope)),
+          round(minus_scaled(from, along, axis), minus_scaled(slope, climb, axis)) {}
+    /// The lanes that cross the side of the cylinder for certain, between its ends and in the
+    /// range. `side`: the chord in the wider one.
+    HWY_INLINE auto sure(const Chord<F>& side, const SlabLine<F>& slab, const F& half_height,
+                         const F& radius, const F& slack, const SureRange<F>& range, F& hi) const {
+        Chord<F> between = whole_line<F>();
+        meet_slab(slab, half_height - slack - slack, between);
+        return round.sure(side, radius - slack - slack, between, range, hi);
     }
-    meet_slab(along, climb, half_height, chord);
-    return true;
-}
+};
 
 HWY_NOINLINE inline std::uint32_t shape_candidates(const FrustumBlock& block,
                                                    const TriangleFilterRay& ray, float s_min,
@@ -136,28 +202,61 @@ HWY_NOINLINE inline std::uint32_t shape_candidates(const FrustumBlock& block,
     if (passes_all(ray, out)) return block.lanes;
     const Floats slack(kRoundSlack * ray.edge_slack);
     const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
-    Chord<Floats> chord;
+    const CylinderLine<Floats> line(from_center(block.center, ray), slope,
+                                    load_rows(block.axis, ray));
+    const Floats radius = load_lanes(block.radius), half_height = load_lanes(block.half_height);
     std::uint32_t missed;
-    if (!frustum_chord(from_center(block.center, ray), slope, load_rows(block.axis, ray),
-                       load_lanes(block.half_height) + slack, load_lanes(block.radius) + slack,
-                       block.lanes, missed, chord)) {
-        return 0;
-    }
-    return block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
+    const Chord<Floats> side = line.round.chord(radius + slack, missed);
+    if ((block.lanes & ~missed) == 0) return 0;
+    const SlabLine<Floats> slab = line_in_slab(line.along, line.climb);
+    Chord<Floats> chord = side;
+    meet_slab(slab, half_height + slack, chord);
+    const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
+    out.sure = 0;
+    if ((met & block.certain) == 0) return met;
+    Floats hi;
+    out.sure = met & block.certain &
+               bits_of(line.sure(side, slab, half_height, radius, slack, sure_range(ray), hi));
+    store_lanes(hi, out.hi);
+    return met;
 }
 
-/// The chord in the slanted box around a shape.
+/// A line in the slabs of a slanted box.
 template <class F>
-HWY_INLINE Chord<F> box_chord(const AxisRows<F>& from, const AxisRows<F>& slope,
-                              const AxisRows<F> (&direction)[3], const F (&half)[3]) {
-    Chord<F> chord{F(-std::numeric_limits<float>::infinity()),
-                   F(std::numeric_limits<float>::infinity())};
-    HWY_UNROLL(3)
-    for (std::size_t k = 0; k < 3; ++k) {
-        meet_slab(dot_rows(direction[k], from), dot_rows(direction[k], slope), half[k], chord);
+struct BoxLine {
+    SlabLine<F> slab[3];
+
+    HWY_INLINE BoxLine(const AxisRows<F>& from, const AxisRows<F>& slope,
+                       const AxisRows<F> (&direction)[3]) {
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            slab[k] = line_in_slab(dot_rows(direction[k], from), dot_rows(direction[k], slope));
+        }
     }
-    return chord;
-}
+    /// The chord in the box; of flat shapes, if it is not empty, that in the third slab, where
+    /// their plane is met.
+    HWY_INLINE Chord<F> chord(const F (&half)[3], const F& inset) const {
+        Chord<F> across = whole_line<F>();
+        meet_slab(slab[2], half[2], across);
+        Chord<F> chord = across;
+        meet_slab(slab[0], half[0], chord);
+        meet_slab(slab[1], half[1], chord);
+        const auto plane = (inset < F(BoxBlock::kNotFlat)) & (chord.first <= chord.last);
+        return {select_lanes(plane, across.first, chord.first),
+                select_lanes(plane, across.last, chord.last)};
+    }
+    /// The lanes that cross the third slab within the narrower ones of the first two for certain,
+    /// in the range.
+    HWY_INLINE auto sure(const F& narrow0, const F& narrow1, const F& half2,
+                         const SureRange<F>& range, F& hi) const {
+        Chord<F> within = whole_line<F>(), flat = whole_line<F>();
+        meet_slab(slab[0], narrow0, within);
+        meet_slab(slab[1], narrow1, within);
+        meet_slab(slab[2], half2, flat);
+        return (within.first <= flat.first) & (flat.last <= within.last) &
+               range.holds(flat.first, flat.last, hi);
+    }
+};
 
 /// For a ray out of the range of float, unused lanes pass as well.
 HWY_NOINLINE inline std::uint32_t shape_candidates(const BoxBlock& block,
@@ -171,8 +270,16 @@ HWY_NOINLINE inline std::uint32_t shape_candidates(const BoxBlock& block,
                                            load_rows(block.direction[2], ray)};
     const Floats half[3] = {load_lanes(block.half[0]) + slack, load_lanes(block.half[1]) + slack,
                             load_lanes(block.half[2]) + slack};
-    return finish_filter(box_chord(from_center(block.center, ray), slope, direction, half), ray,
-                         s_min, s_max, out);
+    const BoxLine<Floats> line(from_center(block.center, ray), slope, direction);
+    const Floats inset = load_lanes(block.inset);
+    const std::uint32_t met = finish_filter(line.chord(half, inset), ray, s_min, s_max, out);
+    if (met == 0) return 0;
+    const Floats less = slack + slack + inset;
+    Floats hi;
+    out.sure =
+        met & bits_of(line.sure(half[0] - less, half[1] - less, half[2], sure_range(ray), hi));
+    store_lanes(hi, out.hi);
+    return met;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,0 +1,145 @@
+#include "alhazen/aggregates/wide_bvh/leaves/flat_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/simd/targets.h"
+#include "support/random.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace testing;
+
+/// By the odd-even rule.
+bool is_inside(const std::vector<SlabPoint>& corners, const std::vector<std::uint32_t>& ends,
+               const SlabPoint& p) {
+    bool inside = false;
+    std::size_t first = 0;
+    for (const std::size_t end : ends) {
+        for (std::size_t i = first; i < end; ++i) {
+            const SlabPoint &a = corners[i], &b = corners[i + 1 < end ? i + 1 : first];
+            if ((a.v > p.v) == (b.v > p.v)) continue;
+            inside ^= a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u) > p.u;
+        }
+        first = end;
+    }
+    return inside;
+}
+
+double area_of(const SlantedBounds& bounds) {
+    return length(bounds.edge[0]) * length(bounds.edge[1]);
+}
+
+TEST(FlatShapes, ARectangleFillsItsSlabs) {
+    const std::vector<SlabPoint> corners{{-2, -1}, {2, -1}, {2, 1}, {-2, 1}};
+    const std::vector<std::uint32_t> ends{4};
+    EXPECT_EQ(inset_of(corners, ends, 2, 1), 0.0);
+    EXPECT_NEAR(inset_of(corners, ends, 2.5, 1.25), 0.5, 1e-12);
+}
+
+TEST(FlatShapes, TheMiddleMayBeOutside) {
+    const std::vector<SlabPoint> bent{{-1, -1},     {1, -1},   {1, -0.9},
+                                      {-0.9, -0.9}, {-0.9, 1}, {-1, 1}};
+    const std::vector<std::uint32_t> one{6};
+    EXPECT_EQ(inset_of(bent, one, 1, 1), kInfinity);
+    const std::vector<SlabPoint> holed{{-1, -1},     {1, -1},     {1, 1},     {-1, 1},
+                                       {-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}};
+    const std::vector<std::uint32_t> two{4, 8};
+    EXPECT_EQ(inset_of(holed, two, 1, 1), kInfinity);
+}
+
+TEST(FlatShapes, TheRectangleInsideHasNoPointOutsideAndTouchesAnEdge) {
+    Random random(311);
+    int found = 0, touched = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::vector<SlabPoint> corners;
+        const int count = 3 + random.below(40);
+        for (int k = 0; k < count; ++k) {
+            const double angle = 2 * kPi * (k + 0.4 * random.uniform()) / count;
+            const double r = random.uniform(0.3, 1);
+            corners.push_back({r * std::cos(angle), 0.6 * r * std::sin(angle)});
+        }
+        const std::vector<std::uint32_t> ends{static_cast<std::uint32_t>(count)};
+        const double inset = inset_of(corners, ends, 1, 0.6);
+        if (!(inset < 0.6)) continue;
+        ++found;
+        const double u = 1 - inset, v = 0.6 - inset;
+        for (int k = 0; k < 200; ++k) {
+            const SlabPoint p{0.999999 * random.uniform(-u, u), 0.999999 * random.uniform(-v, v)};
+            ASSERT_TRUE(is_inside(corners, ends, p)) << i;
+        }
+        // A little wider, some point of its sides is outside.
+        bool outside = false;
+        for (int k = 0; k < 4000 && !outside; ++k) {
+            const double at = -1 + k / 2000.0, wide = 1.02;
+            for (const SlabPoint& p :
+                 {SlabPoint{wide * u, at * wide * v}, SlabPoint{-wide * u, at * wide * v},
+                  SlabPoint{at * wide * u, wide * v}, SlabPoint{at * wide * u, -wide * v}}) {
+                outside = outside || !is_inside(corners, ends, p);
+            }
+        }
+        touched += outside;
+    }
+    EXPECT_GT(found, 200);
+    EXPECT_GT(touched, found * 9 / 10);
+}
+
+TEST(FlatShapes, TheBoxAroundATurnedRectangleIsThatRectangle) {
+    Random random(312);
+    for (int i = 0; i < 50; ++i) {
+        const Affine turn = Affine::rotate(random.unit_vector(), random.uniform(0, 6));
+        Polygon polygon;
+        for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{3, 0, 0}, Vec3{3, 1, 0}, Vec3{0, 1, 0}}) {
+            polygon.vertices.push_back(turn.point(p));
+        }
+        polygon.prepare();
+        const SlantedBounds bounds = bounds_of(polygon);
+        EXPECT_NEAR(area_of(bounds), 3.0, 1e-9);
+        EXPECT_NEAR(length(bounds.edge[2]), 0.0, 1e-9);
+        EXPECT_TRUE(bounds.flat);
+    }
+}
+
+PrimitiveTable two_squares() {
+    PrimitiveTable table;
+    auto& column = std::get<ShapeColumn<Polygon>>(table.columns);
+    for (const double z : {0.0, 1.0}) {
+        // Turned, so that the sides lie along no axis.
+        Polygon square;
+        square.vertices = {{-1, 0, z}, {0, -1, z}, {1, 0, z}, {0, 1, z}};
+        square.prepare();
+        column.shapes.push_back(square);
+        column.placements.push_back(kNoPlacement);
+        column.materials.push_back(MaterialId{0});
+    }
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    return table;
+}
+
+/// A ray that leaves one square and certainly hits the other needs no test in double to be
+/// occluded, and of the closest hit one for each.
+TEST(FlatShapes, ASureHitIsNotTestedInDouble) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const WideBvhAggregate tested(two_squares());
+        Ray ray{{0.1, 0.2, 0}, {0.01, 0.02, 1}, 0, kInfinity};
+        TraversalStats stats;
+        EXPECT_TRUE(tested.occluded(ray, {&stats})) << target;
+        EXPECT_EQ(stats.primitive_hits, 1u) << target;
+        EXPECT_EQ(stats.primitive_tests, 1u) << target;
+        // Beside the squares, in their boxes along the axes.
+        TraversalStats missed;
+        ray.origin = {0.8, 0.8, -1};
+        EXPECT_FALSE(tested.occluded(ray, {&missed}));
+        EXPECT_EQ(missed.primitive_tests, 2u) << target;
+        EXPECT_EQ(missed.primitive_hits, 0u) << target;
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
