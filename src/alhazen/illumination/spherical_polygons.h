@@ -8,7 +8,8 @@
 /// The solid angle of a rectangle is the angle of a product of complex numbers, one for each
 /// corner: that of the part between x = 0 and a corner (x, y) is the angle of (distance, x y), in
 /// units of the height. Its sine and cosine, not those of the angles at the corners, determine a
-/// point. Conventions: corners are relative to the point of view; `solid_angle` is 0 for degenerate
+/// point.
+/// Conventions: corners are relative to the point of view; `solid_angle` is 0 for degenerate
 /// polygons and those seen edge on; its error is about 1e-15. Solid angles below about 1e-6 should
 /// be sampled by area. Either side may face the point.
 /// Threads: const functions may be called from many.

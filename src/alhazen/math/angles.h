@@ -67,7 +67,8 @@ template <std::size_t N>
 
 }  // namespace angles
 
-/// The angle in [0, pi] between the axis x and (x, y); for y >= 0 that of std::atan2. 0 for (0, 0).
+/// The angle in [0, pi] between the axis x and (x, y); for y >= 0 that of std::atan2. The larger of
+/// |x| and |y| is 0, and then the angle is 0, or from 2^-1022 to 2^1022.
 [[nodiscard]] inline double angle_from_axis(double y, double x) {
     using namespace angles;
     const double size_y = std::abs(y), size_x = std::abs(x);

@@ -113,7 +113,8 @@ std::string inertia_text(const SolidMeasures& m, std::optional<double> density) 
 
 std::string solid_text(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
-    std::string out = fmt::format("{} {}\n", static_cast<std::uint64_t>(r.solid), escape_controls(r.name));
+    std::string out =
+        fmt::format("{} {}\n", static_cast<std::uint64_t>(r.solid), escape_controls(r.name));
     const auto line = [&](const char* what, const std::string& value) {
         out += fmt::format("  {:<10}{}\n", what, value);
     };
@@ -159,8 +160,9 @@ std::string solid_text(const SolidReport& r) {
 }
 
 std::string pair_text(const PairReport& r) {
-    std::string out = fmt::format("{} {} and {} {}\n", static_cast<std::uint64_t>(r.a), escape_controls(r.name_a),
-                                  static_cast<std::uint64_t>(r.b), escape_controls(r.name_b));
+    std::string out =
+        fmt::format("{} {} and {} {}\n", static_cast<std::uint64_t>(r.a), escape_controls(r.name_a),
+                    static_cast<std::uint64_t>(r.b), escape_controls(r.name_b));
     if (r.overlap) {
         out += fmt::format("  overlap   {}{}\n", text_of(r.overlap->volume),
                            r.overlap->reached ? "" : " (the wanted error was not reached)");

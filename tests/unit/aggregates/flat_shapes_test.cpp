@@ -121,8 +121,8 @@ PrimitiveTable two_squares() {
     return table;
 }
 
-/// A ray that leaves one square and certainly hits the other needs no test in double to be
-/// occluded, and of the closest hit one for each.
+/// A ray that leaves one square and certainly hits the other is occluded without a test of the one
+/// that it leaves.
 TEST(FlatShapes, ASureHitIsNotTestedInDouble) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride use(target);
@@ -139,6 +139,44 @@ TEST(FlatShapes, ASureHitIsNotTestedInDouble) {
         EXPECT_EQ(missed.primitive_tests, 2u) << target;
         EXPECT_EQ(missed.primitive_hits, 0u) << target;
     }
+}
+
+/// A body that the ray passes closer than the filter can tell, before one that it meets in the
+/// middle: the sure one is taken without a test of the other.
+template <class Shape>
+void expect_sure_one_first(const Shape& grazed, const Shape& met) {
+    PrimitiveTable table;
+    auto& column = std::get<ShapeColumn<Shape>>(table.columns);
+    for (Shape shape : {grazed, met}) {
+        shape.prepare();
+        column.shapes.push_back(shape);
+        column.placements.push_back(kNoPlacement);
+        column.materials.push_back(MaterialId{0});
+    }
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    const WideBvhAggregate tested(std::move(table));
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const Ray ray{{-5, 0.25, 0}, {1, 0, 0}, 0, kInfinity};
+        TraversalStats stats;
+        EXPECT_TRUE(tested.occluded(ray, {&stats})) << target;
+        EXPECT_EQ(stats.primitive_hits, 1u) << target;
+        EXPECT_EQ(stats.primitive_tests, 1u) << target;
+    }
+}
+
+TEST(FlatShapes, ASureRoundBodyIsNotTestedInDouble) {
+    // Grazed: its silhouette is at y = 0.25 + 1e-9.
+    expect_sure_one_first(Sphere{{0, 1.25 + 1e-9, 0}, 1}, Sphere{{0.5, 0.5, 0}, 1});
+    const auto rod = [](double x, double y) {
+        Cylinder cylinder;
+        cylinder.base = {x, y, -3};
+        cylinder.top = {x, y, 3};
+        cylinder.radius = 1;
+        return cylinder;
+    };
+    expect_sure_one_first(rod(0, 1.25 + 1e-9), rod(0.5, 0.5));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "alhazen/math/constants.h"
+
 namespace alhazen {
 
 namespace {
@@ -61,14 +63,14 @@ bool contains(const ConeScene& scene, const ConeSolid& solid, const Vec3& p) {
     const ConeSource& source = scene.sources[solid.source];
     switch (source.kind) {
         case ConeSource::Kind::Sphere:
-            return length_squared(p - source.point) < source.radius * source.radius;
+            return length_squared(p - source.point) <= source.radius * source.radius;
         case ConeSource::Kind::Plane:
-            return dot(p - source.point, source.normal) < 0.0;
+            return dot(p - source.point, source.normal) <= 0.0;
         case ConeSource::Kind::Faces:
             for (std::uint32_t k = solid.first_face; k < solid.end_face; ++k) {
                 const ConeFace& face = scene.faces[k];
                 const double height = dot(p - face.point, face.normal);
-                if (source.inward ? !(height > 0.0) : !(height < 0.0)) return false;
+                if (source.inward ? !(height >= 0.0) : !(height <= 0.0)) return false;
             }
             return true;
         case ConeSource::Kind::Mesh:
@@ -80,19 +82,30 @@ bool contains(const ConeScene& scene, const ConeSolid& solid, const Vec3& p) {
 }  // namespace
 
 SolidsAround solids_around(const ConeScene& scene, const Vec3& point) {
-    SolidsAround result;
-    const auto add = [&](const ConeSolid& solid) {
-        if (!result.full() && contains(scene, solid, point)) result.push_back(solid.source);
+    struct Around {
+        std::uint32_t source;
+        double size;
+    };
+    std::vector<Around> around;
+    const auto add = [&](const ConeSolid& solid, double size) {
+        if (contains(scene, solid, point)) around.push_back({solid.source, size});
     };
     for (const std::uint32_t source : scene.planes) {
-        if (scene.sources[source].closed) add({source});
+        if (scene.sources[source].closed) add({source}, kInfinity);
     }
     const auto holds_point = [&](const ConeTree::Node& node) {
         const Vec3 d = point - node.center;
         return std::abs(d.x) <= node.half.x && std::abs(d.y) <= node.half.y &&
                std::abs(d.z) <= node.half.z;
     };
-    for_items(scene.solid_tree, holds_point, [&](std::uint32_t k) { add(scene.solids[k]); });
+    for_items(scene.solid_tree, holds_point,
+              [&](std::uint32_t k) { add(scene.solids[k], scene.solids[k].size); });
+    std::stable_sort(around.begin(), around.end(),
+                     [](const Around& a, const Around& b) { return a.size < b.size; });
+    SolidsAround result;
+    for (const Around& solid : around) {
+        if (!result.full()) result.push_back(solid.source);
+    }
     return result;
 }
 

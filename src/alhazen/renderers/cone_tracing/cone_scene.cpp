@@ -339,11 +339,14 @@ class ConeGatherer {
             const bool begins = item.face == ConeItem::kNoFace || result_.solids.empty() ||
                                 result_.solids.back().source != item.source;
             if (begins) {
-                result_.solids.push_back({item.source, item.face, item.face});
+                result_.solids.push_back({item.source, item.face, item.face, 0});
                 solid_boxes.push_back(box);
             }
             solid_boxes.back().include(box);
             if (item.face != ConeItem::kNoFace) ++result_.solids.back().end_face;
+        }
+        for (std::size_t k = 0; k < solid_boxes.size(); ++k) {
+            result_.solids[k].size = length(solid_boxes[k].hi - solid_boxes[k].lo);
         }
         result_.tree = ConeTree(boxes);
         result_.solid_tree = ConeTree(solid_boxes);

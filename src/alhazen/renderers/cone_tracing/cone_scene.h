@@ -56,6 +56,7 @@ struct ConeItem {
 struct ConeSolid {
     std::uint32_t source = 0;
     std::uint32_t first_face = 0, end_face = 0;  ///< its faces, if it has any
+    double size = 0;                             ///< diagonal of its box
 };
 
 struct ConeScene {

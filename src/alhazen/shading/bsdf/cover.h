@@ -6,6 +6,8 @@
 /// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", Imageworks 2017, section
 /// 4 (albedo scaling).
 
+#include <algorithm>
+
 #include "alhazen/math/vec.h"
 #include "alhazen/shading/microfacets/ggx.h"
 #include "alhazen/shading/microfacets/ggx_albedo.h"
@@ -31,7 +33,7 @@ class Cover {
     [[nodiscard]] double share() const { return share_; }
 
   private:
-    [[nodiscard]] bool is_rough() const { return ggx_.x >= kSmoothAlpha; }
+    [[nodiscard]] bool is_rough() const { return std::max(ggx_.x, ggx_.y) >= kSmoothAlpha; }
     [[nodiscard]] bool is_anisotropic() const { return ggx_.x != ggx_.y; }
     /// Single-scattering albedo of a rough face.
     [[nodiscard]] SplitAlbedo single(const Vec3& direction) const;

@@ -17,8 +17,16 @@ struct SplitAxes {
     static constexpr int kAlphas = 15, kViews = 22;
     static constexpr double kLeast = 1e-6;  ///< of the lengths of a Place
 
-    static double place_of(double alpha) { return std::cbrt(alpha); }
-    static double alpha_of(double place) { return std::max(place * place * place, kSmoothAlpha); }
+    /// Even steps of the fourth root.
+    static double place_of(double alpha) {
+        const double first = fourth_root(kSmoothAlpha);
+        return (fourth_root(alpha) - first) / (1.0 - first);
+    }
+    static double alpha_of(double place) {
+        const double first = fourth_root(kSmoothAlpha), root = first + place * (1.0 - first);
+        return std::clamp(root * root * root * root, kSmoothAlpha, 1.0);
+    }
+    static double fourth_root(double x) { return std::sqrt(std::sqrt(x)); }
 
     /// The square roots of a view's length across the y axis, and of its cosine to the normal when
     /// seen along that axis.
