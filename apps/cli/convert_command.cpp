@@ -41,22 +41,16 @@ int run(const ConvertArguments& args) {
                  report.triangles, *args.tolerance);
         }
     }
-    const ConvertReport report = convert(description, args.output, args.convert);
+    ConvertOptions options = args.convert;
+    options.strict = args.scene.strict;
+    const ConvertReport report = convert(description, args.output, options);
     if (args.quiet) return kDone;
     if (!report.left_out.empty()) {
         const bool patches = report.files.back().extension() == ".bpt";
         tell("warning: left out, as they are not {}: {}\n", patches ? "patches" : "meshes",
              report.left_out);
     }
-    if (report.masked_parts > 0) {
-        tell(
-            "warning: mesh files do not keep the visibility masks of {} parts (.alhazen keeps "
-            "'visible_to')\n",
-            report.masked_parts);
-    }
-    for (const std::string& line : report.lost) {
-        tell("warning: the MTL file cannot express {}\n", line);
-    }
+    for (const std::string& line : losses_of(report)) tell("warning: {}\n", line);
     const std::size_t beside = report.files.size() - 1;
     tell("{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,
          1e-6 * static_cast<double>(report.bytes),

@@ -123,6 +123,24 @@ mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 
         result = run("convert", scene, self.path("out.obj"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("warning: the MTL file cannot express the mirrored repeat of a texture (material 'm'", result.stderr)
+        os.remove(self.path("out.obj"))
+        result = run("convert", scene, self.path("out.obj"), "--strict")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("error: the MTL file cannot express the mirrored repeat of a texture", result.stderr)
+        self.assertFalse(os.path.exists(self.path("out.obj")))
+
+    def test_cut_faces_keep_their_material_in_an_obj(self):
+        scene = self.write("cut.alhazen", """alhazen 1
+material "red" { diffuse = (1, 0, 0) }
+material "blue" { diffuse = (0, 0, 1) }
+difference "e" { box { material = "red" } cylinder { base = (0, 0, -1); top = (0, 0, 1); radius = 0.3; material = "blue" } }
+""")
+        result = run("convert", scene, self.path("out.obj"), "--tolerance", "0.05")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("warning", result.stderr)
+        text = self.read("out.obj").decode()
+        self.assertIn("usemtl red\n", text)
+        self.assertIn("usemtl blue\n", text)
 
     def test_convert_refuses_what_it_cannot_write(self):
         for arguments, status, message in (

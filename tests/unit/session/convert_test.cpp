@@ -329,6 +329,151 @@ TEST(ConvertMeshes, WhatMtlCannotSayIsReported) {
     EXPECT_TRUE(convert(scene, folder.path() / "out.ply").lost.empty());
 }
 
+/// A material written to an OBJ and read back, and the losses that were told.
+struct MaterialTrip {
+    Material back;
+    std::vector<std::string> lost;
+
+    explicit MaterialTrip(const Material& material) {
+        const ScratchFolder folder;
+        SceneMaker maker;
+        maker.add(maker.mesh(testing::tetrahedron()), maker.material(material));
+        lost = convert(maker.description(), folder.path() / "out.obj").lost;
+        Diagnostics found;
+        back = load_description(folder.path() / "out.obj", {}, found).materials.at(0).material;
+        EXPECT_TRUE(found.all().empty()) << to_string(found.all()[0]);
+    }
+};
+
+TEST(ConvertMeshes, ABlackAmbientColourDoesNotReadBackAsTheDiffuseOne) {
+    Material matt;
+    matt.diffuse.color = {.5, .5, .5};
+    const MaterialTrip trip(matt);
+    EXPECT_LT(trip.back.ambient.color.max(), 1e-20);
+    EXPECT_EQ(trip.back.diffuse.color, matt.diffuse.color);
+    EXPECT_TRUE(trip.lost.empty()) << trip.lost[0];
+}
+
+TEST(ConvertMeshes, ConductorsAndDielectricsLookAlikeAsMtl) {
+    const auto expect_alike = [](const Material& a, const Material& b) {
+        const MaterialSample before = evaluate(a, {}, Vec2{}), after = evaluate(b, {}, Vec2{});
+        EXPECT_EQ(before.diffuse, after.diffuse);
+        EXPECT_EQ(before.ambient, after.ambient);
+        EXPECT_EQ(before.specular, after.specular);
+        EXPECT_EQ(before.reflective, after.reflective);
+        EXPECT_EQ(before.transmissive, after.transmissive);
+        EXPECT_EQ(before.grazing, after.grazing);
+        EXPECT_EQ(before.index, after.index);
+        EXPECT_EQ(before.thin, after.thin);
+    };
+    Material metal;
+    metal.conductor = Conductor{{0.2, 0.4, 1.4}, {3, 2.4, 1.9}, ""};
+    metal.roughness.value = 0.3;
+    const MaterialTrip of_metal(metal);
+    expect_alike(metal, of_metal.back);
+    ASSERT_EQ(of_metal.lost.size(), 1U);
+    EXPECT_NE(of_metal.lost[0].find("complex index of a conductor"), std::string::npos);
+
+    Material glass;
+    glass.dielectric.emplace();
+    glass.index.value = 1.5;
+    const MaterialTrip of_glass(glass);
+    expect_alike(glass, of_glass.back);
+    EXPECT_TRUE(of_glass.lost.empty()) << of_glass.lost[0];
+    glass.dielectric->absorption = {1, 2, 3};
+    glass.dispersion = Dispersion{.abbe = 30};
+    const MaterialTrip of_tinted(glass);
+    expect_alike(glass, of_tinted.back);
+    ASSERT_EQ(of_tinted.lost.size(), 2U);
+    EXPECT_NE(of_tinted.lost[0].find("absorption"), std::string::npos);
+    EXPECT_NE(of_tinted.lost[1].find("dispersion"), std::string::npos);
+}
+
+TEST(ConvertMeshes, ACoatReadsBackFromMtl) {
+    Material coated;
+    MetallicRoughness& p = coated.metallic_roughness.emplace();
+    p.metallic.value = 0;
+    p.coat.strength.value = 0.5;
+    p.coat.roughness.value = 0.25;
+    const MaterialTrip trip(coated);
+    ASSERT_TRUE(trip.back.metallic_roughness);
+    EXPECT_EQ(trip.back.metallic_roughness->coat.strength.value, 0.5);
+    EXPECT_EQ(trip.back.metallic_roughness->coat.roughness.value, 0.25);
+    EXPECT_TRUE(trip.lost.empty()) << trip.lost[0];
+}
+
+TEST(ConvertMeshes, MaterialsOfVerticesBecomeMaterialsOfFaces) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    (void)maker.material({.name = "red"});
+    (void)maker.material({.name = "blue"});
+    TriangleMesh mesh = testing::tetrahedron();
+    mesh.vertex_materials = {1, 1, 1, 0};
+    maker.add(maker.mesh(mesh));
+    const ConvertReport report = convert(maker.description(), folder.path() / "out.obj");
+    EXPECT_EQ(report.mixed_faces, 3U);
+    ASSERT_EQ(losses_of(report).size(), 1U);
+    EXPECT_NE(losses_of(report)[0].find("3 faces between vertices of different materials"),
+              std::string::npos);
+    Diagnostics found;
+    const SceneDescription back = load_description(folder.path() / "out.obj", {}, found);
+    ASSERT_EQ(back.materials.size(), 1U);  // each face has a first vertex of blue
+    EXPECT_EQ(back.materials[0].material.name, "blue");
+    EXPECT_EQ(convert(maker.description(), folder.path() / "out.ply").mixed_faces, 0U);
+}
+
+TEST(ConvertMeshes, MotionThatIsLostIsCounted) {
+    const ScratchFolder folder;
+    const auto scene = folder.write(
+        "in.alhazen",
+        std::string("alhazen 1\n"
+                    "picture { shutter = (0.5, 1) }\n"
+                    "mesh { points = [(0,0,0), (1,0,0), (0,1,0)]; faces = [(0,1,2)];\n"
+                    "    motion = [(0, translate(0,0,0)), (1, translate(8,0,0))] }\n"
+                    "mesh { points = [(0,0,0), (1,0,0), (0,1,0)]; faces = [(0,1,2)];\n"
+                    "    point_keys = [(0, [(0,0,0), (1,0,0), (0,1,0)]),\n"
+                    "                  (1, [(0,0,6), (1,0,0), (0,1,0)])] }\n"
+                    "mesh { points = [(0,0,0), (1,0,0), (0,1,0)]; faces = [(0,1,2)] }\n"));
+    Diagnostics found;
+    const SceneDescription description = load_description(scene, {}, found);
+    for (const char* suffix : {".ply", ".obj", ".stl"}) {
+        const auto path = folder.path() / (std::string("out") + suffix);
+        const ConvertReport report = convert(description, path);
+        EXPECT_EQ(report.moving_parts, 2U) << suffix;
+        ASSERT_EQ(losses_of(report).size(), 1U) << suffix;
+        EXPECT_NE(losses_of(report)[0].find("the motion of 2 parts, written as at time 0.5"),
+                  std::string::npos)
+            << losses_of(report)[0];
+        EXPECT_NEAR(read_back(path).box().hi.x, 5, 1e-6) << suffix;
+        EXPECT_NEAR(read_back(path).box().hi.z, 3, 1e-6) << suffix;
+    }
+    EXPECT_EQ(convert(description, folder.path() / "out.alhazen").moving_parts, 0U);
+}
+
+TEST(ConvertMeshes, StrictRefusesLosses) {
+    const ScratchFolder folder;
+    SceneDescription scene = two_tetrahedra();
+    const auto path = folder.path() / "out.obj";
+    (void)convert(scene, path, {.strict = true});
+    std::filesystem::remove(path);
+    scene.materials[0].material.density = 3;
+    const std::string message = message_of(scene, path, ErrorKind::Scene, {.strict = true});
+    EXPECT_NE(message.find("error: the MTL file cannot express a density"), std::string::npos)
+        << message;
+    EXPECT_FALSE(std::filesystem::exists(path));
+    (void)convert(scene, folder.path() / "out.alhazen", {.strict = true});
+}
+
+TEST(ConvertMeshes, KindsOfShapesHaveProperPlurals) {
+    SceneMaker maker;
+    for (int i = 0; i < 2; ++i) {
+        maker.add(Torus{});
+        maker.add(BoxShape{});
+        maker.add(Sphere{});
+    }
+    EXPECT_EQ(shapes_in_words(count_placed(maker.description())), "2 spheres, 2 boxes, 2 tori");
+}
+
 TEST(ConvertMeshes, MasksThatAreLostAreCounted) {
     const ScratchFolder folder;
     SceneDescription scene = textured(10);

@@ -121,15 +121,33 @@ void append_vertices(const NamedMesh& from, std::string& out) {
     }
 }
 
+bool has_vertex_materials(const NamedMesh& from) {
+    return !from.vertex_material_names.empty() && !from.mesh->vertex_materials.empty();
+}
+
+/// The material of a face: where vertices have materials, that of its first vertex.
+std::string face_material(const NamedMesh& from, const std::array<std::uint32_t, 3>& face) {
+    if (!has_vertex_materials(from)) return one_line(from.material);
+    return one_line(from.vertex_material_names[from.mesh->vertex_materials[face[0]]]);
+}
+
 void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out) {
     const TriangleMesh& mesh = *from.mesh;
     out += "o " + one_line(from.name) + '\n';
     append_vertices(from, out);
-    if (const std::string material = one_line(from.material); !material.empty()) {
-        out += "usemtl " + material + '\n';
-    }
     const bool mirrored = mirrors(from.placement);
+    const bool by_face = has_vertex_materials(from);
+    std::uint32_t current = 0;
+    bool first = true;
     for (const auto& t : mesh.triangles) {
+        const std::uint32_t own = by_face ? mesh.vertex_materials[t[0]] : 0;
+        if (first || own != current) {
+            if (const std::string material = face_material(from, t); !material.empty()) {
+                out += "usemtl " + material + '\n';
+            }
+            first = false;
+            current = own;
+        }
         out += 'f';
         for (const std::uint32_t i : placed(t, mirrored)) {
             out += ' ';
@@ -187,6 +205,18 @@ std::string obj_text(std::span<const NamedMesh> meshes, const std::string& mtlli
     ObjOffsets offsets;
     for (const NamedMesh& from : meshes) append_object(from, offsets, out);
     return out;
+}
+
+std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes) {
+    std::uint64_t count = 0;
+    for (const NamedMesh& from : meshes) {
+        const auto& own = from.mesh->vertex_materials;
+        if (own.empty()) continue;
+        for (const auto& [a, b, c] : from.mesh->triangles) {
+            if (own[a] != own[b] || own[a] != own[c]) ++count;
+        }
+    }
+    return count;
 }
 
 std::string stl_bytes(std::span<const NamedMesh> meshes) {

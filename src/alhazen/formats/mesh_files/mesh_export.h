@@ -8,6 +8,7 @@
 /// triangle orientation, so that the outside stays outside. Property names:
 /// docs/reference/formats/ply.md.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct NamedMesh {
     const TriangleMesh* mesh = nullptr;  ///< never null
     Affine placement;                    ///< file_from_mesh
     std::string material;                ///< OBJ: name for `usemtl`; empty: none
+    /// OBJ: names of the materials that the mesh's vertex_materials number; empty: these are not
+    /// used. Referenced.
+    std::span<const std::string> vertex_material_names{};
 };
 
 /// A single mesh, unchanged; read_ply returns every array bit for bit.
@@ -33,9 +37,13 @@ struct NamedMesh {
 /// (Resource) beyond 2^32 - 1 vertices.
 [[nodiscard]] std::string ply_bytes(std::span<const NamedMesh> meshes);
 
-/// Text with one `o` per mesh. `mtllib`: name of the material file; empty: none.
+/// Text with one `o` per mesh. `mtllib`: name of the material file; empty: none. With materials per
+/// vertex a face has that of its first vertex.
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
+/// The number of faces between vertices of different materials.
+[[nodiscard]] std::uint64_t faces_of_several_materials(std::span<const NamedMesh> meshes);
+
 /// A texture that accompanies an MTL file.
 struct MtlTexture {
     std::string file;  ///< image file, relative to the MTL file; empty: the map is omitted

@@ -48,13 +48,16 @@ class MtlWriter {
         for (const Material& m : materials) {
             name_ = one_line(m.name);
             out_ += "newmtl " + name_ + '\n';
-            m.metallic_roughness ? metallic_roughness(m, *m.metallic_roughness) : whitted(m);
+            const bool clear = scattering_of(m);
             color("Ke", "map_Ke", m.emission);
-            if (m.alpha_mode == AlphaMode::Mask) lose("the alpha threshold");
-            if (m.alpha_mode != AlphaMode::Opaque) scalar("d", "map_d", m.alpha);
+            if (m.illuminant) lose("the spectrum of the emission");
+            alpha(m, clear);
             if (!m.double_sided) lose("single-sided visibility");
-            if (m.index.texture != kNoTexture) lose("the texture of the index of refraction");
             map("norm", m.normal_map.texture, false, bump_option(m.normal_map.scale));
+            if (m.index.texture != kNoTexture) lose("the texture of the index of refraction");
+            if (m.dispersion) lose("dispersion");
+            if (!m.scattering.coefficient.is_black()) lose("scattering inside a volume");
+            if (m.density) lose("a density");
         }
         return std::move(out_);
     }
@@ -62,10 +65,62 @@ class MtlWriter {
   private:
     void lose(const std::string& what) { losses_.add(what, name_); }
 
-    void whitted(const Material& m) {
+    /// Writes how the surface scatters light, in the precedence of `evaluate`; true if light passes
+    /// through the body.
+    bool scattering_of(const Material& m) {
+        if (m.metallic_roughness) return metallic_roughness(m, *m.metallic_roughness);
+        if (m.conductor) {
+            lose("the complex index of a conductor, written as a metal of its colour");
+            return metallic_roughness(m, metal_of(m));
+        }
+        if (m.dielectric) {
+            if (!m.dielectric->absorption.is_black()) lose("the absorption of a dielectric");
+            MetallicRoughness clear;
+            clear.metallic.value = 0;
+            clear.roughness = m.roughness;
+            clear.transmission.value = clear.thickness.value = 1;
+            return metallic_roughness(m, clear);
+        }
+        return whitted(m);
+    }
+    /// The metal whose base colour is the conductor's reflectance at normal incidence.
+    static MetallicRoughness metal_of(const Material& m) {
+        Material bare;
+        bare.conductor = m.conductor;
+        MetallicRoughness metal;
+        metal.base_color.color = evaluate(bare, {}, SurfaceLookup{}).albedo;
+        metal.roughness = m.roughness;
+        return metal;
+    }
+
+    void alpha(const Material& m, bool clear) {
+        if (m.alpha_mode == AlphaMode::Opaque) return;
+        // With these models of `illum`, d is a factor of Tf.
+        if (clear) return lose("the alpha of a transparent body");
+        if (m.alpha_mode == AlphaMode::Mask) lose("the alpha threshold");
+        scalar("d", "map_d", m.alpha);
+    }
+
+    /// Ka as it reads back: a black one would stand for the diffuse colour, and the texture of the
+    /// diffuse colour multiplies one without a texture.
+    void ambient(const Material& m) {
+        constexpr double kNearlyBlack = 1e-30;
+        ColorInput written = m.ambient;
+        if (written.color.is_black()) {
+            written.texture = kNoTexture;
+            if (!m.diffuse.color.is_black()) {
+                written.color = {kNearlyBlack, kNearlyBlack, kNearlyBlack};
+            }
+        } else if (has_map(m.diffuse) && !has_map(m.ambient)) {
+            lose("an ambient colour without the texture of the diffuse one");
+        }
+        color("Ka", "map_Ka", written);
+    }
+
+    bool whitted(const Material& m) {
         const bool glass = !is_black(m.transmissive);
         const bool mirror = !is_black(m.reflective);
-        color("Ka", "map_Ka", m.ambient);
+        ambient(m);
         color("Kd", "map_Kd", m.diffuse);
         // MTL has a single colour for the highlight and the reflection.
         const bool highlight = !is_black(m.specular);
@@ -75,6 +130,8 @@ class MtlWriter {
             lose("different colours of highlight and reflection");
         }
         color("Ks", "map_Ks", highlight ? m.specular : m.reflective);
+        if (highlight && m.shininess.value == 0.0) lose("a highlight of exponent 0");
+        if (m.roughness.value != 0.0) lose("the roughness of reflection and refraction");
         // An exponent would create a highlight in the colour of the reflection.
         scalar("Ns", "map_Ns", highlight || !mirror ? m.shininess : ScalarInput{});
         number("Ni", m.index.value);
@@ -83,12 +140,17 @@ class MtlWriter {
             if (!mirror && highlight) lose("glass with a highlight but without reflection");
         }
         out_ += glass ? "illum 7\n" : mirror ? "illum 3\n" : "illum 2\n";
+        return glass;
     }
-    void metallic_roughness(const Material& m, const MetallicRoughness& mr) {
+    bool metallic_roughness(const Material& m, const MetallicRoughness& mr) {
         color("Kd", "map_Kd", mr.base_color);
         scalar("Pm", "map_Pm", mr.metallic);
         scalar("Pr", "map_Pr", mr.roughness);
+        if (mr.coat.strength.value > 0.0) coat(mr.coat);
         number("Ni", m.index.value);
+        if (m.index.value < 1.0 && mr.metallic.value < 1.0) {
+            lose("an index of refraction below 1 beside metallic-roughness parameters");
+        }
         if (mr.transmission.value > 0.0) {
             color("Tf", nullptr, {mr.transmission.value * Rgb{1, 1, 1}, mr.transmission.texture});
             out_ += "illum 7\n";
@@ -106,8 +168,27 @@ class MtlWriter {
         if (std::isfinite(mr.attenuation_distance) && mr.attenuation_color != Rgb{1, 1, 1}) {
             lose("the attenuation colour");
         }
+        if (!is_black(mr.sheen.color)) lose("the sheen");
+        if (mr.film.strength.value > 0.0) lose("the iridescent film");
+        if (mr.anisotropy.strength != 0.0) lose("the anisotropy");
+        if (mr.diffuse_transmission.share.value > 0.0) lose("the diffuse transmission");
+        if (mr.dispersion > 0.0) lose("dispersion");
+        return mr.transmission.value > 0.0;
+    }
+    void coat(const ClearCoat& coat) {
+        number("Pc", coat.strength.value);
+        number("Pcr", coat.roughness.value);
+        if (coat.strength.texture != kNoTexture || coat.roughness.texture != kNoTexture) {
+            lose("the textures of the clear coat");
+        }
+        if (coat.normal_map.texture != kNoTexture) lose("the normal map of the clear coat");
     }
 
+    /// True if `color` writes a map.
+    [[nodiscard]] bool has_map(const ColorInput& c) const {
+        return c.texture != kNoTexture && std::size_t(c.texture) < textures_.size() &&
+               !textures_[std::size_t(c.texture)].file.empty() && !c.color.is_black();
+    }
     static bool is_black(const ColorInput& c) {
         return c.texture == kNoTexture && c.color.is_black();
     }

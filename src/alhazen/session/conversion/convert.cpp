@@ -52,6 +52,39 @@ std::string advice_of(const ConvertOptions& options) {
 
 // Mesh formats.
 
+/// The number of parts that move or whose vertices move; the parts of an object count once.
+std::uint64_t moving_parts(const SceneDescription& description) {
+    std::uint64_t count = 0;
+    for (const ObjectDescription& object : description.objects) {
+        for (const Part& part : object.parts) {
+            const auto* mesh = std::get_if<MeshIndex>(&part.what);
+            const bool deforms = mesh != nullptr &&
+                                 !description.meshes[static_cast<std::size_t>(*mesh)].keys.empty();
+            if (part.motion || deforms) ++count;
+        }
+    }
+    return count;
+}
+
+/// Counts what no mesh format holds.
+void note_losses(const SceneDescription& description, ConvertReport& report) {
+    report.masked_parts = masked_parts(description);
+    report.moving_parts = moving_parts(description);
+    report.moment = description.shutter.open;
+}
+
+/// Moves the files to their places; throws if `options` refuse what they lose.
+ConvertReport finish(const std::string& bytes, const ConvertOptions& options, const fs::path& path,
+                     ConvertOutput& output) {
+    const std::vector<std::string> losses = losses_of(output.report());
+    if (options.strict && !losses.empty()) {
+        std::string message = path.string() + " cannot hold all of the scene:";
+        for (const std::string& line : losses) message += "\nerror: " + line;
+        throw Error(ErrorKind::Scene, message);
+    }
+    return output.finish(bytes_of(bytes));
+}
+
 /// Throws if the counts exceed limits. `surfaces`: patches and surfaces that the file holds besides
 /// triangles.
 void check_counts(const PlacedCounts& counts, std::size_t surfaces, const fs::path& path,
@@ -137,12 +170,13 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     check_counts(counts, surfaces.size(), path, options);
     output.report().triangles = counts.triangles;
     output.report().left_out = shapes_in_words(counts);
-    output.report().masked_parts = masked_parts(description);
+    note_losses(description, output.report());
     const std::vector<NamedMesh> meshes = placed_meshes(description, names);
     std::string bytes;
     if (suffix == ".stl") {
         bytes = stl_bytes(meshes);
     } else if (suffix == ".obj") {
+        output.report().mixed_faces = faces_of_several_materials(meshes);
         bytes = obj_text(meshes, write_materials(description, names, output));
         bytes += obj_surfaces_text(surfaces);
     } else if (meshes.size() == 1 && meshes.front().placement == Affine{} &&
@@ -151,7 +185,7 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     } else {
         bytes = ply_bytes(meshes);
     }
-    return output.finish(bytes_of(bytes));
+    return finish(bytes, options, path, output);
 }
 
 /// Writes the non-rational Bezier patches.
@@ -176,11 +210,40 @@ ConvertReport write_patches(const SceneDescription& description, const fs::path&
                     fmt::format("{}: the scene has no patches to write", path.string()));
     }
     output.report().left_out = others;
-    output.report().masked_parts = masked_parts(description);
-    return output.finish(bytes_of(bpt_text(surfaces)));
+    note_losses(description, output.report());
+    return finish(bpt_text(surfaces), options, path, output);
 }
 
 }  // namespace
+
+std::vector<std::string> losses_of(const ConvertReport& report) {
+    const auto counted = [](std::uint64_t n, const char* what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    std::vector<std::string> lines;
+    if (report.masked_parts > 0) {
+        lines.push_back(
+            fmt::format("mesh files do not keep the visibility masks of {} (.alhazen "
+                        "keeps 'visible_to')",
+                        counted(report.masked_parts, "part")));
+    }
+    if (report.moving_parts > 0) {
+        lines.push_back(
+            fmt::format("mesh files do not keep the motion of {}, written as at time "
+                        "{:g}, when the shutter opens (.alhazen keeps it)",
+                        counted(report.moving_parts, "part"), report.moment));
+    }
+    if (report.mixed_faces > 0) {
+        lines.push_back(
+            fmt::format("a face of an OBJ has one material: {} between vertices of "
+                        "different materials got that of the first vertex",
+                        counted(report.mixed_faces, "face")));
+    }
+    for (const std::string& what : report.lost) {
+        lines.push_back("the MTL file cannot express " + what);
+    }
+    return lines;
+}
 
 void check_convert_target(const fs::path& scene, const fs::path& path) {
     const std::string suffix = lower_suffix(path);

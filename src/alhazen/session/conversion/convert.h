@@ -25,6 +25,7 @@ struct ConvertOptions {
     bool meshes_only = false;
     /// How the caller's user sets `meshes_only`, advised by the refusal; "": not at all.
     std::string meshes_only_setting = "--meshes-only";
+    bool strict = false;  ///< refuse the scene if the file cannot hold all of the parts written
     std::uint64_t max_triangles = 400'000'000;  ///< limit of a mesh file, instances expanded
 };
 
@@ -33,18 +34,26 @@ struct ConvertReport {
     std::uint64_t bytes = 0;                   ///< total size of the files
     std::uint64_t triangles = 0;     ///< written: each mesh once (native), or all placed meshes
     std::uint64_t masked_parts = 0;  ///< mesh formats: parts whose visibility mask is lost
-    std::string left_out;            ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
+    std::uint64_t moving_parts = 0;  ///< mesh formats: parts whose motion is lost
+    double moment = 0;               ///< at which the moving parts are written: the shutter opens
+    /// OBJ: faces whose vertices have different materials; each has that of its first vertex.
+    std::uint64_t mixed_faces = 0;
+    std::string left_out;  ///< shapes that meshes_only dropped: "2 spheres, 1 plane"
     /// OBJ: material properties that MTL cannot express, one line each.
     std::vector<std::string> lost;
 };
+
+/// What the file does not hold of the parts that it has, a line for each kind.
+[[nodiscard]] std::vector<std::string> losses_of(const ConvertReport& report);
 
 /// Throws Error (Usage) with the known suffixes when `path` has none of them, or when it is the
 /// file `scene` itself. Call it before loading.
 void check_convert_target(const std::filesystem::path& scene, const std::filesystem::path& path);
 
 /// Writes a valid `description` in the format of the suffix of `path`. Throws Error: Usage as above
-/// and for content that the format cannot hold, Scene for an empty result, Resource beyond the
-/// limits, File when a file cannot be written.
+/// and for content that the format cannot hold, Scene for an empty result and, if strict, for
+/// losses (nothing is written then), Resource beyond the limits, File when a file cannot be
+/// written.
 ConvertReport convert(const SceneDescription& description, const std::filesystem::path& path,
                       const ConvertOptions& options = {});
 

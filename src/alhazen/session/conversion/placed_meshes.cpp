@@ -75,7 +75,7 @@ class Collector {
                   std::vector<NamedMesh>& out) const {
         if (mesh.mesh->triangles.empty()) return;
         out.push_back({part.name.empty() ? mesh.name : part.name, mesh.mesh.get(), placement,
-                       material_names_[static_cast<std::size_t>(part.material)]});
+                       material_names_[static_cast<std::size_t>(part.material)], material_names_});
     }
 
     const SceneDescription& d_;
@@ -86,6 +86,13 @@ class Collector {
 template <class... S>
 constexpr std::array<const char*, sizeof...(S)> names_of(const ShapeTypes<S...>&) {
     return {S::kName...};
+}
+
+std::string plural_of(const std::string& kind) {
+    if (kind == "algebraic") return "algebraic surfaces";
+    if (kind == "polyhedron") return "polyhedra";
+    if (kind == "torus") return "tori";
+    return kind + (kind.back() == 'x' || kind.back() == 'h' ? "es" : "s");
 }
 
 }  // namespace
@@ -100,9 +107,8 @@ std::string shapes_in_words(const PlacedCounts& counts) {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         const std::uint64_t n = counts.shapes[i];
         if (n == 0) continue;
-        std::string name = kNames[i];
-        if (n > 1) name += name.back() == 'x' || name.back() == 'h' ? "es" : "s";
-        words += (words.empty() ? "" : ", ") + std::to_string(n) + " " + name;
+        words += (words.empty() ? "" : ", ") + std::to_string(n) + " " +
+                 (n > 1 ? plural_of(kNames[i]) : kNames[i]);
     }
     return words;
 }

@@ -23,7 +23,7 @@ struct PlacedCounts {
 [[nodiscard]] std::string shapes_in_words(const PlacedCounts& counts);
 
 /// All placed meshes in the order of the parts; meshes without triangles are omitted.
-/// `material_names` [MaterialId]. Precondition: the counts fit in memory.
+/// `material_names` [MaterialId] must outlive them. Precondition: the counts fit in memory.
 [[nodiscard]] std::vector<NamedMesh> placed_meshes(const SceneDescription& description,
                                                    const std::vector<std::string>& material_names);
 

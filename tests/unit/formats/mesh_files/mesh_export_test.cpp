@@ -293,6 +293,72 @@ TEST(MeshExport, WhatMtlCannotSayIsTold) {
     EXPECT_TRUE(MtlTrip(usual, m).loses("occlusion"));
 }
 
+TEST(MeshExport, EveryPropertyThatMtlLacksIsTold) {
+    ImageTexture usual;
+    usual.filter = TextureFilter::Mipmapped;
+    const auto told = [&](const char* part, auto change) {
+        Material m;
+        change(m);
+        const MtlTrip trip(usual, m);
+        EXPECT_EQ(trip.lost.size(), 1u) << part;
+        EXPECT_TRUE(trip.loses(part)) << part;
+    };
+    const auto layered = [&](const char* part, auto change) {
+        told(part, [&](Material& m) {
+            m.metallic_roughness.emplace();
+            change(*m.metallic_roughness);
+        });
+    };
+    told("dispersion", [](Material& m) { m.dispersion = Dispersion{.abbe = 30}; });
+    told("density", [](Material& m) { m.density = 3; });
+    told("scattering", [](Material& m) { m.scattering.coefficient = {.5, .5, .5}; });
+    told("spectrum", [](Material& m) { m.illuminant.emplace(); });
+    told("the roughness of reflection", [](Material& m) {
+        m.reflective.color = {.5, .5, .5};
+        m.roughness.value = 0.4;
+    });
+    told("a highlight of exponent 0", [](Material& m) { m.specular.color = {.5, .5, .5}; });
+    told("ambient colour without the texture", [](Material& m) { m.ambient.color = {.5, .5, .5}; });
+    told("the alpha of a transparent body", [](Material& m) {
+        m.transmissive.color = {.5, .5, .5};
+        m.alpha_mode = AlphaMode::Blend;
+        m.alpha.value = 0.5;
+    });
+    layered("sheen", [](MetallicRoughness& p) { p.sheen.color.color = {1, 0, 0}; });
+    layered("film", [](MetallicRoughness& p) { p.film.strength.value = 1; });
+    layered("anisotropy", [](MetallicRoughness& p) { p.anisotropy.strength = 0.8; });
+    layered("diffuse transmission",
+            [](MetallicRoughness& p) { p.diffuse_transmission.share.value = 0.7; });
+    layered("dispersion", [](MetallicRoughness& p) { p.dispersion = 0.5; });
+    layered("textures of the clear coat", [](MetallicRoughness& p) {
+        p.coat.strength = {0.5, TextureId{0}};
+    });
+    layered("normal map of the clear coat", [](MetallicRoughness& p) {
+        p.coat.strength.value = 0.5;
+        p.coat.normal_map.texture = TextureId{0};
+    });
+    told("index of refraction below 1", [](Material& m) {
+        m.metallic_roughness.emplace().metallic.value = 0;
+        m.index.value = 0.5;
+    });
+}
+
+TEST(MeshExport, AFaceHasTheMaterialOfItsFirstVertex) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {2, 1, 3}, {3, 1, 2}};
+    mesh.vertex_materials = {1, 1, 1, 0};
+    const std::vector<std::string> names{"red", "blue"};
+    const NamedMesh named{"m", &mesh, {}, "part", names};
+    EXPECT_EQ(faces_of_several_materials({&named, 1}), 2u);
+    const std::string text = obj_text({&named, 1});
+    EXPECT_NE(text.find("usemtl blue\nf 1 2 3\nf 3 2 4\nusemtl red\nf 4 2 3\n"), std::string::npos)
+        << text;
+    mesh.vertex_materials.clear();
+    EXPECT_EQ(faces_of_several_materials({&named, 1}), 0u);
+    EXPECT_NE(obj_text({&named, 1}).find("usemtl part\nf 1 2 3\nf 3 2 4\n"), std::string::npos);
+}
+
 TEST(MeshExport, LossesAreToldOnceWithTheirNumber) {
     std::vector<Material> many(3);
     for (Material& m : many) m.double_sided = false;
