@@ -227,9 +227,11 @@ void ExactOptics::turn(const Surface& surface, double cosine, double here, doubl
     if (optics_.fresnel && material.conductor) {
         return turn_conductor(*material.conductor, cosine, here, sample);
     }
-    const bool in_air = std::min(here, beyond) == media_[kOutside].index;
+    // The material's reflectance is that against index 1.
+    const double thin = std::min(here, beyond), dense = std::max(here, beyond);
+    const bool as_evaluated = thin == 1.0 && (sample.index != 1.0 || dense == 1.0);
     const double dielectric = dielectric_share(scene_, surface);
-    turn_to_view_between(sample, cosine, here / beyond, !in_air && dielectric > 0.0,
+    turn_to_view_between(sample, cosine, here / beyond, !as_evaluated && dielectric > 0.0,
                          optics_.fresnel ? dielectric : 0.0);
 }
 

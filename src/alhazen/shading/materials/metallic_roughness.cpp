@@ -53,10 +53,32 @@ double normal_reflectance(double index) {
     return r * r;
 }
 
+/// Share of the reflection that stays sharp.
+double mirror_share(double roughness) {
+    return std::pow(1.0 - roughness, 4.0);
+}
+
 /// Scales the terms below the reflection by the share that is not reflected.
 void keep_below(MaterialSample& sample, double share) {
     sample.diffuse = share * sample.diffuse;
     sample.transmissive = share * sample.transmissive;
+}
+
+/// Replaces the reflectance against index 1 by that of a boundary of relative index `eta`.
+void set_reflectance_of_wall(double eta, MaterialSample& sample) {
+    const double between = normal_reflectance(eta);
+    if (const double outside = normal_reflectance(sample.index); outside > 0.0) {
+        const double share = between / outside;
+        sample.reflective = share * sample.reflective;
+        sample.specular = share * sample.specular;
+        return;
+    }
+    // A material of index 1 has no reflectance to be scaled: it starts from that at grazing
+    // incidence, which is M times its strength.
+    const Rgb missing = between * (sample.grazing - sample.reflective);
+    sample.reflective += missing;
+    const double mirror = mirror_share(sample.roughness);
+    if (mirror > 0.0) sample.specular += (sample.shininess + 2.0) / (8.0 * mirror) * missing;
 }
 
 }  // namespace
@@ -93,7 +115,7 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
         strength * min_of_one(normal_reflectance(s.index) * color(p.specular_color));
     const Rgb at_normal = (1.0 - metallic) * dielectric + metallic * base;
     const double grazing = (1.0 - metallic) * strength + metallic;
-    const double mirror = std::pow(1.0 - roughness, 4.0);
+    const double mirror = mirror_share(roughness);
     s.reflective = mirror * at_normal;
     s.grazing = mirror * Rgb{grazing, grazing, grazing};
 
@@ -152,11 +174,7 @@ void keep_below_reflection(MaterialSample& sample) {
 void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall,
                           double exact) {
     if (!sample.physical) return;
-    if (const double outside = normal_reflectance(sample.index); wall && outside > 0.0) {
-        const double share = normal_reflectance(eta) / outside;
-        sample.reflective = share * sample.reflective;
-        sample.specular = share * sample.specular;
-    }
+    if (wall) set_reflectance_of_wall(eta, sample);
     double c = clamped(cosine);
     if (eta > 1.0 && !sample.thin) {
         // Schlick's formula takes the angle on the side of the lower index; beyond the critical
