@@ -13,6 +13,9 @@ namespace alhazen {
 
 namespace {
 
+/// Extents of more parts would take longer than the lines they save.
+constexpr std::size_t kMostParts = 4096;
+
 /// Copies a shape of a table into a separate table; returns its placement there.
 Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable& alone) {
     Placement placement;
@@ -133,6 +136,39 @@ Interval IsolatedSolid::extent(const Vec3& axis) const {
                                 std::max(std::abs(inner.lo), std::abs(inner.hi)));
     const Interval own{inner.lo + shift - pad, inner.hi + shift + pad};
     return intersection(own, alhazen::extent(box_, axis));
+}
+
+void IsolatedSolid::part_extents(const Vec3& axis, std::vector<Interval>& parts) const {
+    const PrimitiveTable& table = aggregate_->primitives();
+    const auto* csg = dynamic_cast<const CsgAggregate*>(csg_);
+    if (table.size() > kMostParts || (csg == nullptr && csg_ != nullptr)) {
+        return Measurable::part_extents(axis, parts);
+    }
+    const Affine& m = world_.outer_from_inner;
+    const Vec3 inner_axis = transpose_times(m.linear, axis);
+    const double shift = dot(axis, m.translation);
+    const double rounding = 4e-15 * dot(abs(axis), abs(m.translation));
+    const Interval whole = extent(axis);
+    const auto add = [&](const Interval& inner, double beyond) {
+        const double pad =
+            beyond + rounding + 4e-15 * std::max(std::abs(inner.lo), std::abs(inner.hi));
+        parts.push_back(
+            intersection(Interval{inner.lo + shift - pad, inner.hi + shift + pad}, whole));
+    };
+    if (csg == nullptr) {
+        for (std::size_t i = 0; i < table.size(); ++i) add(table.extent(i, inner_axis), 0.0);
+        return;
+    }
+    // The solid is bounded: where it is, at least one leaf that is not complemented is.
+    const CsgSolid& solid = csg->solid();
+    const double beyond = 8 * solid.tolerance() * length(inner_axis);
+    for (std::uint32_t leaf = 0; leaf < solid.leaf_count(); ++leaf) {
+        const Box3& bound = solid.tree().bounds()[leaf];
+        if (solid.tree().leaves()[leaf].complement || bound.empty()) continue;
+        const auto primitive = static_cast<std::size_t>(solid.expression().leaves[leaf]);
+        add(intersection(table.extent(primitive, inner_axis), alhazen::extent(bound, inner_axis)),
+            beyond);
+    }
 }
 
 namespace {

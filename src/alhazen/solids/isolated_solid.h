@@ -33,6 +33,13 @@ class Measurable {
     [[nodiscard]] virtual Box3 box() const = 0;
     /// Range of dot(axis, p), rounded outward.
     [[nodiscard]] virtual Interval extent(const Vec3& axis) const = 0;
+    /// Appends the ranges of dot(axis, p) of parts that together contain the surface, in the same
+    /// order for every axis. Default: the whole.
+    virtual void part_extents(const Vec3& axis, std::vector<Interval>& parts) const {
+        parts.push_back(extent(axis));
+    }
+    /// True if no volume is a usual result, as for the intersection of two solids.
+    [[nodiscard]] virtual bool may_be_empty() const { return false; }
     /// Bound of the numbers that crossings are computed from; it scales the rounding error of
     /// surface points. Default: the largest coordinate of the box.
     [[nodiscard]] virtual double magnitude() const;
@@ -48,6 +55,8 @@ class IsolatedSolid final : public Measurable {
 
     [[nodiscard]] Box3 box() const override { return box_; }
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
+    /// The primitives; for a CSG object its positive leaves, within their S-bounds (csg_tree.h).
+    void part_extents(const Vec3& axis, std::vector<Interval>& parts) const override;
     /// Includes the frame of the solid and, for a CSG object, its parts.
     [[nodiscard]] double magnitude() const override;
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
@@ -85,6 +94,7 @@ class Overlap final : public Measurable {
 
     [[nodiscard]] Box3 box() const override;
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
+    [[nodiscard]] bool may_be_empty() const override { return true; }
     [[nodiscard]] double magnitude() const override;
     /// Computes no cosines: the area of an intersection is not measured.
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;

@@ -143,6 +143,10 @@ std::string solid_text(const SolidReport& r) {
              fmt::format("the crossings of {} lines did not come in pairs: is it closed?",
                          m.inconsistent_lines));
     }
+    if (m.volume.value == 0 && m.volume.half_width > m.volume.rounding) {
+        line("WARNING",
+             "no line met the solid: the intervals bound what all of them may have missed");
+    }
     if (!m.in_range) {
         line("WARNING",
              "numbers overflow or vanish: the solid is too large or too small; scale it");

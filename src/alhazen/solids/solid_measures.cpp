@@ -149,6 +149,7 @@ class Measurer {
         const Estimate widened = with_rare_misses(e, pilot.misses(), pilot.sparsest(), rounding);
         const double wanted = options_.relative_error * std::abs(e.value);
         const double lines = static_cast<double>(pilot.lines());
+        if (pilot.unseen_shadow() > 0) return kInfinity;
         if (!(wanted > 0)) return 0;
         // The term for rare misses falls as 1 / lines.
         return lines * std::max(std::pow(e.half_width / wanted, 1 / kOrder),
@@ -170,6 +171,8 @@ class Measurer {
             std::min({growth * round, room / StratifiedChords::kCostOfLine, most});
         const bool grows = wanted >= kLeastGrowth * round;
         if (!grows && room < round) return false;
+        // Nothing was met by as many lines as a round may have.
+        if (!grows && std::isinf(factor)) return false;
         grow_bundle(bundle, grows ? static_cast<std::uint64_t>(wanted) : 0);
         return true;
     }
@@ -214,8 +217,14 @@ class Measurer {
         const StratifiedChords& bundle = bundles_[k];
         const Estimate e = bundle.estimate();
         const double rounding = volume_rounding(e.value);
-        return with_rounding(with_rare_misses(e, bundle.misses(), bundle.sparsest(), rounding),
-                             rounding);
+        Estimate widened = with_rounding(
+            with_rare_misses(e, bundle.misses(), bundle.sparsest(), rounding), rounding);
+        // If no line met the solid: its shadow times its length along the lines.
+        if (!solid_.may_be_empty()) {
+            widened.half_width +=
+                bundle.unseen_shadow() * solid_.extent(bundle.direction()).width();
+        }
+        return widened;
     }
     [[nodiscard]] Estimate volume() const { return volume_along(best_); }
 
@@ -228,7 +237,7 @@ class Measurer {
     }
 
     [[nodiscard]] Estimate area() const {
-        double value = 0, rounding = 0;
+        double value = 0, rounding = 0, unseen = 0;
         std::array<Spread, 3> spreads;
         for (std::size_t k = 0; k < 3; ++k) {
             const StratifiedChords& bundle = area_bundles_[k];
@@ -238,8 +247,12 @@ class Measurer {
             // Silhouettes with every side displaced by the slack, and sums of cosines.
             const double edges = 1 / bundle.right_width() + 1 / bundle.up_width();
             rounding += std::abs(share) * (2 * slack_ * edges + kSumming);
+            // Two crossings, if no line met the solid.
+            if (!solid_.may_be_empty()) unseen += 2 * bundle.unseen_shadow();
         }
-        return with_rounding(estimate_of(value, sum_of(spreads)), rounding);
+        Estimate area = with_rounding(estimate_of(value, sum_of(spreads)), rounding);
+        area.half_width += unseen;
+        return area;
     }
 
     /// Crofton's formula with isotropic lines through the ball around the box: the mean number of
@@ -256,7 +269,11 @@ class Measurer {
             }
         });
         lines_ += static_cast<double>(kCroftonSets * lines);
-        const Estimate e = mean_of(area);
+        Estimate e = mean_of(area);
+        if (e.value == 0) {
+            // The rule of three, for lines with two crossings.
+            e.half_width = 2 * kPi * radius * radius * 2 * 3 / double(kCroftonSets * lines);
+        }
         return with_rounding(e, std::abs(e.value) * (slack_ / radius + kSumming));
     }
 

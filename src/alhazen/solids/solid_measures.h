@@ -28,7 +28,9 @@
 /// by 64 roundings of the largest number that they are computed from, times their area. (5) If
 /// hardly any line misses the solid within the rectangle of its projection, the empty corners are
 /// too rare to show in the variance: the share of three lines is added (Hanley and Lippman-Hand,
-/// "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249, 1983).
+/// "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249, 1983). (6) No lines are cast in
+/// wide gaps between the shadows of a solid's parts (chord_patches.h). If no line met the solid,
+/// its intervals bound what three of the lines cast would have met.
 /// Conventions: world units. Moments are for density 1.
 /// Complexity and threads: errors fall about as N^-1 to N^-1.5 in the number of lines N while cells
 /// are cut, then as N^-0.5. Uses all threads; the result is independent of their number unless the

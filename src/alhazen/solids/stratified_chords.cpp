@@ -12,6 +12,7 @@
 #include "alhazen/base/interruption.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/sampling/random.h"
+#include "alhazen/solids/chord_patches.h"
 
 namespace alhazen {
 
@@ -35,6 +36,10 @@ constexpr double kSurveyGrowth = 1.5, kLastGrowth = 2;
 constexpr float kRimShare = 1.0f / 32;
 /// Weight of that guess if the quarter itself was surveyed: seven lines may miss a feature.
 constexpr float kWeightOfGuess = 0.1f;
+
+/// Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
+/// cases.
+constexpr double kRuleOfThree = 3.0;
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -105,6 +110,41 @@ StratifiedChords::StratifiedChords(const Measurable& solid, const BundleFrame& f
     right_ = range(frame.right);
     up_ = range(frame.up);
     scale_ = measured == Measured::Area ? 1.0 : length(solid.box().size());
+    find_patches();
+}
+
+void StratifiedChords::find_patches() {
+    std::vector<Interval> along_right, along_up;
+    solid_.part_extents(frame_.right, along_right);
+    solid_.part_extents(frame_.up, along_up);
+    std::vector<ChordPatch> found;
+    const auto is_unbounded = [](const Interval& range) {
+        return !(std::isfinite(range.lo) && std::isfinite(range.hi) && range.lo <= range.hi);
+    };
+    if (std::none_of(along_right.begin(), along_right.end(), is_unbounded) &&
+        std::none_of(along_up.begin(), along_up.end(), is_unbounded) && !along_right.empty()) {
+        found = chord_patches(along_right, along_up);
+    }
+    if (found.size() < 2) {
+        patches_ = {Patch{}};
+        return;
+    }
+    // A patch's width as float, rounded up: its halves are exact.
+    const auto place = [](const Interval& range, const Interval& whole, double shift, double& at,
+                          float& width) {
+        constexpr float kInfinite = std::numeric_limits<float>::infinity();
+        at = (range.lo - shift - whole.lo) / whole.width();
+        width = std::nextafter(static_cast<float>(range.width() / whole.width()), kInfinite);
+    };
+    covered_ = 0;
+    for (const ChordPatch& patch : found) {
+        Patch& p = patches_.emplace_back();
+        place(patch.right, right_, dot(frame_.right, center_), p.x, p.width);
+        place(patch.up, up_, dot(frame_.up, center_), p.y, p.height);
+        covered_ += p.area();
+        narrowest_[0] = std::min(narrowest_[0], double{p.width});
+        narrowest_[1] = std::min(narrowest_[1], double{p.height});
+    }
 }
 
 std::uint64_t StratifiedChords::grow_to(std::uint64_t lines) {
@@ -126,28 +166,34 @@ std::uint64_t StratifiedChords::grow_to(std::uint64_t lines) {
     return lines_of_round() + surveyed_ - before;
 }
 
-/// Makes about a fourth of this many cells.
+/// Makes about a fourth of this many cells, and at least one for every patch.
 void StratifiedChords::make_grid(std::size_t cells) {
-    std::size_t side = 1;
-    while (16 * side * side <= cells) side *= 2;
-    const float size = 1.0f / static_cast<float>(side);
-    for (std::size_t i = 0; i < side * side; ++i) {
-        cells_.push_back({double(i % side) * size, double(i / side) * size, size});
+    for (const Patch& patch : patches_) {
+        const double wanted = static_cast<double>(cells) * patch.area() / covered_;
+        std::size_t side = 1;
+        while (static_cast<double>(16 * side * side) <= wanted) side *= 2;
+        const float width = patch.width / static_cast<float>(side);
+        const float height = patch.height / static_cast<float>(side);
+        for (std::size_t i = 0; i < side * side; ++i) {
+            cells_.push_back({patch.x + double(i % side) * width,
+                              patch.y + double(i / side) * height, width, height});
+        }
     }
 }
 
 std::array<StratifiedChords::Cell, 4> StratifiedChords::Cell::quarters() const {
     Cell part = *this;
-    part.size *= 0.5f;
+    part.width *= 0.5f;
+    part.height *= 0.5f;
     part.scatter *= kRimShare;
     for (float& second : part.curvature) second *= 0.25f;
     part.quarter = true;
     part.surveyed = false;
     std::array<Cell, 4> all{part, part, part, part};
-    all[1].y += part.size;
-    all[2].x += part.size;
-    all[3].x += part.size;
-    all[3].y += part.size;
+    all[1].y += part.height;
+    all[2].x += part.width;
+    all[3].x += part.width;
+    all[3].y += part.height;
     return all;
 }
 
@@ -226,7 +272,8 @@ void StratifiedChords::survey() {
 /// cell measures how far the function is from a parabola, in both.
 void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found,
                                    Sums& sums) const {
-    const double half = 0.5 * cell.size, mx = cell.x + half, my = cell.y + half;
+    const double half_x = 0.5 * cell.width, half_y = 0.5 * cell.height;
+    const double mx = cell.x + half_x, my = cell.y + half_y;
     bool is_beyond = false;
     const auto value = [&](double x, double y) {
         // The solid touches the sides of its shadow's rectangle: beyond them is nothing.
@@ -249,8 +296,8 @@ void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& fo
     for (int k = 0; k < 3; ++k) {
         const double angle = (u + k) * kThird;
         const double c = radius * std::cos(angle), s = radius * std::sin(angle);
-        const double there = value(mx + half * c, my + half * s);
-        const double opposite = value(mx - half * c, my - half * s);
+        const double there = value(mx + half_x * c, my + half_y * s);
+        const double opposite = value(mx - half_x * c, my - half_y * s);
         // Along this direction: xx c^2 + 2 xy c s + yy s^2
         const double second = (there + opposite - 2 * middle) / (radius * radius);
         mean += second / 3;
@@ -306,12 +353,12 @@ void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& foun
 void StratifiedChords::cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found,
                                  Moments& pair, Sums& sums) const {
     const double weight = cell.area() / kLinesPerCell;
-    const double half = 0.5 * cell.size;
+    const double half_x = 0.5 * cell.width, half_y = 0.5 * cell.height;
     const double u = (static_cast<double>(bits >> 32) + 0.5) * 0x1p-31 - 1;
     const double v = (static_cast<double>(bits & 0xffffffffu) + 0.5) * 0x1p-31 - 1;
     for (const double side : {1.0, -1.0}) {
-        const Vec3 offset =
-            cast_line(cell.x + half * (1 + side * u), cell.y + half * (1 + side * v), found, sums);
+        const Vec3 offset = cast_line(cell.x + half_x * (1 + side * u),
+                                      cell.y + half_y * (1 + side * v), found, sums);
         for (const Interval& span : found.spans) {
             add_span(offset, frame_.d, span.lo, span.hi, weight, pair);
         }
@@ -336,7 +383,12 @@ Vec3 StratifiedChords::cast_line(double x, double y, LineSpans& found, Sums& sum
 double StratifiedChords::sparsest() const {
     double largest = 0;
     for (const Cell& c : cells_) largest = std::max(largest, c.area());
-    return static_cast<double>(casts_ * kLinesPerCell) / largest;
+    return static_cast<double>(casts_ * kLinesPerCell) * covered_ / largest;
+}
+
+double StratifiedChords::unseen_shadow() const {
+    if (sums_.all.ends > 0) return 0;
+    return kRuleOfThree / sparsest() * covered_ * right_.width() * up_.width();
 }
 
 double StratifiedChords::share() const {
@@ -385,9 +437,6 @@ Estimate with_rounding(Estimate estimate, double rounding) {
 }
 
 Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines, double rounding) {
-    // Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
-    // cases.
-    constexpr double kRuleOfThree = 3.0;
     if (misses >= kEnoughMisses || volume.half_width <= rounding) return volume;
     volume.half_width += kRuleOfThree / lines * std::abs(volume.value);
     return volume;

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums over parallel lines through a solid, stratified over a grid of cells.
+/// Sums over parallel lines through a solid, stratified over grids of cells.
 ///
 /// Implementation of solid_measures.h, which gives source, differences and conventions.
 
@@ -78,9 +78,12 @@ class StratifiedChords {
     [[nodiscard]] Estimate estimate() const { return estimate_of(value(), spread()); }
     /// Area of the surface projected along this direction, every layer counted.
     [[nodiscard]] double projected_area() const { return share() * sums_.all.ends; }
-    /// Extents of the rectangle that the lines fill.
-    [[nodiscard]] double right_width() const { return right_.width(); }
-    [[nodiscard]] double up_width() const { return up_.width(); }
+    /// Extents of the narrowest rectangles that the lines fill.
+    [[nodiscard]] double right_width() const { return right_.width() * narrowest_[0]; }
+    [[nodiscard]] double up_width() const { return up_.width() * narrowest_[1]; }
+    /// Area that a solid's shadow exceeds in at most 5 of 100 cases if no line met the solid; 0 if
+    /// one did.
+    [[nodiscard]] double unseen_shadow() const;
     /// Number of lines cast so far whose crossings could not be paired.
     [[nodiscard]] std::uint64_t inconsistent() const { return inconsistent_; }
     /// Number of lines in one round.
@@ -89,20 +92,27 @@ class StratifiedChords {
     [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
 
   private:
-    /// Second derivatives xx, xy, yy in units of half a cell's side.
+    /// Second derivatives xx, xy, yy in units of half a cell's sides.
     using Curvature = std::array<float, 3>;
-    /// A square part of the unit square.
+    /// A rectangle of the unit square.
     struct Cell {
         double x, y;
-        float size;
+        float width, height;
         float scatter = 0;  ///< estimated variance of the two pairs, in units of scale_
         Curvature curvature{};
         float trust = 0;       ///< share of the curvature in the model; 0: no model
         bool quarter = false;  ///< quarter of a surveyed cell
         bool surveyed = false;
 
-        [[nodiscard]] double area() const { return double{size} * size; }
+        [[nodiscard]] double area() const { return double{width} * height; }
         [[nodiscard]] std::array<Cell, 4> quarters() const;
+    };
+    /// A rectangle of the unit square that cells fill.
+    struct Patch {
+        double x = 0, y = 0;
+        float width = 1, height = 1;
+
+        [[nodiscard]] double area() const { return double{width} * height; }
     };
     static constexpr std::uint64_t kLinesPerCell = 4;
     struct Sums {
@@ -116,6 +126,7 @@ class StratifiedChords {
         Sums& operator+=(const Sums& other);
     };
 
+    void find_patches();
     void make_grid(std::size_t cells);
     void survey();
     void survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found, Sums& sums) const;
@@ -135,8 +146,11 @@ class StratifiedChords {
     Vec3 center_;
     std::uint64_t key_;
     Measured measured_;
-    Interval right_, up_;  ///< extent of the base rectangle, relative to the centre
-    double scale_;         ///< unit of the value of a line
+    Interval right_, up_;         ///< extent of the base rectangle, relative to the centre
+    double scale_;                ///< unit of the value of a line
+    std::vector<Patch> patches_;  ///< the solid has no shadow elsewhere
+    double covered_ = 1;          ///< area of the patches in the unit square
+    std::array<double, 2> narrowest_{1, 1};  ///< least width and height of the patches
     std::vector<Cell> cells_;
     std::uint64_t rounds_ = 0, casts_ = 0;  ///< in total; since the cells were last cut
     std::uint64_t inconsistent_ = 0;

@@ -71,6 +71,21 @@ TEST(Octree, AHeapOfSlantedPlatesIsCutOutButNotDividedOverAndOver) {
     EXPECT_GT(OctreeCells(SlantedHeap(8), 6, 1).nodes().size(), 1000u);
 }
 
+TEST(Octree, ThinScenesHaveNoNeedlesOfCells) {
+    for (const int axis : {0, 1, 2}) {
+        std::vector<Box3> row;
+        for (int i = 0; i < 200; ++i) {
+            Box3 box{{0, 0, 0}, {0.8, 0.8, 0.8}};
+            box.lo[axis] += i;
+            box.hi[axis] += i;
+            row.push_back(box);
+        }
+        const OctreeCells cells(Boxes(row), 8, 1);
+        EXPECT_LT(cells.nodes().size(), 20'000u);
+        EXPECT_LT(cells.entries().size(), 20'000u);
+    }
+}
+
 TEST(Octree, NeighborsAreFoundInFewerStepsThanPointsFromTheRoot) {
     const OctreeCells cells(random_boxes(2000, 0.02, 3), 8, 1);
     RandomStream random(4);

@@ -1,5 +1,6 @@
 #include "alhazen/solids/solid_measures.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include "closed_forms.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
+#include "unit/formats/native/native_scene.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -262,6 +264,67 @@ TEST(SolidMeasures, LinesGoOnWhereThereAreAsManyCellsAsMayBe) {
     EXPECT_TRUE(m.reached);
     EXPECT_GT(m.lines, 100'000u);
     EXPECT_NEAR(m.volume.value, 32 * std::numbers::pi / 3, 2 * m.volume.half_width);
+}
+
+/// The solid of a scene without other objects.
+class OneSolid {
+  public:
+    explicit OneSolid(const std::string& text)
+        : solids_(compile(testing::import_native(text).scene, {.accelerator = "list"}).aggregate),
+          solid(solids_, SolidId{0}) {}
+
+  private:
+    SolidList solids_;
+
+  public:
+    IsolatedSolid solid;
+};
+
+TEST(SolidMeasures, PartsFarApartAreAllMet) {
+    const double pi = std::numbers::pi;
+    for (const double distance : {30.0, 1e3, 1e6}) {
+        const OneSolid two(
+            fmt::format("union {{ sphere {{ radius=1 }} sphere {{ "
+                        "center=({},0,0); radius=0.01 }} }}",
+                        distance));
+        const double volume = 4 * pi / 3 * (1 + 1e-6), area = 4 * pi * (1 + 1e-4);
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            const SolidMeasures m =
+                measure(two.solid, {.relative_error = 1e-3, .seconds = 20, .seed = seed});
+            EXPECT_TRUE(m.reached);
+            EXPECT_TRUE(m.directions_agree && m.areas_agree) << distance << " " << seed;
+            EXPECT_NEAR(m.volume.value, volume, 2 * m.volume.half_width) << distance;
+            EXPECT_NEAR(m.area.value, area, 2 * m.area.half_width) << distance;
+        }
+    }
+    // What is subtracted or cut off far away counts for nothing.
+    const OneSolid cut(
+        "difference { union { sphere { radius=1 } sphere { center=(300,40,-200); "
+        "radius=2 } } sphere { center=(1e3,0,0); radius=20 } box { lo=(300,0,-300); "
+        "hi=(400,100,-100) } }");
+    const SolidMeasures m = measure(cut.solid, {.relative_error = 1e-3, .seconds = 20});
+    EXPECT_TRUE(m.reached);
+    EXPECT_NEAR(m.volume.value, 4 * pi / 3 * 5, 2 * m.volume.half_width);
+    EXPECT_NEAR(m.area.value, 4 * pi * (1 + 2 + 1), 2 * m.area.half_width);
+}
+
+TEST(SolidMeasures, ASolidThatNoLineMetHasAWideInterval) {
+    // A thread along the diagonal of its box.
+    const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
+    const SolidMeasures m = measure(
+        thread.solid, {.relative_error = 1e-3, .seconds = 0.2, .most_lines_of_round = 1 << 14});
+    EXPECT_FALSE(m.reached);
+    EXPECT_TRUE(m.volume.holds(std::numbers::pi * 1e-20 * std::sqrt(332.0)));
+    EXPECT_TRUE(m.area.holds(2 * std::numbers::pi * 1e-10 * std::sqrt(332.0)));
+    EXPECT_GT(m.volume.half_width, 1e-3);
+    EXPECT_GT(m.area.half_width, 1e-3);
+    EXPECT_GT(m.lines, 10'000u);
+    // The intersection of two solids may well be empty.
+    const OneSolid other("sphere { center=(0,0,9) }");
+    const SolidMeasures both =
+        measure(Overlap(thread.solid, other.solid), {.seconds = 20, .area = false});
+    EXPECT_TRUE(both.reached);
+    EXPECT_EQ(both.volume.half_width, 0.0);
 }
 
 /// Reports an odd number of crossings on every other line.

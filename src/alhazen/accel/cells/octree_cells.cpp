@@ -10,6 +10,8 @@ namespace alhazen {
 
 namespace {
 
+/// Least width of the root along an axis, as a share of the largest.
+constexpr double kLeastShare = 0.25;
 /// Number of first levels, which cut off the empty space around a heap.
 constexpr int kLevelsAroundHeaps = 3;
 
@@ -19,8 +21,8 @@ OctreeCells::OctreeCells(const BoundsSource& source, int max_depth, int leaf_siz
     : space_(source), max_depth_(max_depth) {
     if (source.size() == 0) return;
     Box3& box = space_.box;
-    // Cells as thin as the rounding would divide adjacent primitives.
-    const double least = std::max(1e-6 * max_component(box.size()), 4 * space_.pad);
+    // Cells thinner than their primitives would only multiply the entries.
+    const double least = std::max(kLeastShare * max_component(box.size()), 4 * space_.pad);
     for (int k = 0; k < 3; ++k) {
         if (box.hi[k] - box.lo[k] < least) box.hi[k] = box.lo[k] + least;
         unit_size_[k] = (box.hi[k] - box.lo[k]) / (std::int32_t{1} << max_depth_);

@@ -6,7 +6,8 @@
 /// Differs: children are consecutive and found by index, not by hashing their names. A cell is not
 /// divided further if the lists of its children would together be more than five times as long as
 /// its own, since its primitives fill it; nor if sixteen or more of them lie in the same children,
-/// since they overlap.
+/// since they overlap. The root is the box of the scene, at least a fourth of its largest side wide
+/// along every axis, where Glassner's is a cube.
 /// Conventions: an axis of the root is 2^max_depth units long. Octant bit k is set for the upper
 /// half along axis k. Primitives are stored in every leaf within `pad` of them.
 

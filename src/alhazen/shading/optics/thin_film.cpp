@@ -41,9 +41,7 @@ Rgb sensitivity(double path_nm, const Rgb& shift) {
 
 double thin_film_reflectance_at(double nm, double cosine, double film_index, double thickness_nm,
                                 double base) {
-    const double c = std::clamp(cosine, 0.0, 1.0);
-    const double vanish = std::clamp(thickness_nm / 30.0, 0.0, 1.0);
-    const double index = 1.0 + (film_index - 1.0) * vanish * vanish * (3.0 - 2.0 * vanish);
+    const double c = std::clamp(cosine, 0.0, 1.0), index = film_index;
     const double squared = 1.0 - (1.0 - c * c) / (index * index);
     if (!(squared > 0.0)) return 1.0;
     const double inside = std::sqrt(squared);

@@ -16,7 +16,8 @@ namespace alhazen {
 /// base.
 [[nodiscard]] Rgb thin_film_reflectance(double cosine, double film_index, double thickness_nm,
                                         const Rgb& base);
-/// The same at one wavelength, with all terms of the series.
+/// The same at one wavelength, with all terms of the series; at normal incidence Airy's
+/// reflectance, down to thickness 0.
 [[nodiscard]] double thin_film_reflectance_at(double nm, double cosine, double film_index,
                                               double thickness_nm, double base);
 

@@ -1,6 +1,7 @@
 #include "alhazen/shapes/polygons/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "alhazen/geometry/watertight_triangle.h"
@@ -14,8 +15,12 @@ namespace {
 
 constexpr double kLeastQuotient = 1e-280;
 
+/// Below this share of the largest triangle of its vertices, the signed area of a polygon, whose
+/// loops then cross, says nothing about its plane.
+constexpr double kLeastSigned = 1e-9;
+
 /// Newell's normal: the sum over the edges of (a - origin) x (b - origin); its length is twice the
-/// area.
+/// signed area.
 Vec3 newell_normal(const Polygon& polygon) {
     Vec3 sum;
     const Vec3 origin = polygon.vertices.front();
@@ -28,6 +33,53 @@ Vec3 newell_normal(const Polygon& polygon) {
         first = end;
     }
     return sum;
+}
+
+/// Of the triangles of the first vertex and the one farthest from it, twice the vector area of the
+/// largest.
+Vec3 largest_triangle(const std::vector<Vec3>& vertices) {
+    const Vec3 origin = vertices.front();
+    Vec3 farthest, largest;
+    for (const Vec3& v : vertices) {
+        if (length_squared(v - origin) > length_squared(farthest)) farthest = v - origin;
+    }
+    for (const Vec3& v : vertices) {
+        const Vec3 area = cross(farthest, v - origin);
+        if (length_squared(area) > length_squared(largest)) largest = area;
+    }
+    return largest;
+}
+
+/// Along the normal: Newell's, or where parts of opposite orientation cancel, as in a bow tie, the
+/// largest triangle's.
+Vec3 plane_normal(const Polygon& polygon) {
+    const Vec3 newell = newell_normal(polygon);
+    const Vec3 spanned = largest_triangle(polygon.vertices);
+    if (length(newell) > kLeastSigned * length(spanned)) return newell;
+    return dot(newell, spanned) < 0.0 ? -spanned : spanned;
+}
+
+/// True if every edge occurs an even number of times: by the odd-even rule nothing is inside.
+bool edges_cancel(const Polygon& polygon) {
+    using Edge = std::array<double, 6>;
+    std::vector<Edge> edges;
+    std::size_t first = 0;
+    for (const std::size_t end : polygon.loop_ends) {
+        for (std::size_t i = first; i < end; ++i) {
+            const Vec3& a = polygon.vertices[i];
+            const Vec3& b = polygon.vertices[i + 1 < end ? i + 1 : first];
+            edges.push_back(
+                std::min(Edge{a.x, a.y, a.z, b.x, b.y, b.z}, Edge{b.x, b.y, b.z, a.x, a.y, a.z}));
+        }
+        first = end;
+    }
+    std::sort(edges.begin(), edges.end());
+    for (auto run = edges.begin(); run != edges.end();) {
+        const auto next = std::upper_bound(run, edges.end(), *run);
+        if ((next - run) % 2 != 0) return false;
+        run = next;
+    }
+    return true;
 }
 
 /// Sums differences from the first vertex: exact for a plane along two axes.
@@ -176,7 +228,7 @@ double clamped_to_box(double t, const Ray& ray, const Box3& box, std::uint32_t n
 
 void Polygon::prepare() {
     if (loop_ends.empty()) loop_ends = {static_cast<std::uint32_t>(vertices.size())};
-    normal = unit_or(newell_normal(*this), {0, 0, 1});
+    normal = unit_or(plane_normal(*this), {0, 0, 1});
     point = mean_vertex(vertices);
     u_axis = first_edge_direction(*this);
     bounds = {};
@@ -215,8 +267,10 @@ void Polygon::validate(const FileLocation& where, Diagnostics& diagnostics) cons
     Box3 box;
     for (const Vec3& v : vertices) box.include(v);
     const double size = max_component(box.size());
-    const double twice_area = max_component(abs(newell_normal(loops)));
-    if (!(twice_area > 1e-14 * size * size)) checks.fail("the vertices enclose no area");
+    const double least = 1e-14 * size * size;
+    if (max_component(abs(newell_normal(loops))) > least) return;
+    const double spanned = max_component(abs(largest_triangle(vertices)));
+    if (!(spanned > least) || edges_cancel(loops)) checks.fail("the vertices enclose no area");
 }
 
 Box3 Polygon::box() const {

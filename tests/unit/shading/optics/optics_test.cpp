@@ -142,6 +142,18 @@ TEST(ThinFilm, AtOneWavelengthItIsAirysAtNormalIncidenceAndNearItObliquely) {
     EXPECT_GT(largest, 0.03);  // the figure of docs/design/spectral.md
 }
 
+TEST(ThinFilm, AtOneWavelengthAFilmOfFewNanometersIsAirysToo) {
+    constexpr double kBody = 1.5;
+    const double base = normal_reflectance_of(kBody);
+    for (const double thickness : {0.0, 1.0, 10.0, 20.0, 29.0}) {
+        for (double nm = 380.0; nm <= 780.0; nm += 20.0) {
+            EXPECT_NEAR(thin_film_reflectance_at(nm, 1.0, 2.0, thickness, base),
+                        airy_reflectance(nm, 1.0, 2.0, thickness, kBody), 1e-12)
+                << thickness << " nm at " << nm;
+        }
+    }
+}
+
 TEST(ThinFilm, ColoursChangeWithThicknessAndStayBetweenNoneAndAll) {
     const Rgb base{0.04, 0.04, 0.04};
     for (double nm = 0.0; nm < 1200.0; nm += 20.0) {

@@ -53,6 +53,35 @@ TEST(Polygon, LoopsInsideLoopsAreHolesAndIslands) {
     EXPECT_FALSE(hit_from_above(p, 3.5, 0));
 }
 
+TEST(Polygon, ABowTieWhoseHalvesCancelIsHitInBoth) {
+    const Affine place = Affine::rotate({1, -2, 0.5}, 0.9) * Affine::scale({3, 3, 3});
+    const std::vector<Vec3> bow{{-1, -1, 0}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}};
+    std::vector<Vec3> turned;
+    for (const Vec3& v : bow) turned.push_back(place.point(v));
+    for (const auto& vertices : {bow, turned}) {
+        Diagnostics diagnostics;
+        Polygon{.vertices = vertices}.validate({}, diagnostics);
+        EXPECT_EQ(diagnostics.error_count(), 0u);
+    }
+    const Polygon flat = polygon(bow), aslant = polygon(turned);
+    EXPECT_NEAR(std::abs(flat.normal.z), 1.0, 1e-15);
+    EXPECT_NEAR(std::abs(dot(aslant.normal, place.vector({0, 0, 1}))), 3.0, 1e-14);
+    EXPECT_LT(aslant.off_plane, 1e-14);
+    Random random(5);
+    int hits = 0;
+    constexpr int kRays = 4000;
+    for (int i = 0; i < kRays; ++i) {
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+        const bool inside = std::abs(y) < std::abs(x);
+        EXPECT_EQ(hit_from_above(flat, x, y), inside) << x << " " << y;
+        ShapeHit hit;
+        const Ray ray{place.point({x, y, 5}), place.vector({0, 0, -1})};
+        EXPECT_EQ(aslant.intersect(ray, &hit), int{inside}) << x << " " << y;
+        hits += inside;
+    }
+    EXPECT_NEAR(4.0 * hits / kRays, 2.0, 0.1);  // the area
+}
+
 TEST(Polygon, OddEvenRuleAgreesWithTheAngleAroundThePoint) {
     Random random(61);
     int inside_count = 0;
@@ -278,6 +307,7 @@ TEST(Polygon, BadLoopsAreReported) {
     EXPECT_EQ(errors(square, {4, 3}), 1u);
     EXPECT_EQ(errors({}, {}), 1u);
     EXPECT_EQ(errors({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {3}), 1u);
+    EXPECT_EQ(errors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {}), 1u);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(errors({{0, 0, 0}, {1, 1, nan}, {2, 0, 0}}, {3}), 1u);
 }
