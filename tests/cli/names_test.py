@@ -35,7 +35,8 @@ sphere { radius = 1; material = { diffuse = texture("w") } }
             result = run(*arguments)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("s\\x0aX: area 9", result.stdout)
-        solid = self.write("solid.alhazen", 'alhazen 1\n' + CAMERA + 'torus "t\\nX" { axis = (0, 0, 1); major = 1; minor = 0.3 }\n')
+        torus = 'torus "t\\nX" { axis = (0, 0, 1); major_radius = 1; minor_radius = 0.3 }\n'
+        solid = self.write("solid.alhazen", 'alhazen 1\n' + CAMERA + torus)
         refused = run("render", solid, "-o", self.path("o.png"), "--renderer", "beam_tracing")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("t\\x0aX", refused.stderr)
