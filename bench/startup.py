@@ -3,8 +3,9 @@
 
 Usage: bench/startup.py ALHAZEN [--rounds N] [--threads N]
 A picture of one pixel: the time of the whole process, less that of writing the picture (as `--stats` tells it). So it
-is an upper bound: shading, the statistics and the exit are in it. Beside it the process /bin/true, which does nothing.
-Time on the clock, and processor time of the whole process.
+is an upper bound: shading, the statistics and the exit are in it. The files are in memory (/dev/shm), where that is
+mounted: the wait until a disk has the statistics is no part of a start. Beside it the process /bin/true, which does
+nothing. Time on the clock, and processor time of the whole process.
 """
 
 import argparse
@@ -41,7 +42,8 @@ def main():
     parser.add_argument("--rounds", type=int, default=30)
     parser.add_argument("--threads", type=int, default=0)
     args = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
+    memory = "/dev/shm"
+    with tempfile.TemporaryDirectory(dir=memory if os.access(memory, os.W_OK) else None) as folder:
         scene, stats = os.path.join(folder, "small.alhazen"), os.path.join(folder, "stats.json")
         with open(scene, "w", encoding="ascii") as file:
             file.write(SCENE)
