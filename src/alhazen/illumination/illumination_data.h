@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "alhazen/illumination/area_lanes.h"
 #include "alhazen/illumination/emitter_list.h"
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/illumination/light_chooser.h"
@@ -31,6 +32,11 @@ struct Illumination::Data {
     Vec3 center;                                     ///< of a sphere around the scene
     double radius = 1;
     bool endless = false;  ///< the scene has unbounded geometry
+
+    /// [emitter of the scene] What samples by area read; empty for few lights, which all stay in
+    /// the cache.
+    std::vector<FlatEmitter> flat;
+    std::vector<Spectrum> flat_radiances;  ///< as colour channels
 
     LightChooser near;      ///< for choices Uniform and Power
     LightTree tree;         ///< for choice Tree
@@ -119,6 +125,7 @@ struct Illumination::Data {
     void sort_lights();
     [[nodiscard]] TreeLight tree_light(std::size_t near_light) const;
     void set_choices();
+    void set_flat();
     void set_sources();
 };
 
