@@ -109,7 +109,9 @@ struct Illumination::Data {
     void choose_near(const LitPointLanes& at, const ChoiceLanes& choices, std::size_t count,
                      ChosenLight* chosen) const {
         if (options.choice == LightChoice::Tree) {
-            return choose_lights(tree, at, choices, count, chosen);
+            static_assert(sizeof(FlatEmitter) == sizeof(LightRecord));
+            return choose_lights(tree, at, choices, count, chosen,
+                                 reinterpret_cast<const LightRecord*>(flat.data()));
         }
         for (std::size_t i = 0; i < count; ++i) chosen[i] = near.choose(choices.of[i]);
     }

@@ -282,7 +282,8 @@ HWY_INLINE hn::Vec<hn::ScalableTag<std::uint64_t> > load_pairs(const Walkers& w,
 /// One step down the tree for each point that has not ended. The others stay where they are:
 /// without branches, as the end of a point is not predictable.
 template <bool kSimple>
-HWY_INLINE void descend(const LightTree& tree, Walkers& w) {
+HWY_INLINE void descend(const LightTree& tree, const LightRecord* lights, Walkers& w) {
+    static_assert(sizeof(LightRecord) == 128);
     const hn::ScalableTag<double> tag;
     const hn::ScalableTag<std::uint64_t> words;
     PairNumbers numbers;
@@ -313,11 +314,18 @@ HWY_INLINE void descend(const LightTree& tree, Walkers& w) {
     static_assert(sizeof(Siblings*) == sizeof(std::uint64_t));
     auto* const addresses = reinterpret_cast<std::uint64_t*>(w.pairs);
     const auto start = reinterpret_cast<std::uint64_t>(tree.pairs().data());
-    const auto there = hn::Add(hn::Set(words, start), hn::ShiftLeft<7>(links));
+    const auto offset = hn::ShiftLeft<7>(links);
+    const auto there = hn::Add(hn::Set(words, start), offset);
     hn::Store(hn::IfThenElse(walk_on, there, hn::Load(words, addresses)), words, addresses);
+    // Of points that end, what is read of their lights.
+    alignas(64) const char* fetched[kPoints];
+    const auto light = hn::Add(hn::Set(words, reinterpret_cast<std::uint64_t>(lights)),
+                               hn::ShiftLeft<7>(hn::AndNot(leaf, links)));
+    hn::Store(hn::IfThenElse(walk_on, there, light), words,
+              reinterpret_cast<std::uint64_t*>(fetched));
     ALHAZEN_UNROLL
     for (std::size_t i = 0; i < kPoints; ++i) {
-        const auto* const lines = reinterpret_cast<const char*>(w.pairs[i]);
+        const char* const lines = fetched[i];
         __builtin_prefetch(lines);
         __builtin_prefetch(lines + 64);
     }
@@ -345,7 +353,8 @@ HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const Choi
 }
 
 inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
-                   std::size_t count, ChosenLight* chosen) {
+                   std::size_t count, ChosenLight* chosen,
+                   [[maybe_unused]] const LightRecord* lights) {
     // While one group takes a step, the next nodes of the other are fetched.
     constexpr std::size_t kGroups = LitPointLanes::kMost / kPoints;
     Walkers groups[kGroups];
@@ -353,15 +362,17 @@ inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceL
     for (std::size_t first = 0; first < count; first += kPoints) {
         begin(tree, at, choices, first, std::min(kPoints, count - first), groups[used++]);
     }
+    // Addresses of nothing would be looked up in all tables of pages.
+    if (lights == nullptr) lights = reinterpret_cast<const LightRecord*>(tree.pairs().data());
     const bool simple = tree.has_surfaces_only() && (at.both_sides | at.in_volume) == 0;
     for (bool any = true; any;) {
         any = false;
         for (std::size_t k = 0; k < used; ++k) {
             if (!groups[k].walk) continue;
             if (simple) {
-                descend<true>(tree, groups[k]);
+                descend<true>(tree, lights, groups[k]);
             } else {
-                descend<false>(tree, groups[k]);
+                descend<false>(tree, lights, groups[k]);
             }
             any = any || groups[k].walk;
         }
@@ -464,7 +475,8 @@ HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const Choi
 }
 
 inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
-                   std::size_t count, ChosenLight* chosen) {
+                   std::size_t count, ChosenLight* chosen,
+                   [[maybe_unused]] const LightRecord* lights) {
     // While one group takes a step, the next nodes of the other are fetched.
     constexpr std::size_t kGroups = LitPointLanes::kMost / kPoints;
     Walkers groups[kGroups];
@@ -487,8 +499,9 @@ inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceL
 }  // namespace light_choices
 
 void choose_lights_of_target(const LightTree& tree, const LitPointLanes& at,
-                             const ChoiceLanes& choices, std::size_t count, ChosenLight* chosen) {
-    light_choices::choose(tree, at, choices, count, chosen);
+                             const ChoiceLanes& choices, std::size_t count, ChosenLight* chosen,
+                             const LightRecord* lights) {
+    light_choices::choose(tree, at, choices, count, chosen, lights);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -501,7 +514,7 @@ namespace alhazen {
 ALHAZEN_KERNEL_TABLE(choose_lights_of_target);
 
 void choose_lights(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
-                   std::size_t count, ChosenLight* chosen) {
+                   std::size_t count, ChosenLight* chosen, const LightRecord* lights) {
     if (tree.empty() || tree.root().is_leaf()) {
         // None, or one for all points.
         const ChosenLight only =
@@ -510,7 +523,7 @@ void choose_lights(const LightTree& tree, const LitPointLanes& at, const ChoiceL
     } else if (count == 1) {
         chosen[0] = tree.choose(at[0], choices.of[0]);
     } else {
-        ALHAZEN_KERNEL(choose_lights_of_target)(tree, at, choices, count, chosen);
+        ALHAZEN_KERNEL(choose_lights_of_target)(tree, at, choices, count, chosen, lights);
     }
 }
 
