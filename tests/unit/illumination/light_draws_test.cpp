@@ -25,8 +25,8 @@ Rectangle rectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v) 
     return r;
 }
 
-/// One rectangle; with `several` more on both sides of the points, one of them oblique, and lights of
-/// other forms; with `many` also small ones, most of them far from a point.
+/// One rectangle; with `several` more on both sides of the points, one of them oblique, and lights
+/// of other forms; with `many` also small ones, most of them far from a point.
 enum class Lamps { One, Several, Many };
 
 /// Triangles, squares and parallelograms, some of them in planes of the grid of points.
@@ -174,6 +174,8 @@ TEST(LightDraws, ManyAtOnceHaveTheBitsOfThoseOneByOne) {
                         ASSERT_EQ(a.radiance, b.radiance);
                         ASSERT_EQ(a.singular, b.singular);
                         ASSERT_EQ(a.place.source, b.place.source);
+                        ASSERT_TRUE(same_bits(a.place.parameters.x, b.place.parameters.x));
+                        ASSERT_TRUE(same_bits(a.place.parameters.y, b.place.parameters.y));
                         shone += a.density > 0.0;
                     }
                 }
