@@ -1,7 +1,6 @@
 #include "alhazen/sampling/samplers/sobol_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "alhazen/sampling/nested_scramble.h"
