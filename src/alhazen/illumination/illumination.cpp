@@ -19,7 +19,7 @@ namespace {
 constexpr double kLeastShare = 0.25;
 
 /// Near lights that stay in the cache.
-constexpr std::size_t kFewLights = 64;
+constexpr std::size_t kCachedLights = 64;
 
 double mean_channel(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
@@ -140,7 +140,7 @@ void Illumination::Data::set_choices() {
 }
 
 void Illumination::Data::set_flat() {
-    if (near_count() <= kFewLights) return;
+    if (near_count() <= kCachedLights) return;
     flat.reserve(emitters.size());
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const Rgb* const radiance = constant_radiance(i);

@@ -214,8 +214,6 @@ HWY_INLINE Numbers importances_of(const Points& w, const PairNumbers& of) {
 const std::uint64_t kLeafBit = LightTree::Link::to_light(0).bits();
 
 using Register = hn::Vec<LaneTag<double, kLanes> >;
-/// One number of each point, in a register.
-using OfPoints = Lanes<double, kPoints>;
 static_assert(sizeof(Siblings) == 128 && offsetof(Siblings, radius2) == 48 &&
               offsetof(Siblings, axis) == 64 && offsetof(Siblings, links) == 112);
 
