@@ -35,15 +35,6 @@ PlainMeshes::PlainMeshes(const Scene& scene)
       looks_(table_.meshes.size()),
       materials_(scene.materials.size()) {}
 
-void PlainMeshes::find_mesh(std::uint32_t triangle) {
-    last_mesh_ = &table_.mesh_of(triangle);
-    last_first_ = last_mesh_->first_triangle;
-    last_triangles_ = static_cast<std::uint32_t>(last_mesh_->mesh->triangles.size());
-    Look& look = looks_[static_cast<std::size_t>(last_mesh_ - table_.meshes.data())];
-    if (!look.known) look_at(*last_mesh_, look);
-    last_material_ = look.material;
-}
-
 void PlainMeshes::look_at(const PlacedMesh& mesh, Look& look) {
     look.known = true;
     const TriangleMesh& of = *mesh.mesh;

@@ -40,9 +40,10 @@ class PlainMeshes {
         const std::uint32_t kind = table_.kind(hit.primitive);
         if (!any_ || kind != kTriangleKind || !hit.path.empty()) return {};
         const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - first_;
-        // Neighbours often hit the same mesh.
-        if (index - last_first_ >= last_triangles_) find_mesh(index);
-        return {last_mesh_, index - last_first_, last_material_};
+        const PlacedMesh& mesh = table_.mesh_of(index);
+        Look& look = looks_[static_cast<std::size_t>(&mesh - table_.meshes.data())];
+        if (!look.known) look_at(mesh, look);
+        return {&mesh, index - mesh.first_triangle, look.material};
     }
 
   private:
@@ -51,19 +52,14 @@ class PlainMeshes {
         const PlainMaterial* material = nullptr;
     };
 
-    /// Sets the members `last_` for a triangle of the table.
-    void find_mesh(std::uint32_t triangle);
     void look_at(const PlacedMesh& mesh, Look& look);
     [[nodiscard]] const PlainMaterial* material_of(MaterialId id);
 
     const Scene& scene_;
     const PrimitiveTable& table_;
-    std::uint32_t first_;                                ///< primitive of the first triangle
-    bool any_;                                           ///< false: no hit is plain
-    std::vector<Look> looks_;                            ///< [mesh]
-    const PlacedMesh* last_mesh_ = nullptr;              ///< found last
-    std::uint32_t last_first_ = 0, last_triangles_ = 0;  ///< of it
-    const PlainMaterial* last_material_ = nullptr;
+    std::uint32_t first_;                                    ///< primitive of the first triangle
+    bool any_;                                               ///< false: no hit is plain
+    std::vector<Look> looks_;                                ///< [mesh]
     std::vector<std::unique_ptr<PlainMaterial>> materials_;  ///< [material]; null: not yet made
 };
 
