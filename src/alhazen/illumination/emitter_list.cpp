@@ -117,6 +117,7 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
         sum = std::min<std::uint64_t>(sum + found, kMostEmitters);
     }
     result.before.push_back(static_cast<std::uint32_t>(sum));
+    result.set_blocks();
     return tables_.emplace(&aggregate, std::move(result)).first->second;
 }
 
@@ -174,6 +175,28 @@ void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
     }
 }
 
+void EmitterList::Table::set_blocks() {
+    if (primitives.empty()) return;
+    of_block.reserve(primitives.back() / kBlock + 2);
+    for (std::uint32_t i = 0; i < primitives.size(); ++i) {
+        while (of_block.size() <= primitives[i] / kBlock) of_block.push_back(i);
+    }
+    of_block.push_back(static_cast<std::uint32_t>(primitives.size()));
+}
+
+std::optional<std::size_t> EmitterList::Table::index_of(PrimitiveId id) const {
+    const auto wanted = static_cast<std::uint32_t>(id);
+    const std::size_t block = wanted / kBlock;
+    if (block + 1 >= of_block.size()) return std::nullopt;
+    const std::uint32_t first = of_block[block], last = of_block[block + 1];
+    // Emitters of a mesh follow each other.
+    if (last - first == kBlock) return first + wanted % kBlock;
+    const auto begin = primitives.begin() + first, end = primitives.begin() + last;
+    const auto found = std::lower_bound(begin, end, wanted);
+    if (found == end || *found != wanted) return std::nullopt;
+    return static_cast<std::size_t>(found - primitives.begin());
+}
+
 std::optional<std::size_t> EmitterList::find(const Hit& hit) const {
     if (emitters_.empty()) return std::nullopt;
     std::size_t number = 0;
@@ -183,12 +206,9 @@ std::optional<std::size_t> EmitterList::find(const Hit& hit) const {
         if (known == tables_.end()) return std::nullopt;
         const Table& counted = known->second;
         const PrimitiveId id = level == 0 ? hit.primitive : hit.path[level - 1];
-        const auto found = std::lower_bound(counted.primitives.begin(), counted.primitives.end(),
-                                            static_cast<std::uint32_t>(id));
-        if (found == counted.primitives.end() || *found != static_cast<std::uint32_t>(id)) {
-            return std::nullopt;
-        }
-        const std::size_t i = std::size_t(found - counted.primitives.begin());
+        const std::optional<std::size_t> index = counted.index_of(id);
+        if (!index) return std::nullopt;
+        const std::size_t i = *index;
         number += counted.before[i];
         const PrimitiveTable& table = aggregate->primitives();
         if (level > 0) {

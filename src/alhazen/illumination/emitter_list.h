@@ -9,7 +9,7 @@
 /// found only by rays that hit them: moving surfaces, surfaces of constructive solids, surfaces
 /// invisible to reflected rays, unlit materials, forms without a case in `emitters_of_shape`, and
 /// all beyond kMostEmitters.
-/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be
+/// Complexity: O(primitives); a lookup O(depth). Threads: const functions may be
 /// called from many.
 
 #include <cstddef>
@@ -23,7 +23,7 @@
 
 namespace alhazen {
 
-/// Largest number of emitters that are sampled; each takes 320 bytes.
+/// Largest number of emitters that are sampled; each takes 320 bytes, and 128 more (area_lanes.h).
 inline constexpr std::size_t kMostEmitters = std::size_t{1} << 22;
 
 class EmitterList {
@@ -53,6 +53,14 @@ class EmitterList {
         std::vector<std::uint32_t> primitives;  ///< primitives with emitters, ascending
         std::vector<std::uint32_t> before;      ///< [index in primitives] emitters before it (equal
                                                 ///< for halves of a rectangle); then the total
+        /// [id / kBlock] Index of the first of `primitives` that is not less than the first id of
+        /// the block; then their number.
+        std::vector<std::uint32_t> of_block;
+        static constexpr std::uint32_t kBlock = 64;
+
+        void set_blocks();
+        /// The index of a primitive; none if it has no emitters.
+        [[nodiscard]] std::optional<std::size_t> index_of(PrimitiveId id) const;
         [[nodiscard]] std::uint32_t count() const { return before.back(); }
     };
 

@@ -18,6 +18,9 @@ namespace {
 /// Smallest probability of near lights and of far lights, if the scene has both.
 constexpr double kLeastShare = 0.25;
 
+/// Near lights that stay in the cache.
+constexpr std::size_t kCachedLights = 64;
+
 double mean_channel(const Rgb& c) {
     return (c.r + c.g + c.b) / 3.0;
 }
@@ -66,6 +69,7 @@ Illumination::Data::Data(const Scene& of, const IlluminationOptions& how)
     sort_lights();
     set_choices();
     set_sources();
+    set_flat();
 }
 
 void Illumination::Data::sort_lights() {
@@ -132,6 +136,24 @@ void Illumination::Data::set_choices() {
             std::clamp(irradiance / (irradiance + far.total()), kLeastShare, 1.0 - kLeastShare);
     } else {
         near_share = near.total() > 0.0 ? 1.0 : 0.0;
+    }
+}
+
+void Illumination::Data::set_flat() {
+    if (near_count() <= kCachedLights) return;
+    flat.reserve(emitters.size());
+    for (std::size_t i = 0; i < emitters.size(); ++i) {
+        const Rgb* const radiance = constant_radiance(i);
+        if (radiance == nullptr) {
+            flat.emplace_back();
+            continue;
+        }
+        // Emitters of a material follow each other.
+        const Spectrum light = kColorChannels.emission(*radiance);
+        if (flat_radiances.empty() || !(flat_radiances.back() == light)) {
+            flat_radiances.push_back(light);
+        }
+        flat.emplace_back(emitters[i], static_cast<std::uint32_t>(flat_radiances.size() - 1));
     }
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "alhazen/illumination/area_lanes.h"
 #include "alhazen/illumination/emitter_list.h"
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/illumination/light_chooser.h"
@@ -31,6 +32,11 @@ struct Illumination::Data {
     Vec3 center;                                     ///< of a sphere around the scene
     double radius = 1;
     bool endless = false;  ///< the scene has unbounded geometry
+
+    /// [emitter of the scene] What samples by area read; empty for few lights, which all stay in
+    /// the cache.
+    std::vector<FlatEmitter> flat;
+    std::vector<Spectrum> flat_radiances;  ///< as colour channels
 
     LightChooser near;      ///< for choices Uniform and Power
     LightTree tree;         ///< for choice Tree
@@ -103,7 +109,9 @@ struct Illumination::Data {
     void choose_near(const LitPointLanes& at, const ChoiceLanes& choices, std::size_t count,
                      ChosenLight* chosen) const {
         if (options.choice == LightChoice::Tree) {
-            return choose_lights(tree, at, choices, count, chosen);
+            static_assert(sizeof(FlatEmitter) == sizeof(LightRecord));
+            return choose_lights(tree, at, choices, count, chosen,
+                                 reinterpret_cast<const LightRecord*>(flat.data()));
         }
         for (std::size_t i = 0; i < count; ++i) chosen[i] = near.choose(choices.of[i]);
     }
@@ -119,6 +127,7 @@ struct Illumination::Data {
     void sort_lights();
     [[nodiscard]] TreeLight tree_light(std::size_t near_light) const;
     void set_choices();
+    void set_flat();
     void set_sources();
 };
 

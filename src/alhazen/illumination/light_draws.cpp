@@ -10,15 +10,12 @@ namespace alhazen {
 
 namespace {
 
-/// Lights that stay in the cache.
-constexpr std::size_t kInCache = 64;
-
-/// Prefetches what a sample by area reads of an emitter: of many lights most are far, and not in
-/// the cache.
-[[gnu::always_inline]] inline void fetch(const Emitter& emitter) {
+/// Prefetches an emitter: those of many lights are not in the cache.
+template <class AnyEmitter>
+[[gnu::always_inline]] inline void fetch(const AnyEmitter& emitter) {
     constexpr std::size_t kLine = 64;
     const auto* const bytes = reinterpret_cast<const char*>(&emitter);
-    for (std::size_t at = 0; at < 3 * kLine; at += kLine) __builtin_prefetch(bytes + at);
+    for (std::size_t at = 0; at < sizeof(emitter); at += kLine) __builtin_prefetch(bytes + at);
 }
 
 }  // namespace
@@ -144,20 +141,37 @@ void LightDraws::draw_near(std::uint32_t lanes) {
     } else {
         choose_near(lanes, chosen.data());
     }
-    const bool fetches = d.near_count() > kInCache;
-    std::uint32_t rectangles = 0;
-    // More emitters at once would wait for each other in the memory.
-    constexpr std::size_t kPart = 8;
-    for (std::size_t first = 0; first < kMost; first += kPart) {
-        const std::uint32_t part = lanes & ((1u << kPart) - 1) << first;
-        // Not a function of one lane: it would have no effect, and compilers leave such calls out.
-        for (std::uint32_t left = fetches ? part : 0; left != 0; left &= left - 1) {
-            const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(left))];
-            if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
-        }
-        rectangles |= draw_near_part(part, chosen.data());
+    const std::uint32_t rest = d.flat.empty() ? lanes : draw_by_area(lanes, chosen.data());
+    if (rest == 0) return;
+    // Not functions of one lane: they would have no effect, and compilers leave such calls out.
+    for (std::uint32_t left = d.flat.empty() ? 0 : rest; left != 0; left &= left - 1) {
+        const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(left))];
+        if (one.probability > 0.0 && d.is_emitter(one.light)) fetch(d.emitter(one.light));
     }
+    const std::uint32_t rectangles = draw_near_part(rest, chosen.data());
     if (rectangles != 0) draw_rectangles(rectangles);
+}
+
+std::uint32_t LightDraws::draw_by_area(std::uint32_t lanes, const ChosenLight* chosen) {
+    const Illumination::Data& d = *lights_.data_;
+    // Chosen emitters of the scene with constant radiance.
+    std::uint32_t flat = 0;
+    for (std::uint32_t left = lanes & ~spectral_; left != 0; left &= left - 1) {
+        const ChosenLight& one = chosen[static_cast<std::size_t>(std::countr_zero(left))];
+        if (!(one.probability > 0.0) || one.light >= d.flat.size()) continue;
+        fetch(d.flat[one.light]);
+        flat |= left & (0u - left);
+    }
+    std::uint32_t set = 0;
+    for_each_lane(flat, [&](std::size_t lane) {
+        const FlatEmitter& e = d.flat[chosen[lane].light];
+        const double probability = d.near_share * chosen[lane].probability;
+        if (!e.is_flat || !(probability > 0.0)) return;
+        by_area_.set(lane, e, d.flat_radiances[e.radiance], chosen[lane].light, probability);
+        set |= 1u << lane;
+    });
+    if (set == 0) return lanes;
+    return (lanes & ~set) | by_area_.draw(set, calls_, results_);
 }
 
 std::uint32_t LightDraws::draw_near_part(std::uint32_t lanes, const ChosenLight* chosen) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "alhazen/illumination/area_lanes.h"
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/illumination/light_chooser.h"
 #include "alhazen/illumination/light_lanes.h"
@@ -51,6 +52,8 @@ class LightDraws {
     void draw_far(std::uint32_t lanes);
     void draw_sky(std::size_t count);
     void draw_near(std::uint32_t lanes);
+    /// Draws the flat emitters of the scene that are sampled by area; returns the other lanes.
+    [[nodiscard]] std::uint32_t draw_by_area(std::uint32_t lanes, const ChosenLight* chosen);
     /// Draws all chosen lights but rectangles, which are set in their lanes and returned.
     [[nodiscard]] std::uint32_t draw_near_part(std::uint32_t lanes, const ChosenLight* chosen);
     /// Chooses a near light for each of `lanes`: chosen[lane].
@@ -68,6 +71,7 @@ class LightDraws {
     std::array<Environment::Search, kMost> searches_;  ///< [sky draw]
     ChosenLight sole_;  ///< the near light if there is only one; else with probability 0
     bool sole_is_rectangle_ = false;  ///< that RectangleLanes takes
+    AreaLanes by_area_;
     RectangleLanes rectangles_;
     std::array<std::size_t, kMost> rectangle_lights_ = {};  ///< [lane]
     LightDrawLanes results_;

@@ -91,6 +91,7 @@ class LightTreeBuilder {
         for (std::size_t i = 0; i < lights.size(); ++i) {
             if (lights[i].intensity > 0.0 && std::isfinite(lights[i].intensity)) {
                 order_.push_back(static_cast<std::uint32_t>(i));
+                surfaces_only_ = surfaces_only_ && lights[i].cosine_reach == 0.0;
             }
         }
     }
@@ -98,6 +99,7 @@ class LightTreeBuilder {
     void build(LightTree& tree) {
         tree.leaves_.assign(lights_.size(), LightTree::kNone);
         tree.empty_ = order_.empty();
+        tree.surfaces_only_ = surfaces_only_;
         if (order_.empty()) return;
         const std::size_t pairs = order_.size() - 1;
         tree.pairs_.resize(pairs);
@@ -264,6 +266,7 @@ class LightTreeBuilder {
 
     const std::vector<TreeLight>& lights_;
     std::vector<std::uint32_t> order_;
+    bool surfaces_only_ = true;
 };
 
 void LightTree::Siblings::set(std::size_t sibling, const Node& node) {

@@ -58,6 +58,8 @@ class LightTree {
         [[nodiscard]] static Link to_light(std::uint32_t light) { return Link(light | kLight); }
 
         [[nodiscard]] bool is_leaf() const { return (bits_ & kLight) != 0; }
+        [[nodiscard]] std::uint32_t bits() const { return bits_; }
+        [[nodiscard]] static Link of_bits(std::uint32_t bits) { return Link(bits); }
         /// The number of the light or of the pair.
         [[nodiscard]] std::uint32_t target() const { return bits_ & ~kLight; }
 
@@ -71,17 +73,19 @@ class LightTree {
     struct alignas(64) Siblings {
         double center[3][2];
         double radius2[2];  ///< squared, of the sphere around the box
-        Link links[2];
-        std::uint32_t parent;  ///< a node, or kNone
         float axis[3][2];
         float cosine_spread[2];
         float cosine_reach[2];
         float intensity[2];  ///< negative: that of two-sided lights
+        Link links[2];
+        std::uint32_t parent;  ///< a node, or kNone
 
         void set(std::size_t sibling, const Node& node);
     };
     [[nodiscard]] bool empty() const { return empty_; }
     [[nodiscard]] Link root() const { return root_; }
+    /// True if each light emits up to a right angle from its normals, as surfaces do.
+    [[nodiscard]] bool has_surfaces_only() const { return surfaces_only_; }
     /// Node 2 k + i is sibling i of pair k.
     [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
 
@@ -89,6 +93,7 @@ class LightTree {
     friend class LightTreeBuilder;
 
     bool empty_ = true;
+    bool surfaces_only_ = true;
     Link root_;
     std::vector<Siblings> pairs_;
     std::vector<std::uint32_t> leaves_;  ///< [light]: a node, or kNone

@@ -15,8 +15,14 @@ struct ChoiceLanes {
     alignas(64) double of[LitPointLanes::kMost] = {};
 };
 
-/// Chooses a light for each of the first `count` points.
+/// What is read of a light after its choice.
+struct alignas(64) LightRecord {
+    std::byte bytes[128];
+};
+
+/// Chooses a light for each of the first `count` points. `lights`: what is prefetched of a chosen
+/// light, [light]; it need not exist for all lights, or for any.
 void choose_lights(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
-                   std::size_t count, ChosenLight* chosen);
+                   std::size_t count, ChosenLight* chosen, const LightRecord* lights = nullptr);
 
 }  // namespace alhazen

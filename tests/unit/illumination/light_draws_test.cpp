@@ -25,8 +25,34 @@ Rectangle rectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v) 
     return r;
 }
 
-/// Rectangles on both sides of the points, one of them oblique, and lights of other forms.
-Scene lamps(bool one) {
+/// One rectangle; with `several` more on both sides of the points, one of them oblique, and lights
+/// of other forms; with `many` also small ones, most of them far from a point.
+enum class Lamps { One, Several, Many };
+
+/// Triangles, squares and parallelograms, some of them in planes of the grid of points.
+void add_small_lamps(SceneMaker& maker, MaterialId one_sided, MaterialId two_sided) {
+    RandomStream random(8);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        const double size = i % 5 == 0 ? 0.5 : 0.02;
+        const double turn = random.uniform(0, 6), wide = size * std::cos(turn),
+                     high = size * std::sin(turn);
+        Vec3 at{random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)};
+        if (i % 4 == 0) at.z = 0.5 * std::round(2.0 * at.z);
+        const MaterialId material = i % 3 == 0 ? two_sided : one_sided;
+        maker.add(rectangle(at, {wide, high, 0}, {-high, wide, 0}), material);
+        maker.add(rectangle(-at, {wide, high, 0}, {0, size, 0.3 * size}), material);
+        const std::uint32_t first = 3 * i;
+        mesh.positions.insert(mesh.positions.end(),
+                              {at, at + Vec3{wide, high, 0}, at + Vec3{0, high, size}});
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    maker.add(maker.mesh(mesh), one_sided);
+    maker.add(maker.mesh(mesh), two_sided);
+}
+
+Scene lamps(Lamps which) {
+    const bool one = which == Lamps::One;
     SceneMaker maker;
     const auto shining = [&](bool two_sided) {
         Material m;
@@ -56,6 +82,7 @@ Scene lamps(bool one) {
         maker.add(maker.mesh(mesh), shining(true));
         maker.light(PointLight{.position = {1, 1, 2}, .color = {9, 9, 9}});
     }
+    if (which == Lamps::Many) add_small_lamps(maker, shining(false), shining(true));
     return maker.compile();
 }
 
@@ -86,9 +113,9 @@ Vec3 random_point(RandomStream& random, bool on_grid) {
 TEST(LightDraws, ManyAtOnceHaveTheBitsOfThoseOneByOne) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
-        for (const bool one : {true, false}) {
+        for (const Lamps which : {Lamps::One, Lamps::Several, Lamps::Many}) {
             for (const bool sky : {false, true}) {
-                Scene scene = lamps(one);
+                Scene scene = lamps(which);
                 if (sky) scene.environment = clear_sky_with_sun();
                 const Illumination lights(scene);
                 LightDraws draws(lights);
@@ -147,6 +174,8 @@ TEST(LightDraws, ManyAtOnceHaveTheBitsOfThoseOneByOne) {
                         ASSERT_EQ(a.radiance, b.radiance);
                         ASSERT_EQ(a.singular, b.singular);
                         ASSERT_EQ(a.place.source, b.place.source);
+                        ASSERT_TRUE(same_bits(a.place.parameters.x, b.place.parameters.x));
+                        ASSERT_TRUE(same_bits(a.place.parameters.y, b.place.parameters.y));
                         shone += a.density > 0.0;
                     }
                 }

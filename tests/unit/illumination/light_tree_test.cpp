@@ -92,10 +92,16 @@ TEST(LightTree, SixteenChoicesInLanesAreAsOneByOne) {
         const SimdTargetOverride forced(target);
         RandomStream random(5);
         int lit = 0, dark = 0;
-        for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 300u}) {
+        // Among surfaces and for points that count light of one side, tests are left out.
+        for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 300u, 301u, 302u, 303u}) {
+            const bool simple = count % 2 == 1, surfaces_only = simple || count == 300;
             std::vector<TreeLight> lights(count);
-            for (TreeLight& light : lights) light = random_light(random);
+            for (TreeLight& light : lights) {
+                light = random_light(random);
+                if (!surfaces_only) light.cosine_reach = random.uniform(-1, 1);
+            }
             const LightTree tree(lights);
+            EXPECT_TRUE(count < 9 || tree.has_surfaces_only() == surfaces_only);
             for (int i = 0; i < 500; ++i) {
                 constexpr std::size_t kMost = LitPointLanes::kMost;
                 std::array<LitPoint, kMost> at;
@@ -106,6 +112,7 @@ TEST(LightTree, SixteenChoicesInLanesAreAsOneByOne) {
                 for (std::size_t k = 0; k < used; ++k) {
                     at[k] = random_point(random);
                     if (random.below(5) == 0) at[k] = LitPoint::inside_volume(at[k].point);
+                    if (simple) at[k] = {at[k].point, random_unit(random)};
                     if (count > 0 && random.below(9) == 0) {
                         at[k].point = lights[random.below(count)].bounds.box.lo;
                     }
