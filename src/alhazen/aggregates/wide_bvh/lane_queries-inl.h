@@ -180,6 +180,7 @@ class LaneLeaves : public LaneShapes<Derived> {
             if (!filter_lanes(triangles, lane, packet_, lanes, found)) continue;
             lanes &= ~derived().found(static_cast<TrianglePlace>(number * kBlockWidth + lane),
                                       found, stats);
+            if constexpr (Derived::kOrdered) scene_.expect(block.ids[lane]);
             changed = true;
             if (lanes == 0) break;
         }
@@ -265,6 +266,7 @@ class ClosestLanes : public LaneLeaves<ClosestLanes> {
             }
             add(static_cast<TrianglePlace>(number * kBlockWidth + lane), 1u << i,
                 PacketFloats(found.lo[lane]), load_row(packet_.s_max), stats);
+            scene_.expect(block.ids[lane]);
         }
         return false;
     }

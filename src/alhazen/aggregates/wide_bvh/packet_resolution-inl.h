@@ -10,6 +10,8 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_RESOLUTION_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <bit>
 #include <span>
@@ -239,30 +241,52 @@ class PacketResolution {
         for (auto& corner : corners) {
             for (Reals& along : corner) along = Reals(0.0);
         }
+        // All are found before the first is read, so that they come from memory together.
+        struct Found {
+            const std::array<std::uint32_t, 3>* indices = nullptr;
+            const Vec3* positions = nullptr;  ///< null: the block holds the corners
+            TrianglePlace place;
+            std::uint32_t lanes;
+        };
+        Found found[kRays];
+        std::size_t count = 0;
         (void)for_each_place(lanes, places, [&](TrianglePlace place, std::uint32_t same) HWY_ATTR {
-            Vec3 exact[3];
-            std::array<const Vec3*, 3> from{&exact[0], &exact[1], &exact[2]};
-            if (id(place).exact()) {
-                const TriangleBlock& block = scene_.layout->triangles[place / kBlockWidth];
-                for (std::size_t i = 0; i < 3; ++i) {
-                    exact[i] = scene_.layout->frame.world(block.corner(i, place % kBlockWidth));
-                }
-            } else {
-                from = scene_.table->corner_positions(triangle(place));
-            }
-            ids =
-                select_lanes(lanes_of_bits<float, kRays>(same), bits_as_lanes(id(place).id()), ids);
-            const auto mask = lanes_of_bits<double, kRays>(same);
-            HWY_UNROLL(3)
-            for (std::size_t i = 0; i < 3; ++i) {
-                HWY_UNROLL(3)
-                for (std::size_t k = 0; k < 3; ++k) {
-                    corners[i][k] =
-                        select_lanes(mask, Reals((&from[i]->x)[axes[k]]), corners[i][k]);
-                }
+            Found& here = found[count++];
+            here.place = place;
+            here.lanes = same;
+            if (id(place).exact()) return true;
+            const std::uint32_t number = triangle(place);
+            const PlacedMesh& mesh = scene_.table->mesh_of(number);
+            here.indices = &mesh.mesh->triangles[number - mesh.first_triangle];
+            here.positions = mesh.mesh->positions.data();
+            for (const std::uint32_t i : *here.indices) {
+                hwy::Prefetch(&here.positions[i].x);
+                hwy::Prefetch(&here.positions[i].z);
             }
             return true;
         });
+        for (std::size_t n = 0; n < count; ++n) {
+            const Found& here = found[n];
+            const BlockId triangle_id = id(here.place);
+            ids = select_lanes(lanes_of_bits<float, kRays>(here.lanes),
+                               bits_as_lanes(triangle_id.id()), ids);
+            const auto mask = lanes_of_bits<double, kRays>(here.lanes);
+            HWY_UNROLL(3)
+            for (std::size_t i = 0; i < 3; ++i) {
+                Vec3 exact;
+                const Vec3* corner = &exact;
+                if (here.positions != nullptr) {
+                    corner = &here.positions[(*here.indices)[i]];
+                } else {
+                    const TriangleBlock& block = scene_.layout->triangles[here.place / kBlockWidth];
+                    exact = scene_.layout->frame.world(block.corner(i, here.place % kBlockWidth));
+                }
+                HWY_UNROLL(3)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    corners[i][k] = select_lanes(mask, Reals((&corner->x)[axes[k]]), corners[i][k]);
+                }
+            }
+        }
     }
     HWY_NOINLINE bool resolve_scalar(std::size_t ray, TrianglePlace place, ShapeHit& hit) const {
         const auto [a, b, c] = scene_.table->triangle_vertices(triangle(place));

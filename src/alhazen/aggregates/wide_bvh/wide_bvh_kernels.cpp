@@ -1,6 +1,13 @@
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 
+#include <hwy/cache_control.h>
+
 namespace alhazen {
+
+void WideBvhScene::expect_indices(PrimitiveId id) const {
+    const std::uint32_t triangle = static_cast<std::uint32_t>(id) - table->first(kTriangleKind);
+    hwy::Prefetch(table->triangle_corners(triangle));
+}
 
 WideBvhKernelPair wide_bvh_kernels(std::uint32_t width, Precision precision) {
     const WideBvhKernelPair exact{wide_bvh_kernels_8(), wide_bvh_kernels_8_counting()};

@@ -32,7 +32,16 @@ class WideBvhScene {
         return all_seen_ || (table->visible_to(id) & mask) != 0;
     }
 
+    /// Has the indices of a candidate's vertices fetched if its block holds them rounded.
+    void expect(BlockId triangle) const {
+        if (!triangle.exact()) [[unlikely]] {
+            expect_indices(triangle.id());
+        }
+    }
+
   private:
+    void expect_indices(PrimitiveId id) const;
+
     bool all_seen_;  ///< every primitive is visible
 };
 
