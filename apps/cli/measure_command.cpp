@@ -56,7 +56,7 @@ SolidReport measure_solid(const SolidScene& scene, SolidId id, const MeasureArgu
     SolidReport report;
     report.solid = id;
     report.name = scene.name(id);
-    report.density = args.density ? args.density : scene.density(id);
+    report.densities = args.density ? std::vector{args.density} : scene.densities(id);
     report.measures = measure(solid, options);
     if (plane) report.section = section_area(solid, *plane, options);
     report.seconds = time.seconds();

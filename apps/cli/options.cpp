@@ -74,8 +74,13 @@ CLI::Validator positive_number() {
 
 CLI::Validator unsigned_number() {
     return {[](const std::string& text) {
-                return text.starts_with('-') ? fmt::format("expected 0 or more, not {}", text)
-                                             : std::string();
+                if (text.starts_with('-')) return fmt::format("expected 0 or more, not {}", text);
+                // CLI11 takes the largest number for one beyond it.
+                std::uint64_t number = 0;
+                const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+                return read.ec == std::errc::result_out_of_range
+                           ? fmt::format("expected at most 2^64 - 1, not {}", text)
+                           : std::string();
             },
             ""};
 }

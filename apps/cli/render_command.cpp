@@ -208,7 +208,7 @@ void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
 
 /// Prints the results of the stop rules.
 void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
-    if (!options.sampling || !options.sampling->has_rounds()) return;
+    if (!options.sampling || !options.sampling->has_rounds() || report.rounds.empty()) return;
     const double mean = static_cast<double>(report.samples()) / static_cast<double>(report.pixels);
     tell("{:.1f} samples per pixel, at most {}{}\n", mean, report.most_samples,
          report.out_of_time ? "; out of time" : "");
@@ -303,8 +303,10 @@ int run(const RenderArguments& args) {
         return kStopped;
     }
     if (!result.complete) {
-        tell("stopped: {} of {} tiles are in {}; the rest is black\n", result.tiles_done,
-             result.tiles, args.output);
+        tell(
+            "stopped: {} of {} tiles were traced; the picture in {} lacks the light of the "
+            "others\n",
+            result.tiles_done, result.tiles, args.output);
         return kStopped;
     }
     if (!args.quiet) {

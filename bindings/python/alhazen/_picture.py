@@ -8,6 +8,7 @@ from typing import Any, Dict, Optional
 import numpy as np
 
 from . import _alhazen
+from ._errors import FileError
 
 
 class Picture(np.ndarray):
@@ -64,8 +65,11 @@ class Picture(np.ndarray):
         """Writes the picture by the suffix of the path: png, jpg (sRGB), exr, hdr, pfm (linear)."""
         suffix = os.path.splitext(os.fspath(path))[1][1:].lower()
         data = _alhazen.encode_picture(suffix, np.asarray(self))
-        with open(path, "wb") as file:
-            file.write(data)
+        try:
+            with open(path, "wb") as file:
+                file.write(data)
+        except OSError as error:
+            raise FileError(f"{os.fspath(path)}: cannot write the file: {error.strerror}", os.fspath(path)) from error
 
     def _repr_png_(self) -> Optional[bytes]:
         if self.ndim not in (2, 3) or (self.ndim == 3 and self.shape[2] not in (1, 3)) or 0 in self.shape:

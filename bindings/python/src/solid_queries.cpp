@@ -199,7 +199,7 @@ std::string measure_json(const BuiltScene& scene, const std::vector<std::string>
                 const Stopwatch time;
                 SolidReport one{.solid = id, .name = solids.name(id)};
                 one.measures = measure(IsolatedSolid(solids.solids(), id), options);
-                one.density = solids.density(id);
+                one.densities = solids.densities(id);
                 one.seconds = time.seconds();
                 report.solids.push_back(std::move(one));
             }

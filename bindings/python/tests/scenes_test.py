@@ -100,6 +100,12 @@ class Files(unittest.TestCase):
             np.testing.assert_array_equal(again.render(), scene.render())
             self.assertEqual(again.geometry_names, scene.geometry_names)
 
+    def test_a_picture_that_cannot_be_written_is_a_file_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "missing", "picture.png")
+            with self.assertRaisesRegex(alhazen.FileError, "cannot write"):
+                small_scene().render(width=4, height=4).save(path)
+
     def test_a_loaded_scene_can_be_extended(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "scene.alhazen")

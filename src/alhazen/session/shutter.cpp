@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/formats/importer_list.h"
 
@@ -24,8 +25,9 @@ class PoseMotion {
     void run() {
         for (const SceneDescription& pose : later_) {
             require(pose.objects.size() == d_.objects.size() &&
-                    pose.meshes.size() == d_.meshes.size() &&
-                    pose.cameras.size() == d_.cameras.size());
+                        pose.meshes.size() == d_.meshes.size() &&
+                        pose.cameras.size() == d_.cameras.size(),
+                    "objects");
         }
         for (std::size_t i = 0; i < d_.objects.size(); ++i) move_parts(i);
         for (std::size_t i = 0; i < d_.meshes.size(); ++i) move_vertices(i);
@@ -33,13 +35,27 @@ class PoseMotion {
     }
 
   private:
-    void require(bool same) const {
+    /// `what` differs between two times, unless `same`.
+    void require(bool same, const std::string& what) const {
         if (same) return;
-        throw Error(
-            ErrorKind::Scene,
-            fmt::format("{}: its objects differ between times; --shutter requires a scene in "
-                        "which objects move and none appear or vanish",
-                        d_.path.string()));
+        throw Error(ErrorKind::Scene,
+                    fmt::format("{}: its {} differ between times; --shutter requires a scene in "
+                                "which objects move and none appear, vanish or are mirrored",
+                                d_.path.string(), escape_controls(what)));
+    }
+
+    /// The parts of an object, and if one of them has changed its number among them the first.
+    [[nodiscard]] std::string differing_parts(std::size_t object,
+                                              const SceneDescription& pose) const {
+        const std::vector<Part>& mine = d_.objects[object].parts;
+        const std::vector<Part>& others = pose.objects[object].parts;
+        const std::size_t common = std::min(mine.size(), others.size());
+        for (std::size_t i = 0; i < std::max(mine.size(), others.size()); ++i) {
+            if (i < common && mine[i].name == others[i].name) continue;
+            const std::string& name = i < mine.size() ? mine[i].name : others[i].name;
+            if (!name.empty()) return fmt::format("objects (first '{}')", name);
+        }
+        return "objects";
     }
 
     /// Keys with the transform `of(pose)` at each time.
@@ -59,7 +75,8 @@ class PoseMotion {
     void move_parts(std::size_t object) {
         std::vector<Part>& parts = d_.objects[object].parts;
         for (const SceneDescription& pose : later_) {
-            require(pose.objects[object].parts.size() == parts.size());
+            require(pose.objects[object].parts.size() == parts.size(),
+                    differing_parts(object, pose));
         }
         for (std::size_t i = 0; i < parts.size(); ++i) {
             std::vector<TransformKey> path = keys([&](const SceneDescription& pose) {
@@ -77,7 +94,8 @@ class PoseMotion {
         for (const SceneDescription& pose : later_) {
             const TriangleMesh& other = *pose.meshes[i].mesh;
             require(other.positions.size() == mesh.positions.size() &&
-                    other.triangles == mesh.triangles);
+                        other.triangles == mesh.triangles,
+                    fmt::format("triangles of mesh '{}'", d_.meshes[i].name));
             moves = moves || other.positions != mesh.positions || other.normals != mesh.normals;
         }
         if (!moves) return;

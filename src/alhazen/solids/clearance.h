@@ -5,8 +5,10 @@
 /// Computing the Distance between Complex Objects", IEEE J. Robotics Autom. 4(2), 1988.
 /// Differs: both bounds come from searches that use only lines and extents.
 /// Conventions: `at_most` is the distance of two points, each on the surface of its solid within
-/// `error`. `at_least` is the width of a slab that separates the convex hulls of the solids: the
-/// clearance itself for convex solids, possibly zero for others (a pin in a hole), for which only
+/// `error`. `at_least` is the width of a slab that separates the convex hulls of the solids, by
+/// their extents: the clearance itself for convex solids whose extents are tight, less where they
+/// are those of a box around the solid (CSG, algebraic surfaces, blobs, superellipsoids, curved
+/// profiles), and possibly zero for solids that are not convex (a pin in a hole), for which only
 /// `at_most` is informative. `at_most` may be too large if a small feature is nearer than every
 /// starting point of the search.
 /// Complexity: about ten thousand lines.

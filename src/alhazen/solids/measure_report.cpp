@@ -34,6 +34,12 @@ Estimate sum(const Estimate& a, const Estimate& b) {
     return {a.value + b.value, scatter + rounding, rounding};
 }
 
+json densities_json(const std::vector<std::optional<double>>& densities) {
+    json out = json::array();
+    for (const std::optional<double>& one : densities) out.push_back(one ? json(*one) : json());
+    return out;
+}
+
 json solid_json(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
     json out{{"solid", static_cast<std::uint64_t>(r.solid)}, {"name", r.name}};
@@ -44,17 +50,20 @@ json solid_json(const SolidReport& r) {
     json centroid = json::array(), inertia = json::array(), directions = json::array();
     for (const Estimate& e : m.centroid) centroid.push_back(to_json(e));
     for (const Estimate& e : m.inertia)
-        inertia.push_back(to_json(scaled(r.density.value_or(1), e)));
+        inertia.push_back(to_json(scaled(r.density().value_or(1), e)));
     for (std::size_t k = 0; k < 3; ++k) {
         directions.push_back({{"direction", to_json(m.directions[k])},
                               {"volume", to_json(m.volume_by_direction[k])}});
     }
     out["centroid"] = m.has_moments ? std::move(centroid) : json(nullptr);
-    if (r.density) {
-        out["density"] = *r.density;
-        out["mass"] = to_json(scaled(*r.density, m.volume));
+    if (r.density()) {
+        out["density"] = *r.density();
+        out["mass"] = to_json(scaled(*r.density(), m.volume));
+    } else if (r.densities.size() > 1) {
+        out["densities"] = densities_json(r.densities);
+        out["mass"] = nullptr;
     }
-    out["inertia_density"] = r.density.value_or(1);
+    out["inertia_density"] = r.density().value_or(1);
     out["inertia_xx_yy_zz_xy_yz_zx"] = m.has_moments ? std::move(inertia) : json(nullptr);
     if (r.section) {
         out["section_area"] = to_json(r.section->area);
@@ -111,6 +120,15 @@ std::string inertia_text(const SolidMeasures& m, std::optional<double> density) 
     return out;
 }
 
+std::string densities_text(const std::vector<std::optional<double>>& densities) {
+    std::string out;
+    for (const std::optional<double>& one : densities) {
+        if (!out.empty()) out += ", ";
+        out += one ? fmt::format("{:.9g}", *one) : "none";
+    }
+    return out;
+}
+
 std::string solid_text(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
     std::string out =
@@ -130,11 +148,13 @@ std::string solid_text(const SolidReport& r) {
     } else {
         line("centroid", "none: nothing was met");
     }
-    if (r.density) {
-        line("density", fmt::format("{:.9g}", *r.density));
-        line("mass", text_of(scaled(*r.density, m.volume)));
+    if (r.density()) {
+        line("density", fmt::format("{:.9g}", *r.density()));
+        line("mass", text_of(scaled(*r.density(), m.volume)));
+    } else if (r.densities.size() > 1) {
+        line("mass", "none: its materials differ in density (" + densities_text(r.densities) + ")");
     }
-    if (m.has_moments) out += inertia_text(m, r.density);
+    if (m.has_moments) out += inertia_text(m, r.density());
     if (r.section) line("section", text_of(r.section->area));
     line("lines", fmt::format("{} in {:.2f} s{}", m.lines, r.seconds,
                               m.reached ? "" : "; the wanted error was not reached"));
@@ -189,15 +209,16 @@ std::string pair_text(const PairReport& r) {
 /// Volume and mass of all solids together; overlaps count once for each solid.
 struct Totals {
     Estimate volume, area, mass;
-    bool has_mass = true;
+    std::size_t with_mass = 0;  ///< how many solids have one
 };
 Totals totals_of(const std::vector<SolidReport>& solids) {
     Totals all;
     for (const SolidReport& r : solids) {
         all.volume = sum(all.volume, r.measures.volume);
         all.area = sum(all.area, r.measures.area);
-        if (r.density) all.mass = sum(all.mass, scaled(*r.density, r.measures.volume));
-        all.has_mass = all.has_mass && r.density;
+        if (!r.density()) continue;
+        all.mass = sum(all.mass, scaled(*r.density(), r.measures.volume));
+        ++all.with_mass;
     }
     return all;
 }
@@ -224,7 +245,11 @@ json measure_json(const MeasureReport& report) {
     if (report.solids.size() > 1) {
         const Totals all = totals_of(report.solids);
         out["total"] = {{"volume", to_json(all.volume)}, {"area", to_json(all.area)}};
-        if (all.has_mass) out["total"]["mass"] = to_json(all.mass);
+        if (all.with_mass == report.solids.size()) {
+            out["total"]["mass"] = to_json(all.mass);
+        } else if (all.with_mass > 0) {
+            out["total"]["mass"] = nullptr;
+        }
     }
     if (!report.pairs.empty()) out["pairs"] = std::move(pairs);
     out["holds"] = report.holds();
@@ -238,7 +263,12 @@ std::string measure_text(const MeasureReport& report) {
         const Totals all = totals_of(report.solids);
         out += fmt::format("all {} solids\n  volume    {}\n  area      {}\n", report.solids.size(),
                            text_of(all.volume), text_of(all.area));
-        if (all.has_mass) out += fmt::format("  mass      {}\n", text_of(all.mass));
+        if (all.with_mass == report.solids.size()) {
+            out += fmt::format("  mass      {}\n", text_of(all.mass));
+        } else if (all.with_mass > 0) {
+            out += fmt::format("  mass      none: {} of the solids have no mass\n",
+                               report.solids.size() - all.with_mass);
+        }
     }
     for (const PairReport& r : report.pairs) out += pair_text(r);
     if (report.open_surfaces > 0) {

@@ -16,10 +16,14 @@ struct SolidReport {
     SolidId solid{};
     std::string name;
     SolidMeasures measures;
-    std::optional<double> density;
+    std::vector<std::optional<double>> densities;  ///< of its materials; see SolidScene
     std::optional<SectionArea> section;
     double seconds = 0;
 
+    /// The only density of its materials, if there is only one.
+    [[nodiscard]] std::optional<double> density() const {
+        return densities.size() == 1 ? densities.front() : std::nullopt;
+    }
     /// True if all checks passed: crossings are paired, directions and areas agree, numbers are in
     /// range.
     [[nodiscard]] bool holds() const;

@@ -270,10 +270,10 @@ class Measurer {
         });
         lines_ += static_cast<double>(kCroftonSets * lines);
         Estimate e = mean_of(area);
-        if (e.value == 0) {
-            // The rule of three, for lines with two crossings.
-            e.half_width = 2 * kPi * radius * radius * 2 * 3 / double(kCroftonSets * lines);
-        }
+        // Counts are whole numbers: sets may all count the same and yet miss the mean by a part of
+        // one. The rule of three, for lines with two crossings.
+        e.half_width = std::max(e.half_width,
+                                2 * kPi * radius * radius * 2 * 3 / double(kCroftonSets * lines));
         return with_rounding(e, std::abs(e.value) * (slack_ / radius + kSumming));
     }
 

@@ -8,6 +8,7 @@
 
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
+#include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
@@ -50,21 +51,59 @@ std::optional<std::uint64_t> number_in(const std::string& word) {
     return number;
 }
 
-void collect_densities(const PrimitiveTable& table, const std::vector<Material>& materials,
-                       std::set<std::optional<double>>& densities) {
-    const auto add = [&](MaterialId m) {
-        densities.insert(materials[static_cast<std::size_t>(m)].density);
-    };
-    std::apply(
-        [&](const auto&... column) {
-            (std::for_each(column.materials.begin(), column.materials.end(), add), ...);
-        },
-        table.columns);
-    for (const PlacedMesh& mesh : table.meshes) add(mesh.material);
-    for (const Instance& instance : table.instances) {
-        collect_densities(instance.aggregate->primitives(), materials, densities);
+/// The densities of the materials that fill a table's volumes.
+class Densities {
+  public:
+    explicit Densities(const std::vector<Material>& materials) : materials_(materials) {}
+
+    void add(MaterialId material) {
+        found_.insert(materials_[static_cast<std::size_t>(material)].density);
     }
-}
+
+    void add(const Aggregate& aggregate) {
+        if (const auto* csg = dynamic_cast<const CsgAggregate*>(&aggregate)) {
+            add(csg->solid(), CsgOperand::node(0));
+            return;
+        }
+        const PrimitiveTable& table = aggregate.primitives();
+        std::apply(
+            [&](const auto&... column) {
+                (std::for_each(column.materials.begin(), column.materials.end(),
+                               [&](MaterialId m) { add(m); }),
+                 ...);
+            },
+            table.columns);
+        for (const PlacedMesh& mesh : table.meshes) add(mesh.material);
+        for (const Instance& instance : table.instances) add(*instance.aggregate);
+    }
+
+    [[nodiscard]] std::vector<std::optional<double>> found() const {
+        return {found_.begin(), found_.end()};
+    }
+
+  private:
+    /// A difference consists of its minuend alone.
+    void add(const CsgSolid& solid, CsgOperand operand) {
+        if (!operand.is_leaf()) {
+            const CsgExpression::Node& node = solid.expression().nodes[operand.index()];
+            const std::size_t count =
+                node.combine == Combine::Difference ? 1 : node.operands.size();
+            for (std::size_t i = 0; i < count; ++i) add(solid, node.operands[i]);
+            return;
+        }
+        const PrimitiveTable& table = solid.table();
+        const auto id = static_cast<std::uint32_t>(solid.expression().leaves[operand.index()]);
+        const std::uint32_t first_instance = table.first(kInstanceKind);
+        if (id < first_instance) {
+            add(solid.material(operand.index()));
+        } else {
+            add(*table.instances[id - first_instance].aggregate);
+        }
+    }
+
+    const std::vector<Material>& materials_;
+    std::set<std::optional<double>> found_;
+};
 
 }  // namespace
 
@@ -174,14 +213,15 @@ std::vector<std::string> SolidScene::open_meshes() const {
     return texts;
 }
 
-std::optional<double> SolidScene::density(SolidId solid) const {
+std::vector<std::optional<double>> SolidScene::densities(SolidId solid) const {
     const SolidPlace place = solids().place(solid);
-    if (place.kind != SolidPlace::Kind::Csg) {
-        return scene_.materials[static_cast<std::size_t>(place.material)].density;
+    Densities densities(scene_.materials);
+    if (place.kind == SolidPlace::Kind::Csg) {
+        densities.add(*place.aggregate);
+    } else {
+        densities.add(place.material);
     }
-    std::set<std::optional<double>> densities;
-    collect_densities(place.aggregate->primitives(), scene_.materials, densities);
-    return densities.size() == 1 ? *densities.begin() : std::nullopt;
+    return densities.found();
 }
 
 }  // namespace alhazen

@@ -34,8 +34,9 @@ class SolidScene {
     /// Name and open edges of each mesh that bounds no volume, up to a few.
     [[nodiscard]] std::vector<std::string> open_meshes() const;
 
-    /// The density of the solid's material; for a CSG object that of its leaves if it is the same.
-    [[nodiscard]] std::optional<double> density(SolidId solid) const;
+    /// The densities of the materials that the solid consists of, each once, ascending; nullopt for
+    /// materials without one. What a difference subtracts does not count.
+    [[nodiscard]] std::vector<std::optional<double>> densities(SolidId solid) const;
 
   private:
     void name_parts(const SceneDescription& description);

@@ -183,7 +183,7 @@ TEST(ImageIo, HdrIsWithinItsStepAndReadsBackTheSame) {
         const Image once = round_trip("hdr", image);
         for (int y = 0; y < 9; ++y) {
             for (int x = 0; x < width; ++x) {
-                const double step = image.rgb(x, y).max() / 128;
+                const double step = image.rgb(x, y).max() / 256;
                 for (int i = 0; i < 3; ++i) {
                     ASSERT_NEAR(once.rgb(x, y)[i], image.rgb(x, y)[i], step) << x << " " << y;
                 }
@@ -191,6 +191,27 @@ TEST(ImageIo, HdrIsWithinItsStepAndReadsBackTheSame) {
         }
         EXPECT_EQ(round_trip("hdr", once).samples, once.samples) << width;
     }
+}
+
+/// Mantissas that are cut off would darken the mean by 1/512 of the largest channel or more.
+TEST(ImageIo, HdrIsNotDarkerOnAverage) {
+    const Image image = testing::random_image(300, 100, 3, 0, 1, 6);
+    const Image read = round_trip("hdr", image);
+    double sum = 0, change = 0;
+    for (std::size_t i = 0; i < image.samples.size(); ++i) {
+        sum += image.samples[i];
+        change += read.samples[i] - image.samples[i];
+    }
+    EXPECT_NEAR(change / sum, 0, 1e-4);
+}
+
+/// 255.6 / 256 is nearer to 1 than to 255 / 256.
+TEST(ImageIo, HdrRoundsUpToTheNextExponent) {
+    Image image(2, 1, 3);
+    image.samples = {255.6f / 256, 0.5f, 0.25f, 255.4f / 256, 0.5f, 0.25f};
+    const Image read = round_trip("hdr", image);
+    EXPECT_EQ(read.rgb(0, 0), (Rgb{1, 0.5, 0.25}));
+    EXPECT_EQ(read.rgb(1, 0), (Rgb{255.0 / 256, 0.5, 0.25}));
 }
 
 TEST(ImageIo, HdrWritesWhatIsNoColourAsBlackOrItsLargest) {

@@ -50,6 +50,26 @@ TEST(SolidMeasures, SolidsWithKnownFiguresHaveThem) {
     }
 }
 
+/// All sets of lines may count the same number of crossings.
+TEST(SolidMeasures, CroftonsCountIsNoFinerThanItsLines) {
+    const double area = 4 * std::numbers::pi;
+    int missed = 0;
+    for (int k = 0; k < 60; ++k) {
+        const LoneScene scene({"ball",
+                               Sphere{{0.3, 0.2, 0.1}, 1},
+                               Affine::rotate({1, 2, 3}, 0.38 * k),
+                               area / 3,
+                               area,
+                               {},
+                               {}});
+        const SolidMeasures m = measure(scene.solid);
+        EXPECT_TRUE(m.areas_agree) << k;
+        EXPECT_NEAR(m.area_by_crofton.value, area, 3 * m.area_by_crofton.half_width) << k;
+        missed += m.area_by_crofton.holds(area) ? 0 : 1;
+    }
+    EXPECT_LE(missed, 7);  // binomial, 60 of 5 %: 1 in 80 has more than 7
+}
+
 TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
     const LoneScene scene(known_solids()[1]);
     const SolidMeasures m = measure(scene.solid);

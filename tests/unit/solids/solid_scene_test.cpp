@@ -45,8 +45,44 @@ TEST(SolidScene, SolidsAreCalledByThePartsThatLeadToThem) {
     for (std::uint64_t i = 0; i < 6; ++i) names.push_back(solids.name(SolidId{i}));
     EXPECT_EQ(names, (std::vector<std::string>{"sphere", "trailer/box", "taxi/front", "taxi/rear",
                                                "car/front", "car/rear"}));
-    EXPECT_EQ(solids.density(SolidId{2}), 1.5);
-    EXPECT_EQ(solids.density(SolidId{0}), std::nullopt);
+    using Densities = std::vector<std::optional<double>>;
+    EXPECT_EQ(solids.densities(SolidId{2}), (Densities{1.5}));
+    EXPECT_EQ(solids.densities(SolidId{0}), (Densities{std::nullopt}));
+}
+
+/// (steel - black) + (steel - (black - brass)), and the same with brass as one more operand.
+TEST(SolidScene, ToolsOfADifferenceDoNotCountAmongDensities) {
+    using Densities = std::vector<std::optional<double>>;
+    for (const bool with_brass : {false, true}) {
+        SceneMaker maker;
+        Material of_steel, of_brass;
+        of_steel.density = 7.8;
+        of_brass.density = 8.5;
+        const MaterialId black = maker.material({}), steel = maker.material(of_steel),
+                         brass = maker.material(of_brass);
+        const ObjectIndex all = maker.object("all"), drilled = maker.object("drilled"),
+                          sleeved = maker.object("sleeved"), sleeve = maker.object("sleeve");
+        auto& objects = maker.description().objects;
+        objects[static_cast<std::size_t>(all)].combine = Combine::Union;
+        for (const ObjectIndex cut : {drilled, sleeved, sleeve}) {
+            objects[static_cast<std::size_t>(cut)].combine = Combine::Difference;
+        }
+        maker.add(Sphere{{0, 0, 0}, 1}, steel, {}, drilled);
+        maker.add(Sphere{{1, 0, 0}, 0.5}, black, {}, drilled);
+        maker.add(Sphere{{0, 3, 0}, 1}, black, {}, sleeve);
+        maker.add(Sphere{{0, 3, 0}, 0.5}, brass, {}, sleeve);
+        maker.add(Sphere{{0, 3, 0}, 2}, steel, {}, sleeved);
+        maker.add(sleeve, MaterialId{0}, {}, sleeved);
+        maker.add(drilled, MaterialId{0}, {}, all);
+        maker.add(sleeved, MaterialId{0}, {}, all);
+        if (with_brass) maker.add(Sphere{{3, 0, 0}, 1}, brass, {}, all);
+        maker.add(all);
+        const Scene scene = maker.compile();
+        const SolidScene solids(maker.description(), scene);
+        ASSERT_EQ(solids.solids().count(), 1u);
+        EXPECT_EQ(solids.densities(SolidId{0}),
+                  with_brass ? Densities({7.8, 8.5}) : Densities{7.8});
+    }
 }
 
 TEST(SolidScene, WordsChooseSolids) {

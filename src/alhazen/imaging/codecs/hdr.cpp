@@ -121,9 +121,11 @@ Rgbe rgbe_of(const Rgb& colour) {
     int exponent = 0;
     (void)std::frexp(largest, &exponent);
     if (largest == 0 || exponent < -127) return {};
+    // A largest channel that rounds up to 256 takes the next exponent.
+    if (std::round(std::ldexp(largest, 8 - exponent)) > 255) ++exponent;
     Rgbe pixel{};
     for (std::size_t i = 0; i < 3; ++i) {
-        pixel[i] = std::uint8_t(std::ldexp(values[i], 8 - exponent));
+        pixel[i] = std::uint8_t(std::round(std::ldexp(values[i], 8 - exponent)));
     }
     pixel[3] = std::uint8_t(exponent + 128);
     return pixel;

@@ -51,16 +51,16 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface,
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
 }
 
-/// Returns `n`, or the nearest direction that faces the viewer if `n` faces away.
-Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
+}  // namespace
+
+Vec3 mapped_normal_seen(const Vec3& mapped, const Vec3& shading, const Vec3& view) {
     constexpr double kLeastCosine = 1e-3;
+    const Vec3 n = dot(view, shading) < 0.0 ? -mapped : mapped;
     const double cosine = dot(n, view);
     if (cosine >= kLeastCosine) return n;
     const Vec3 turned = n + (kLeastCosine - cosine) * view;
     return length_squared(turned) > 0.0 ? normalize(turned) : view;
 }
-
-}  // namespace
 
 MaterialSample material_at(const Scene& scene, const Surface& surface,
                            const std::array<UvFootprint, 2>& footprint,
@@ -185,12 +185,12 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     // The interpolated normal is turned by its own cosine: near silhouettes, and in meshes wound
     // against their normals, its side differs from that of the geometric normal.
     const Vec3& shading = point.surface.shading_normal;
-    const bool turned = dot(ray.direction, shading) > 0.0;
-    if (varies && has_normal_map(scene, point.surface)) {
-        const Vec3 bent = mapped_normal(scene, point.surface, footprint);
-        point.normal = turned_to_view(turned ? -bent : bent, point.view);
+    point.has_map = varies && has_normal_map(scene, point.surface);
+    if (point.has_map) {
+        point.mapped = mapped_normal(scene, point.surface, footprint);
+        point.normal = mapped_normal_seen(point.mapped, shading, point.view);
     } else {
-        point.normal = turned ? -shading : shading;
+        point.normal = dot(ray.direction, shading) > 0.0 ? -shading : shading;
     }
     if (!point.entering && !arrival.meets_backs && is_unseen_from_behind(*point.material)) {
         point.own_material().coverage = 0.0;

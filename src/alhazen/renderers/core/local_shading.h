@@ -63,6 +63,8 @@ struct ShadingPoint {
     Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
     Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
     Vec3 view;                        ///< unit, towards the ray's origin
+    bool has_map = false;             ///< `normal` is that of a normal map
+    Vec3 mapped;                      ///< with one: its unit normal, as the surface has it
 };
 
 /// Evaluates the material at the surface. `footprint`: that of the ray's cone in both sets of
@@ -70,6 +72,11 @@ struct ShadingPoint {
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
                                          const std::array<UvFootprint, 2>& footprint = {},
                                          const SolidAperture& aperture = {});
+
+/// The normal that a viewer in the unit direction `view` sees: `mapped` of a point whose
+/// interpolated normal is `shading`, on the viewer's side; rotated to face the viewer where it does
+/// not.
+[[nodiscard]] Vec3 mapped_normal_seen(const Vec3& mapped, const Vec3& shading, const Vec3& view);
 
 /// The semi-axes of the ellipse that a cone of cross-section `width`^2 around `direction` cuts out
 /// of the surface.

@@ -172,7 +172,11 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     eta_scale_ *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
     v.singular = drawn->singular;
     front.density = drawn->singular ? 1.0 : drawn->density;
-    v.back = drawn->singular ? 1.0 : v.scatter.reverse_density(drawn->direction);
+    if (drawn->singular) {
+        v.back = v.scatter.singular_is_mutual() ? 1.0 : 0.0;
+    } else {
+        v.back = v.scatter.reverse_density(drawn->direction);
+    }
     return Step::Scattered;
 }
 

@@ -58,8 +58,13 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     entering_ = point.entering;
     thin_ = material.thin;
     one_sided_ = is_unseen_from_behind(material);
-    const bool has_tangent = surface.tangent != Vec3{};
-    frame_ = ShadingFrame::of(point.normal, has_tangent ? surface.tangent : surface.dpdu);
+    const Vec3& tangent = surface.tangent != Vec3{} ? surface.tangent : surface.dpdu;
+    frame_ = ShadingFrame::of(point.normal, tangent);
+    map_.reset();
+    if (point.has_map) {
+        const bool turned = point.normal != point.mapped && point.normal != -point.mapped;
+        map_ = Map{point.mapped, surface.shading_normal, tangent, turned};
+    }
     local_view_ = frame_.to_local(view_);
     inside_ = volume_of(point);
     others_.clear();
@@ -136,7 +141,21 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     return entering_ ? over(there, here) : over(here, there);
 }
 
+std::optional<ScatterPoint::Directions> ScatterPoint::seen_from(const Vec3& direction) const {
+    const Vec3 seen = mapped_normal_seen(map_->mapped, map_->shading, direction);
+    const bool same_side = dot(direction, geometric_) > 0.0;
+    const ShadingFrame frame = ShadingFrame::of(same_side ? seen : -seen, map_->tangent);
+    const Directions local{frame.to_local(view_), frame.to_local(direction)};
+    if (!(local.view.z > 0.0)) return std::nullopt;
+    return local;
+}
+
 Spectrum ScatterPoint::value(const Vec3& direction, Transport transport) const {
+    if (map_ && transport == Transport::Importance) {
+        const std::optional<Directions> seen = seen_from(direction);
+        if (!seen) return {};
+        return std::abs(seen->direction.z) * bsdf().value(seen->view, seen->direction, transport);
+    }
     const Vec3 local = frame_.to_local(direction);
     if (!sides_agree(direction, local)) return {};
     return std::abs(local.z) * bsdf().value(local_view_, local, transport);
@@ -148,11 +167,17 @@ double ScatterPoint::density(const Vec3& direction) const {
 }
 
 double ScatterPoint::reverse_density(const Vec3& direction) const {
-    const Vec3 local = frame_.to_local(direction);
-    if (!sides_agree(direction, local)) return 0.0;
-    if (local.z > 0.0) return bsdf().density(local, local_view_);
+    Directions local{local_view_, frame_.to_local(direction)};
+    if (map_) {
+        const std::optional<Directions> seen = seen_from(direction);
+        if (!seen) return 0.0;
+        local = *seen;
+    } else if (!sides_agree(direction, local.direction)) {
+        return 0.0;
+    }
+    if (local.direction.z > 0.0) return bsdf().density(local.direction, local.view);
     const auto turned = [](const Vec3& v) { return Vec3{v.x, v.y, -v.z}; };
-    return from_behind_ ? from_behind_->density(turned(local), turned(local_view_)) : 0.0;
+    return from_behind_ ? from_behind_->density(turned(local.direction), turned(local.view)) : 0.0;
 }
 
 std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
@@ -166,7 +191,15 @@ std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
                          .straight = true};
     }
     const std::optional<BsdfSample> drawn = bsdf().sample(local_view_, choice, u, transport);
-    return drawn ? in_world(*drawn) : std::nullopt;
+    std::optional<Scattered> s = drawn ? in_world(*drawn) : std::nullopt;
+    if (s && map_ && transport == Transport::Importance && !s->straight) {
+        if (!s->singular) {
+            s->weight = (1.0 / s->density) * value(s->direction, transport);
+        } else if (map_->turned) {
+            return std::nullopt;
+        }
+    }
+    return s;
 }
 
 std::optional<Scattered> ScatterPoint::sample_matt(const Vec3& local) const {
@@ -203,8 +236,15 @@ std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transp
 }
 
 double ScatterPoint::importance_correction(const Vec3& direction) const {
-    const double shading = std::abs(local_view_.z * dot(direction, geometric_));
-    const double geometric = std::abs(dot(view_, geometric_) * dot(direction, frame_.z));
+    double view_cosine = local_view_.z, cosine = dot(direction, frame_.z);
+    if (map_) {
+        const std::optional<Directions> seen = seen_from(direction);
+        if (!seen) return 0.0;
+        view_cosine = seen->view.z;
+        cosine = seen->direction.z;
+    }
+    const double shading = std::abs(view_cosine * dot(direction, geometric_));
+    const double geometric = std::abs(dot(view_, geometric_) * cosine);
     return geometric > 0.0 ? shading / geometric : 0.0;
 }
 

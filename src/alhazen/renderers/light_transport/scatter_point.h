@@ -5,8 +5,10 @@
 /// (shading normals are not symmetric).
 /// Conventions: the view is the direction from which the path came. The geometric normal decides
 /// whether a direction is reflected or transmitted; if the shading normal disagrees, nothing is
-/// scattered. In scenes with scattering volumes, a boundary between volumes of the same index is a
-/// null boundary: it is passed straight, as thin sheets are.
+/// scattered. The normal of a map is turned to a viewer (mapped_normal_seen): light is scattered by
+/// that which the eye sees, in whichever direction a path goes, and each density is that of the
+/// normal that the path before the point sees. In scenes with scattering volumes, a boundary
+/// between volumes of the same index is a null boundary: it is passed straight, as thin sheets are.
 
 #include <array>
 #include <optional>
@@ -103,6 +105,9 @@ class ScatterPoint {
     }
     /// Correction factor for importance that leaves along `direction`, due to shading normals.
     [[nodiscard]] double importance_correction(const Vec3& direction) const;
+    /// True if paths from both sides of a singular scattering follow it: not if the normal of a map
+    /// was turned to the view.
+    [[nodiscard]] bool singular_is_mutual() const { return !map_ || !map_->turned; }
 
     /// True if the surface bounds a volume.
     [[nodiscard]] bool bounds_volume() const {
@@ -124,6 +129,12 @@ class ScatterPoint {
     /// The index on the side of the view over that behind, by wavelength; 0: that of the material.
     [[nodiscard]] Spectrum etas(const Scene& scene, const ShadingPoint& point,
                                 const MediumStack& media, const Wavelengths& waves) const;
+    struct Directions {
+        Vec3 view, direction;  ///< z of the view is positive
+    };
+    /// View and direction in the frame of the normal that is seen from `direction`. None: the view
+    /// is behind that normal, and nothing is scattered. Requires `map_`.
+    [[nodiscard]] std::optional<Directions> seen_from(const Vec3& direction) const;
     [[nodiscard]] bool sides_agree(const Vec3& direction, const Vec3& local) const {
         return local.z * dot(direction, geometric_) > 0.0;
     }
@@ -131,6 +142,11 @@ class ScatterPoint {
     Bsdf own_;
     const Bsdf* shared_ = nullptr;     ///< in a cache that keeps it; null: `own_`
     std::optional<Bsdf> from_behind_;  ///< BSDF from the other side, with `both_ways`
+    struct Map {
+        Vec3 mapped, shading, tangent;
+        bool turned = false;  ///< `frame_` has another normal than the map
+    };
+    std::optional<Map> map_;
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;
     Medium inside_;  ///< of the volume that the surface bounds
