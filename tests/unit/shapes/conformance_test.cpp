@@ -8,10 +8,12 @@
 #include "alhazen/geometry/bounds_source.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"
+#include "support/thorough.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::cases;
 using testing::line;
 using testing::Random;
 using testing::random_shape;
@@ -140,11 +142,14 @@ bool parity_is_right(const TestedShape& shape, const Ray& line, int count) {
     return (count % 2 != 0) == turned;
 }
 
+/// Every day a quarter of the shapes, and of the crossings that they must have.
+const int kShapes = cases(100, 400);
+
 /// Calls check(shape, ray, hits, count) for random shapes and rays and for those on a lattice.
 using Check = std::function<void(const TestedShape&, Ray, const ShapeHit*, int)>;
 void for_random_rays(const ShapeType& type, std::uint64_t seed, const Check& check) {
     Random random(seed);
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < kShapes; ++i) {
         const bool lattice = i % 2 == 1;
         const TestedShape shape = type.make(ShapeSource{random, lattice});
         for (int k = 0; k < 200; ++k) {
@@ -213,7 +218,7 @@ TEST_P(ShapeConformance, HitsAscendAndSolidsAreEnteredAndLeftByTurns) {
                         closed_hits += n;
                     });
     if (GetParam().always_closed) {
-        EXPECT_GT(closed_hits, 10000);
+        EXPECT_GT(closed_hits, 25 * kShapes);
     }
 }
 
@@ -270,7 +275,7 @@ TEST_P(ShapeConformance, BoxAndExtentsHoldTheCrossings) {
 
 TEST_P(ShapeConformance, ExtentAlongAnAxisIsTheBoxAndElsewhereWithinIt) {
     Random random(8);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 5 * kShapes; ++i) {
         const auto shape = GetParam().make({random, i % 2 == 1});
         const Box3 box = shape.box();
         for (int k = 0; k < 3; ++k) {
@@ -348,7 +353,7 @@ TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
     Random random(11);
     int checked = 0;
     auto shape = GetParam().make({random});
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 50 * kShapes; ++i) {
         if (i % (10 * GetParam().rays_per_shape) == 0) shape = GetParam().make({random});
         Ray ray = random_ray(shape, random);
         const double distance = length(ray.origin - point_near(shape, random));
@@ -373,7 +378,7 @@ TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
             ++checked;
         }
     }
-    EXPECT_GT(checked, 1000);
+    EXPECT_GT(2 * checked, 5 * kShapes);
 }
 
 TEST_P(ShapeConformance, ScalingTheDirectionScalesT) {
@@ -395,7 +400,7 @@ TEST_P(ShapeConformance, ExtremeRaysGiveFiniteHitsOrNone) {
     Random random(14);
     const double extremes[] = {0.0, -0.0, 1e-320, 1e-200, -1e-100, 1.0, -1.0, 1e100, -1e200, 1e308};
     auto shape = GetParam().make({random});
-    for (int i = 0; i < 50000; ++i) {
+    for (int i = 0; i < 125 * kShapes; ++i) {
         if (i % (10 * GetParam().rays_per_shape) == 0) {
             shape = GetParam().make({random, random.coin()});
         }
