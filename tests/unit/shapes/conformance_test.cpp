@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <memory>
 
 #include "alhazen/geometry/bounds_source.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"
 #include "support/thorough.h"
+#include "tested_shape.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -18,59 +18,10 @@ using testing::line;
 using testing::Random;
 using testing::random_shape;
 using testing::ShapeSource;
+using testing::TestedShape;
 using testing::to_text;
 
 constexpr double kUlp = 0x1p-52;
-/// Type-erased shape: compiles these tests once, not once per type.
-class TestedShape {
-  public:
-    template <class S>
-    explicit TestedShape(S shape) : shape_(std::make_shared<Model<S>>(std::move(shape))) {}
-
-    [[nodiscard]] bool closed() const { return shape_->closed(); }
-    [[nodiscard]] Box3 box() const { return shape_->box(); }
-    [[nodiscard]] Interval extent(const Vec3& axis) const { return shape_->extent(axis); }
-    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const {
-        return shape_->surface(ray, hit);
-    }
-    void validate(Diagnostics& diagnostics) const { shape_->validate(diagnostics); }
-    /// Appends the crossings.
-    void intersect(const Ray& ray, ShapeHits& hits) const { shape_->intersect(ray, hits); }
-    [[nodiscard]] bool begins_inside(const Ray& line) const { return shape_->begins_inside(line); }
-
-  private:
-    struct Concept {
-        virtual ~Concept() = default;
-        virtual bool closed() const = 0;
-        virtual Box3 box() const = 0;
-        virtual Interval extent(const Vec3& axis) const = 0;
-        virtual ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const = 0;
-        virtual void validate(Diagnostics& diagnostics) const = 0;
-        virtual void intersect(const Ray& ray, ShapeHits& hits) const = 0;
-        virtual bool begins_inside(const Ray& line) const = 0;
-    };
-    template <class S>
-    struct Model final : Concept {
-        explicit Model(S s) : shape(std::move(s)) {}
-        bool closed() const override { return shape.closed(); }
-        Box3 box() const override { return shape.box(); }
-        Interval extent(const Vec3& axis) const override { return shape.extent(axis); }
-        ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const override {
-            return shape.surface(ray, hit);
-        }
-        void validate(Diagnostics& diagnostics) const override { shape.validate({}, diagnostics); }
-        void intersect(const Ray& ray, ShapeHits& hits) const override {
-            append_hits(shape, ray, hits);
-        }
-        bool begins_inside(const Ray& line) const override {
-            return inside_at_minus_infinity(shape, line);
-        }
-        S shape;
-    };
-
-    std::shared_ptr<const Concept> shape_;
-};
-
 /// A type of shape and the makers of random ones.
 struct ShapeType {
     const char* name;
@@ -142,8 +93,8 @@ bool parity_is_right(const TestedShape& shape, const Ray& line, int count) {
     return (count % 2 != 0) == turned;
 }
 
-/// Every day a quarter of the shapes, and of the crossings that they must have.
-const int kShapes = cases(100, 400);
+/// Every day an eighth of the shapes, and of the crossings that they must have.
+const int kShapes = cases(50, 400);
 
 /// Calls check(shape, ray, hits, count) for random shapes and rays and for those on a lattice.
 using Check = std::function<void(const TestedShape&, Ray, const ShapeHit*, int)>;

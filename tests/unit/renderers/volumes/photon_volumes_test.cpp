@@ -166,6 +166,7 @@ TEST(PhotonVolumes, AgreeWithPathTracingInARoomOfMist) {
                      "photon_mapping:photons=10000,caustics=0,nearest=40,gather=4",
                      "sppm:photons=4000,radius=0.1"},
                     1);
+    if (!thorough()) return;
     // A sixteenth of the photons are looked up.
     expect_light_of(scene, "path_tracing --spectral",
                     {"photon_mapping:photons=40000,caustics=0,nearest=160 --spectral",
