@@ -64,6 +64,7 @@ double share_inside(double apart) {
 /// extend beyond the boundary into empty space.
 TEST(PhotonVolumes, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
     for (const double g : {0.0, 0.5}) {
+        if (!thorough() && g == 0.0) continue;
         const Rgb scattering{0.4, 0.8, 1.6};
         SceneMaker maker = looking_down();
         maker.description().picture.background = Rgb{1, 1, 1};
@@ -88,6 +89,7 @@ TEST(PhotonVolumes, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     const Rgb absorption{0.1, 0.3, 0}, scattering{0.3, 0.2, 0.6};
     constexpr double kThick = 1.5;
     for (const double g : {0.0, -0.4}) {
+        if (!thorough() && g == 0.0) continue;
         SceneMaker maker = looking_down();
         maker.add(BoxShape{{-1, -1, -kThick}, {1, 1, 0}},
                   maker.material(fog(absorption, scattering, g, kNearlyOne)));
