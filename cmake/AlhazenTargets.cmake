@@ -39,8 +39,9 @@ target_compile_options(alhazen_flags INTERFACE
     # Designated initialisers leave the other fields at their defaults.
     -Wno-missing-field-initializers
     $<$<BOOL:${ALHAZEN_WERROR}>:-Werror>
-    # GCC collects its garbage from half a gigabyte on: from 128 MB on it took a tenth of its time.
-    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
+    # GCC collects its garbage from a gigabyte on: from half of it on, it took up to a tenth of its time, and from
+    # 128 MB on a tenth more.
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>
     # Silences GCC's note that the calling convention of wide vectors changed in 2010.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 target_compile_definitions(alhazen_flags INTERFACE
@@ -268,6 +269,13 @@ function(alhazen_test_entry name program)
     endforeach()
 endfunction()
 
+# Programs of heavy tests alone, which the target `all` leaves out.
+add_custom_target(alhazen_heavy)
+function(alhazen_is_heavy target)
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(alhazen_heavy ${target})
+endfunction()
+
 # alhazen_test_program(NAME SOURCES file... DEPENDS folder... LIBRARIES target...) defines the GoogleTest program
 # alhazen_NAME_test.
 function(alhazen_test_program name)
@@ -279,19 +287,21 @@ function(alhazen_test_program name)
                           GTest::gtest_main)
     target_compile_options(${target} PRIVATE ${ALHAZEN_TEST_OPTIONS})
     # What the files of a unit instantiate alike is compiled once. Each has a namespace of its own: alhazen::ALHAZEN_TEST_FILE.
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 64
                           UNITY_BUILD_UNIQUE_ID ALHAZEN_TEST_FILE)
 endfunction()
 
 # alhazen_test(NAME [LABEL label] [TIMEOUT seconds] [COST seconds] [PARTS number] SOURCES file... DEPENDS folder...
-# LIBRARIES target... UNTRAPPED pattern...) defines a program and the CTest entry NAME of all of its tests. Those
-# labelled "heavy" are not part of the everyday run.
+# LIBRARIES target... UNTRAPPED pattern... THOROUGH pattern...) defines a program and the CTest entry NAME of all of its
+# tests. Those labelled "heavy" are not part of the everyday run.
+# THOROUGH: tests that try a part of their cases every day (tests/support/thorough.h). The entry NAME_thorough, labelled
+# heavy, runs them with all; those that are named in UNTRAPPED, too, are in NAME_thorough_untrapped.
 # UNTRAPPED divides the tests between two entries. NAME_nan_traps has a trap at invalid floating-point operations
 # (tests/support/nan_traps.cpp); NAME has the tests named here: those that feed NaN, those of arithmetic in lanes, where
 # lanes that are not used may hold one, and those that trace by lanes. One entry of all with clang, which computes both
 # sides of a condition.
 function(alhazen_test name)
-    cmake_parse_arguments(ARG "" "LABEL;TIMEOUT;COST;PARTS" "SOURCES;DEPENDS;LIBRARIES;UNTRAPPED" ${ARGN})
+    cmake_parse_arguments(ARG "" "LABEL;TIMEOUT;COST;PARTS" "SOURCES;DEPENDS;LIBRARIES;UNTRAPPED;THOROUGH" ${ARGN})
     alhazen_test_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} LIBRARIES ${ARG_LIBRARIES})
     set(program alhazen_${name}_test)
     set(options)
@@ -305,7 +315,20 @@ function(alhazen_test name)
         list(JOIN ARG_UNTRAPPED ":" untrapped)
         alhazen_test_entry(${name}_nan_traps ${program} ${options} FILTER "-${untrapped}"
                            ENVIRONMENT ALHAZEN_TRAP_NAN=1)
+        set(trap ALHAZEN_TRAP_NAN=1)
     else()
         alhazen_test_entry(${name} ${program} ${options})
+        set(trap)
+        set(ARG_UNTRAPPED)
+    endif()
+    set(heavy LABEL heavy TIMEOUT 3600 ENVIRONMENT ALHAZEN_TEST_THOROUGH=1)
+    set(thorough ${ARG_THOROUGH})
+    list(REMOVE_ITEM thorough ${ARG_UNTRAPPED} "")
+    if(thorough)
+        alhazen_test_entry(${name}_thorough ${program} ${heavy} ${trap} FILTER ${thorough})
+    endif()
+    list(REMOVE_ITEM ARG_THOROUGH ${thorough} "")
+    if(ARG_THOROUGH)
+        alhazen_test_entry(${name}_thorough_untrapped ${program} ${heavy} FILTER ${ARG_THOROUGH})
     endif()
 endfunction()

@@ -53,7 +53,7 @@ def entries_of_programs():
         if program is None or pathlib.Path(program).name in OTHERS:
             continue
         properties = {p["name"]: p["value"] for p in test["properties"]}
-        if properties.get("LABELS") == ["heavy"] and pathlib.Path(program).name != "alhazen_heavy_test":
+        if properties.get("LABELS") == ["heavy"] and pathlib.Path(program).name not in ("alhazen_heavy_test", REPEATS):
             continue
         environment = dict(variable.split("=", 1) for variable in properties.get("ENVIRONMENT", []))
         shard = int(environment.get("GTEST_SHARD_INDEX", 0)), int(environment.get("GTEST_TOTAL_SHARDS", 1))

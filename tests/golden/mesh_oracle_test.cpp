@@ -13,6 +13,7 @@
 
 #include "alhazen/formats/importer_list.h"
 #include "scene_files.h"
+#include "support/thorough.h"
 #include "support/triangle_soup.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -162,8 +163,11 @@ TEST(MeshOracle, GltfScenesHaveTheTrianglesThatAssimpReads) {
         "RiggedSimple.gltf", "RiggedSimple.glb", "SimpleInstancing.gltf", "SimpleInstancing.glb",
         // A rotation quaternion of length 0.9998, which assimp does not normalize.
         "TextureEncodingTest.gltf", "TextureEncodingTest.glb"};
-    EXPECT_EQ(compare(files("gltf/dev", ".gltf"), read_by_assimp, known), 34);
-    EXPECT_EQ(compare(files("gltf/dev", ".glb"), read_by_assimp, known), 21);
+    const auto tried = [](const char* suffix) {
+        return testing::tried_of(files("gltf/dev", suffix), 3);
+    };
+    EXPECT_EQ(compare(tried(".gltf"), read_by_assimp, known), testing::cases(12, 34));
+    EXPECT_EQ(compare(tried(".glb"), read_by_assimp, known), testing::cases(8, 21));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/shading/optics/dispersion.h"
 #include "support/scene_maker.h"
+#include "support/thorough.h"
 
 namespace alhazen::testing {
 
@@ -178,9 +179,11 @@ inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int sam
     return blocks;
 }
 
-/// Fails if the means of two renderers differ by more than `most` standard errors in a block.
+/// Fails if the means of two renderers differ by more than `most` standard errors in a block. Of
+/// three and more, two are compared every day.
 inline void expect_same_light(const Scene& scene, const std::string& name,
-                              const std::vector<std::string>& renderers, int samples, double most) {
+                              const std::vector<std::string>& all, int samples, double most) {
+    const std::vector<std::string> renderers = to_compare(all, name);
     std::vector<Blocks> found;
     for (const std::string& r : renderers) found.push_back(blocks_of(scene, r, samples));
     for (std::size_t a = 0; a < found.size(); ++a) {

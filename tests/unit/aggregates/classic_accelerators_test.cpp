@@ -6,6 +6,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
+#include "support/thorough.h"
 #include "unit/aggregates/conformance_scenes.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -80,7 +81,7 @@ const std::vector<Expected>& expected() {
             const auto list = make_aggregate("list", scene.table);
             Expected& e = made.emplace_back(Expected{std::move(scene), {}, {}, list->box()});
             RandomEngine random(7);
-            for (int i = 0; i < 300; ++i) {
+            for (int i = 0; i < cases(100, 300); ++i) {
                 e.rays.push_back(e.scene.rays(random));
                 e.answers.push_back(ask(*list, e.rays.back()));
             }
@@ -94,7 +95,8 @@ TEST(ConformanceScenes, AreHit) {
     for (const Expected& e : expected()) {
         const auto hits = std::count_if(e.answers.begin(), e.answers.end(),
                                         [](const Answer& answer) { return answer.found; });
-        EXPECT_TRUE(e.scene.table.size() == 0 || hits > 5) << e.scene.name << ": " << hits;
+        EXPECT_TRUE(e.scene.table.size() == 0 || hits > cases(1, 5))
+            << e.scene.name << ": " << hits;
     }
 }
 
@@ -132,7 +134,7 @@ TEST_P(EveryAccelerator, WorksInsideAndOutsideOfInstancesOfEveryOther) {
         const auto tested = nest(GetParam(), other.name);
         RandomEngine random(24);
         const MakeRay rays = random_rays(1);
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < cases(30, 100); ++i) {
             const Ray ray = rays(random);
             ASSERT_EQ(difference(ask(*list, ray), ask(*tested, ray)), "")
                 << "around " << other.name << ", ray " << i << ": " << show(ray);

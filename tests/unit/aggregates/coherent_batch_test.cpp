@@ -9,6 +9,7 @@
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
+#include "support/thorough.h"
 #include "unit/aggregates/coherent_rays.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -76,7 +77,7 @@ std::vector<std::pair<std::string, PrimitiveTable>> tables(double size, std::uin
 TEST(CoherentBatch, EyeRaysHitWhatTheListHits) {
     RandomEngine random(1);
     for (const auto& [name, table] : tables(1, 2)) {
-        for (int i = 0; i < 8; ++i) {
+        for (int i = 0; i < cases(4, 8); ++i) {
             const Vec3 eye = uniform_point(random, 3);
             const double width = i % 4 == 0 ? 0.01 : i % 4 == 1 ? 0.3 : i % 4 == 2 ? 1.5 : 8;
             const Vec3 aim = uniform_point(random, 0.3);
@@ -93,6 +94,7 @@ TEST(CoherentBatch, ShadowRaysAreBlockedAsTheListSays) {
             const Vec3 from = uniform_point(random, 1);
             const Vec3 light = uniform_point(random, i < 4 ? 2 : 12);
             const double width = i % 2 == 0 ? 0.02 : 0.3;
+            if (!thorough() && i % 4 > 1) continue;
             compare("shadow rays at " + name, table, shadow_rays(from, width, light, 20), false);
         }
         compare("shadow rays at " + name, table,
@@ -278,7 +280,7 @@ TEST(CoherentBatch, CornersThatFloatHoldsAndOthersAreDecidedAsByTheList) {
         for (const int every : {1, 2, 1000}) {
             RandomEngine random(19);
             TableBuilder builder;
-            for (int i = 0; i < 1500; ++i) {
+            for (int i = 0; i < cases(500, 1500); ++i) {
                 Vec3 p[3] = {uniform_point(random, 1), {}, {}};
                 p[1] = p[0] + uniform_point(random, 0.1), p[2] = p[0] + uniform_point(random, 0.1);
                 for (Vec3& corner : p)
@@ -340,9 +342,13 @@ TEST(CoherentBatch, RaysBesideThoseFromOnePointAreTheirOwn) {
     // All rays of a packet but one begin in the eye, that one beside it by a little or by much; the
     // least distances vanish in float, where the packet then seems to come from one point.
     const Vec3 eye{0.1, 0.2, 3};
+    std::size_t turn = 0;
     for (const auto& [name, table] : tables(1, 31)) {
         for (const double aside : {1e-12, 1e-9, 1e-6, 1e-3, 0.3}) {
+            ++turn;
             for (const std::size_t place : {0u, 5u, 13u}) {
+                // Every day one place for each distance.
+                if (!is_tried(place, 3, turn)) continue;
                 Rays rays = eye_rays(eye, {0, 0, -1}, 0.7, 24);
                 for (std::size_t i = place; i < rays.size(); i += 16) {
                     rays[i].origin += Vec3{aside, -0.5 * aside, 0.25 * aside};
@@ -361,6 +367,8 @@ TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
         std::ostringstream name;
         name << "size " << size;
         for (const auto& [kind, table] : tables(size, 11)) {
+            // Every day about half of the tables.
+            if (!is_tried(number_of(name.str() + kind), 2)) continue;
             Rays rays = eye_rays({0.1 * size, 0.2 * size, 3 * size}, {0, 0, -1}, 0.7, 12);
             compare(name.str() + ", " + kind, table, rays);
             for (Ray& ray : rays) ray.direction = size * ray.direction;
@@ -373,6 +381,7 @@ TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
         std::ostringstream name;
         name << "from " << distance;
         for (const auto& [kind, table] : tables(1, 12)) {
+            if (!is_tried(number_of(name.str() + kind), 2)) continue;
             compare(name.str() + ", " + kind, table, eye_rays(eye, -eye, 1.5 / distance, 16));
             compare(name.str() + " to a light, " + kind, table,
                     shadow_rays({-1.2, -1.1, -1.3}, 0.3, eye, 16), false);

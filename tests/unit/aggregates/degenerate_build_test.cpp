@@ -6,6 +6,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+#include "support/thorough.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -13,7 +14,7 @@ namespace {
 
 using namespace testing;
 
-constexpr int kCount = 100000;
+const int kCount = cases(30000, 100000);
 
 struct Built {
     double seconds;

@@ -8,6 +8,7 @@
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "support/scratch_folder.h"
+#include "support/thorough.h"
 #include "unit/aggregates/compare_aggregates.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -207,6 +208,8 @@ TEST(Masks, EveryQueryOfTheWideBvhSeesWhatTheMasksLetItSee) {
 TEST(MasksOfClassics, EveryQueryOfEveryOtherAcceleratorSeesWhatTheMasksLetItSee) {
     for (const MaskedTable& t : masked_tables()) {
         with_all_others([&](const char* accelerator, const std::string& name) {
+            // Every day about half of the accelerators with each table.
+            if (!is_tried(number_of(name + t.name), 2)) return;
             compare(*make_aggregate(accelerator, t.masked), *t.unmasked, rays_at(1, 5),
                     name + ", " + t.name);
         });
@@ -259,6 +262,7 @@ TEST(Masks, ThoseOfAllLevelsOfInstancesMustLetARayThrough) {
 TEST(MasksOfClassics, ThoseOfAllLevelsOfInstancesMustLetARayThrough) {
     const auto unmasked = nest("list", false);
     with_all_others([&](const char* accelerator, const std::string& name) {
+        if (!is_tried(number_of(name + ", nested"), 2)) return;
         compare(*nest(accelerator, true), *unmasked, rays_at(1, 12), name + ", nested");
     });
 }

@@ -73,13 +73,16 @@ struct Case {
     double bias;  ///< of the picture's mean, of disc and radius
     int samples;
 };
+/// Every day with the case `one`.
 void expect_light_of_path_tracing(const Scene& scene, std::span<const Case> cases,
-                                  const std::string& name) {
+                                  const std::string& name, std::size_t one) {
     const Blocks truth = blocks_of(scene, "path_tracing --spectral", 96);
     double whole = 0.0;
     for (const double mean : truth.mean) whole += mean / double(truth.mean.size());
     EXPECT_GT(whole, 0.05) << name;
-    for (const Case& c : cases) {
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+        if (!testing::is_tried(k, cases.size(), one)) continue;
+        const Case& c = cases[k];
         const Blocks found = blocks_of(scene, c.renderer, c.samples);
         for (std::size_t i = 0; i < truth.mean.size(); ++i) {
             const double error = std::hypot(found.error[i], truth.error[i]);
@@ -101,7 +104,8 @@ TEST(PhotonWaves, AgreeWithPathTracingByWavelengths) {
     };
     for (const double roughness : {0.0, 0.4}) {
         expect_light_of_path_tracing(room(roughness), cases,
-                                     "roughness " + std::to_string(roughness));
+                                     "roughness " + std::to_string(roughness),
+                                     roughness > 0.0 ? 1 : 3);
     }
 }
 
@@ -124,7 +128,7 @@ TEST(PhotonWaves, AgreeWithPathTracingOnWhatMoves) {
         {"sppm:photons=2000,radius=0.06 --spectral", 0.03, 32},
         {"vcm:photons=2000,radius=0.06,pilot=off --spectral", 0.03, 32},
     };
-    expect_light_of_path_tracing(scene, cases, "moving balls");
+    expect_light_of_path_tracing(scene, cases, "moving balls", 1);
 }
 
 /// Light passes a pane to the floor while one card is out of its way; the eye sees the floor while

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "alhazen/sampling/analysis/discrepancy.h"
@@ -423,6 +424,26 @@ TEST(Samplers, TheVarianceFallsWithTheSlopeOfTheory) {
     EXPECT_NEAR(slope_at_edges("n_rooks"), -1.0, 0.15);
     EXPECT_NEAR(slope_at_edges("sobol"), -1.5, 0.2);
     EXPECT_LT(slope("sobol", smooth), -2.6);
+}
+
+/// A thread remembers where on the curve it was; a new one does not.
+TEST(Samplers, SobolPointsOfAPixelDependOnNoOtherPixel) {
+    const auto sampler = made("sobol", 4);
+    std::uint64_t state = 9;
+    for (int i = 0; i < 300; ++i) {
+        state = mix64(state);
+        // Some beside the last one, others far away.
+        const int reach = i % 3 == 0 ? 4 : i % 3 == 1 ? 4096 : SamplePixel::kMaxSide;
+        const SamplePixel pixel{static_cast<int>(state % reach),
+                                static_cast<int>((state >> 32) % reach)};
+        // Two pairs take the same place in a table of 256.
+        const std::uint32_t pair = i % 4 == 0   ? 3
+                                   : i % 4 == 1 ? 259
+                                                : static_cast<std::uint32_t>(state >> 60);
+        std::vector<Vec2> alone;
+        std::thread([&] { alone = points_of(*sampler, pixel, 4, pair); }).join();
+        EXPECT_EQ(points_of(*sampler, pixel, 4, pair), alone) << i;
+    }
 }
 
 TEST(Samplers, SobolNeedsHalfTheSamplesOfIndependentOnes) {

@@ -3,72 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <memory>
 
 #include "alhazen/geometry/bounds_source.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"
+#include "support/thorough.h"
+#include "tested_shape.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::cases;
 using testing::line;
 using testing::Random;
 using testing::random_shape;
 using testing::ShapeSource;
+using testing::TestedShape;
 using testing::to_text;
 
 constexpr double kUlp = 0x1p-52;
-/// Type-erased shape: compiles these tests once, not once per type.
-class TestedShape {
-  public:
-    template <class S>
-    explicit TestedShape(S shape) : shape_(std::make_shared<Model<S>>(std::move(shape))) {}
-
-    [[nodiscard]] bool closed() const { return shape_->closed(); }
-    [[nodiscard]] Box3 box() const { return shape_->box(); }
-    [[nodiscard]] Interval extent(const Vec3& axis) const { return shape_->extent(axis); }
-    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const {
-        return shape_->surface(ray, hit);
-    }
-    void validate(Diagnostics& diagnostics) const { shape_->validate(diagnostics); }
-    /// Appends the crossings.
-    void intersect(const Ray& ray, ShapeHits& hits) const { shape_->intersect(ray, hits); }
-    [[nodiscard]] bool begins_inside(const Ray& line) const { return shape_->begins_inside(line); }
-
-  private:
-    struct Concept {
-        virtual ~Concept() = default;
-        virtual bool closed() const = 0;
-        virtual Box3 box() const = 0;
-        virtual Interval extent(const Vec3& axis) const = 0;
-        virtual ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const = 0;
-        virtual void validate(Diagnostics& diagnostics) const = 0;
-        virtual void intersect(const Ray& ray, ShapeHits& hits) const = 0;
-        virtual bool begins_inside(const Ray& line) const = 0;
-    };
-    template <class S>
-    struct Model final : Concept {
-        explicit Model(S s) : shape(std::move(s)) {}
-        bool closed() const override { return shape.closed(); }
-        Box3 box() const override { return shape.box(); }
-        Interval extent(const Vec3& axis) const override { return shape.extent(axis); }
-        ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const override {
-            return shape.surface(ray, hit);
-        }
-        void validate(Diagnostics& diagnostics) const override { shape.validate({}, diagnostics); }
-        void intersect(const Ray& ray, ShapeHits& hits) const override {
-            append_hits(shape, ray, hits);
-        }
-        bool begins_inside(const Ray& line) const override {
-            return inside_at_minus_infinity(shape, line);
-        }
-        S shape;
-    };
-
-    std::shared_ptr<const Concept> shape_;
-};
-
 /// A type of shape and the makers of random ones.
 struct ShapeType {
     const char* name;
@@ -140,11 +93,14 @@ bool parity_is_right(const TestedShape& shape, const Ray& line, int count) {
     return (count % 2 != 0) == turned;
 }
 
+/// Every day an eighth of the shapes, and of the crossings that they must have.
+const int kShapes = cases(50, 400);
+
 /// Calls check(shape, ray, hits, count) for random shapes and rays and for those on a lattice.
 using Check = std::function<void(const TestedShape&, Ray, const ShapeHit*, int)>;
 void for_random_rays(const ShapeType& type, std::uint64_t seed, const Check& check) {
     Random random(seed);
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < kShapes; ++i) {
         const bool lattice = i % 2 == 1;
         const TestedShape shape = type.make(ShapeSource{random, lattice});
         for (int k = 0; k < 200; ++k) {
@@ -213,7 +169,7 @@ TEST_P(ShapeConformance, HitsAscendAndSolidsAreEnteredAndLeftByTurns) {
                         closed_hits += n;
                     });
     if (GetParam().always_closed) {
-        EXPECT_GT(closed_hits, 10000);
+        EXPECT_GT(closed_hits, 25 * kShapes);
     }
 }
 
@@ -270,7 +226,7 @@ TEST_P(ShapeConformance, BoxAndExtentsHoldTheCrossings) {
 
 TEST_P(ShapeConformance, ExtentAlongAnAxisIsTheBoxAndElsewhereWithinIt) {
     Random random(8);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 5 * kShapes; ++i) {
         const auto shape = GetParam().make({random, i % 2 == 1});
         const Box3 box = shape.box();
         for (int k = 0; k < 3; ++k) {
@@ -348,7 +304,7 @@ TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
     Random random(11);
     int checked = 0;
     auto shape = GetParam().make({random});
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 50 * kShapes; ++i) {
         if (i % (10 * GetParam().rays_per_shape) == 0) shape = GetParam().make({random});
         Ray ray = random_ray(shape, random);
         const double distance = length(ray.origin - point_near(shape, random));
@@ -373,7 +329,7 @@ TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
             ++checked;
         }
     }
-    EXPECT_GT(checked, 1000);
+    EXPECT_GT(2 * checked, 5 * kShapes);
 }
 
 TEST_P(ShapeConformance, ScalingTheDirectionScalesT) {
@@ -395,7 +351,7 @@ TEST_P(ShapeConformance, ExtremeRaysGiveFiniteHitsOrNone) {
     Random random(14);
     const double extremes[] = {0.0, -0.0, 1e-320, 1e-200, -1e-100, 1.0, -1.0, 1e100, -1e200, 1e308};
     auto shape = GetParam().make({random});
-    for (int i = 0; i < 50000; ++i) {
+    for (int i = 0; i < 125 * kShapes; ++i) {
         if (i % (10 * GetParam().rays_per_shape) == 0) {
             shape = GetParam().make({random, random.coin()});
         }

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "support/random_shapes.h"
+#include "support/thorough.h"
+#include "tested_shape.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -14,25 +17,37 @@ using testing::line;
 using testing::Random;
 using testing::random_shape;
 using testing::ShapeSource;
+using testing::TestedShape;
 
-template <class>
-struct AsTestTypes;
-template <Shape... S>
-struct AsTestTypes<ShapeTypes<S...>> {
-    using Type = ::testing::Types<S...>;
+struct DerivedType {
+    const char* name;
+    bool periodic;  ///< in u
+    int rays_per_shape;
+    TestedShape (*make)(const ShapeSource& from);
 };
 
+/// Surfaces of many patches take longer to build than many rays to trace.
 template <class S>
-class ShapeDerivatives : public ::testing::Test {};
-TYPED_TEST_SUITE(ShapeDerivatives, AsTestTypes<AnalyticShapes>::Type);
+constexpr int kRaysOfShape =
+    std::is_same_v<S, PatchMesh> || std::is_same_v<S, NurbsSurface> ? 4 : 1;
+
+template <class... S>
+std::vector<DerivedType> derived_types(const ShapeTypes<S...>*) {
+    return {{S::kName, !std::is_same_v<S, Plane> && !std::is_same_v<S, Polygon>, kRaysOfShape<S>,
+             [](const ShapeSource& from) { return TestedShape(random_shape<S>(from)); }}...};
+}
+
+class ShapeDerivatives : public ::testing::TestWithParam<DerivedType> {};
+INSTANTIATE_TEST_SUITE_P(, ShapeDerivatives,
+                         ::testing::ValuesIn(derived_types(static_cast<AnalyticShapes*>(nullptr))),
+                         [](const auto& type) { return std::string(type.param.name); });
 
 /// Removes a jump of u by one turn.
 double shorter_turn(double difference) {
     return difference - std::round(difference);
 }
 
-template <class S>
-Vec3 target_on(const S& shape, Random& random) {
+Vec3 target_on(const TestedShape& shape, Random& random) {
     const Box3 box = shape.box();
     Vec3 p = random.in_cube(30);
     for (int k = 0; k < 3; ++k) {
@@ -41,25 +56,24 @@ Vec3 target_on(const S& shape, Random& random) {
     return p;
 }
 
-TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
-    constexpr bool kPeriodic =
-        !std::is_same_v<TypeParam, Plane> && !std::is_same_v<TypeParam, Polygon>;
-    // Surfaces of many patches take longer to build than many rays to trace.
-    constexpr int kRays =
-        std::is_same_v<TypeParam, PatchMesh> || std::is_same_v<TypeParam, NurbsSurface> ? 4 : 1;
+TEST_P(ShapeDerivatives, PredictTheNextPoint) {
+    const bool periodic = GetParam().periodic;
+    const int rays_per_shape = GetParam().rays_per_shape;
     Random random(11);
     int compared = 0;
-    std::optional<TypeParam> made;
-    for (int i = 0; i < 4000; ++i) {
-        if (i % kRays == 0) {
-            made.emplace(random_shape<TypeParam>(ShapeSource{random, i / kRays % 4 == 3}));
+    std::optional<TestedShape> made;
+    // Every day a quarter of them.
+    const int rays = testing::cases(1000, 4000);
+    for (int i = 0; i < rays; ++i) {
+        if (i % rays_per_shape == 0) {
+            made.emplace(GetParam().make(ShapeSource{random, i / rays_per_shape % 4 == 3}));
         }
-        const TypeParam& shape = *made;
+        const TestedShape& shape = *made;
         const Vec3 direction = random.unit_vector();
         const Vec3 origin = target_on(shape, random) - 40.0 * direction;
         ShapeHits hits;
         const Ray ray = line(origin, direction);
-        append_hits(shape, ray, hits);
+        shape.intersect(ray, hits);
         if (hits.empty()) continue;
         const ShapeSurface a = shape.surface(ray, hits[0]);
         // At grazing rays and near a pole the next point is not close.
@@ -70,7 +84,7 @@ TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
         const auto error_at = [&](double step) {
             ShapeHits next_hits;
             const Ray next = line(origin + step * aside, direction);
-            append_hits(shape, next, next_hits);
+            shape.intersect(next, next_hits);
             if (next_hits.empty() || next_hits[0].part != hits[0].part) return -1.0;
             // Sheets of a folded plane are met at one t, in any order: the same sheet is compared.
             const ShapeHit* same = &next_hits[0];
@@ -87,7 +101,7 @@ TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
             if (dot(a.normal, b.normal) < 0.99) return -1.0;
             const Vec3 moved = b.point - a.point;
             if (length(moved) < 0.1 * step || length(moved) > 10 * step) return -1.0;
-            const double du = kPeriodic ? shorter_turn(b.uv.x - a.uv.x) : b.uv.x - a.uv.x;
+            const double du = periodic ? shorter_turn(b.uv.x - a.uv.x) : b.uv.x - a.uv.x;
             const Vec3 predicted = du * a.dpdu + (b.uv.y - a.uv.y) * a.dpdv;
             const double rounding = 1e-12 * length(a.point);
             return std::fmax(length(moved - predicted) - rounding, 0.0) / length(moved);
@@ -101,7 +115,7 @@ TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
         }
         ++compared;
     }
-    EXPECT_GT(compared, 300);
+    EXPECT_GT(40 * compared, 3 * rays);
 }
 
 TEST(TriangleDerivatives, FollowTheTextureCoordinatesOfTheVertices) {

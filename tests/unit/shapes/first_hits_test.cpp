@@ -12,6 +12,7 @@
 #include "alhazen/simd/targets.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"
+#include "support/thorough.h"
 #include "unit/shapes/algebraic/surface_in_cube.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -64,16 +65,17 @@ int check_shape(const S& shape, Random& random, int blocks) {
 
 template <class S>
 void check_random_blocks(std::uint64_t seed, int least_hits = 3000) {
+    const int shapes = testing::cases(30, 100);
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         Random random(seed);
         int hit_count = 0;
-        for (int i = 0; i < 100 && !::testing::Test::HasFailure(); ++i) {
+        for (int i = 0; i < shapes && !::testing::Test::HasFailure(); ++i) {
             SCOPED_TRACE(target + ", seed " + std::to_string(seed) + ", shape " +
                          std::to_string(i));
             hit_count += check_shape(testing::random_shape<S>({random, i % 2 == 1}), random, 40);
         }
-        EXPECT_GT(hit_count, least_hits) << S::kName;
+        EXPECT_GT(100 * hit_count, least_hits * shapes) << S::kName;
     }
 }
 
@@ -206,11 +208,12 @@ template <class S>
 void check_many_rays(std::uint64_t seed, int least_hits) {
     constexpr std::size_t kMost = kMostRaysAtOnce<S>;
     static_assert(kMost > kMaxPacketRays);
+    const int shapes = testing::cases(25, 100);
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         Random random(seed);
         int hit_count = 0;
-        for (int i = 0; i < 100 && !::testing::Test::HasFailure(); ++i) {
+        for (int i = 0; i < shapes && !::testing::Test::HasFailure(); ++i) {
             SCOPED_TRACE(target + ", seed " + std::to_string(seed) + ", shape " +
                          std::to_string(i));
             const S shape = testing::random_shape<S>({random, i % 2 == 1});
@@ -233,7 +236,7 @@ void check_many_rays(std::uint64_t seed, int least_hits) {
                     shape, rays, all ? kMost : 1 + static_cast<std::size_t>(random.below(kMost)));
             }
         }
-        EXPECT_GT(hit_count, least_hits) << S::kName;
+        EXPECT_GT(100 * hit_count, least_hits * shapes) << S::kName;
     }
 }
 

@@ -7,6 +7,7 @@
 #include "support/random_profiles.h"
 #include "support/random_shapes.h"
 #include "support/scene_maker.h"
+#include "support/thorough.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -93,10 +94,11 @@ using ShapesWithFormulas =
 TYPED_TEST_SUITE(VerifyExactShape, ShapesWithFormulas);
 
 TYPED_TEST(VerifyExactShape, IsRight) {
-    const ExactReport report = verified<TypeParam>(10, 1500, 5);
-    EXPECT_EQ(report.solids, 10u);
+    const unsigned count = testing::thorough() ? 10 : 4;
+    const ExactReport report = verified<TypeParam>(static_cast<int>(count), 150 * count, 5);
+    EXPECT_EQ(report.solids, count);
     EXPECT_EQ(report.unchecked, 0u);
-    EXPECT_GT(report.crossings, 500u);
+    EXPECT_GT(report.crossings, 50 * count);
     EXPECT_EQ(report.disagreements, 0u) << first_of(report);
     EXPECT_GT(report.worst_point, 0.0);
     EXPECT_LE(report.worst_point, 1.0);
@@ -106,7 +108,8 @@ TYPED_TEST(VerifyExactShape, IsRight) {
 TEST(VerifyExact, SuperellipsoidsWithOneExponentAboveTwoAndOneBelowAreRight) {
     Random random(9);
     SceneMaker maker;
-    for (int i = 0; i < 12; ++i) {
+    const unsigned count = testing::thorough() ? 12 : 4;
+    for (unsigned i = 0; i < count; ++i) {
         const double star = random.log_uniform(2.05, 6), round = random.log_uniform(0.3, 1.9);
         const Superellipsoid shape{.center = random.on_lattice(4, 0.5),
                                    .east = i % 2 == 0 ? star : round,
@@ -117,10 +120,10 @@ TEST(VerifyExact, SuperellipsoidsWithOneExponentAboveTwoAndOneBelowAreRight) {
         maker.add(shape, MaterialId{0}, placement);
     }
     (void)maker.compile();
-    const ExactReport report = verify_exact(maker.description(), {.rays = 600});
-    EXPECT_EQ(report.solids, 12u);
+    const ExactReport report = verify_exact(maker.description(), {.rays = 50 * count});
+    EXPECT_EQ(report.solids, count);
     EXPECT_EQ(report.unchecked, 0u);
-    EXPECT_GT(report.crossings, 300u);
+    EXPECT_GT(report.crossings, 25 * count);
     EXPECT_EQ(report.disagreements, 0u) << first_of(report);
     EXPECT_LE(report.worst_point, 1.0);
     EXPECT_LT(report.grazing, report.rays / 3);
@@ -182,8 +185,9 @@ TEST(VerifyExact, ASurfaceWithDoublePointsIsRight) {
     SceneMaker maker;
     maker.add(kummer());
     (void)maker.compile();
-    const ExactReport report = verify_exact(maker.description(), {.rays = 7000});
-    EXPECT_GT(report.crossings, 5000u);
+    const std::uint64_t rays = testing::thorough() ? 7000 : 2000;
+    const ExactReport report = verify_exact(maker.description(), {.rays = rays});
+    EXPECT_GT(report.crossings, rays * 5 / 7);
     EXPECT_EQ(report.disagreements, 0u) << first_of(report);
 }
 

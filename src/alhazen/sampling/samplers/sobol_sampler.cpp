@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 
 #include "alhazen/sampling/random.h"
 #include "alhazen/sampling/samplers/sobol_points.h"
@@ -60,12 +61,13 @@ SobolSampler::SobolSampler(std::uint64_t seed, std::uint32_t count)
 /// that differ.
 class SobolSampler::CurveWalk {
   public:
-    explicit CurveWalk(std::uint64_t key) : key_(key) {}
+    explicit CurveWalk(std::uint64_t key = 0) : key_(key) {}
+    [[nodiscard]] std::uint64_t key() const { return key_; }
 
     [[nodiscard]] std::uint32_t place(const SamplePixel& pixel) {
         const auto x = static_cast<std::uint32_t>(pixel.x), y = static_cast<std::uint32_t>(pixel.y);
         const int known = std::bit_width((x ^ x_) | (y ^ y_));
-        const int from = began_ ? known : kBits;
+        const int from = began_ ? std::min(known, kBits) : kBits;
         place_ >>= 2 * from;
         above_ >>= 2 * from;
         for (int bit = from - 1; bit >= 0; --bit) {
@@ -91,6 +93,17 @@ class SobolSampler::CurveWalk {
     bool began_ = false;
 };
 
+/// This thread's walk of a pair: renderers ask for the points of a pair pixel by pixel, and most
+/// pixels are near the previous one.
+SobolSampler::CurveWalk& SobolSampler::walk_of(std::uint64_t key, std::uint32_t pair) {
+    constexpr std::size_t kWalks = 256;
+    // Made at first use: the loader would clear it for every thread.
+    thread_local const auto walks = std::make_unique<std::array<CurveWalk, kWalks>>();
+    CurveWalk& walk = (*walks)[pair % kWalks];
+    if (walk.key() != key) walk = CurveWalk(key);
+    return walk;
+}
+
 std::uint32_t SobolSampler::curve_place(const SamplePixel& pixel, std::uint64_t key) {
     return CurveWalk(key).place(pixel);
 }
@@ -105,7 +118,7 @@ void SobolSampler::points_of(std::span<const SampleRun> runs, std::uint32_t pair
                              std::span<Vec2> out) const {
     const std::uint64_t key = mix64(key_ ^ pair);
     const ScrambleTrees trees{mix64(key + 1), mix64(key + 2)};
-    CurveWalk walk(key);
+    CurveWalk& walk = walk_of(key, pair);
     const int bits = pair > 0 ? sample_bits_ : 0;
     const auto key_of = [&](const SampleRun& run) { return mix64(key ^ mix64(run.pixel.id())); };
     const auto first_of = [&](const SampleRun& run) {

@@ -30,6 +30,7 @@ class SobolSampler final : public Sampler {
 
   private:
     class CurveWalk;
+    [[nodiscard]] static CurveWalk& walk_of(std::uint64_t key, std::uint32_t pair);
     std::uint64_t key_;
     int sample_bits_;
 };

@@ -178,6 +178,10 @@ TEST(DimWaysAtGlass, CountAsOftenAsTheirShare) {
                 const std::string renderer =
                     std::string("photon_mapping:photons=10,caustics=0,split=") + split +
                     ",turns=" + turns;
+                // Every day about a third of them.
+                const std::size_t number =
+                    testing::number_of(renderer + " " + std::to_string(samples));
+                if (!testing::is_tried(number, 3)) continue;
                 const PixelValues seen = pixels_of(scene, renderer, samples);
                 // Four standard errors; all samples of a pixel may miss the rarest branches.
                 EXPECT_NEAR(seen.mean, kThroughSlab, 4.0 * seen.deviation / 32 + 0.001)

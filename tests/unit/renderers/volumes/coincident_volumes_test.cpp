@@ -19,9 +19,10 @@ using namespace alhazen::testing;
 std::string eye_paths(int depth) {
     return "path_tracing:depth=" + std::to_string(depth);
 }
-std::vector<std::string> renderers(int depth) {
-    return {eye_paths(depth), "bidirectional:depth=" + std::to_string(depth),
-            "vcm:photons=100,radius=0.06,pilot=off,depth=" + std::to_string(depth)};
+std::vector<std::string> renderers(int depth, const std::string& name) {
+    return to_compare({eye_paths(depth), "bidirectional:depth=" + std::to_string(depth),
+                       "vcm:photons=100,radius=0.06,pilot=off,depth=" + std::to_string(depth)},
+                      name);
 }
 constexpr int kFew = 6, kMany = 64;
 
@@ -105,7 +106,7 @@ TEST(CoincidentVolumes, TwoHalvesAreTheWhole) {
             return maker.compile();
         };
         const Scene scene = halves(false), turned = halves(true);
-        for (const std::string& renderer : renderers(depth)) {
+        for (const std::string& renderer : renderers(depth, name)) {
             expect_light_of(truth, scene, renderer, samples, most, name);
             expect_same_paths(scene, turned, renderer, name);
         }
@@ -138,7 +139,7 @@ TEST(CoincidentVolumes, WhatTouchesHasNoOrder) {
         };
         const Scene scene = touching(false), turned = touching(true);
         const Blocks truth = blocks_of(scene, eye_paths(c.depth), 64);
-        for (const std::string& renderer : renderers(c.depth)) {
+        for (const std::string& renderer : renderers(c.depth, c.name)) {
             if (renderer != eye_paths(c.depth))
                 expect_light_of(truth, scene, renderer, 64, c.most, c.name);
             expect_same_paths(scene, turned, renderer, c.name);
@@ -165,9 +166,10 @@ TEST(CoincidentVolumes, FlushVolumesNestInAnyOrder) {
         };
         const Blocks truth = blocks_of(scene(1e-4, false), eye_paths(kMany), 64);
         const Scene flush = scene(0.0, false), inner_first = scene(0.0, true);
-        for (const std::string& renderer : renderers(kMany)) {
-            expect_light_of(truth, flush, renderer, 64, 0.032, std::to_string(count));
-            expect_same_paths(flush, inner_first, renderer, std::to_string(count));
+        const std::string name = std::to_string(count) + " volumes";
+        for (const std::string& renderer : renderers(kMany, name)) {
+            expect_light_of(truth, flush, renderer, 64, 0.032, name);
+            expect_same_paths(flush, inner_first, renderer, name);
         }
     }
 }
@@ -187,12 +189,14 @@ TEST(CoincidentVolumes, ABlockStandsOnItsTable) {
         };
         const Scene scene = on_table(false), block_first = on_table(true);
         const Blocks truth = blocks_of(scene, eye_paths(kMany), 64);
-        for (const std::string& renderer : renderers(kMany)) {
+        for (const std::string& renderer : renderers(kMany, name)) {
             if (renderer != eye_paths(kMany))
                 expect_light_of(truth, scene, renderer, 64, 0.016, name);
             expect_same_paths(scene, block_first, renderer, name);
         }
-        expect_light_of(truth, block_first, "sppm:photons=8000,radius=0.05", 16, 0.026, name);
+        if (thorough() || name == "fog") {
+            expect_light_of(truth, block_first, "sppm:photons=8000,radius=0.05", 16, 0.026, name);
+        }
     }
 }
 

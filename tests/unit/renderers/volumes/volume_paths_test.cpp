@@ -18,6 +18,15 @@ using namespace alhazen::testing;
 const std::vector<std::string> kJoining{"path_tracing", "light_tracing", "bidirectional",
                                         "vcm:photons=50,radius=0.01,pilot=off"};
 
+/// Every day one of them for each turn.
+std::vector<std::string> joining(std::size_t turn) {
+    std::vector<std::string> some;
+    for (std::size_t k = 0; k < kJoining.size(); ++k) {
+        if (testing::is_tried(k, kJoining.size(), turn)) some.push_back(kJoining[k]);
+    }
+    return some;
+}
+
 /// `name` with a setting more.
 std::string with(const std::string& name, const std::string& setting) {
     return name + (name.find(':') == std::string::npos ? ":" : ",") + setting;
@@ -53,12 +62,13 @@ SceneMaker beside_a_ball() {
 
 /// A furnace: what only scatters is invisible in even surroundings.
 TEST(VolumePaths, WhatOnlyScattersIsInvisibleInEvenSurroundings) {
+    std::size_t turn = 0;
     for (const double g : {0.0, 0.8, -0.5}) {
         SceneMaker maker = beside_a_ball();
         maker.description().picture.background = Rgb{1, 1, 1};
         maker.add(ball({0, 0, 0}, 1), maker.material(fog({}, {0.5, 1, 2}, g)));
         const Scene scene = maker.compile();
-        for (const std::string& renderer : kJoining) {
+        for (const std::string& renderer : joining(turn++)) {
             expect_near(scene, with(renderer, "depth=200"), {1, 1, 1}, 128, 0.04);
         }
     }
@@ -81,6 +91,7 @@ TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
     const Rgb absorption{0.1, 0, 0.4}, scattering{0.3, 0.2, 0.15};
     const Vec3 lamp{1.6, 0, 1};
     constexpr double kWide = 2.0;
+    std::size_t turn = 1;
     for (const double g : {0.0, 0.8, -0.5}) {
         SceneMaker maker;
         maker.description().cameras[0].camera =
@@ -108,7 +119,7 @@ TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
             }
         }
         const Scene scene = maker.compile();
-        for (const std::string& renderer : kJoining) {
+        for (const std::string& renderer : joining(turn++)) {
             expect_near(scene, with(renderer, "depth=1"), expected, 200, 0.05);
         }
     }
@@ -118,6 +129,7 @@ TEST(VolumePaths, ALampInFogShinesByTheIntegralAlongTheView) {
 TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
     const Rgb absorption{0.1, 0.3, 0}, scattering{0.3, 0.2, 0.6};
     constexpr double kThick = 1.5;
+    std::size_t turn = 2;
     for (const double g : {0.0, -0.5}) {
         SceneMaker maker;
         maker.description().cameras[0].camera =
@@ -132,7 +144,7 @@ TEST(VolumePaths, ALayerInTheSunShowsTheFirstOrderOfItsScattering) {
                           (1.0 - std::exp(-2.0 * extinction * kThick));
         }
         const Scene scene = maker.compile();
-        for (const std::string& renderer : kJoining) {
+        for (const std::string& renderer : joining(turn++)) {
             expect_near(scene, with(renderer, "depth=1"), expected, 256, 0.05);
         }
     }

@@ -4,6 +4,7 @@
 
 #include "alhazen/shading/bsdf/bsdf_of.h"
 #include "support/bsdf_checks.h"
+#include "support/thorough.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
@@ -53,12 +54,15 @@ std::vector<NamedBsdf> bsdfs() {
 TEST(Bsdf, SamplesAreDistributedByTheDensity) {
     const auto list = bsdfs();
     const double views[] = {0.95, 0.5, 0.15};
-    const double level = sidak_level(0.01, static_cast<int>(list.size() * std::size(views)));
+    // Every day one view of each.
+    const std::size_t tried = list.size() * (thorough() ? std::size(views) : 1);
+    const double level = sidak_level(0.01, static_cast<int>(tried));
     std::uint64_t seed = 1;
-    for (const NamedBsdf& b : list) {
-        for (const double cosine : views) {
-            EXPECT_GT(sample_probability(b.bsdf, view_at(cosine), seed++, 50000), level)
-                << b.name << ", view " << cosine;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        for (std::size_t v = 0; v < std::size(views); ++v, ++seed) {
+            if (!is_tried(v, std::size(views), i)) continue;
+            EXPECT_GT(sample_probability(list[i].bsdf, view_at(views[v]), seed, 50000), level)
+                << list[i].name << ", view " << views[v];
         }
     }
 }

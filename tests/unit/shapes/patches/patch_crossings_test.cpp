@@ -13,10 +13,12 @@
 #include "closed_patches.h"
 #include "patch_models.h"
 #include "support/any_ray.h"
+#include "support/thorough.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::cases;
 using testing::Random;
 
 std::vector<ShapeHit> all_hits(const auto& shape, const Ray& ray) {
@@ -29,7 +31,7 @@ std::vector<ShapeHit> all_hits(const auto& shape, const Ray& ray) {
 template <class Exact>
 void expect_same_crossings(const Exact& exact, const PatchMesh& patches, Random& random) {
     int compared = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < cases(4000, 20000); ++i) {
         Ray ray = testing::any_ray(exact.box(), random);
         const double scale = length(ray.direction);
         // Both lists without limits: a crossing at a limit may be on either side.
@@ -59,7 +61,7 @@ void expect_same_crossings(const Exact& exact, const PatchMesh& patches, Random&
         }
         compared += static_cast<int>(found.size());
     }
-    EXPECT_GT(compared, 2000);
+    EXPECT_GT(compared, cases(400, 2000));
 }
 
 TEST(PatchCrossings, OfAnExactTorusAreThoseOfTheTorus) {
@@ -98,10 +100,10 @@ void expect_even(const PatchMesh& mesh, Random& random, int lines) {
 
 TEST(PatchCrossings, ClosedMeshesAreCrossedEvenly) {
     Random random(3);
-    expect_even(testing::torus_of_patches(1.0, 0.4), random, 4000);
-    expect_even(testing::sphere_of_patches(), random, 4000);
+    expect_even(testing::torus_of_patches(1.0, 0.4), random, cases(1000, 4000));
+    expect_even(testing::sphere_of_patches(), random, cases(1000, 4000));
     for (const double change : {0.0, 0.1, 0.4}) {
-        expect_even(testing::random_closed_patches(random, change), random, 2000);
+        expect_even(testing::random_closed_patches(random, change), random, cases(500, 2000));
     }
 }
 
@@ -139,7 +141,7 @@ TEST(PatchCrossings, NormalsOfClosedMeshesPointOutward) {
 
 TEST(PatchCrossings, OfHalvesAreThoseOfTheWhole) {
     Random random(4);
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < cases(6, 20); ++round) {
         std::vector<Vec3> points;
         const int n = 1 + random.below(7), m = 1 + random.below(7);
         std::vector<double> weights;
@@ -226,9 +228,9 @@ TEST(PatchCrossings, AreaOfTheTeapotByLinesIsItsArea) {
     const Vec3 center = tree.box().center();
     const double radius = 0.51 * length(tree.box().size());
     Random random(6);
-    constexpr int kLines = 60000;
+    const int lines = cases(15000, 60000);
     double sum = 0.0, squares = 0.0;
-    for (int i = 0; i < kLines; ++i) {
+    for (int i = 0; i < lines; ++i) {
         const Vec3 direction = random.unit_vector(), x = perpendicular(direction);
         const Vec3 y = cross(direction, x);
         const double r = radius * std::sqrt(random.uniform()), a = random.uniform(0, 2 * kPi);
@@ -240,8 +242,8 @@ TEST(PatchCrossings, AreaOfTheTeapotByLinesIsItsArea) {
         sum += area;
         squares += area * area;
     }
-    const double mean = sum / kLines;
-    const double error = std::sqrt((squares / kLines - mean * mean) / kLines);
+    const double mean = sum / lines;
+    const double error = std::sqrt((squares / lines - mean * mean) / lines);
     EXPECT_NEAR(mean, 52.88330309, 4.0 * error);
 }
 
