@@ -88,6 +88,37 @@ TEST(FlatShapes, TheRectangleInsideHasNoPointOutsideAndTouchesAnEdge) {
     EXPECT_GT(touched, found * 9 / 10);
 }
 
+TEST(FlatShapes, TheDiscInsideHasNoPointOutsideAndTouchesAnEdge) {
+    const std::vector<SlabPoint> square{{-2, -1}, {2, -1}, {2, 1}, {-2, 1}};
+    EXPECT_EQ(inner_radius_of(square, std::vector<std::uint32_t>{4}), 1.0);
+    const std::vector<SlabPoint> holed{{-1, -1},     {1, -1},     {1, 1},     {-1, 1},
+                                       {-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}};
+    EXPECT_EQ(inner_radius_of(holed, std::vector<std::uint32_t>{4, 8}), 0.0);
+    Random random(313);
+    int touched = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::vector<SlabPoint> corners;
+        const int count = 3 + random.below(40);
+        for (int k = 0; k < count; ++k) {
+            const double angle = 2 * kPi * (k + 0.4 * random.uniform()) / count;
+            const double r = random.uniform(0.3, 1);
+            corners.push_back({r * std::cos(angle), r * std::sin(angle)});
+        }
+        const std::vector<std::uint32_t> ends{static_cast<std::uint32_t>(count)};
+        const double radius = inner_radius_of(corners, ends);
+        bool outside = false;
+        for (int k = 0; k < 4000; ++k) {
+            const double angle = 2 * kPi * k / 4000;
+            const SlabPoint p{radius * std::cos(angle), radius * std::sin(angle)};
+            ASSERT_TRUE(radius == 0 || is_inside(corners, ends, {0.999999 * p.u, 0.999999 * p.v}))
+                << i;
+            outside = outside || !is_inside(corners, ends, {1.02 * p.u, 1.02 * p.v});
+        }
+        touched += outside && radius > 0;
+    }
+    EXPECT_GT(touched, 200);
+}
+
 TEST(FlatShapes, TheBoxAroundATurnedRectangleIsThatRectangle) {
     Random random(312);
     for (int i = 0; i < 50; ++i) {
@@ -163,6 +194,44 @@ void expect_sure_one_first(const Shape& grazed, const Shape& met) {
         EXPECT_TRUE(tested.occluded(ray, {&stats})) << target;
         EXPECT_EQ(stats.primitive_hits, 1u) << target;
         EXPECT_EQ(stats.primitive_tests, 1u) << target;
+    }
+}
+
+/// A wheel with teeth, whose middle is at x, y.
+Polygon gear(double x, double y, double z) {
+    Polygon polygon;
+    for (int i = 0; i < 96; ++i) {
+        const double r = i % 4 < 2 ? 1.0 : 0.9, angle = 2 * kPi * i / 96;
+        polygon.vertices.push_back({x + r * std::cos(angle), y + r * std::sin(angle), z});
+    }
+    return polygon;
+}
+
+/// The disc inside a gear is larger than the rectangle inside it.
+TEST(FlatShapes, ASureGearIsNotTestedInDouble) {
+    for (int i = 0; i < 12; ++i) {
+        const double x = 0.85 * std::cos(0.5 * i), y = 0.85 * std::sin(0.5 * i);
+        PrimitiveTable table;
+        auto& column = std::get<ShapeColumn<Polygon>>(table.columns);
+        // The ray passes a corner of the first closer than the filter can tell.
+        for (Polygon polygon : {gear(x + 1 + 1e-9, y, 0), gear(0, 0, 1)}) {
+            polygon.prepare();
+            column.shapes.push_back(polygon);
+            column.placements.push_back(kNoPlacement);
+            column.materials.push_back(MaterialId{0});
+        }
+        EXPECT_NEAR(column.shapes[0].vertices[48].x, x, 1e-8);
+        table.material_opacity = {Opacity::Opaque};
+        table.finish();
+        const WideBvhAggregate tested(std::move(table));
+        for (const std::string& target : simd_targets()) {
+            const SimdTargetOverride use(target);
+            const Ray ray{{x, y, -1}, {0, 0, 1}, 0, kInfinity};
+            TraversalStats stats;
+            EXPECT_TRUE(tested.occluded(ray, {&stats})) << target;
+            EXPECT_EQ(stats.primitive_hits, 1u) << target;
+            EXPECT_EQ(stats.primitive_tests, 1u) << target;
+        }
     }
 }
 

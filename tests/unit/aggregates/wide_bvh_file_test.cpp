@@ -248,7 +248,8 @@ TEST(WideBvhFile, SolidsThatOtherSpheresHoldAreRefused) {
 std::string forged(const std::function<void(StoredWideBvh&)>& forge,
                    const BuildOptions& options = {}) {
     const ScratchFolder folder;
-    const PrimitiveTable table = table_of(200, 20, 10, 1);
+    // So many spheres have blocks of their own.
+    const PrimitiveTable table = table_of(200, 100, 10, 1);
     const auto path = folder.path() / "tree";
     WideBvhAggregate(table, options).save(path);
     StoredWideBvh tree = load_wide_bvh(path, table);
@@ -303,7 +304,7 @@ TEST(WideBvhFile, ReferencesThatLeadNowhereAreRefused) {
             t.layout.triangles[1].ids[0] = {PrimitiveId{5000}, true, false};
         },
         [](auto& t) {
-            t.layout.spheres[0].ids[0] = {PrimitiveId{30}, true, false};
+            t.layout.spheres[0].ids[0] = {PrimitiveId{120}, true, false};
         },
         [](auto& t) { t.layout.spheres[0].lanes |= 1u << 20; },
         [](auto& t) { t.layout.spheres[0].lanes = 0; },
@@ -316,6 +317,8 @@ TEST(WideBvhFile, ReferencesThatLeadNowhereAreRefused) {
             t.layout.frustums[0].ids[0] = {PrimitiveId{0}, true, false};
         },
         [](auto& t) { t.layout.frustums[0].lanes = 0; },
+        [](auto& t) { t.layout.frustums[0].balls = 1; },
+        [](auto& t) { t.layout.frustums[0].certain = 1; },
         [](auto& t) { t.unbounded[0] = PrimitiveId{5000}; },
         [&](auto& t) { t.layout.frame.scale = nan; },
         [&](auto& t) { t.layout.frame.inverse_scale = 3; },

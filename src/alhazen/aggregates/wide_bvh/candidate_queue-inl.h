@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -53,16 +54,60 @@ class RayCandidates {
     } candidates_[kMaxCount];
 };
 
+/// A block of shapes, whatever its type.
+class AnyBlock {
+  public:
+    AnyBlock() = default;
+    HWY_INLINE explicit AnyBlock(const SphereBlock& block)
+        : block_(&block), type_(LeafType::Spheres) {}
+    HWY_INLINE explicit AnyBlock(const FrustumBlock& block)
+        : block_(&block), type_(LeafType::Frustums) {}
+    HWY_INLINE explicit AnyBlock(const BoxBlock& block) : block_(&block), type_(LeafType::Others) {}
+
+    /// f(block)
+    template <class F>
+    HWY_INLINE bool with(F&& f) const {
+        if (type_ == LeafType::Spheres) return f(*static_cast<const SphereBlock*>(block_));
+        if (type_ == LeafType::Frustums) return f(*static_cast<const FrustumBlock*>(block_));
+        return f(*static_cast<const BoxBlock*>(block_));
+    }
+
+  private:
+    const void* block_;
+    LeafType type_;
+};
+
+/// What the filter of a block found, until the next turn of its ray.
+struct FilteredLater {
+    FilteredShapes found;
+
+    template <class Block>
+    HWY_INLINE void set(const Block& block, std::uint32_t rest) {
+        block_ = AnyBlock(block);
+        rest_ = rest;
+    }
+    /// Calls `visit(block, found, rest)` if any shape passed the filter, and forgets it.
+    template <class Visit>
+    HWY_INLINE bool settle(Visit&& visit) {
+        if (rest_ == 0) return false;
+        const std::uint32_t rest = std::exchange(rest_, 0);
+        return block_.with([&](const auto& block) HWY_ATTR { return visit(block, found, rest); });
+    }
+
+  private:
+    AnyBlock block_;
+    std::uint32_t rest_ = 0;  ///< bits of the lanes that passed
+};
+
 /// Shapes that wait for their test in double: what one ray, or rays of a packet, may hit, though
 /// the filter is not sure.
 template <std::size_t kMostShapes>
 class WaitingShapes {
   public:
     struct Shape {
-        const void* block;
-        LeafType type;
+        AnyBlock block;
         std::uint32_t lane;
-        std::uint32_t rays;  ///< bits of the rays of a packet
+        std::uint32_t rays;  ///< bits of the rays of a packet; 1 for a single ray
         float lo;
     };
 
@@ -70,7 +115,7 @@ class WaitingShapes {
     template <class Block>
     HWY_INLINE bool add(const Block& block, std::size_t lane, std::uint32_t rays, float lo) {
         if (HWY_UNLIKELY(count_ == kMostShapes)) return false;
-        shapes_[count_++] = {&block, type_of(block), static_cast<std::uint32_t>(lane), rays, lo};
+        shapes_[count_++] = {AnyBlock(block), static_cast<std::uint32_t>(lane), rays, lo};
         return true;
     }
     /// Calls `test(block, lane, rays, lo)` for each until it returns true, and removes all.
@@ -79,11 +124,8 @@ class WaitingShapes {
         const std::uint32_t count = std::exchange(count_, 0);
         for (std::uint32_t i = 0; i < count; ++i) {
             const Shape& s = shapes_[i];
-            const auto here = [&](const auto* block)
-                                  HWY_ATTR { return test(*block, s.lane, s.rays, s.lo); };
-            if (s.type == LeafType::Spheres    ? here(static_cast<const SphereBlock*>(s.block))
-                : s.type == LeafType::Frustums ? here(static_cast<const FrustumBlock*>(s.block))
-                                               : here(static_cast<const BoxBlock*>(s.block))) {
+            if (s.block.with([&](const auto& block)
+                                 HWY_ATTR { return test(block, s.lane, s.rays, s.lo); })) {
                 return true;
             }
         }
@@ -91,10 +133,6 @@ class WaitingShapes {
     }
 
   private:
-    static LeafType type_of(const SphereBlock&) { return LeafType::Spheres; }
-    static LeafType type_of(const FrustumBlock&) { return LeafType::Frustums; }
-    static LeafType type_of(const BoxBlock&) { return LeafType::Others; }
-
     std::uint32_t count_ = 0;
     Shape shapes_[kMostShapes];
 };

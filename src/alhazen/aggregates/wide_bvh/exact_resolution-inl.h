@@ -72,6 +72,12 @@ HWY_INLINE Sphere sphere_of(const WideBvhScene& scene, const SphereBlock& block,
         .shapes[static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<Sphere>())];
 }
 
+/// The sphere of a lane of FrustumBlock::balls.
+HWY_INLINE const Sphere& sphere_of(const WideBvhScene& scene, const FrustumBlock& block,
+                                   std::size_t lane) {
+    return shape_of<Sphere>(*scene.table, block.ids[lane].id());
+}
+
 struct SphereCrossings {
     double t[2];
     std::uint32_t count = 0;

@@ -178,11 +178,12 @@ HWY_INLINE std::uint32_t filter_lanes(const BoxBlock& block, std::size_t i,
     const BoxLine<F> line(from_center(block.center, i, packet), slopes_of(packet), direction);
     lanes = reaching(line.chord(half, F(block.inset[i])), packet, lanes);
     sure = 0;
+    if (lanes == 0 || !(block.inset[i] < BoxBlock::kNotFlat)) return lanes;
+    const F off = line.off_axis(), spread = line.spread(half[2]), inset(block.inset[i]);
+    lanes &= ~bits_of(outside_ball(off, spread, F(block.radius[i] + 2.0f * slack), inset));
     if (!kSure || lanes == 0 || !(block.inset[i] < BoxBlock::kNoInset)) return lanes;
-    const F less(2.0f * slack + block.inset[i]);
     F hi;
-    sure =
-        lanes & bits_of(line.sure(half[0] - less, half[1] - less, half[2], sure_range(packet), hi));
+    sure = lanes & bits_of(line.sure(half, inset, F(slack), off, spread, sure_range(packet), hi));
     return lanes;
 }
 

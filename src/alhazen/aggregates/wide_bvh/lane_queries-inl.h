@@ -32,6 +32,7 @@
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/primitives/unused_shear.h"
+#include "alhazen/shapes/core/first_hit.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -291,6 +292,20 @@ class ClosestLanes : public LaneLeaves<ClosestLanes> {
         limit(i, s_max);
         return false;
     }
+    template <class S, class Stats>
+    HWY_NOINLINE bool first_of(std::size_t i, PrimitiveId id, const S& shape, float& s_max,
+                               Stats stats) {
+        stats.primitives(1);
+        Ray scratch;
+        ShapeHit hit;
+        if (!find_first_hit(shape, ray_of(i, scratch), hit)) return false;
+        stats.primitive_hits(1);
+        if (!hits_.wins(i, hit.t, id)) return false;
+        hits_.offer(i, id, hit);
+        s_max = std::min(s_max, parameter().above(hit.t));
+        limit(i, s_max);
+        return false;
+    }
     HWY_INLINE std::uint32_t crossed(std::size_t g, PrimitiveId id, const GroupHits& hits) {
         for_each_lane(hits.hit, [&](std::size_t lane) HWY_ATTR {
             const std::size_t i = g * kRayLanes + lane;
@@ -432,6 +447,15 @@ class OccludedLanes : public LaneLeaves<OccludedLanes> {
         if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return shape(i, id, s_max, stats);
         stats.primitives(1);
         if (verdict == Verdict::Missed) return false;
+        stats.primitive_hits(1);
+        return drop(i);
+    }
+    template <class S, class Stats>
+    HWY_NOINLINE bool first_of(std::size_t i, PrimitiveId, const S& shape, float&, Stats stats) {
+        stats.primitives(1);
+        Ray scratch;
+        ShapeHit hit;
+        if (!find_first_hit(shape, ray_of(i, scratch), hit)) return false;
         stats.primitive_hits(1);
         return drop(i);
     }

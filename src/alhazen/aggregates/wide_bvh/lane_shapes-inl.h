@@ -113,10 +113,25 @@ class LaneShapes {
         if constexpr (std::is_same_v<Block, SphereBlock>) {
             return meet_sphere(id, sphere_of(scene_, block, lane), rays, stats);
         } else if constexpr (std::is_same_v<Block, FrustumBlock>) {
+            if ((block.balls >> lane & 1) != 0) {
+                return meet_sphere(id, sphere_of(scene_, block, lane), rays, stats);
+            }
             return meet_frustum(id, rays, stats);
         } else {
             return meet_other(id, rays, stats);
         }
+    }
+    /// Tests a shape of a known kind ray by ray. Returns the rays that need no more, as below.
+    template <class S, class Stats>
+    HWY_INLINE std::uint32_t meet_first(PrimitiveId id, const S& shape, std::uint32_t lanes,
+                                        Stats stats) {
+        std::uint32_t done = 0;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+            float s_max = packet_.s_max[i];
+            if (derived().first_of(i, id, shape, s_max, stats)) done |= 1u << i;
+        }
+        return done;
     }
     /// Tests a shape ray by ray. Returns the rays that need no more, as the two below.
     template <class Stats>
@@ -150,8 +165,8 @@ class LaneShapes {
     template <class Stats>
     HWY_NOINLINE std::uint32_t meet_frustum(PrimitiveId id, std::uint32_t lanes, Stats stats) {
         std::uint32_t done = 0;
-        const auto meet = [&](const auto& shapes) HWY_ATTR {
-            const auto& shape = shapes[scene_.table->index(id)];
+        const auto meet = [&](const auto& shape) HWY_ATTR {
+            if (!kFusesExactly) return;
             done = meet_together(
                 id, lanes,
                 [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) HWY_ATTR {
@@ -161,28 +176,25 @@ class LaneShapes {
                 },
                 stats);
         };
-        const std::uint32_t kind = kFusesExactly ? scene_.table->kind(id) : kKindCount;
-        const auto& columns = scene_.table->columns;
-        if (kind == column_of<Cylinder>()) meet(std::get<ShapeColumn<Cylinder>>(columns).shapes);
-        if (kind == column_of<Cone>()) meet(std::get<ShapeColumn<Cone>>(columns).shapes);
+        if (is_bare<Cylinder>(*scene_.table, id)) {
+            const auto& cylinder = shape_of<Cylinder>(*scene_.table, id);
+            meet(cylinder);
+            return done | meet_first(id, cylinder, lanes, stats);
+        }
+        if (is_bare<Cone>(*scene_.table, id)) meet(shape_of<Cone>(*scene_.table, id));
         return done | meet_alone(id, lanes, stats);
     }
     template <class Stats>
     HWY_NOINLINE std::uint32_t meet_other(PrimitiveId id, std::uint32_t lanes, Stats stats) {
-        std::uint32_t done = 0;
-        if (scene_.table->kind(id) == column_of<Polygon>()) {
-            const auto& column = std::get<ShapeColumn<Polygon>>(scene_.table->columns);
-            const std::uint32_t i = scene_.table->index(id);
-            if (column.placements[i] == kNoPlacement) {
-                done = meet_together(
-                    id, lanes,
-                    [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) {
-                        hits.hit = first_hits(column.shapes[i], rays, wanted, hits.of_ray);
-                    },
-                    stats);
-            }
-        }
-        return done | meet_alone(id, lanes, stats);
+        if (!is_bare<Polygon>(*scene_.table, id)) return meet_alone(id, lanes, stats);
+        const auto& polygon = shape_of<Polygon>(*scene_.table, id);
+        const std::uint32_t done = meet_together(
+            id, lanes,
+            [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) {
+                hits.hit = first_hits(polygon, rays, wanted, hits.of_ray);
+            },
+            stats);
+        return done | meet_first(id, polygon, lanes, stats);
     }
     /// The groups of which several rays may meet a shape; leaves all other rays in `lanes`.
     template <class Test, class Stats>

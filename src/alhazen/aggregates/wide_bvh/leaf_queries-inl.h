@@ -84,6 +84,29 @@ struct LeafQuery {
         }
         return true;
     }
+    /// As `visit`, for several rays in turn: the last block is only filtered, and `settle` does the
+    /// rest in the next turn. Branches on the filter's result are then decided at once, where they
+    /// would wait for it, and a wrong guess discards little work.
+    template <class Stats>
+    HWY_INLINE bool visit_later(NodeRef ref, Stats stats) {
+        const std::uint32_t count = ref.count();
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles:
+                return visit(ref, stats);
+            case LeafType::Spheres:
+                return filter_last(&scene.layout->spheres[ref.offset()], count, stats);
+            case LeafType::Frustums:
+                return filter_last(&scene.layout->frustums[ref.offset()], count, stats);
+            case LeafType::Others:
+                return filter_last(&scene.layout->others[ref.offset()], count, stats);
+        }
+        return true;
+    }
+    template <class Stats>
+    HWY_INLINE bool settle(Stats stats) {
+        return later_.settle([&](const auto& block, const FilteredShapes& found, std::uint32_t rest)
+                                 HWY_ATTR { return visit_found(block, found, rest, stats); });
+    }
 
     /// Computed only for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
@@ -128,6 +151,8 @@ struct LeafQuery {
     }
 
   private:
+    FilteredLater later_;
+
     HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
 
     HWY_NOINLINE bool hits_triangle_scalar(PrimitiveId id, ShapeHit& hit) const {
@@ -162,41 +187,59 @@ struct LeafQuery {
     HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             FilteredShapes found;
-            std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
-            // The query counts the shapes that it tests.
-            stats.primitives(filtered_out(*blocks, rest));
-            if (rest == 0) continue;
-            if constexpr (Query::kFirstOnly) {
-                if (query().take_sure(*blocks, found, stats)) return true;
-            }
-            const std::uint32_t may_wait = Query::kFirstOnly ? blocks->may_be_sure() : 0;
-            while (rest != 0) {
-                auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                if constexpr (Query::kOrdered) {
-                    // The nearest first: its hit may lie before the others.
-                    for (std::uint32_t others = rest & (rest - 1); others != 0;
-                         others &= others - 1) {
-                        const auto other = static_cast<std::size_t>(std::countr_zero(others));
-                        if (found.lo[other] < found.lo[lane]) lane = other;
-                    }
+            const std::uint32_t rest = filter_shapes<false>(*blocks, found, stats);
+            if (rest != 0 && visit_found(*blocks, found, rest, stats)) return true;
+        }
+        return false;
+    }
+    /// As visit_shapes, but leaves what the filter of the last block finds to `settle`.
+    template <class Block, class Stats>
+    HWY_INLINE bool filter_last(const Block* blocks, std::uint32_t count, Stats stats) {
+        if (count > 1 && visit_shapes(blocks, count - 1, stats)) return true;
+        const Block& last = blocks[count - 1];
+        later_.set(last, filter_shapes<true>(last, later_.found, stats));
+        return false;
+    }
+    template <bool kAtOnce, class Block, class Stats>
+    HWY_INLINE std::uint32_t filter_shapes(const Block& block, FilteredShapes& found, Stats stats) {
+        const std::uint32_t rest =
+            shape_candidates<kAtOnce>(block, filter, slabs.s_min, s_max, found);
+        // The query counts the shapes that it tests.
+        stats.primitives(filtered_out(block, rest));
+        return rest;
+    }
+    /// What the filter of a block left.
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_found(const Block& block, const FilteredShapes& found, std::uint32_t rest,
+                                Stats stats) {
+        if constexpr (Query::kFirstOnly) {
+            if (query().take_sure(block, found, stats)) return true;
+        }
+        const std::uint32_t may_wait = Query::kFirstOnly ? block.may_be_sure() : 0;
+        while (rest != 0) {
+            auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            if constexpr (Query::kOrdered) {
+                // The nearest first: its hit may lie before the others.
+                for (std::uint32_t others = rest & (rest - 1); others != 0; others &= others - 1) {
+                    const auto other = static_cast<std::size_t>(std::countr_zero(others));
+                    if (found.lo[other] < found.lo[lane]) lane = other;
                 }
-                rest &= ~(1u << lane);
-                const BlockId id = blocks->ids[lane];
-                if (found.lo[lane] > s_max || !id.used()) {
-                    stats.primitives(1);
+            }
+            rest &= ~(1u << lane);
+            const BlockId id = block.ids[lane];
+            if (found.lo[lane] > s_max || !id.used()) {
+                stats.primitives(1);
+                continue;
+            }
+            if constexpr (Query::kFirstOnly) {
+                // Those that are not sure and begin with the ray are mostly what it leaves.
+                const bool waits = (found.sure >> lane & 1) != 0 || found.lo[lane] <= slabs.s_min;
+                if (waits && (may_wait >> lane & 1) != 0 &&
+                    query().waiting.add(block, lane, 1, found.lo[lane])) {
                     continue;
                 }
-                if constexpr (Query::kFirstOnly) {
-                    // Those that are not sure and begin with the ray are mostly what it leaves.
-                    const bool waits =
-                        (found.sure >> lane & 1) != 0 || found.lo[lane] <= slabs.s_min;
-                    if (waits && (may_wait >> lane & 1) != 0 &&
-                        query().waiting.add(*blocks, lane, 1, found.lo[lane])) {
-                        continue;
-                    }
-                }
-                if (visit_lane(*blocks, lane, stats)) return true;
             }
+            if (visit_lane(block, lane, stats)) return true;
         }
         return false;
     }
@@ -204,44 +247,40 @@ struct LeafQuery {
     HWY_INLINE bool visit_lane(const SphereBlock& block, std::size_t lane, Stats stats) {
         return visit_sphere(block, lane, stats);
     }
-    template <class Block, class Stats>
-    HWY_INLINE bool visit_lane(const Block& block, std::size_t lane, Stats stats) {
-        return visit_shape<Block>(block.ids[lane], stats);
-    }
-
-    /// The kinds that most blocks hold are tested without the table's search for their column.
-    template <class Block, class Stats>
-    HWY_INLINE bool visit_shape(BlockId id, Stats stats) {
+    template <class Stats>
+    HWY_INLINE bool visit_lane(const FrustumBlock& block, std::size_t lane, Stats stats) {
+        if ((block.balls >> lane & 1) != 0) return visit_sphere(block, lane, stats);
         if constexpr (Query::kFirstOnly) {
-            const std::uint32_t kind = scene.table->kind(id.id());
-            if constexpr (std::is_same_v<Block, FrustumBlock>) {
-                if (HWY_LIKELY(kind == column_of<Cylinder>())) {
-                    return visit_first<Cylinder>(id, stats);
-                }
-            } else {
-                if (kind == column_of<Polygon>()) return visit_first<Polygon>(id, stats);
+            if ((block.certain >> lane & 1) != 0) {
+                return visit_first<Cylinder>(block.ids[lane], stats);
             }
+        }
+        return query().shape(block.ids[lane], stats);
+    }
+    template <class Stats>
+    HWY_INLINE bool visit_lane(const BoxBlock& block, std::size_t lane, Stats stats) {
+        const BlockId id = block.ids[lane];
+        if constexpr (Query::kFirstOnly) {
+            if (is_bare<Polygon>(*scene.table, id.id())) return visit_first<Polygon>(id, stats);
         }
         return query().shape(id, stats);
     }
-    /// The first crossing with a shape of a known kind.
+
+    /// The first crossing with a shape of a known kind without a placement. The kinds that most
+    /// blocks hold are tested without the table's search for their column.
     template <class S, class Stats>
     HWY_NOINLINE bool visit_first(BlockId id, Stats stats) {
-        const auto& column = std::get<ShapeColumn<S>>(scene.table->columns);
-        const std::uint32_t i =
-            static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<S>());
-        if (HWY_UNLIKELY(column.placements[i] != kNoPlacement)) return query().shape(id, stats);
         if (!scene.sees(id.id())) return false;
         stats.primitives(1);
         ShapeHit hit;
-        if (!find_first_hit(column.shapes[i], ray, hit)) return false;
+        if (!find_first_hit(shape_of<S>(*scene.table, id.id()), ray, hit)) return false;
         stats.primitive_hits(1);
         return query().accept(id, hit);
     }
 
     /// The first crossing with a sphere, or both.
-    template <class Stats>
-    HWY_NOINLINE bool visit_sphere(const SphereBlock& block, std::size_t lane, Stats stats) {
+    template <class Block, class Stats>
+    HWY_NOINLINE bool visit_sphere(const Block& block, std::size_t lane, Stats stats) {
         const BlockId id = block.ids[lane];
         if (!scene.sees(id.id())) return false;
         SphereCrossings met;

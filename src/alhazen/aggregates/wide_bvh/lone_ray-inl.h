@@ -30,8 +30,9 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The query that `traverse` takes. `Leaves` has `triangles(lane, block number, found, s_max,
-/// stats)`, `sphere(lane, id, sphere, s_max, stats)`, for all other primitives `shape(lane, id,
-/// s_max, stats)`, and `sure(lane, hi, s_max, stats)` for a shape that is certainly hit up to `hi`.
+/// stats)`, `sphere(lane, id, sphere, s_max, stats)`, `first_of(lane, id, shape, s_max, stats)` for
+/// shapes of a known kind without a placement, for all other primitives `shape(lane, id, s_max,
+/// stats)`, and `sure(lane, hi, s_max, stats)` for a shape that is certainly hit up to `hi`.
 /// These may lower `s_max`, and return true to stop.
 template <class Leaves>
 struct LoneRay {
@@ -121,30 +122,35 @@ struct LoneRay {
     HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             FilteredShapes found;
-            std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
+            const std::uint32_t rest =
+                shape_candidates<false>(*blocks, filter, slabs.s_min, s_max, found);
             // The shapes that are tested are counted there.
             stats.primitives(filtered_out(*blocks, rest));
-            if (rest == 0) continue;
-            for (std::uint32_t sure = found.sure; sure != 0; sure &= sure - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(sure));
-                if (!blocks->ids[i].used() || !scene.sees(blocks->ids[i].id())) continue;
-                if (leaves.sure(lane, found.hi[i], s_max, stats)) return true;
+            if (rest != 0 && visit_found(*blocks, found, rest, stats)) return true;
+        }
+        return false;
+    }
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_found(const Block& block, const FilteredShapes& found, std::uint32_t rest,
+                                Stats stats) {
+        for (std::uint32_t sure = found.sure; sure != 0; sure &= sure - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(sure));
+            if (!block.ids[i].used() || !scene.sees(block.ids[i].id())) continue;
+            if (leaves.sure(lane, found.hi[i], s_max, stats)) return true;
+        }
+        const std::uint32_t may_wait = block.may_be_sure();
+        for (; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            if (found.lo[i] > s_max || !block.ids[i].used()) {
+                stats.primitives(1);
+                continue;
             }
-            const std::uint32_t may_wait = blocks->may_be_sure();
-            for (; rest != 0; rest &= rest - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                const BlockId id = blocks->ids[i];
-                if (found.lo[i] > s_max || !id.used()) {
-                    stats.primitives(1);
-                    continue;
-                }
-                // As in LeafQuery.
-                const bool waits = (found.sure >> i & 1) != 0 || found.lo[i] <= slabs.s_min;
-                if (waits && (may_wait >> i & 1) != 0 && waiting.add(*blocks, i, 1, found.lo[i])) {
-                    continue;
-                }
-                if (visit_lane(*blocks, i, stats)) return true;
+            // As in LeafQuery.
+            const bool waits = (found.sure >> i & 1) != 0 || found.lo[i] <= slabs.s_min;
+            if (waits && (may_wait >> i & 1) != 0 && waiting.add(block, i, 1, found.lo[i])) {
+                continue;
             }
+            if (visit_lane(block, i, stats)) return true;
         }
         return false;
     }
@@ -153,9 +159,26 @@ struct LoneRay {
         const PrimitiveId id = block.ids[i].id();
         return scene.sees(id) && leaves.sphere(lane, id, sphere_of(scene, block, i), s_max, stats);
     }
-    template <class Block, class Stats>
-    HWY_INLINE bool visit_lane(const Block& block, std::size_t i, Stats stats) {
-        return leaves.shape(lane, block.ids[i].id(), s_max, stats);
+    template <class Stats>
+    HWY_INLINE bool visit_lane(const FrustumBlock& block, std::size_t i, Stats stats) {
+        const PrimitiveId id = block.ids[i].id();
+        if ((block.balls >> i & 1) != 0) {
+            return scene.sees(id) &&
+                   leaves.sphere(lane, id, sphere_of(scene, block, i), s_max, stats);
+        }
+        if ((block.certain >> i & 1) != 0) return visit_first<Cylinder>(id, stats);
+        return leaves.shape(lane, id, s_max, stats);
+    }
+    template <class Stats>
+    HWY_INLINE bool visit_lane(const BoxBlock& block, std::size_t i, Stats stats) {
+        const PrimitiveId id = block.ids[i].id();
+        if (is_bare<Polygon>(*scene.table, id)) return visit_first<Polygon>(id, stats);
+        return leaves.shape(lane, id, s_max, stats);
+    }
+    template <class S, class Stats>
+    HWY_INLINE bool visit_first(PrimitiveId id, Stats stats) {
+        return scene.sees(id) &&
+               leaves.first_of(lane, id, shape_of<S>(*scene.table, id), s_max, stats);
     }
 
     WaitingShapes<8> waiting;

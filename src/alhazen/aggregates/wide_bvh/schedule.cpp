@@ -17,12 +17,14 @@ struct ScheduledTree {
     bool treeless;       ///< TreelessPackets traces all primitives
     bool suits_packets;  ///< packets are faster than single rays for some query and target
     bool has_packets;    ///< the kernels trace packets
+    bool round;          ///< most blocks hold round shapes
 };
 
 Schedule choose_schedule(const ScheduledTree& tree, Coherence coherence) {
     if (tree.treeless) return Schedule::TreelessPackets;
     if (coherence == Coherence::Any) {
-        const bool single = tree.bytes <= kMaxIncoherentSingleBytes && stream_overrides == 0;
+        const std::size_t most = tree.round ? kMaxRoundSingleBytes : kMaxIncoherentSingleBytes;
+        const bool single = tree.bytes <= most && stream_overrides == 0;
         return single ? Schedule::Single : Schedule::Stream;
     }
     if (tree.suits_packets && tree.has_packets) return Schedule::Packets;
@@ -56,6 +58,11 @@ bool are_alone(const PrimitiveTable& table, const WideBvhLayout& layout) {
     return true;
 }
 
+bool is_round(const WideBvhLayout& layout) {
+    return layout.spheres.size() + layout.frustums.size() >=
+           layout.triangles.size() + layout.indices.size() + layout.others.size();
+}
+
 }  // namespace
 
 StreamOverride::StreamOverride() {
@@ -69,7 +76,8 @@ Schedules::Schedules(const PrimitiveTable& table, const WideBvhLayout& layout,
                      std::span<const PrimitiveId> unbounded, bool treeless, bool has_packets) {
     others_alone_ = are_alone(table, layout);
     const ScheduledTree tree{layout.memory_bytes(), treeless,
-                             others_alone_ || suits_packets(table, unbounded), has_packets};
+                             others_alone_ || suits_packets(table, unbounded), has_packets,
+                             is_round(layout)};
     waits_ = tree.bytes > kMaxSingleTreeBytes;
     for (const Coherence coherence : {Coherence::Any, Coherence::Coherent}) {
         batches_[static_cast<std::size_t>(coherence)] = choose_schedule(tree, coherence);

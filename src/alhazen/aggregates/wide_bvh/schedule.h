@@ -84,6 +84,9 @@ inline constexpr std::uint32_t kMaxPacketBackoff = 4;
 inline constexpr std::size_t kMaxSingleTreeBytes = std::size_t{64} << 20;
 /// The same for rays that are not coherent.
 inline constexpr std::size_t kMaxIncoherentSingleBytes = std::size_t{1} << 20;
+/// The same for trees of round shapes: a branch on what their filter finds waits long for it where
+/// one ray is traced at a time.
+inline constexpr std::size_t kMaxRoundSingleBytes = std::size_t{16} << 10;
 /// Smallest number of rays for the stream.
 inline constexpr std::size_t kMinStreamRays = 16;
 

@@ -112,13 +112,25 @@ bool names_kind(const PrimitiveTable& table, const BlockId (&ids)[kBlockWidth], 
     }
     return true;
 }
+/// True if the bits of spheres and cylinders are those of the kinds: the queries rely on them.
+bool tells_kinds(const PrimitiveTable& table, const FrustumBlock& block) {
+    std::uint32_t balls = 0, cylinders = 0;
+    for (std::uint32_t lane = 0; lane < used_lanes(block); ++lane) {
+        const std::uint32_t kind = table.kind(block.ids[lane].id());
+        balls |= std::uint32_t{kind == column_of<Sphere>()} << lane;
+        cylinders |= std::uint32_t{kind == column_of<Cylinder>()} << lane;
+    }
+    return block.balls == balls && block.certain == (balls | cylinders);
+}
 template <class Block>
 bool is_sound(const PrimitiveTable& table, const Block& block, LeafType kind) {
     if constexpr (requires { block.lanes; }) {
         const std::uint32_t used = used_lanes(block);
         if (used == 0 || block.lanes != (1u << used) - 1) return false;
     }
-    return names_kind(table, block.ids, kind);
+    if (!names_kind(table, block.ids, kind)) return false;
+    if constexpr (requires { block.balls; }) return tells_kinds(table, block);
+    return true;
 }
 
 const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& table) {

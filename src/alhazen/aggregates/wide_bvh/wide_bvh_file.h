@@ -20,7 +20,7 @@
 namespace alhazen {
 
 /// Must be raised when the meaning of the stored arrays changes; sizes are compared anyway.
-inline constexpr std::uint32_t kWideBvhFileVersion = 4;
+inline constexpr std::uint32_t kWideBvhFileVersion = 5;
 
 struct StoredWideBvh {
     WideBvhLayout layout;

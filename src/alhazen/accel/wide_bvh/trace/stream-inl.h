@@ -12,9 +12,11 @@
 /// The data that a step of a ray branches on was stored in its previous step, so a mispredicted
 /// branch is detected early and discards little work of the other rays.
 /// `Query` has `visit(NodeRef, stats)`, which tests a leaf and returns true to stop, as for
-/// NodeRef::none(); `slabs`, the ray; and `s_max`, the parameter up to which hits are searched.
-/// `Source` has `start(void* place)`, which constructs the query of the next ray there and returns
-/// false if there is none, and `finish(query, stats)`, called after its last leaf.
+/// NodeRef::none(), or in its place `visit_later`, which may leave a part of that to
+/// `settle(stats)` in the next turn; `slabs`, the ray; and `s_max`, the parameter up to which hits
+/// are searched. `Source` has `start(void* place)`, which constructs the query of the next ray
+/// there and returns false if there is none, and `finish(query, stats)`, called after its last
+/// leaf.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_
@@ -207,6 +209,9 @@ template <class Query, std::size_t W, class Stats>
 HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
                         const PrefetchTable& prefetch_table, Stats stats) {
     Query& query = slot.query();
+    if constexpr (requires { query.settle(stats); }) {
+        if (query.settle(stats)) return false;
+    }
     StreamStack<W>& stack = slot.stack;
     std::size_t height = slot.height;
     do {
@@ -214,7 +219,11 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
     } while (stack.entry[height] > query.s_max);
     const NodeRef ref = NodeRef::from_bits(stack.child[height]);
     if (ref.is_leaf()) {
-        if (query.visit(ref, stats)) return false;
+        if constexpr (requires { query.visit_later(ref, stats); }) {
+            if (query.visit_later(ref, stats)) return false;
+        } else {
+            if (query.visit(ref, stats)) return false;
+        }
     } else {
         const WideNodeOf<W>& node = nodes[ref.index()];
         stats.nodes(1);

@@ -36,7 +36,8 @@ class BlockBoxes {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             half[axis] = mul_add(height, abs(load_lanes(block.axis[axis])), radius);
         }
-        set(block.center, half, height + radius);
+        const LaneMask<float> ball = height >= Floats(FrustumBlock::kEndless);
+        set(block.center, half, select_lanes(ball, radius, height + radius));
     }
     /// For slabs that are not orthogonal (sheared shapes), the box around the ball.
     HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {

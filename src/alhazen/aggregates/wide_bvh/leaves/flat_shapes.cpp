@@ -57,6 +57,17 @@ double deepest(const SlabPoint& a, const SlabPoint& b, double half_u, double hal
     return most;
 }
 
+/// Whether the middle is inside, by crossings of the positive u axis and the odd-even rule.
+bool holds_middle(std::span<const SlabPoint> corners, std::span<const std::uint32_t> loop_ends) {
+    bool inside = false;
+    for_each_edge(loop_ends, [&](std::size_t i, std::size_t k) {
+        const SlabPoint &a = corners[i], &b = corners[k];
+        if ((a.v > 0.0) == (b.v > 0.0)) return;
+        inside ^= a.u + a.v / (a.v - b.v) * (b.u - a.u) > 0.0;
+    });
+    return inside;
+}
+
 }  // namespace
 
 FlatOutline flat_outline(const PrimitiveTable& table, PrimitiveId id) {
@@ -112,15 +123,26 @@ SlantedBounds bounds_of(const Polygon& polygon) {
 double inset_of(std::span<const SlabPoint> corners, std::span<const std::uint32_t> loop_ends,
                 double half_u, double half_v) {
     double inset = 0;
-    bool inside = false;  // of the middle, by crossings of the positive u axis
+    for_each_edge(loop_ends, [&](std::size_t i, std::size_t k) {
+        inset = std::max(inset, deepest(corners[i], corners[k], half_u, half_v));
+    });
+    // Where the middle is near an edge the rectangle is empty, whatever side it is on.
+    return inset < std::min(half_u, half_v) && holds_middle(corners, loop_ends) ? inset : kInfinity;
+}
+
+double inner_radius_of(std::span<const SlabPoint> corners,
+                       std::span<const std::uint32_t> loop_ends) {
+    if (!holds_middle(corners, loop_ends)) return 0;
+    double least = kInfinity;  // squared
     for_each_edge(loop_ends, [&](std::size_t i, std::size_t k) {
         const SlabPoint &a = corners[i], &b = corners[k];
-        inset = std::max(inset, deepest(a, b, half_u, half_v));
-        if ((a.v > 0.0) == (b.v > 0.0)) return;
-        inside ^= a.u + a.v / (a.v - b.v) * (b.u - a.u) > 0.0;
+        const double u = b.u - a.u, v = b.v - a.v, length = u * u + v * v;
+        const double at = length > 0 ? -(a.u * u + a.v * v) / length : 0.0;
+        const double nearest = std::clamp(at, 0.0, 1.0);
+        const double pu = a.u + nearest * u, pv = a.v + nearest * v;
+        least = std::min(least, pu * pu + pv * pv);
     });
-    // Where the middle is near an edge the rectangle is empty, whatever `inside`.
-    return inside && inset < std::min(half_u, half_v) ? inset : kInfinity;
+    return std::sqrt(least);
 }
 
 }  // namespace alhazen

@@ -33,5 +33,8 @@ struct SlabPoint {
 [[nodiscard]] double inset_of(std::span<const SlabPoint> corners,
                               std::span<const std::uint32_t> loop_ends, double half_u,
                               double half_v);
+/// The radius of the largest disc around the middle within the loops; 0 if there is none.
+[[nodiscard]] double inner_radius_of(std::span<const SlabPoint> corners,
+                                     std::span<const std::uint32_t> loop_ends);
 
 }  // namespace alhazen

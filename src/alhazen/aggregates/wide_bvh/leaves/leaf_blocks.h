@@ -103,16 +103,20 @@ struct alignas(64) SphereBlock {
 };
 static_assert(sizeof(SphereBlock) == 192);
 
-/// Cylinders around cylinders, cones and discs without a placement.
+/// Cylinders around cylinders, cones and discs without a placement; and spheres, as cylinders
+/// without an axis, which have no ends.
 struct alignas(64) FrustumBlock {
     float center[3][kBlockWidth];
-    float axis[3][kBlockWidth];  ///< of length 1, up to rounding
-    float half_height[kBlockWidth];
-    float radius[kBlockWidth];  ///< the larger one
+    float axis[3][kBlockWidth];      ///< of length 1, up to rounding; of spheres 0
+    float half_height[kBlockWidth];  ///< of spheres kEndless
+    float radius[kBlockWidth];       ///< the larger one
     BlockId ids[kBlockWidth];
-    std::uint32_t lanes = 0;    ///< as in a SphereBlock
-    std::uint32_t certain = 0;  ///< bits of the cylinders, whose filter may be sure of a hit
+    std::uint32_t lanes = 0;  ///< as in a SphereBlock
+    /// Bits of the spheres and cylinders, whose filter may be sure of a hit.
+    std::uint32_t certain = 0;
+    std::uint32_t balls = 0;  ///< bits of the spheres
 
+    static constexpr float kEndless = 0x1p60f;
     [[nodiscard]] std::uint32_t may_be_sure() const { return certain; }
 };
 static_assert(sizeof(FrustumBlock) == 320);
@@ -125,7 +129,8 @@ struct alignas(64) BoxBlock {
     float half[3][kBlockWidth];          ///< [k][lane]; -inf for an unused lane
     float radius[kBlockWidth];
     /// Of a polygon or rectangle across direction_2: a line that crosses that slab within the two
-    /// others, narrowed by this on each side, hits it. Else kNoInset, or kNotFlat.
+    /// others, narrowed by this on each side, hits it. If negative: a line that crosses it within
+    /// the disc of this radius around the center. Else kNoInset, or kNotFlat.
     float inset[kBlockWidth];
     BlockId ids[kBlockWidth];
     static constexpr float kNoInset = 0x1p60f, kNotFlat = 0x1p61f;

@@ -15,11 +15,6 @@ namespace {
 /// Covers the rounding of the box around a polygon, as a factor of its coordinates.
 constexpr double kPolygonPad = 0x1p-46;
 
-template <class S>
-const S& shape_of(const PrimitiveTable& table, PrimitiveId id) {
-    return std::get<ShapeColumn<S>>(table.columns).shapes[table.index(id)];
-}
-
 RoundBounds bounds_of(const Frustum& f) {
     return {f.center, f.axis, f.half_height, std::max(f.base_radius, f.top_radius),
             std::abs(f.slope)};
@@ -61,11 +56,22 @@ Vec3 reach_beyond(const SlantedBounds& bounds, const Box3& box) {
 
 }  // namespace
 
+bool spheres_join(const PrimitiveTable& table) {
+    const auto count = [&](std::uint32_t kind) {
+        return table.first(kind + 1) - table.first(kind);
+    };
+    const std::uint32_t others =
+        count(column_of<Cylinder>()) + count(column_of<Cone>()) + count(column_of<Disc>());
+    return others > 0 && count(column_of<Sphere>()) / kMostSpheresPerFrustum <= others;
+}
+
 LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id) {
     const std::uint32_t kind = table.kind(id);
     if (kind == kTriangleKind) return LeafType::Triangles;
     if (table.placement_of(id) != nullptr) return LeafType::Others;
-    if (may_be_in(LeafType::Spheres, kind)) return LeafType::Spheres;
+    if (kind == column_of<Sphere>()) {
+        return spheres_join(table) ? LeafType::Frustums : LeafType::Spheres;
+    }
     if (may_be_in(LeafType::Frustums, kind)) return LeafType::Frustums;
     return LeafType::Others;
 }
@@ -78,7 +84,7 @@ bool may_be_in(LeafType leaf, std::uint32_t kind) {
             return kind == column_of<Sphere>();
         case LeafType::Frustums:
             return kind == column_of<Cylinder>() || kind == column_of<Cone>() ||
-                   kind == column_of<Disc>();
+                   kind == column_of<Disc>() || kind == column_of<Sphere>();
         case LeafType::Others:
             return kind != kTriangleKind;
     }
@@ -89,6 +95,10 @@ RoundBounds round_bounds(const PrimitiveTable& table, PrimitiveId id) {
     const std::uint32_t kind = table.kind(id);
     if (kind == column_of<Cylinder>()) return bounds_of(shape_of<Cylinder>(table, id).frustum);
     if (kind == column_of<Cone>()) return bounds_of(shape_of<Cone>(table, id).frustum);
+    if (kind == column_of<Sphere>()) {
+        const Sphere& sphere = shape_of<Sphere>(table, id);
+        return {sphere.center, {}, 0, sphere.radius, 0};
+    }
     const Disc& disc = shape_of<Disc>(table, id);
     return {disc.center, disc.unit_normal, 0, disc.radius, 0};
 }
@@ -115,15 +125,17 @@ SlantedBounds slanted_bounds(const PrimitiveTable& table, PrimitiveId id) {
 }
 
 double surface_area(const PrimitiveTable& table, PrimitiveId id) {
+    if (table.kind(id) == column_of<Sphere>() && table.placement_of(id) == nullptr) {
+        const double radius = shape_of<Sphere>(table, id).radius;
+        return 4.0 * kPi * radius * radius;
+    }
     switch (leaf_type(table, id)) {
         case LeafType::Triangles: {
             const auto [a, b, c] = table.triangle_vertices(table.index(id));
             return 0.5 * length(cross(b - a, c - a));
         }
-        case LeafType::Spheres: {
-            const double radius = shape_of<Sphere>(table, id).radius;
-            return 4.0 * kPi * radius * radius;
-        }
+        case LeafType::Spheres:
+            break;
         case LeafType::Frustums: {
             const RoundBounds bounds = round_bounds(table, id);
             return 2.0 * kPi * bounds.radius * (2.0 * bounds.half_height + bounds.radius);

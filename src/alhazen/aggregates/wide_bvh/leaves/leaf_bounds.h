@@ -7,6 +7,7 @@
 /// a rotated instance has no empty corners.
 /// Conventions: in the frame of the aggregate, in double.
 
+#include <tuple>
 #include <type_traits>
 
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
@@ -26,14 +27,33 @@ constexpr std::uint32_t column_of() {
     return column;
 }
 
+/// The shape of a primitive. Precondition: it is of this kind.
+template <class S>
+[[nodiscard]] const S& shape_of(const PrimitiveTable& table, PrimitiveId id) {
+    return std::get<ShapeColumn<S>>(table.columns)
+        .shapes[static_cast<std::uint32_t>(id) - table.first(column_of<S>())];
+}
+/// Whether a primitive is a shape of this kind without a placement.
+template <class S>
+[[nodiscard]] bool is_bare(const PrimitiveTable& table, PrimitiveId id) {
+    if (table.kind(id) != column_of<S>()) return false;
+    const std::uint32_t i = static_cast<std::uint32_t>(id) - table.first(column_of<S>());
+    return std::get<ShapeColumn<S>>(table.columns).placements[i] == kNoPlacement;
+}
+
+/// Most spheres for each cylinder, cone or disc where they share blocks: a tree of few kinds has
+/// fewer and fuller blocks, but the filter of cylinders takes longer than that of spheres.
+inline constexpr std::uint32_t kMostSpheresPerFrustum = 8;
+/// Whether the spheres of a table lie in the blocks of cylinders, cones and discs.
+[[nodiscard]] bool spheres_join(const PrimitiveTable& table);
 /// The kind of leaf for a bounded primitive.
 [[nodiscard]] LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id);
 /// True if a primitive of this kind may lie in such a leaf.
 [[nodiscard]] bool may_be_in(LeafType leaf, std::uint32_t kind);
 
-/// A cylinder around a round shape, up to the rounding of the shape's test.
+/// A cylinder around a round shape, up to the rounding of the shape's test; a sphere.
 struct RoundBounds {
-    Vec3 center, axis;  ///< axis: unit
+    Vec3 center, axis;  ///< axis: unit; of a sphere 0
     double half_height = 0, radius = 0;
     double slope = 0;  ///< largest growth of the shape's radius per unit along its axis
 };

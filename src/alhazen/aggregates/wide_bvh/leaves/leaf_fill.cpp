@@ -7,6 +7,7 @@
 
 #include "alhazen/aggregates/wide_bvh/leaves/flat_shapes.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/primitives/triangle_bounds.h"
 
@@ -196,15 +197,20 @@ void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const Pri
         const double away = turned * (height + radius);
         // An error of the shape's test along the axis is one across it, by the slope.
         const double steep = bounds.slope * (4 * kExactTestSlack);
-        block.half_height[lane] = round_up(kMore * height + 1.01 * (moved + away));
+        const bool ball = table.kind(id) == column_of<Sphere>();
+        block.half_height[lane] =
+            ball ? FrustumBlock::kEndless : round_up(kMore * height + 1.01 * (moved + away));
         block.radius[lane] = round_up(kMore * radius + 1.01 * (moved + 2.0 * away) + steep);
         return false;
     });
     block.lanes = (1u << ids.size()) - 1;
-    block.certain = 0;
+    block.certain = block.balls = 0;
     for (std::size_t lane = 0; lane < ids.size(); ++lane) {
-        block.certain |= std::uint32_t{table.kind(ids[lane]) == column_of<Cylinder>()} << lane;
+        const std::uint32_t kind = table.kind(ids[lane]);
+        block.balls |= std::uint32_t{kind == column_of<Sphere>()} << lane;
+        block.certain |= std::uint32_t{kind == column_of<Cylinder>()} << lane;
     }
+    block.certain |= block.balls;
 }
 
 namespace {
@@ -254,7 +260,7 @@ double radius_of(const SlantedBounds& bounds, const BoundingSphere& sphere, cons
 }
 
 /// BoxBlock::inset. Between a corner and the center float rounds once, and so do the halves.
-float inset_of(const FlatOutline& outline, const BoxBlock& block, std::size_t lane,
+float inset_of(const FlatOutline& outline, bool round, const BoxBlock& block, std::size_t lane,
                const LocalFrame& frame) {
     std::vector<SlabPoint> corners;
     corners.reserve(outline.vertices.size());
@@ -267,8 +273,15 @@ float inset_of(const FlatOutline& outline, const BoxBlock& block, std::size_t la
         const Vec3 p = frame.local(vertex) - center;
         corners.push_back({along(0, p), along(1, p)});
     }
-    const double inset =
-        inset_of(corners, outline.loop_ends, block.half[0][lane], block.half[1][lane]);
+    const double half_u = block.half[0][lane], half_v = block.half[1][lane];
+    const double inset = inset_of(corners, outline.loop_ends, half_u, half_v);
+    // Of a polygon the slabs are orthogonal, up to rounding: a disc, where that is larger.
+    const double radius = round ? inner_radius_of(corners, outline.loop_ends) : 0.0;
+    const double rectangle = inset < 2.0 ? 4.0 * (half_u - inset) * (half_v - inset) : 0.0;
+    if (kPi * radius * radius > rectangle) {
+        const double less = radius * (1.0 - 0x1p-20) - 2.0 * kExactTestSlack;
+        if (less > 0x1p-20 && less < 4.0) return -static_cast<float>(less * (1.0 - 0x1p-23));
+    }
     return inset < 2.0 ? round_up(kMore * inset + 2.0 * kExactTestSlack) : BoxBlock::kNoInset;
 }
 
@@ -287,8 +300,10 @@ void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const Primiti
             set_point(block.direction[slab], lane, bounds.direction[slab]);
             block.half[slab][lane] = round_up(half_of(bounds, block, lane, slab, frame));
         }
-        block.inset[lane] = bounds.flat ? inset_of(flat_outline(table, id), block, lane, frame)
-                                        : BoxBlock::kNotFlat;
+        block.inset[lane] =
+            bounds.flat ? inset_of(flat_outline(table, id), table.kind(id) == column_of<Polygon>(),
+                                   block, lane, frame)
+                        : BoxBlock::kNotFlat;
         return false;
     });
     for (std::size_t lane = ids.size(); lane < kBlockWidth; ++lane) {

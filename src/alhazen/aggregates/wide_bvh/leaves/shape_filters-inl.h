@@ -117,36 +117,42 @@ HWY_INLINE bool passes_all(const TriangleFilterRay& ray, FilteredShapes& out) {
     return true;
 }
 
-/// A line that passes round bodies around 0.
+/// A line that passes round bodies around 0. Its distance is that of its moment, which needs no
+/// division: all else waits for less.
 template <class F>
 struct RoundLine {
-    F middle;    ///< where it is nearest to 0
-    F inverse;   ///< one over its squared slope
-    F distance;  ///< there, squared
+    F squared, inverse;  ///< its slope, squared, and one over that
+    F middle;            ///< where it is nearest to 0
+    F moment;            ///< its distance there times its slope, squared
 
-    HWY_INLINE RoundLine(const AxisRows<F>& from, const AxisRows<F>& slope) {
-        const F squared = max_lanes(dot_rows(slope, slope), F(0x1p-60f));
-        inverse = F(1.0f) / squared;
+    HWY_INLINE RoundLine(const AxisRows<F>& from, const AxisRows<F>& slope)
+        : squared(max_lanes(dot_rows(slope, slope), F(0x1p-60f))), inverse(F(1.0f) / squared) {
         middle = -(dot_rows(from, slope) * inverse);
-        const AxisRows<F> nearest = minus_scaled(from, -middle, slope);
-        distance = dot_rows(nearest, nearest);
+        const AxisRows<F> turn{mul_sub(from.y, slope.z, from.z * slope.y),
+                               mul_sub(from.z, slope.x, from.x * slope.z),
+                               mul_sub(from.x, slope.y, from.y * slope.x)};
+        moment = dot_rows(turn, turn);
     }
+    /// Half the chord in a circle or a sphere times the slope, squared; negative if that is missed.
+    HWY_INLINE F room(const F& radius) const { return mul_sub(radius * radius, squared, moment); }
+    /// Half the chord.
+    HWY_INLINE F half(const F& room) const { return sqrt(max_lanes(room, F(0.0f))) * inverse; }
     /// The chord in a circle or a sphere, and which lanes miss it.
     HWY_INLINE Chord<F> chord(const F& radius, std::uint32_t& missed) const {
-        const F room = radius * radius - distance;
-        missed = bits_of(room < F(0.0f));
-        const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
-        return {middle - half, middle + half};
+        const F left = room(radius);
+        missed = bits_of(left < F(0.0f));
+        const F reach = half(left);
+        return {middle - reach, middle + reach};
     }
     /// The lanes that cross a circle or sphere between `narrow` and the radius of `outer` for
     /// certain, in the range and in `within`. `hi`: as in FilteredShapes.
     HWY_INLINE auto sure(const Chord<F>& outer, const F& narrow, const Chord<F>& within,
                          const SureRange<F>& range, F& hi) const {
-        const F room = narrow * narrow - distance, never(std::numeric_limits<float>::infinity());
-        const F half = sqrt(max_lanes(room, F(0.0f)) * inverse);
-        const F in = middle - half, out = middle + half;
+        const F left = room(narrow), reach = half(left);
+        const F in = middle - reach, out = middle + reach;
+        const F never(std::numeric_limits<float>::infinity());
         F hi_in, hi_out;
-        const auto inside = (room > F(0.0f)) & (narrow > F(0.0f));
+        const auto inside = (left > F(0.0f)) & (narrow > F(0.0f));
         const auto enters = inside & range.holds(outer.first, in, hi_in) &
                             (within.first <= outer.first) & (in <= within.last);
         const auto leaves = inside & range.holds(out, outer.last, hi_out) & (within.first <= out) &
@@ -156,18 +162,19 @@ struct RoundLine {
     }
 };
 
-HWY_NOINLINE inline std::uint32_t shape_candidates(const SphereBlock& block,
-                                                   const TriangleFilterRay& ray, float s_min,
-                                                   float s_max, FilteredShapes& out) {
+/// If `kAtOnce`, no branch depends on what is computed: for callers that use the result later.
+template <bool kAtOnce>
+HWY_NOINLINE std::uint32_t shape_candidates(const SphereBlock& block, const TriangleFilterRay& ray,
+                                            float s_min, float s_max, FilteredShapes& out) {
     if (passes_all(ray, out)) return block.lanes;
     const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
     const Floats radius = load_lanes(block.radius), slack(kRoundSlack * ray.edge_slack);
     const RoundLine<Floats> line(from_center(block.center, ray), slope);
     std::uint32_t missed;
     const Chord<Floats> chord = line.chord(radius + slack, missed);
-    if ((block.lanes & ~missed) == 0) return 0;
+    if (!kAtOnce && (block.lanes & ~missed) == 0) return 0;
     const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
-    if (met == 0) return 0;
+    if (!kAtOnce && met == 0) return 0;
     Floats hi;
     out.sure = met & bits_of(line.sure(chord, radius - slack - slack, whole_line<Floats>(),
                                        sure_range(ray), hi));
@@ -196,9 +203,9 @@ struct CylinderLine {
     }
 };
 
-HWY_NOINLINE inline std::uint32_t shape_candidates(const FrustumBlock& block,
-                                                   const TriangleFilterRay& ray, float s_min,
-                                                   float s_max, FilteredShapes& out) {
+template <bool kAtOnce>
+HWY_NOINLINE std::uint32_t shape_candidates(const FrustumBlock& block, const TriangleFilterRay& ray,
+                                            float s_min, float s_max, FilteredShapes& out) {
     if (passes_all(ray, out)) return block.lanes;
     const Floats slack(kRoundSlack * ray.edge_slack);
     const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
@@ -207,13 +214,13 @@ HWY_NOINLINE inline std::uint32_t shape_candidates(const FrustumBlock& block,
     const Floats radius = load_lanes(block.radius), half_height = load_lanes(block.half_height);
     std::uint32_t missed;
     const Chord<Floats> side = line.round.chord(radius + slack, missed);
-    if ((block.lanes & ~missed) == 0) return 0;
+    if (!kAtOnce && (block.lanes & ~missed) == 0) return 0;
     const SlabLine<Floats> slab = line_in_slab(line.along, line.climb);
     Chord<Floats> chord = side;
     meet_slab(slab, half_height + slack, chord);
     const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
     out.sure = 0;
-    if ((met & block.certain) == 0) return met;
+    if (!kAtOnce && (met & block.certain) == 0) return met;
     Floats hi;
     out.sure = met & block.certain &
                bits_of(line.sure(side, slab, half_height, radius, slack, sure_range(ray), hi));
@@ -224,15 +231,28 @@ HWY_NOINLINE inline std::uint32_t shape_candidates(const FrustumBlock& block,
 /// A line in the slabs of a slanted box.
 template <class F>
 struct BoxLine {
+    F along[3], climb[3];
     SlabLine<F> slab[3];
 
     HWY_INLINE BoxLine(const AxisRows<F>& from, const AxisRows<F>& slope,
                        const AxisRows<F> (&direction)[3]) {
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
-            slab[k] = line_in_slab(dot_rows(direction[k], from), dot_rows(direction[k], slope));
+            along[k] = dot_rows(direction[k], from);
+            climb[k] = dot_rows(direction[k], slope);
+            slab[k] = line_in_slab(along[k], climb[k]);
         }
     }
+    /// The squared distance from the axis across the first two slabs, where the line is in the
+    /// middle of the third one.
+    HWY_INLINE F off_axis() const {
+        const F u = mul_add(slab[2].middle, climb[0], along[0]);
+        const F v = mul_add(slab[2].middle, climb[1], along[1]);
+        return mul_add(u, u, v * v);
+    }
+    /// How far from the axis the line gets beyond that within the third slab, at most: the length
+    /// of a slope is at most 3^(1/2).
+    HWY_INLINE F spread(const F& half2) const { return F(1.75f) * (half2 * slab[2].stretch); }
     /// The chord in the box; of flat shapes, if it is not empty, that in the third slab, where
     /// their plane is met.
     HWY_INLINE Chord<F> chord(const F (&half)[3], const F& inset) const {
@@ -246,22 +266,34 @@ struct BoxLine {
                 select_lanes(plane, across.last, chord.last)};
     }
     /// The lanes that cross the third slab within the narrower ones of the first two for certain,
-    /// in the range.
-    HWY_INLINE auto sure(const F& narrow0, const F& narrow1, const F& half2,
-                         const SureRange<F>& range, F& hi) const {
+    /// or within a narrower disc (BoxBlock::inset), in the range. `half` includes the slack.
+    HWY_INLINE auto sure(const F (&half)[3], const F& inset, const F& slack, const F& off,
+                         const F& spread, const SureRange<F>& range, F& hi) const {
+        const F less = slack + slack + inset;
         Chord<F> within = whole_line<F>(), flat = whole_line<F>();
-        meet_slab(slab[0], narrow0, within);
-        meet_slab(slab[1], narrow1, within);
-        meet_slab(slab[2], half2, flat);
-        return (within.first <= flat.first) & (flat.last <= within.last) &
-               range.holds(flat.first, flat.last, hi);
+        meet_slab(slab[0], half[0] - less, within);
+        meet_slab(slab[1], half[1] - less, within);
+        meet_slab(slab[2], half[2], flat);
+        const F room = -(inset + slack + slack + spread);  // of a disc, whose radius is -inset
+        const auto in_rectangle =
+            (inset >= F(0.0f)) & (within.first <= flat.first) & (flat.last <= within.last);
+        const auto in_disc = (room > F(0.0f)) & (off <= room * room);
+        return (in_rectangle | in_disc) & range.holds(flat.first, flat.last, hi);
     }
 };
 
+/// The lanes of flat shapes whose ball a line does not meet within the third slab. `radius`
+/// includes the slack.
+template <class F>
+HWY_INLINE auto outside_ball(const F& off, const F& spread, const F& radius, const F& inset) {
+    const F reach = radius + spread;
+    return (inset < F(BoxBlock::kNotFlat)) & (off > reach * reach);
+}
+
 /// For a ray out of the range of float, unused lanes pass as well.
-HWY_NOINLINE inline std::uint32_t shape_candidates(const BoxBlock& block,
-                                                   const TriangleFilterRay& ray, float s_min,
-                                                   float s_max, FilteredShapes& out) {
+template <bool kAtOnce>
+HWY_NOINLINE std::uint32_t shape_candidates(const BoxBlock& block, const TriangleFilterRay& ray,
+                                            float s_min, float s_max, FilteredShapes& out) {
     if (passes_all(ray, out)) return kAllLanes;
     const Floats slack(kSlabSlack * ray.edge_slack);
     const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
@@ -272,12 +304,12 @@ HWY_NOINLINE inline std::uint32_t shape_candidates(const BoxBlock& block,
                             load_lanes(block.half[2]) + slack};
     const BoxLine<Floats> line(from_center(block.center, ray), slope, direction);
     const Floats inset = load_lanes(block.inset);
-    const std::uint32_t met = finish_filter(line.chord(half, inset), ray, s_min, s_max, out);
-    if (met == 0) return 0;
-    const Floats less = slack + slack + inset;
+    std::uint32_t met = finish_filter(line.chord(half, inset), ray, s_min, s_max, out);
+    if (!kAtOnce && met == 0) return 0;
+    const Floats off = line.off_axis(), spread = line.spread(half[2]);
+    met &= ~bits_of(outside_ball(off, spread, load_lanes(block.radius) + slack + slack, inset));
     Floats hi;
-    out.sure =
-        met & bits_of(line.sure(half[0] - less, half[1] - less, half[2], sure_range(ray), hi));
+    out.sure = met & bits_of(line.sure(half, inset, slack, off, spread, sure_range(ray), hi));
     store_lanes(hi, out.hi);
     return met;
 }
