@@ -137,7 +137,8 @@ INSIDE = {
         "beam_tracing": ["core"],
         "cone_tracing": ["core"],
         "lane_carpenter": ["core"],
-        "light_transport": ["core"],
+        "volumes": ["core"],
+        "light_transport": ["volumes"],
         "ambient_occlusion": ["light_transport"],
         "manifold": ["light_transport"],
         "path_tracing": ["manifold"],
@@ -148,7 +149,7 @@ INSIDE = {
         "sppm": ["photons"],
         "vcm": ["bidirectional", "photons"],
         "ray_casting": ["antialias"],
-        "whitted": ["antialias"],
+        "whitted": ["antialias", "volumes"],
         "distributed": ["whitted"],
     },
     "sampling": {

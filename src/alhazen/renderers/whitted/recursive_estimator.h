@@ -10,13 +10,13 @@
 #include <optional>
 
 #include "alhazen/renderers/core/estimator.h"
-#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
-#include "alhazen/renderers/core/shadow_batch.h"
 #include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/core/wavefront.h"
+#include "alhazen/renderers/volumes/exact_optics.h"
+#include "alhazen/renderers/volumes/shadow_batch.h"
 #include "alhazen/renderers/whitted/wave_split.h"
 #include "alhazen/shading/optics/dispersion.h"
 
