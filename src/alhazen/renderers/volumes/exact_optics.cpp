@@ -94,6 +94,22 @@ void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
     point.passing = tint_of(*point.material) * sides.before;
 }
 
+void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {
+    const std::uint64_t part = part_number({surface.part, surface.instance});
+    for (std::uint32_t m = medium; m != kOutside; m = media_[m].around) {
+        if (media_[m].part != part) continue;
+        media_[m].hidden = true;
+        return;
+    }
+}
+
+std::uint32_t ExactOptics::seen_by_shadow_rays(std::uint32_t medium) {
+    for (std::uint32_t m = medium; m != kOutside; m = media_[m].around) {
+        if (media_[m].hidden) return seen_by_shadow_rays(remove(m, medium));
+    }
+    return medium;
+}
+
 double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point, double nm) const {
     const Surface& surface = point.surface;
     const auto of_material = [&](std::size_t id, double index_d) {
@@ -231,7 +247,7 @@ ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint
 ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
                                            const MaterialSample& sample) const {
     Medium medium;
-    medium.part = std::uint64_t{surface.instance} << 32 | surface.part;
+    medium.part = part_number({surface.part, surface.instance});
     medium.material = static_cast<std::uint32_t>(surface.materials[0]);
     medium.index = sample.index;
     if (sample.physical) {

@@ -51,6 +51,11 @@ class ExactOptics final : public SurfaceOptics {
     /// Of a volume's face and an opaque one that coincide the opaque one is hit.
     void set_media(const Arrival& arrival, ShadingPoint& point) override;
 
+    /// Hides the volume that the surface bounds, if it is part of the medium, from shadow rays.
+    void hide(std::uint32_t medium, const Surface& surface);
+    /// The medium without hidden volumes.
+    [[nodiscard]] std::uint32_t seen_by_shadow_rays(std::uint32_t medium);
+
     /// Refractive index on the side of a ray in medium `around` over that behind, at wavelength
     /// `nm`. `point` must have been completed by `set_media`.
     [[nodiscard]] double eta_by_wave(std::uint32_t around, const ShadingPoint& point,
@@ -73,7 +78,8 @@ class ExactOptics final : public SurfaceOptics {
         std::uint64_t part = 0;      ///< that bounds it
         std::uint32_t material = 0;  ///< of it
         std::uint32_t around = kOutside;
-        bool known = false;  ///< stated by a solid
+        bool known = false;   ///< stated by a solid
+        bool hidden = false;  ///< from shadow rays
         double index = 1;
         Rgb absorption;
     };

@@ -158,8 +158,8 @@ const MaterialSample& ShadowBatch::material_of(const Surface& surface) {
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     Rgb tint{1, 1, 1};
-    start_inside(scene_.conventions.shading, *tinted_, path.medium, path.inside, path.absorption,
-                 volumes_);
+    start_inside(scene_.conventions.shading, *tinted_, path.medium, path.inside && !path.hidden,
+                 path.absorption, volumes_);
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
     double met = -min_distance;  // the last crossing that counts
@@ -213,7 +213,8 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     const std::size_t mark = optics_->mark();
     const double min_distance = scene_.conventions.shading.min_distance;
     Rgb tint{1, 1, 1};
-    std::uint32_t medium = path.medium;
+    std::uint32_t medium =
+        scene_.has_masks ? optics_->seen_by_shadow_rays(path.medium) : path.medium;
     double last = 0.0, met = -min_distance;
     bool in_wall = false;  // between the two crossings of a wall, which are one boundary
     together_.clear();

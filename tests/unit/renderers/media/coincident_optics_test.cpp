@@ -68,7 +68,7 @@ SceneMaker above_a_light() {
     SceneMaker maker;
     ShadingConventions& c = maker.description().conventions.shading;
     c.optics = {true, true};
-    c.max_depth = 30;
+    c.max_depth = 16;
     maker.description().cameras[0].camera =
         look_along({0.1, 0.2, 30}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
     maker.add(Rectangle{{-50, -50, -20}, {100, 0, 0}, {0, 100, 0}},
