@@ -116,6 +116,7 @@ INSIDE = {
         "polygon": [""],
         "facets": ["polygon"],
         "polygon_sets": [""],
+        "repair": ["facets", "polygon_sets"],
     },
     "imaging": {
         "image": [],
