@@ -116,6 +116,7 @@ INSIDE = {
         "polygon": [""],
         "facets": ["polygon"],
         "polygon_sets": [""],
+        "repair": ["facets", "polygon_sets"],
     },
     "imaging": {
         "image": [],
@@ -137,7 +138,8 @@ INSIDE = {
         "beam_tracing": ["core"],
         "cone_tracing": ["core"],
         "lane_carpenter": ["core"],
-        "light_transport": ["core"],
+        "volumes": ["core"],
+        "light_transport": ["volumes"],
         "ambient_occlusion": ["light_transport"],
         "manifold": ["light_transport"],
         "path_tracing": ["manifold"],
@@ -148,7 +150,7 @@ INSIDE = {
         "sppm": ["photons"],
         "vcm": ["bidirectional", "photons"],
         "ray_casting": ["antialias"],
-        "whitted": ["antialias"],
+        "whitted": ["antialias", "volumes"],
         "distributed": ["whitted"],
     },
     "sampling": {

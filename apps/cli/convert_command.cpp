@@ -37,22 +37,18 @@ int run(const ConvertArguments& args) {
         const TessellationReport report = tessellate(description, *args.tolerance, keep_others);
         if (!args.quiet) {
             for (const std::string& line : report.kept) tell("warning: {}\n", line);
-            tell("{} shapes became {} triangles within {:g} of them\n", report.shapes,
-                 report.triangles, *args.tolerance);
+            tell("{} became {} within {:g} of {}\n", counted(report.shapes, "shape"),
+                 counted(report.triangles, "triangle"), *args.tolerance,
+                 report.shapes == 1 ? "it" : "them");
         }
     }
     ConvertOptions options = args.convert;
     options.strict = args.scene.strict;
     const ConvertReport report = convert(description, args.output, options);
     if (args.quiet) return kDone;
-    if (!report.left_out.empty()) {
-        const bool patches = report.files.back().extension() == ".bpt";
-        tell("warning: left out, as they are not {}: {}\n", patches ? "patches" : "meshes",
-             report.left_out);
-    }
-    for (const std::string& line : losses_of(report)) tell("warning: {}\n", line);
+    for (const std::string& line : conversion_warnings(report)) tell("warning: {}\n", line);
     const std::size_t beside = report.files.size() - 1;
-    tell("{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,
+    tell("{}: {}, {:.1f} MB{}\n", args.output, counted(report.triangles, "triangle"),
          1e-6 * static_cast<double>(report.bytes),
          beside == 0   ? ""
          : beside == 1 ? ", one file beside it"

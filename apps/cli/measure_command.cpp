@@ -118,8 +118,11 @@ MeasureReport measure_all(const SolidScene& scene, const MeasureArguments& args,
     if (!only_pairs) {
         if (scene.solids().count() == 0) {
             throw Error(ErrorKind::Scene,
-                        fmt::format("the scene has no solid: {} surfaces bound no volume{}{}",
-                                    report.open_surfaces, report.open_meshes.empty() ? "" : "\n",
+                        fmt::format("the scene has no solid: {} no volume{}{}",
+                                    report.open_surfaces == 1
+                                        ? "1 surface bounds"
+                                        : counted(report.open_surfaces, "surface") + " bound",
+                                    report.open_meshes.empty() ? "" : "\n",
                                     fmt::join(report.open_meshes, "\n")));
         }
         if (args.objects.empty() && !args.all && scene.solids().count() > kMostSolids) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -14,6 +15,11 @@
 #include "alhazen/base/control_characters.h"
 
 namespace alhazen::cli {
+
+/// "1 triangle", "2 triangles".
+[[nodiscard]] inline std::string counted(std::uint64_t count, const char* one) {
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
 
 template <class... Args>
 void print_to(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {

@@ -69,9 +69,11 @@ void with_solids(const SolidQueryArguments& args, const Work& work) {
     ThreadLimit(args.scene.threads).run([&] {
         const SolidScene scene(loaded.description, loaded.scene);
         if (!args.quiet && scene.solids().open_surfaces() > 0) {
-            tell("alhazen: {} surfaces of the scene bound no volume: they are left out\n",
-                 scene.solids().open_surfaces());
-            for (const std::string& open : scene.open_meshes()) tell("alhazen: {}\n", open);
+            const std::uint64_t open = scene.solids().open_surfaces();
+            const bool one = open == 1;
+            tell("alhazen: {} of the scene {} no volume: {} left out\n", counted(open, "surface"),
+                 one ? "bounds" : "bound", one ? "it is" : "they are");
+            for (const std::string& mesh : scene.open_meshes()) tell("alhazen: {}\n", mesh);
         }
         work(scene);
     });

@@ -47,6 +47,8 @@ extern "C" void on_stop_signal(int signal_number) {
 void exit_on_signals() {
     std::signal(SIGINT, on_stop_signal);
     std::signal(SIGTERM, on_stop_signal);
+    // nohup(1) ignores it.
+    if (std::signal(SIGHUP, on_stop_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 const StopFlag& stop_on_signals() {

@@ -1,6 +1,7 @@
 #pragma once
-/// SIGINT and SIGTERM end the process at once with status 75 until there are results to write;
-/// after that they ask running work to stop, and a second signal ends the process at once.
+/// SIGINT, SIGTERM and, unless ignored, SIGHUP end the process at once with status 75 until there
+/// are results to write; after that they ask running work to stop, and a second signal ends the
+/// process at once.
 
 #include "alhazen/base/progress.h"
 

@@ -110,8 +110,8 @@ int run_vector(const VectorArguments& args) {
         for (const std::string& note : drawing.notes) tell("warning: {}\n", note);
         std::size_t regions = 0;
         for (const DrawingGroup& group : drawing.groups) regions += group.regions.size();
-        tell("{} regions of {} parts, {} lines\n", regions, drawing.groups.size(),
-             drawing.lines.size());
+        tell("{} of {}, {}\n", counted(regions, "region"), counted(drawing.groups.size(), "part"),
+             counted(drawing.lines.size(), "line"));
     }
     return kDone;
 }

@@ -64,11 +64,12 @@ int run_view(ViewArguments& args) {
                                .close = [&] { session.close(); }});
     print("{}\n", server.url());
     (void)std::fflush(stdout);
+    // From here on a signal ends `run` and so removes the file.
+    const StopFlag& stop = stop_on_signals();
     if (!args.no_open) {
         redirect.emplace(server.url());
         open_in_browser(redirect->path());
     }
-    const StopFlag& stop = stop_on_signals();
     std::exception_ptr failure;
     std::chrono::steady_clock::time_point failed;
     server.run([&] {

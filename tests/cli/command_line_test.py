@@ -443,6 +443,24 @@ box "block" { lo = (3, -1, -1); hi = (5, 1, 1) }
 plane { point = (0, 0, -9) }
 """)
 
+    def test_light_below_zero_and_idle_keys_of_profiles_are_errors(self):
+        for text, message in (('material "m" { emission = (-1, 0, 0) }\nsphere { material = "m" }',
+                               "emission of material 'm' must be finite and not negative, found -1"),
+                              ("point_light { position = (0, 0, 3); profile_down = (0, 0, 1) }", "'profile_down' needs a 'profile'"),
+                              ("spot_light { position = (0, 0, 3); direction = (0, 0, -1); profile_front = (0, 1, 0) }",
+                               "'profile_front' needs a 'profile'")):
+            result = run("info", self.write("bad.alhazen", f"alhazen 1\n{text}\nsphere {{}}\n"))
+            self.assertEqual(result.returncode, 3, text)
+            self.assertIn(message, result.stderr)
+
+    def test_one_thing_is_told_in_the_singular(self):
+        one = self.write("one.alhazen", 'alhazen 1\npolygon { vertices = [(0,0,0), (1,0,0), (0,1,0)] }\n')
+        result = run("convert", one, self.path("one.ply"), "--tolerance", "1")
+        self.assertIn("1 shape became 1 triangle within 1 of it\n", result.stderr)
+        self.assertIn("one.ply: 1 triangle, ", result.stderr)
+        solid = self.write("solid.alhazen", "alhazen 1\nunion { sphere {} }\n")
+        self.assertIn("1 made of 1 other\n", run("info", solid).stdout)
+
     def test_questions_about_solids_are_answered_in_lines_of_json(self):
         scene = self.solids()
         result = run("spans", scene, "--ray", "-4,0,0,2,0,0", "--rays", "-", "-q", input="0 0 0 0 0 1\n# none\n9,9,9,0,0,1\n")
@@ -456,7 +474,7 @@ plane { point = (0, 0, -9) }
         self.assertTrue(lines[1]["spans"][0]["entry"]["inside"])
         result = run("thickness", scene, "--ray=-4,0,0,2,0,0")
         self.assertEqual(json.loads(result.stdout)["thickness"], 6)
-        self.assertIn("bound no volume", result.stderr)
+        self.assertIn("1 surface of the scene bounds no volume: it is left out", result.stderr)
         points = self.write("points.txt", "0 0 0\n3,0,0\n8 8 8\n")
         lines = run("inside", scene, "--points", points).stdout.splitlines()
         inside = [[(s["name"], s["on_surface"]) for s in json.loads(line)["inside"]] for line in lines]

@@ -7,6 +7,7 @@ Usage: view_server_test.py ALHAZEN
 import json
 import os
 import pathlib
+import signal
 import socket
 import struct
 import subprocess
@@ -520,6 +521,22 @@ class ViewServer(ServerTest):
             self.assertFalse(path.parent.exists(), "the file is there after its use")
         finally:
             server.close()
+
+    def test_no_signal_leaves_the_file_of_the_key(self):
+        folder = pathlib.Path(self.temporary.name) / "runtime"
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            folder.mkdir()
+            environment = {**os.environ, "PATH": "/nowhere", "XDG_RUNTIME_DIR": str(folder)}
+            server = Server(ALHAZEN, self.scene, open_page=True, environment=environment)
+            begin = time.monotonic()
+            while not list(folder.glob("alhazen-*/view.html")):
+                self.assertLess(time.monotonic() - begin, 20)
+                time.sleep(0.05)
+            server.process.send_signal(number)
+            self.assertEqual(server.process.wait(20), 0, number)
+            server.close()
+            self.assertEqual(list(folder.iterdir()), [], number)
+            folder.rmdir()
 
 
 if __name__ == "__main__":

@@ -157,11 +157,18 @@ class Scene:
         self._scene()
         return self
 
-    def save(self, path: "str | os.PathLike[str]", *, meshes_only: bool = False) -> List[str]:
+    def save(self, path: "str | os.PathLike[str]", *, meshes_only: bool = False,
+             strict: Optional[bool] = None) -> List[str]:
         """Writes the scene: .alhazen the whole scene (large meshes and pictures in files beside it); .ply, .obj and
         .stl scenes of meshes (.obj also patches), .bpt patches. ``meshes_only`` leaves out what these cannot hold,
-        which is otherwise a ``UsageError``. Returns the names of the files written."""
-        return self._scene().save(os.fspath(path), bool(meshes_only))
+        which is otherwise a ``UsageError``. What the file does not hold of the parts that it has is a
+        ``SceneWarning``; with ``strict`` (None: as the scene) it is a ``SceneError`` instead, and nothing is written.
+        Returns the names of the files written."""
+        files, lost = self._scene().save(os.fspath(path), bool(meshes_only),
+                                         bool(self._settings["strict"] if strict is None else strict))
+        for line in lost:
+            warnings.warn(line, SceneWarning, stacklevel=2)
+        return files
 
     @property
     def geometry_names(self) -> List[str]:
@@ -431,7 +438,7 @@ def _packed(built: _alhazen.BuiltScene) -> Tuple[str, Dict[str, bytes]]:
     """The path of the native file, and the contents of its files by name."""
     files = {}
     with tempfile.TemporaryDirectory() as top:
-        built.save(os.path.join(top, "scene.alhazen"), False)
+        built.save(os.path.join(top, "scene.alhazen"), False, False)
         for folder, _, names in os.walk(top):
             for path in (os.path.join(folder, name) for name in names):
                 with open(path, "rb") as file:

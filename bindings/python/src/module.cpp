@@ -71,16 +71,18 @@ std::shared_ptr<BuiltScene> load_file(const std::string& path, const py::dict& g
     return BuiltScene::load(path, settings, called);
 }
 
-std::vector<std::string> save(const BuiltScene& scene, const std::string& path, bool meshes_only) {
+/// The files written, and what they do not hold.
+std::pair<std::vector<std::string>, std::vector<std::string>> save(const BuiltScene& scene,
+                                                                   const std::string& path,
+                                                                   bool meshes_only, bool strict) {
     const py::gil_scoped_release released;
     check_convert_target(scene.source().path, path);
-    const ConvertOptions options{.meshes_only = meshes_only,
-                                 .meshes_only_setting = "meshes_only=True"};
+    const ConvertOptions options{
+        .meshes_only = meshes_only, .meshes_only_setting = "meshes_only=True", .strict = strict};
+    const ConvertReport report = convert(scene.source(), path, options);
     std::vector<std::string> files;
-    for (const auto& file : convert(scene.source(), path, options).files) {
-        files.push_back(file.string());
-    }
-    return files;
+    for (const auto& file : report.files) files.push_back(file.string());
+    return {std::move(files), conversion_warnings(report)};
 }
 
 std::vector<std::string> warnings_of(const BuiltScene& scene) {

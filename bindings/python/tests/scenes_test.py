@@ -7,6 +7,7 @@ import sys
 import tempfile
 import time
 import unittest
+import warnings
 
 import numpy as np
 
@@ -126,9 +127,29 @@ class Files(unittest.TestCase):
                 path = os.path.join(folder, "meshes." + suffix)
                 with self.assertRaisesRegex(alhazen.UsageError, "has 1 sphere: meshes_only=True leaves them out, "):
                     scene.save(path)
-                self.assertIn(path, scene.save(path, meshes_only=True))
+                with self.assertWarnsRegex(alhazen.SceneWarning, "left out"):
+                    self.assertIn(path, scene.save(path, meshes_only=True))
                 self.assertEqual(alhazen.load(path).info["triangles"], 12)
                 self.assertEqual(alhazen.load(path).info["shapes"], 0)
+
+    def test_saving_tells_what_the_file_does_not_hold(self):
+        vertices, faces = cube()
+        scene = alhazen.Scene().add(alhazen.mesh(points=vertices, faces=faces, visible_to="eye"))
+        text = "mesh files do not keep the visibility masks of 1 part "
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "masked.ply")
+            for strict in (scene, alhazen.Scene(strict=True).add(*scene._blocks)):
+                with self.assertRaisesRegex(alhazen.SceneError, text):
+                    strict.save(path, strict=True if strict is scene else None)
+            self.assertEqual(os.listdir(folder), [])
+            with self.assertWarnsRegex(alhazen.SceneWarning, text) as told:
+                self.assertEqual(scene.save(path), [path])
+            self.assertEqual(told.filename, __file__)
+            with self.assertWarnsRegex(alhazen.SceneWarning, "left out, as they are not meshes: 1 sphere"):
+                alhazen.Scene(vertices, faces).add(alhazen.sphere()).save(path, meshes_only=True)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                scene.save(os.path.join(folder, "masked.alhazen"), strict=True)
 
     def test_arrays_and_geometries_of_one_name_keep_apart(self):
         vertices, faces = cube()

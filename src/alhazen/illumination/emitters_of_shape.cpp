@@ -6,6 +6,7 @@
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/geometry/polygon/triangulate.h"
+#include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/primitives/primitive_columns.h"
 
@@ -55,28 +56,51 @@ Emitter patch(const Affine& world, const BezierNet& net, bool turned) {
     return e;
 }
 
-/// The emitter of a planar polygon of one simple loop; of others an emitter without parts.
-Emitter polygon(const Affine& world, const Polygon& p) {
-    std::vector<std::uint32_t> loop(p.vertices.size());
+/// Appends the triangles of corners to the parts of an emitter; returns their area in the frame of
+/// the shape.
+double append_parts(const Affine& world, std::span<const Vec3> corners, EmitterParts& parts) {
+    std::vector<std::uint32_t> loop(corners.size());
     for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    triangulate(p.vertices, loop, triangles);
-    EmitterParts parts;
-    double sum = 0.0, own_sum = 0.0;
+    triangulate(corners, loop, triangles);
+    double sum = parts.areas.empty() ? 0.0 : parts.areas.back(), own_sum = 0.0;
     for (const auto& t : triangles) {
-        const Vec3 &a = p.vertices[t[0]], &b = p.vertices[t[1]], &c = p.vertices[t[2]];
+        const Vec3 &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
         own_sum += 0.5 * length(cross(b - a, c - a));
         const Vec3 wa = world.point(a), wb = world.point(b), wc = world.point(c);
         sum += 0.5 * length(cross(wb - wa, wc - wa));
         for (const Vec3& corner : {wa, wb, wc}) parts.corners.push_back(corner);
         parts.areas.push_back(sum);
     }
+    return own_sum;
+}
+
+/// The parts of a polygon with holes or that crosses itself, by the odd-even rule; none if corners
+/// are off its plane.
+EmitterParts repaired_parts(const Affine& world, const Polygon& p) {
+    EmitterParts parts;
+    const RepairedPolygon repaired =
+        repaired_polygon(p.vertices, p.loop_ends, {p.normal, dot(p.normal, p.point)});
+    double own_sum = 0.0;
+    for (const std::vector<Vec3>& part : repaired.parts)
+        own_sum += append_parts(world, part, parts);
+    if (p.off_plane <= 1e-9 * std::sqrt(own_sum)) return parts;
+    return {};
+}
+
+/// The emitter of a planar polygon; of one with corners off its plane an emitter without parts.
+Emitter polygon(const Affine& world, const Polygon& p) {
+    std::vector<std::uint32_t> loop(p.vertices.size());
+    for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
+    EmitterParts parts;
+    const double own_sum = append_parts(world, p.vertices, parts);
     const double true_area = 0.5 * length(newell_normal(p.vertices, loop));
     const Vec3 y = cross(p.normal, p.u_axis);
     Emitter e = flat(EmitterForm::Polygon, world, p.point, p.u_axis, y);
     const bool simple = p.loop_ends.size() <= 1 && own_sum <= true_area * (1.0 + 1e-9) &&
                         p.off_plane <= 1e-9 * std::sqrt(true_area);
-    e.parts = std::make_shared<const EmitterParts>(simple ? std::move(parts) : EmitterParts{});
+    if (!simple) parts = repaired_parts(world, p);
+    e.parts = std::make_shared<const EmitterParts>(std::move(parts));
     return e;
 }
 

@@ -7,6 +7,7 @@
 #include "alhazen/primitives/nearest_hit.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/first_hit.h"
+#include "alhazen/shapes/polygons/polygon_cells.h"
 
 namespace alhazen {
 
@@ -27,6 +28,42 @@ Box3 placed_box(const Placement& placement, const Box3& inner) {
                      std::max(std::abs(box.lo.z), std::abs(box.hi.z))};
     const Vec3 pad = 1e-15 * times_abs(m, times_abs(i, reach));
     return {box.lo - pad, box.hi + pad};
+}
+
+// ---- The bytes that a value keeps outside of itself, in arrays.
+
+template <class T>
+std::size_t bytes_outside(const T& value);
+
+template <class T>
+std::size_t bytes_outside(const std::vector<T>& values) {
+    std::size_t sum = values.capacity() * sizeof(T);
+    if constexpr (!std::is_trivially_copyable_v<T>) {
+        for (const T& value : values) sum += bytes_outside(value);
+    }
+    return sum;
+}
+
+template <class T>
+std::size_t bytes_outside(const T& value) {
+    std::size_t sum = 0;
+    if constexpr (requires { T::kFields; }) {
+        for_each_field<T>([&](const auto& f) { sum += bytes_outside(value.*f.member); });
+    }
+    if constexpr (std::is_same_v<T, Polygon>) {
+        if (value.cells) sum += value.cells->memory_bytes();
+    }
+    if constexpr (std::is_same_v<T, Polyhedron>) {
+        sum += bytes_outside(value.faces) + bytes_outside(value.hull);
+    }
+    if constexpr (std::is_same_v<T, Profile>) {
+        sum += bytes_outside(value.curves) + bytes_outside(value.loop_ends);
+    }
+    if constexpr (std::is_same_v<T, TrimCurve>) {
+        sum +=
+            bytes_outside(value.knots) + bytes_outside(value.points) + bytes_outside(value.weights);
+    }
+    return sum;
 }
 
 }  // namespace
@@ -403,8 +440,8 @@ std::size_t PrimitiveTable::memory_bytes() const {
                         masks_.capacity() * sizeof(MaskRange);
     std::apply(
         [&](const auto&... c) {
-            ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials) + bytes(c.parts) +
-                       bytes(c.visible_to)),
+            ((total += bytes_outside(c.shapes) + bytes(c.placements) + bytes(c.materials) +
+                       bytes(c.parts) + bytes(c.visible_to)),
              ...);
         },
         columns);

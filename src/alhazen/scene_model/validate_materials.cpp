@@ -21,7 +21,8 @@ class Checker {
 
     void material(const Material& m) {
         name_ = m.name;
-        color(m.emission, "emission");
+        texture_id(m.emission.texture, "emission");
+        numbers(m.emission.color, "emission");
         color(m.ambient, "ambient");
         color(m.diffuse, "diffuse");
         color(m.specular, "specular");

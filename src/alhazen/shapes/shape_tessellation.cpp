@@ -1,6 +1,7 @@
 #include "alhazen/shapes/shape_tessellation.h"
 
 #include "alhazen/geometry/polygon/triangulate.h"
+#include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "alhazen/shapes/tessellation/trimmed_triangles.h"
@@ -106,7 +107,13 @@ void append_face(std::span<const Vec3> corners, TriangleMesh& mesh) {
 
 std::string append(const Polygon& shape, double, std::uint64_t, TriangleMesh& mesh) {
     if (shape.loop_ends.size() > 1) return "has holes";
-    append_face(shape.vertices, mesh);
+    const RepairedPolygon repaired = repaired_polygon(
+        shape.vertices, shape.loop_ends, {shape.normal, dot(shape.normal, shape.point)});
+    if (!repaired.crosses) {
+        append_face(shape.vertices, mesh);
+        return {};
+    }
+    for (const std::vector<Vec3>& part : repaired.parts) append_face(part, mesh);
     return {};
 }
 

@@ -228,8 +228,9 @@ void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found) 
     }
 }
 
-Box3 Overlap::box() const {
-    const Box3 a = a_.box(), b = b_.box();
+namespace {
+
+Box3 common_box(const Box3& a, const Box3& b) {
     Box3 both;
     for (int k = 0; k < 3; ++k) {
         both.lo[k] = std::max(a.lo[k], b.lo[k]);
@@ -238,12 +239,68 @@ Box3 Overlap::box() const {
     return both;
 }
 
+/// The boxes of the parts of a solid, in the order of `part_extents`.
+std::vector<Box3> part_boxes(const IsolatedSolid& solid) {
+    std::vector<Box3> boxes;
+    for (int k = 0; k < 3; ++k) {
+        Vec3 axis{0, 0, 0};
+        axis[k] = 1;
+        std::vector<Interval> ranges;
+        solid.part_extents(axis, ranges);
+        boxes.resize(ranges.size());
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            boxes[i].lo[k] = ranges[i].lo;
+            boxes[i].hi[k] = ranges[i].hi;
+        }
+    }
+    return boxes;
+}
+
+}  // namespace
+
+Overlap::Overlap(const IsolatedSolid& a, const IsolatedSolid& b)
+    : a_(a), b_(b), box_(common_box(a.box(), b.box())) {
+    if (box_.empty() || !box_.bounded()) return;
+    const std::vector<Box3> of_a = part_boxes(a), of_b = part_boxes(b);
+    if (of_a.size() * of_b.size() == 1) return;
+    constexpr std::size_t kMostTests = std::size_t{1} << 24;
+    if (of_a.size() * of_b.size() > kMostTests) return;
+    Box3 hull;
+    for (std::uint32_t i = 0; i < of_a.size(); ++i) {
+        for (std::uint32_t k = 0; k < of_b.size(); ++k) {
+            const Box3 both = common_box(of_a[i], of_b[k]);
+            if (both.empty()) continue;
+            if (pairs_.size() == kMostParts) {
+                pairs_.clear();
+                return;
+            }
+            pairs_.push_back({i, k});
+            hull.include(both);
+        }
+    }
+    box_ = common_box(box_, hull);
+}
+
+void Overlap::part_extents(const Vec3& axis, std::vector<Interval>& parts) const {
+    if (pairs_.empty()) return Measurable::part_extents(axis, parts);
+    std::vector<Interval> of_a, of_b;
+    a_.part_extents(axis, of_a);
+    b_.part_extents(axis, of_b);
+    const Interval whole = extent(axis);
+    for (const auto& [i, k] : pairs_) {
+        const Interval both = intersection(intersection(of_a[i], of_b[k]), whole);
+        // Parts that are apart along this axis alone overlap nowhere.
+        parts.push_back(both.empty() ? Interval{whole.lo, whole.lo} : both);
+    }
+}
+
 double Overlap::magnitude() const {
     return std::max(a_.magnitude(), b_.magnitude());
 }
 
 Interval Overlap::extent(const Vec3& axis) const {
-    return intersection(a_.extent(axis), b_.extent(axis));
+    return intersection(intersection(a_.extent(axis), b_.extent(axis)),
+                        alhazen::extent(box_, axis));
 }
 
 void Overlap::cross(const Ray& line, bool, LineSpans& found) const {

@@ -6,7 +6,9 @@
 /// ray.
 /// Threads: const functions may be called from many threads, each with its own LineSpans.
 
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "alhazen/math/interval.h"
@@ -38,8 +40,6 @@ class Measurable {
     virtual void part_extents(const Vec3& axis, std::vector<Interval>& parts) const {
         parts.push_back(extent(axis));
     }
-    /// True if no volume is a usual result, as for the intersection of two solids.
-    [[nodiscard]] virtual bool may_be_empty() const { return false; }
     /// Bound of the numbers that crossings are computed from; it scales the rounding error of
     /// surface points. Default: the largest coordinate of the box.
     [[nodiscard]] virtual double magnitude() const;
@@ -90,11 +90,13 @@ class IsolatedSolid final : public Measurable {
 class Overlap final : public Measurable {
   public:
     /// Both solids must outlive the object.
-    Overlap(const IsolatedSolid& a, const IsolatedSolid& b) : a_(a), b_(b) {}
+    Overlap(const IsolatedSolid& a, const IsolatedSolid& b);
 
-    [[nodiscard]] Box3 box() const override;
+    /// Around all pairs of parts whose boxes overlap.
+    [[nodiscard]] Box3 box() const override { return box_; }
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
-    [[nodiscard]] bool may_be_empty() const override { return true; }
+    /// The pairs of parts whose boxes overlap; of many parts, only the whole.
+    void part_extents(const Vec3& axis, std::vector<Interval>& parts) const override;
     [[nodiscard]] double magnitude() const override;
     /// Computes no cosines: the area of an intersection is not measured.
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
@@ -102,6 +104,9 @@ class Overlap final : public Measurable {
   private:
     const IsolatedSolid& a_;
     const IsolatedSolid& b_;
+    /// Parts by their place in `part_extents` of both solids; empty: the whole.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    Box3 box_;
 };
 
 }  // namespace alhazen

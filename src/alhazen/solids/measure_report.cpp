@@ -160,8 +160,8 @@ std::string solid_text(const SolidReport& r) {
                               m.reached ? "" : "; the wanted error was not reached"));
     if (m.inconsistent_lines > 0) {
         line("WARNING",
-             fmt::format("the crossings of {} lines did not come in pairs: is it closed?",
-                         m.inconsistent_lines));
+             fmt::format("the crossings of {} line{} did not come in pairs: is it closed?",
+                         m.inconsistent_lines, m.inconsistent_lines == 1 ? "" : "s"));
     }
     if (m.volume.value == 0 && m.volume.half_width > m.volume.rounding) {
         line("WARNING",
@@ -189,7 +189,10 @@ std::string pair_text(const PairReport& r) {
                     static_cast<std::uint64_t>(r.b), escape_controls(r.name_b));
     if (r.overlap) {
         out += fmt::format("  overlap   {}{}\n", text_of(r.overlap->volume),
-                           r.overlap->reached ? "" : " (the wanted error was not reached)");
+                           r.overlap->reached ? ""
+                           : r.overlap->volume.value == 0
+                               ? " (met by no line: what all may have missed)"
+                               : " (the wanted error was not reached)");
     }
     if (r.clearance) {
         const Clearance& c = *r.clearance;
@@ -272,7 +275,10 @@ std::string measure_text(const MeasureReport& report) {
     }
     for (const PairReport& r : report.pairs) out += pair_text(r);
     if (report.open_surfaces > 0) {
-        out += fmt::format("left out: {} surfaces that bound no volume\n", report.open_surfaces);
+        out +=
+            report.open_surfaces == 1
+                ? "left out: 1 surface that bounds no volume\n"
+                : fmt::format("left out: {} surfaces that bound no volume\n", report.open_surfaces);
         for (const std::string& open : report.open_meshes) out += "  " + open + "\n";
     }
     return out;

@@ -220,10 +220,7 @@ class Measurer {
         Estimate widened = with_rounding(
             with_rare_misses(e, bundle.misses(), bundle.sparsest(), rounding), rounding);
         // If no line met the solid: its shadow times its length along the lines.
-        if (!solid_.may_be_empty()) {
-            widened.half_width +=
-                bundle.unseen_shadow() * solid_.extent(bundle.direction()).width();
-        }
+        widened.half_width += bundle.unseen_shadow() * solid_.extent(bundle.direction()).width();
         return widened;
     }
     [[nodiscard]] Estimate volume() const { return volume_along(best_); }
@@ -248,7 +245,7 @@ class Measurer {
             const double edges = 1 / bundle.right_width() + 1 / bundle.up_width();
             rounding += std::abs(share) * (2 * slack_ * edges + kSumming);
             // Two crossings, if no line met the solid.
-            if (!solid_.may_be_empty()) unseen += 2 * bundle.unseen_shadow();
+            unseen += 2 * bundle.unseen_shadow();
         }
         Estimate area = with_rounding(estimate_of(value, sum_of(spreads)), rounding);
         area.half_width += unseen;

@@ -84,6 +84,17 @@ TEST(LightBuffer, FromFarAwayTheSceneIsDividedAsFinely) {
     EXPECT_LT(mean_list(300), 1.2 * mean_list(4));
 }
 
+TEST(LightBuffer, WhatLiesInOnePlaceHasFewCells) {
+    constexpr std::size_t kCount = 1000;
+    LitTriangles made;
+    made.triangles.assign(kCount, {{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}});
+    made.ends = {{{0, 0, 3}, false}};
+    const LightBuffer buffer = LightBuffer::build(made, {.full_cells = false});
+    // 16 cells for each were 8 000 000 entries.
+    EXPECT_LT(buffer.entries().size(), 1100 * kCount);
+    EXPECT_GT(buffer.entries().size(), 100 * kCount);
+}
+
 TEST(DirectionWindows, WhateverIsSeenInABoxLiesInItsCells) {
     RandomStream random(2);
     const auto point = [&](double reach) {

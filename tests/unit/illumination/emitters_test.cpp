@@ -127,6 +127,24 @@ TEST(Emitters, DrawsGiveTheLightThatRaysFindByChance) {
     }
 }
 
+TEST(Emitters, PolygonsThatCrossThemselvesOrHaveHolesAreDrawn) {
+    Polygon bow, ring;
+    bow.vertices = {{-1, -1, 3}, {1, 1, 3}, {1, -1, 3}, {-1, 1, 3}};
+    ring.vertices = {{-1, -1, 3}, {-1, 1, 3},    {1, 1, 3},    {1, -1, 3},
+                     {0, 0, 3},   {0.5, 0.2, 3}, {0.5, 0.5, 3}};
+    ring.loop_ends = {4, 7};
+    for (const Polygon& lamp : {bow, ring}) {
+        for (const Affine& placement : {Affine{}, kSkew, kMirror}) {
+            const Scene scene = lamp_of(lamp, placement);
+            const Illumination lights(scene);
+            ASSERT_TRUE(lights.emits());
+            EXPECT_GT(mean_irradiance(scene, lights, kAt, 1000).a, 0.0);
+            expect_equal_densities(scene, lights, kAt, 1e-5);
+            EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 20000, 7)), 4.5);
+        }
+    }
+}
+
 TEST(Emitters, ASphereLightsAPlaneByTheClosedForm) {
     const Scene scene = lamp_of(Sphere{{0, 0, 3}, 1});
     const Illumination lights(scene);

@@ -12,6 +12,22 @@ namespace {
 
 using testing::SceneMaker;
 
+TEST(PrimitiveTable, TheMemoryOfShapesIncludesWhatTheyKeepOutside) {
+    const auto bytes_with = [](std::size_t corners) {
+        Polygon gear;
+        for (std::size_t k = 0; k < corners; ++k) {
+            const double turn = 2 * kPi * double(k) / double(corners), r = k % 2 == 0 ? 1 : 0.9;
+            gear.vertices.push_back({r * std::cos(turn), r * std::sin(turn), 0});
+        }
+        SceneMaker maker;
+        maker.add(gear);
+        return maker.compile().census.scene_bytes;
+    };
+    const std::uint64_t vertices = 9900 * sizeof(Vec3), cells = 256 * 256 / 4;
+    EXPECT_GE(bytes_with(10'000) - bytes_with(100), vertices);
+    EXPECT_LE(bytes_with(10'000) - bytes_with(100), 2 * vertices + cells);
+}
+
 Vec3 random_direction(RandomStream& random) {
     while (true) {
         const Vec3 d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};

@@ -63,6 +63,20 @@ Film picture_from_origin(SceneMaker& maker) {
     return picture_of(maker, look_along({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1.0, 9.0 / 7.0), 9, 7);
 }
 
+TEST(ConeTracing, APolygonThatCrossesItselfIsFilledOddEven) {
+    Polygon bow, pentagram;
+    bow.vertices = {{-9, -9, 0}, {9, 9, 0}, {9, -9, 0}, {-9, 9, 0}};
+    for (int k = 0; k < 5; ++k) {
+        const double turn = 0.8 * kPi * k;
+        pentagram.vertices.push_back({9 * std::cos(turn), 9 * std::sin(turn), 0});
+    }
+    SceneMaker half, hole;
+    half.add(bow, half.material(glowing({1, 1, 1})));
+    EXPECT_NEAR(one_pixel(half), 0.5, 1e-6);
+    hole.add(pentagram, hole.material(glowing({1, 1, 1})));
+    EXPECT_NEAR(one_pixel(hole), 0.0, 1e-12);
+}
+
 TEST(ConeTracing, AnEyeInsideSolidsSeesTheirInnerSides) {
     const std::vector<std::pair<const char*, std::function<void(SceneMaker&, MaterialId)>>> rooms{
         {"box",

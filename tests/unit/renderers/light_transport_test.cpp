@@ -12,7 +12,7 @@
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/light_transport/bsdf_cache.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
-#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/renderers/volumes/medium_stack.h"
 #include "alhazen/sampling/random.h"
 #include "support/light_pictures.h"
 #include "support/lit_rooms.h"

@@ -347,6 +347,60 @@ TEST(SolidMeasures, ASolidThatNoLineMetHasAWideInterval) {
     EXPECT_EQ(both.volume.half_width, 0.0);
 }
 
+TEST(SolidMeasures, OverlapsOfPartsFarApartAreMet) {
+    const OneSolid a(
+        "union { sphere { radius=1 } sphere { center=(1000,0,0); radius=0.01 } "
+        "sphere { center=(0,0,500) } }");
+    const OneSolid b(
+        "union { sphere { center=(-900,0,0) } sphere { center=(1000,0,0); radius=0.005 } }");
+    const double volume = 4 * std::numbers::pi / 3 * 1.25e-7;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const MeasureOptions options{
+            .relative_error = 1e-3, .seconds = 20, .area = false, .seed = seed};
+        for (const Overlap& both : {Overlap(a.solid, b.solid), Overlap(b.solid, a.solid)}) {
+            const SolidMeasures m = measure(both, options);
+            EXPECT_TRUE(m.reached);
+            EXPECT_NEAR(m.volume.value, volume, 2 * m.volume.half_width);
+        }
+    }
+    // The boxes of the wholes overlap, those of the parts do not.
+    const OneSolid apart("union { sphere { center=(0,0,9) } sphere { center=(1000,9,0) } }");
+    const SolidMeasures nothing = measure(Overlap(a.solid, apart.solid), {.area = false});
+    EXPECT_TRUE(nothing.reached);
+    EXPECT_EQ(nothing.volume.hi(), 0.0);
+}
+
+TEST(SolidMeasures, AnOverlapThatNoLineMetHasAWideInterval) {
+    const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
+    const OneSolid block("box { lo=(-1,-9,-9); hi=(1,9,9) }");
+    const SolidMeasures m = measure(
+        Overlap(thread.solid, block.solid),
+        {.relative_error = 1e-3, .seconds = 0.2, .area = false, .most_lines_of_round = 1 << 14});
+    EXPECT_FALSE(m.reached);
+    EXPECT_TRUE(m.volume.holds(std::numbers::pi * 1e-20 * std::sqrt(332.0) / 5));
+    EXPECT_GT(m.volume.half_width, 1e-4);
+}
+
+TEST(SolidMeasures, SectionsOfPartsFarApartAndOfThreadsAreMetOrWide) {
+    const MeasureOptions options{.relative_error = 1e-4, .seconds = 20};
+    const double pi = std::numbers::pi;
+    const OneSolid two(
+        "union { sphere { radius=1e-3 } sphere { center=(1e6,3,0); radius=0.01 } "
+        "sphere { center=(0,0,700) } }");
+    const SectionArea discs = section_area(two.solid, {{0, 0, 1}, 0}, options);
+    EXPECT_TRUE(discs.reached);
+    EXPECT_NEAR(discs.area.value, pi * 1.01e-4, 2 * discs.area.half_width);
+    // Between the parts there is nothing.
+    const SectionArea between = section_area(two.solid, {{0, 0, 1}, 100}, options);
+    EXPECT_TRUE(between.reached);
+    EXPECT_EQ(between.area.hi(), 0.0);
+    const OneSolid thread("cylinder { base=(-5,-7,-3); top=(5,7,3); radius=1e-10 }");
+    const SectionArea point = section_area(thread.solid, {{0, 0, 1}, 0.5}, options);
+    EXPECT_FALSE(point.reached);
+    EXPECT_TRUE(point.area.holds(pi * 1e-20 * std::sqrt(83.0) / 3));
+    EXPECT_GT(point.area.half_width, 1e-4);
+}
+
 /// Reports an odd number of crossings on every other line.
 class OddSolid final : public Measurable {
   public:

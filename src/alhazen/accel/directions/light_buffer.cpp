@@ -49,19 +49,26 @@ class LightBufferBuilder {
         windows_ = {};
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) windows_.include(box_from_light(i));
         const double all = windows_.area();
-        add_windows(made.all);
-        windows_ = {};
+        double of_all = 0, of_small = 0;  // areas of the windows of each
+        DirectionWindows small;
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
             DirectionWindows own;
             own.include(box_from_light(i));
-            if (own.area() < kLarge * all) windows_.include(box_from_light(i));
+            const double area = own.area();
+            of_all += area;
+            if (!(area < kLarge * all)) continue;
+            of_small += area;
+            small.include(box_from_light(i));
         }
-        if (windows_.area() < 0.5 * all) add_windows(made.small);
+        add_windows(made.all, of_all);
+        windows_ = small;
+        if (windows_.area() < 0.5 * all) add_windows(made.small, of_small);
     }
 
-    /// Divides the windows and makes the lists of their cells.
-    void add_windows(LightBuffer::Light::Windows& made) {
-        divide();
+    /// Divides the windows and makes the lists of their cells. `covered`: sum of the areas of the
+    /// windows of all primitives.
+    void add_windows(LightBuffer::Light::Windows& made, double covered) {
+        divide(covered);
         cells_.assign(windows_.size(), {});
         entries_.clear();
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) add_body(i);
@@ -86,9 +93,12 @@ class LightBufferBuilder {
         made_.cells_.insert(made_.cells_.end(), cells_.begin(), cells_.end());
     }
 
-    void divide() {
+    void divide(double covered) {
         const LightBuffer::Config& config = made_.config_;
-        const double count = std::min(kMostCells, config.density * double(bodies_.size()));
+        // Lists of primitives that lie in front of each other would be as long as these are many.
+        const double deep = covered / windows_.area() / kMostInDepth;
+        const double count =
+            std::min(kMostCells, config.density * double(bodies_.size()) / std::fmax(1.0, deep));
         const double edge = config.resolution > 0 ? windows_.longest_edge() / config.resolution
                                                   : std::sqrt(windows_.area() / count);
         windows_.divide(edge, kMostInRow);
@@ -276,6 +286,8 @@ class LightBufferBuilder {
     /// Fraction of all visible directions.
     static constexpr double kLarge = 0.01;
     static constexpr double kMostCells = 1 << 21;
+    /// Mean number of primitives in a direction from which on the cells become fewer.
+    static constexpr double kMostInDepth = 64;
     static constexpr int kMostInRow = 4096;
 
     const BoundsSource& source_;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "alhazen/explain/tree/ray_tree.h"
-#include "alhazen/renderers/core/shadow_batch.h"
+#include "alhazen/renderers/volumes/shadow_batch.h"
 #include "alhazen/renderers/whitted/recursive_estimator.h"
 
 namespace alhazen {

@@ -95,7 +95,9 @@ void BrlcadBuilder::refuse() {
 void BrlcadBuilder::tell_left_out() {
     if (air_regions_ == 0) return;
     diagnostics_.warning({database_.file, 0, 0},
-                         std::to_string(air_regions_) + " regions of air are not drawn");
+                         air_regions_ == 1
+                             ? "1 region of air is not drawn"
+                             : std::to_string(air_regions_) + " regions of air are not drawn");
 }
 
 ObjectIndex BrlcadBuilder::add_object(ObjectDescription object) {

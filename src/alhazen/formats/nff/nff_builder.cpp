@@ -234,9 +234,10 @@ void NffBuilder::finish(const NffView& view) {
     }
     for (MeshDescription& mesh : scene_.meshes) make_normals_unit(*mesh.mesh);
     if (degenerate_ != 0) {
-        diagnostics_.warning(
-            {scene_.path.string(), 0, 0},
-            std::to_string(degenerate_) + " primitives without extent are ignored");
+        diagnostics_.warning({scene_.path.string(), 0, 0},
+                             degenerate_ == 1 ? "1 primitive without extent is ignored"
+                                              : std::to_string(degenerate_) +
+                                                    " primitives without extent are ignored");
     }
     if (scene_.materials.empty()) set_fill({{1, 1, 1}, {1, 1, 1}, {}, 0, 0, 1}, {});
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/renderers/beam_tracing/repaired_polygon.h"
+#include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/scene_model/unsupported_parts.h"
 #include "alhazen/shapes/polygons/face_loops.h"

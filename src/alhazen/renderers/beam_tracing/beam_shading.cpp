@@ -89,7 +89,9 @@ void BeamShading::pass(RayKind kind, double distance, Way& way) {
     if (material.thin) return;
     way.inside = point_.entering;
     way.absorption = point_.entering ? material.absorption : Rgb{};
-    way.medium = tinted_medium_behind(point_, is_closed(point_.surface), tinted_, way.medium);
+    const bool closed = is_closed(point_.surface);
+    way.medium = tinted_medium_behind(point_, closed, tinted_, way.medium);
+    keep_absorption(point_, closed, tinted_, way.medium, way.inside, way.absorption);
 }
 
 void BeamShading::follow(std::uint32_t facet, RayKind kind) {

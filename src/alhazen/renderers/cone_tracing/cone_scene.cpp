@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "alhazen/geometry/repair/repaired_polygon.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/scene_model/part_traversal.h"
 #include "alhazen/scene_model/unsupported_parts.h"
@@ -208,7 +209,14 @@ class ConeGatherer {
     }
     bool add_kind(const Polygon& s, ConeSource& source) {
         begin_faces(source);
-        add_face(0, s.vertices, s.loop_ends);
+        const RepairedPolygon repaired =
+            repaired_polygon(s.vertices, s.loop_ends, {s.normal, dot(s.normal, s.point)});
+        if (!repaired.crosses) {
+            add_face(0, s.vertices, s.loop_ends);
+            return true;
+        }
+        // Inside is odd-even: signed areas of a loop that crosses itself would say otherwise.
+        for (const std::vector<Vec3>& part : repaired.parts) add_face(0, part, {});
         return true;
     }
     bool add_kind(const Rectangle& s, ConeSource& source) {

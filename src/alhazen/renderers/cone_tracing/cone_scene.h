@@ -3,7 +3,7 @@
 ///
 /// Source: Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984 (spheres, planes, polygons).
 /// Differs: also triangle meshes, and boxes, polyhedra and rectangles by their faces. All other
-/// parts are refused by name, in one message.
+/// parts are refused by name, in one message. A polygon that crosses itself is several faces.
 /// Conventions: indices of parts and instances are those of Surface. Faces that share an edge, bit
 /// for bit, are one surface, even of different parts.
 

@@ -484,8 +484,9 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
     if (!material.thin) {
         path.inside = point.entering;
         path.absorption = point.entering ? material.absorption : Rgb{};
-        path.medium = tinted_medium_behind(point, scene_.is_closed(point.surface.part), tinted_,
-                                           seen.path.medium);
+        const bool closed = scene_.is_closed(point.surface.part);
+        path.medium = tinted_medium_behind(point, closed, tinted_, seen.path.medium);
+        keep_absorption(point, closed, tinted_, path.medium, path.inside, path.absorption);
     }
     if (geometry_.sources[source].closed) {
         set_inside(path.start, source, seen.piece.front);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <new>
 
-#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 #include "alhazen/shading/textures/normal_map.h"
@@ -196,7 +195,7 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
         point.own_material().coverage = 0.0;
     }
     if (needs.optics != nullptr) {
-        needs.optics->set_media(arrival.medium, point);
+        needs.optics->set_media(arrival, point);
     } else {
         set_media(scene, point);
     }

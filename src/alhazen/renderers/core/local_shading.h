@@ -24,6 +24,7 @@ struct BehindSurface {
     double eta = 1;       ///< index on this side / index behind
     Rgb absorption;
     std::uint32_t medium = 0;  ///< of ExactOptics, if used
+    bool joined = false;       ///< faces of several parts are crossed at once
     Rgb kt{1, 1, 1};           ///< of a unit of length
 };
 
@@ -102,15 +103,28 @@ struct Arrival {
     /// rays.
     bool meets_backs = false;
     std::uint32_t medium = 0;  ///< of PointNeeds::optics
+    RayMask mask = kAllRays;   ///< parts that the ray sees; read by PointNeeds::optics
 };
 
-class ExactOptics;
+/// Optics of surfaces, in place of the coefficients kr and kt of the equation.
+class SurfaceOptics {
+  public:
+    /// Completes a point: its reflection, its transmission and the medium behind it. May replace
+    /// the surface by another at the same place.
+    virtual void set_media(const Arrival& arrival, ShadingPoint& point) = 0;
+
+  protected:
+    SurfaceOptics() = default;
+    SurfaceOptics(const SurfaceOptics&) = default;
+    SurfaceOptics& operator=(const SurfaceOptics&) = default;
+    ~SurfaceOptics() = default;
+};
 
 /// Parts of a shading point that the caller needs.
 struct PointNeeds {
     CoordinateNeed coordinates = CoordinateNeed::all();
     MaterialCache* constant = nullptr;  ///< shared samples; may be null
-    ExactOptics* optics = nullptr;      ///< null: coefficients kr and kt of the equation
+    SurfaceOptics* optics = nullptr;    ///< null: coefficients kr and kt of the equation
 };
 
 /// Sets all of `point`. `ray.direction` must be unit. The material is evaluated for this ray:

@@ -66,7 +66,9 @@ void start_inside(const ShadingConventions& conventions, const TintedMedia& tint
         }
         for (std::size_t k = outward.size(); k-- > 0;) {
             const std::uint32_t m = outward[k];
-            volumes.enter(inside && k == 0 ? absorption : Rgb{}, tinted.kt(m), tinted.body(m));
+            if (tinted.is_hidden(m)) continue;
+            volumes.enter(inside && k == 0 ? absorption : tinted.absorption(m), tinted.kt(m),
+                          tinted.body(m));
         }
     } else if (inside) {
         volumes.enter(absorption);
@@ -80,12 +82,26 @@ std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed, Tinte
     const std::uint64_t body = body_of(surface);
     if (surface.media.known) {
         if (surface.media.before) around = media.leave(body, around);
-        return point.behind.inside ? media.enter(point.behind.kt, body, around) : around;
+        return point.behind.inside
+                   ? media.enter(point.behind.kt, point.behind.absorption, body, around)
+                   : around;
     }
     if (!closed) return around;
     if (!point.entering) return media.leave(body, around);
     const MaterialSample& material = *point.material;
-    return media.enter(material.physical ? Rgb{1, 1, 1} : material.transmissive, body, around);
+    return media.enter(material.physical ? Rgb{1, 1, 1} : material.transmissive,
+                       material.absorption, body, around);
+}
+
+void keep_absorption(const ShadingPoint& point, bool closed, const TintedMedia& media,
+                     std::uint32_t medium, bool& inside, Rgb& absorption) {
+    if (medium == TintedMedia::kOutside || media.absorption(medium).is_black()) return;
+    const bool known = point.surface.media.known;
+    const bool enters = known ? point.behind.inside : point.entering;
+    // An open surface of Whitted's materials has no inside.
+    if (enters && (known || closed || point.material->physical)) return;
+    inside = true;
+    absorption = media.absorption(medium);
 }
 
 }  // namespace alhazen

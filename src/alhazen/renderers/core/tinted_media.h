@@ -77,9 +77,17 @@ class TintedMedia {
     [[nodiscard]] const Rgb& kt(std::uint32_t medium) const { return media_[medium].kt; }
     [[nodiscard]] std::uint32_t around(std::uint32_t medium) const { return media_[medium].around; }
     [[nodiscard]] std::uint64_t body(std::uint32_t medium) const { return media_[medium].body; }
+    /// Per unit length, besides kt.
+    [[nodiscard]] const Rgb& absorption(std::uint32_t medium) const {
+        return media_[medium].absorption;
+    }
+    /// True if shadow rays do not see the body: they are not tinted by it.
+    [[nodiscard]] bool is_hidden(std::uint32_t medium) const { return media_[medium].hidden; }
+    void hide(std::uint32_t medium) { media_[medium].hidden = true; }
     /// The medium inside a body of `kt` that lies in the medium `around`.
-    [[nodiscard]] std::uint32_t enter(const Rgb& kt, std::uint64_t body, std::uint32_t around) {
-        media_.push_back({kt, body, around});
+    [[nodiscard]] std::uint32_t enter(const Rgb& kt, const Rgb& absorption, std::uint64_t body,
+                                      std::uint32_t around) {
+        media_.push_back({kt, absorption, body, around});
         return static_cast<std::uint32_t>(media_.size() - 1);
     }
     /// `medium` without the body, or without the innermost one if the body is not among them (faces
@@ -93,14 +101,17 @@ class TintedMedia {
 
   private:
     struct Medium {
-        Rgb kt{1, 1, 1};
+        Rgb kt{1, 1, 1}, absorption;
         std::uint64_t body = 0;
         std::uint32_t around = kOutside;
+        bool hidden = false;
     };
     std::uint32_t without(std::uint32_t left, std::uint32_t medium) {
         if (medium == left) return media_[left].around;
-        const Medium kept = media_[medium];
-        return enter(kept.kt, kept.body, without(left, kept.around));
+        Medium kept = media_[medium];
+        kept.around = without(left, kept.around);
+        media_.push_back(kept);
+        return static_cast<std::uint32_t>(media_.size() - 1);
     }
 
     std::vector<Medium> media_{Medium{}};
@@ -131,5 +142,9 @@ void start_inside(const ShadingConventions& conventions, const TintedMedia& tint
 /// The medium in `media` of a ray that passes through the surface from the medium `around`.
 [[nodiscard]] std::uint32_t tinted_medium_behind(const ShadingPoint& point, bool closed,
                                                  TintedMedia& media, std::uint32_t around);
+/// Sets `inside` and `absorption` of a ray that has passed through the surface into `medium` to
+/// those of a body around, if that absorbs and the ray is in no other.
+void keep_absorption(const ShadingPoint& point, bool closed, const TintedMedia& media,
+                     std::uint32_t medium, bool& inside, Rgb& absorption);
 
 }  // namespace alhazen

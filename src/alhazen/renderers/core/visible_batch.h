@@ -20,8 +20,8 @@ class VisibleBatch {
     /// `follows_light`: rays other than eye rays hit the backs of single-sided surfaces.
     VisibleBatch(const Scene& scene, TraversalStats* stats, bool follows_light = false)
         : scene_(scene), stats_(stats), follows_light_(follows_light), constant_(scene) {}
-    /// Uses exact optics for all further surfaces; media are those of `path(k).medium`.
-    void use(ExactOptics& optics) { optics_ = &optics; }
+    /// Uses the optics for all further surfaces; media are those of `path(k).medium`.
+    void use(SurfaceOptics& optics) { optics_ = &optics; }
     /// Reports surfaces of coverage 0, too, that may be openings into volumes.
     void report_openings() { reports_openings_ = true; }
 
@@ -122,7 +122,10 @@ class VisibleBatch {
                                .optics = optics_};
         const bool meets_backs = follows_light_ && path.kind != RayKind::Eye;
         Arrival arrival{path.inside, path.cone.width_at(t), path.time, meets_backs};
-        if constexpr (std::is_same_v<AnyPath, Path>) arrival.medium = path.medium;
+        if constexpr (std::is_same_v<AnyPath, Path>) {
+            arrival.medium = path.medium;
+            arrival.mask = mask_of(path.kind);
+        }
         set_shading_point(scene_, rest, hit, arrival, needs, point_);
         if (point_.material->coverage > 0.0 || (reports_openings_ && !point_.material->thin)) {
             reported_ = &hit;
@@ -135,7 +138,7 @@ class VisibleBatch {
     const Scene& scene_;
     TraversalStats* stats_;
     bool follows_light_, reports_openings_ = false;
-    ExactOptics* optics_ = nullptr;
+    SurfaceOptics* optics_ = nullptr;
     MaterialCache constant_;
     ShadingPoint point_;
     const Hit* reported_ = nullptr;

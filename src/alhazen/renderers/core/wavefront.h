@@ -26,6 +26,7 @@ namespace alhazen {
 struct Path {
     RayKind kind = RayKind::Eye;
     bool inside = false;        ///< it starts inside a transparent solid
+    bool hidden = false;        ///< shadow rays do not see that solid
     std::uint32_t sample = 0;   ///< of its batch of eye rays
     float time = 0;             ///< RayQuery::time
     float nm = 0;               ///< wavelength behind a dispersing surface; else 0

@@ -11,8 +11,8 @@
 /// point on each light. A scene with nothing to distribute has the bits of `whitted` with that
 /// sampler.
 
-#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/tiles.h"
+#include "alhazen/renderers/volumes/exact_optics.h"
 
 namespace alhazen {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "alhazen/renderers/core/ray_counters.h"
-#include "alhazen/renderers/light_transport/coincident_faces.h"
 #include "alhazen/renderers/light_transport/free_flight.h"
 #include "alhazen/renderers/light_transport/scattering_media.h"
+#include "alhazen/renderers/volumes/coincident_faces.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
 

@@ -6,8 +6,8 @@
 /// opposite side. Not found: volumes that contain both rays, and boundaries farther away than 1e8
 /// times the radius of the bounded geometry.
 
-#include "alhazen/renderers/light_transport/coincident_faces.h"
-#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/renderers/volumes/coincident_faces.h"
+#include "alhazen/renderers/volumes/medium_stack.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/shading/bsdf/dispersing.h"
 
 namespace alhazen {
@@ -40,12 +41,6 @@ void ScatterPoint::set_bsdf(const Scene& scene, const Surface& surface, const Bs
         }
     }
     make_bsdf(scene, surface, place, own_);
-}
-
-Medium ScatterPoint::volume_of(const ShadingPoint& point) {
-    const MaterialSample& material = *point.material;
-    return {part_number({point.surface.part, point.surface.instance}), material.index,
-            material.absorption, static_cast<std::uint32_t>(point.surface.materials[0])};
 }
 
 void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,

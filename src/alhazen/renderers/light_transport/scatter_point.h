@@ -15,9 +15,9 @@
 
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/light_transport/bsdf_cache.h"
-#include "alhazen/renderers/light_transport/coincident_faces.h"
-#include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/renderers/light_transport/shading_frame.h"
+#include "alhazen/renderers/volumes/coincident_faces.h"
+#include "alhazen/renderers/volumes/medium_stack.h"
 #include "alhazen/shading/bsdf/bsdf.h"
 
 namespace alhazen {
@@ -43,8 +43,6 @@ class ScatterPoint {
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
              const Wavelengths& waves, bool both_ways = false, BsdfCache* known = nullptr,
              const OtherFaces* others = nullptr);
-    /// The volume that a surface bounds.
-    [[nodiscard]] static Medium volume_of(const ShadingPoint& point);
 
     /// True if the point is valid for the hero wavelength only: call Wavelengths::keep_hero before
     /// any other function.

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/renderers/volumes/medium_stack.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shading/spectrum/wavelengths.h"
 
@@ -26,15 +27,6 @@ struct Extinction {
         return scattered.is_black() ? left : left + waves.absorption(scattered);
     }
 };
-
-/// True if a surface of the material may bound a volume; false for opaque ones and thin sheets.
-[[nodiscard]] inline bool may_bound_volume(const Material& m) {
-    if (m.conductor || m.dielectric) return m.dielectric.has_value();
-    if (const auto& p = m.metallic_roughness) {
-        return p->transmission.value > 0.0 && p->thickness.value > 0.0;
-    }
-    return m.transmissive.texture != kNoTexture || !m.transmissive.color.is_black();
-}
 
 class ScatteringMedia {
   public:

@@ -10,13 +10,13 @@
 #include <optional>
 
 #include "alhazen/renderers/core/estimator.h"
-#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/refraction.h"
-#include "alhazen/renderers/core/shadow_batch.h"
 #include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/core/wavefront.h"
+#include "alhazen/renderers/volumes/exact_optics.h"
+#include "alhazen/renderers/volumes/shadow_batch.h"
 #include "alhazen/renderers/whitted/wave_split.h"
 #include "alhazen/shading/optics/dispersion.h"
 
@@ -327,9 +327,12 @@ class RecursiveEstimator {
             if (optics_) {
                 onward.medium = behind.medium;
             } else if (tracks_media()) {
-                onward.medium = tinted_medium_behind(point, scene_.is_closed(point.surface.part),
-                                                     tinted_, seen.path.medium);
+                const bool closed = scene_.is_closed(point.surface.part);
+                onward.medium = tinted_medium_behind(point, closed, tinted_, seen.path.medium);
+                keep_absorption(point, closed, tinted_, onward.medium, onward.inside,
+                                onward.absorption);
             }
+            if (scene_.has_masks) hide_from_shadows(seen, onward);
         }
         if (!material.thin && onward.nm == 0.0f && disperses(seen)) {
             split(seen, from, onward, met, front);
@@ -337,6 +340,16 @@ class RecursiveEstimator {
             met.refracted = send_refracted(seen, from, onward, front.next);
         }
         if (met.refracted != MetSurface::kNotSent) met.kt = tinted ? kt : Rgb{1, 1, 1};
+    }
+
+    /// Marks the volume that a ray enters if shadow rays do not see it.
+    void hide_from_shadows(const Seen& seen, Path& onward) {
+        const ShadingPoint& point = seen.point;
+        const bool enters = point.surface.media.known ? point.behind.inside : point.entering;
+        const RayMask seen_by = mask_at(*scene_.aggregate, visible_.reported_hit());
+        onward.hidden = enters && (seen_by & mask_of(RayKind::Shadow)) == 0;
+        if (!onward.hidden || onward.medium == seen.path.medium) return;
+        optics_ ? optics_->hide(onward.medium, point.surface) : tinted_.hide(onward.medium);
     }
 
     /// Adds a refracted ray for each wavelength.

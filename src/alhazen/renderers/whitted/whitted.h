@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "alhazen/renderers/antialias/single_rays.h"
-#include "alhazen/renderers/core/exact_optics.h"
+#include "alhazen/renderers/volumes/exact_optics.h"
 #include "alhazen/renderers/whitted/wave_split.h"
 
 namespace alhazen {

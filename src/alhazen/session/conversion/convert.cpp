@@ -245,6 +245,16 @@ std::vector<std::string> losses_of(const ConvertReport& report) {
     return lines;
 }
 
+std::vector<std::string> conversion_warnings(const ConvertReport& report) {
+    std::vector<std::string> lines = losses_of(report);
+    if (!report.left_out.empty()) {
+        const bool patches = report.files.back().extension() == ".bpt";
+        lines.insert(lines.begin(), fmt::format("left out, as they are not {}: {}",
+                                                patches ? "patches" : "meshes", report.left_out));
+    }
+    return lines;
+}
+
 void check_convert_target(const fs::path& scene, const fs::path& path) {
     const std::string suffix = lower_suffix(path);
     if (suffix != ".alhazen" && suffix != ".ply" && suffix != ".obj" && suffix != ".stl" &&

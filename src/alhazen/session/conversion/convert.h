@@ -45,6 +45,8 @@ struct ConvertReport {
 
 /// What the file does not hold of the parts that it has, a line for each kind.
 [[nodiscard]] std::vector<std::string> losses_of(const ConvertReport& report);
+/// The parts that were left out, and the losses, a line for each kind.
+[[nodiscard]] std::vector<std::string> conversion_warnings(const ConvertReport& report);
 
 /// Throws Error (Usage) with the known suffixes when `path` has none of them, or when it is the
 /// file `scene` itself. Call it before loading.

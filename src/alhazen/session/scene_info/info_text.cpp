@@ -122,14 +122,16 @@ void add_geometry(Report& report, const json& info) {
         report.line("masks", fmt::format("{} not seen by all rays", of(masked, "part", "parts")));
     }
     if (info["solids"].get<std::uint64_t>() > 0) {
-        report.line("solids", fmt::format("{} made of {} others", count_text(info["solids"]),
-                                          count_text(info["solid_leaves"])));
+        report.line("solids",
+                    fmt::format("{} made of {}", count_text(info["solids"]),
+                                of(info["solid_leaves"].get<std::uint64_t>(), "other", "others")));
     }
     if (info["instances"].get<std::uint64_t>() > 0) {
         report.line("instances",
-                    fmt::format("{}, nested {} deep; rays see {} primitives",
-                                count_text(info["instances"]), info["instance_depth"].get<int>(),
-                                count_text(info["effective_primitives"])));
+                    fmt::format("{}, nested {} deep; rays see {}", count_text(info["instances"]),
+                                info["instance_depth"].get<int>(),
+                                of(info["effective_primitives"].get<std::uint64_t>(), "primitive",
+                                   "primitives")));
     }
     report.list("meshes", info["meshes"], [](const json& m) {
         return fmt::format(
@@ -202,9 +204,11 @@ void add_memory(Report& report, const json& info) {
     report.line("", fmt::format("peak {} after reading, {} after building",
                                 bytes("peak_after_load_bytes"), bytes("peak_after_build_bytes")));
     if (info["instances"].get<std::uint64_t>() > 0) {
-        report.line("", fmt::format("{} for {} primitives as rays see them: {:.3g} bytes each",
-                                    bytes("unique_bytes"), count_text(info["effective_primitives"]),
-                                    memory["bytes_per_effective_primitive"].get<double>()));
+        report.line(
+            "", fmt::format("{} for {} as rays see them: {:.3g} bytes each", bytes("unique_bytes"),
+                            of(info["effective_primitives"].get<std::uint64_t>(), "primitive",
+                               "primitives"),
+                            memory["bytes_per_effective_primitive"].get<double>()));
     }
     if (!memory.contains("per_triangle")) return;
     const json& each = memory["per_triangle"];

@@ -87,10 +87,22 @@ struct PrismRay {
     }
 };
 
+/// True if all control points of the curve are certain to have values of one sign: no sign change.
+template <class Value>
+bool is_on_one_side(const ProfileCurve& curve, double error, const Value& value) {
+    const double first = value(curve.p[0]);
+    if (!(std::abs(first) > error)) return false;
+    const auto agrees = [&](const Vec2& p) {
+        return first > 0.0 ? value(p) > error : value(p) < -error;
+    };
+    return agrees(curve.p[3]) && (curve.line || (agrees(curve.p[1]) && agrees(curve.p[2])));
+}
+
 /// Calls f(curve, s) at the sign changes of the polynomials that `make` returns for the curves.
-template <class Make, class F>
-void for_each_sign_change(const Profile& profile, Make make, F f) {
+template <class Value, class Make, class F>
+void for_each_sign_change(const Profile& profile, const Value& value, Make make, F f) {
     for (std::uint32_t i = 0; i < profile.curves.size(); ++i) {
+        if (is_on_one_side(profile.curves[i], 0.0, value)) continue;
         SignChanges<3> changes;
         find_certified_sign_changes<3>([&](auto& p) { make(profile.curves[i], p); }, changes);
         for (int k = 0; k < changes.count; ++k) f(i, changes.u[static_cast<std::size_t>(k)]);
@@ -101,7 +113,7 @@ void for_each_sign_change(const Profile& profile, Make make, F f) {
 bool inside_profile(const Profile& profile, Vec2 q) {
     bool inside = false;
     for_each_sign_change(
-        profile,
+        profile, [&](const Vec2& p) { return p.y - q.y; },
         [&]<class Real>(const ProfileCurve& curve, BernsteinPolynomial<Real, 3>& p) {
             p.degree = curve.degree();
             p.error = 0.0;
@@ -135,6 +147,9 @@ bool side_crossings(const Prism& prism, const Ray& ray, const PrismRay& local, S
     };
     for (std::uint32_t i = 0; i < prism.profile.curves.size(); ++i) {
         const ProfileCurve& curve = prism.profile.curves[i];
+        // Usual among many curves, and a fraction of the time of the search.
+        const auto value = [&](const Vec2& p) { return line.at(p); };
+        if (is_on_one_side(curve, line.error, value)) continue;
         SignChanges<3> changes;
         find_certified_sign_changes<3>([&](auto& p) { make(curve, p); }, changes);
         bool precise = true;

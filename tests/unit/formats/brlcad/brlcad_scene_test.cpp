@@ -232,7 +232,7 @@ TEST(BrlcadScene, NothingIsLostInSilence) {
     const Model air(kBall +
                     "put a comb region yes air 1 tree {l ball}\nput b half N {0 0 1} d -9\n");
     EXPECT_EQ(air.at({0, 0, 0}), 0u);
-    EXPECT_TRUE(mentions(air.found(), "1 regions of air"));
+    EXPECT_TRUE(mentions(air.found(), "1 region of air is not drawn"));
 }
 
 TEST(BrlcadScene, OnePartThatCannotBeReadLeavesTheOthers) {

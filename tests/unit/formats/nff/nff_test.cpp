@@ -130,7 +130,7 @@ TEST(Nff, PolygonsThatAreBentAreCutIntoTriangles) {
         kView + kFill + "p 4\n0 0 0\n1 0 0.3\n1 1 0\n0 1 0.3\np 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n",
         "a.nff", found);
     EXPECT_EQ(count(scene), (Counts{0, 0, 0, 0, 2, 0}));
-    EXPECT_TRUE(mentions(found, "1 primitives without extent"));
+    EXPECT_TRUE(mentions(found, "1 primitive without extent is ignored"));
 }
 
 TEST(Nff, PolygonsAndPatchesWithoutAreaAreLeftOut) {

@@ -105,6 +105,56 @@ TEST(TintByDistance, ABodyBehindAnotherKeepsItsOwnTint) {
         {0.5 * 0.8, 1, 0.25 * 0.4});
 }
 
+TEST(TintByDistance, AnAbsorberAroundABodyAbsorbsBehindItToo) {
+    const double a = 0.3;
+    Material absorber;
+    absorber.index.value = 1;
+    absorber.dielectric = Dielectric{{a, 0, 2 * a}};
+    const Rgb outside{std::exp(-2 * a), 1, std::exp(-4 * a)};
+    expect_color(
+        [&](SceneMaker& m) {
+            add_box(m, 1.5, absorber);
+            add_box(m, 0.5, tinted(0.9));
+            add_wall(m, -3, shining({1, 1, 1}));
+        },
+        {outside.r * 0.9, 1, outside.b * 0.45});
+    // A pane has no inside: the absorber is on both sides.
+    expect_color(
+        [&](SceneMaker& m) {
+            add_box(m, 1, absorber);
+            m.add(rectangle({-0.5, -0.5, 0}, {1, 0, 0}, {0, 1, 0}), m.material(tinted(0.9)));
+            add_wall(m, -3, shining({1, 1, 1}));
+        },
+        outside);
+}
+
+/// The floor is inside of a body, and the light outside.
+TEST(TintByDistance, ABodyThatShadowRaysDoNotSeeTintsNoLight) {
+    Material absorber;
+    absorber.index.value = 1;
+    absorber.dielectric = Dielectric{{std::log(2.0), 0, 0}};
+    for (const Material& body : {tinted(0.5), absorber}) {
+        for (const bool exact : {false, true}) {
+            for (const bool seen : {false, true}) {
+                for (const std::string renderer : {"whitted", "distributed"}) {
+                    const Rgb found = color_of(renderer, [&](SceneMaker& m) {
+                        m.description().conventions.shading.optics.beer = exact;
+                        add_wall(m, 0, matt({1, 1, 1}));
+                        add_box(m, 1, body);
+                        if (!seen) {
+                            m.description().objects[0].parts.back().visible_to =
+                                kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
+                        }
+                        m.light(PointLight{
+                            .position = {0, 0, 4}, .color = {1, 1, 1}, .attenuation = {1, 0, 0}});
+                    });
+                    EXPECT_NEAR(found.r, seen ? 0.25 : 0.5, 1e-6) << renderer << exact << seen;
+                }
+            }
+        }
+    }
+}
+
 TEST(TintByDistance, AnOpenSurfaceHasNoInside) {
     for (const bool turned : {false, true}) {
         expect_color(

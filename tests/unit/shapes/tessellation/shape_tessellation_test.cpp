@@ -42,6 +42,24 @@ double largest_distance(const BezierPiece& piece, const TriangleMesh& mesh, Rand
     return most;
 }
 
+TEST(PatchTessellation, APolygonThatCrossesItselfIsFilledOddEven) {
+    // Two triangles of unequal size: Newell's normal is that of the larger.
+    Polygon bow;
+    bow.vertices = {{-1, -1, 2}, {3, 3, 2}, {3, -3, 2}, {-1, 1, 2}};
+    bow.prepare();
+    TriangleMesh mesh;
+    EXPECT_EQ(append_triangles(AnyShape{bow}, 0.1, kLimit, mesh), "");
+    double area = 0.0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3& a = mesh.positions[t[0]];
+        const Vec3 twice = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+        EXPECT_GT(dot(twice, bow.normal), 0.0);
+        area += 0.5 * length(twice);
+    }
+    EXPECT_NEAR(area, 10.0, 1e-5);
+    for (const Vec3& n : mesh.normals) EXPECT_NEAR(dot(n, bow.normal), 1.0, 1e-12);
+}
+
 TEST(PatchTessellation, IsWithinTheTolerance) {
     Random random(1);
     std::size_t triangles = 0;

@@ -56,7 +56,14 @@ void read_profile(BlockReader& reader, NativeContext& context, LightProfile& pro
             reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
         }
     }
-    if (!reader.read("profile", profile.file)) return;
+    if (!reader.read("profile", profile.file)) {
+        for (const char* key : {"profile_down", "profile_front"}) {
+            if (reader.has(key)) {
+                reader.error(*reader.find(key), "'" + std::string(key) + "' needs a 'profile'");
+            }
+        }
+        return;
+    }
     try {
         const auto path = resolve_inside(context.roots, context.folder, profile.file);
         context.diagnostics.note_file(path);

@@ -1,11 +1,11 @@
-#include "alhazen/renderers/core/shadow_batch.h"
+#include "alhazen/renderers/volumes/shadow_batch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/volumes/exact_optics.h"
 
 namespace alhazen {
 
@@ -158,8 +158,8 @@ const MaterialSample& ShadowBatch::material_of(const Surface& surface) {
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     Rgb tint{1, 1, 1};
-    start_inside(scene_.conventions.shading, *tinted_, path.medium, path.inside, path.absorption,
-                 volumes_);
+    start_inside(scene_.conventions.shading, *tinted_, path.medium, path.inside && !path.hidden,
+                 path.absorption, volumes_);
     double last = 0.0;
     const double min_distance = scene_.conventions.shading.min_distance;
     double met = -min_distance;  // the last crossing that counts
@@ -200,14 +200,26 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     return tint;
 }
 
+bool ShadowBatch::crossed_already(const Surface& surface) {
+    const std::uint64_t part = part_number({surface.part, surface.instance});
+    const auto same = std::find_if(together_.begin(), together_.end(),
+                                   [&](const OtherFace& face) { return face.inside.part == part; });
+    if (same == together_.end()) return false;
+    together_.erase(same);
+    return true;
+}
+
 Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     const std::size_t mark = optics_->mark();
     const double min_distance = scene_.conventions.shading.min_distance;
     Rgb tint{1, 1, 1};
-    std::uint32_t medium = path.medium;
+    std::uint32_t medium =
+        scene_.has_masks ? optics_->seen_by_shadow_rays(path.medium) : path.medium;
     double last = 0.0, met = -min_distance;
     bool in_wall = false;  // between the two crossings of a wall, which are one boundary
-    for (const Hit& crossing : crossings_) {
+    together_.clear();
+    for (std::size_t i = 0; i < crossings_.size(); ++i) {
+        const Hit& crossing = crossings_[i];
         if (crossing.t - met < min_distance) continue;
         met = crossing.t;
         const Surface& surface = crossed(ray, crossing, path.time);
@@ -218,7 +230,12 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         const bool entering = dot(ray.direction, surface.normal) < 0.0;
         // Light passes through the back of a single-sided surface.
         if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;
-        const auto [through, behind] = optics_->cross(surface, material, ray.direction, medium);
+        if (crossed_already(surface)) continue;
+        const bool alone = i + 1 == crossings_.size() ||
+                           crossings_[i + 1].t - crossing.t > CoincidentFaces::reach(surface, ray);
+        if (!alone) together_ = optics_->faces_at(ray, crossing, path.time);
+        const auto [through, behind] =
+            optics_->cross(surface, material, ray.direction, medium, together_);
         const double open = 1.0 - material.coverage;
         tint = tint * (Rgb{open, open, open} + material.coverage * through) *
                transmittance(optics_->absorption(medium), crossing.t - last);

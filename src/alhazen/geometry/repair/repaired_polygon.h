@@ -17,6 +17,7 @@ namespace alhazen {
 
 struct RepairedPolygon {
     std::vector<std::vector<Vec3>> parts;  ///< counter-clockwise around the plane's normal
+    bool crosses = false;                  ///< edges cross or overlap
     std::string mended;                    ///< description of the repairs; empty: none
     std::string refused;                   ///< reason for refusal; empty: not refused
 };

@@ -1,9 +1,8 @@
-#include "alhazen/renderers/beam_tracing/repaired_polygon.h"
-
-#include <fmt/format.h>
+#include "alhazen/geometry/repair/repaired_polygon.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "alhazen/geometry/polygon_sets/mending.h"
 
@@ -12,12 +11,12 @@ namespace alhazen {
 namespace {
 
 /// Corners farther off the plane, relative to the size of the polygon, are repaired.
-constexpr double kFlat = 1e-6;
+constexpr double kFlatPolygon = 1e-6;
 /// Polygons with corners farther off are refused.
-constexpr double kBent = 1e-2;
-constexpr std::size_t kMostCorners = 20'000;
+constexpr double kBentPolygon = 1e-2;
+constexpr std::size_t kMostMended = 20'000;
 /// Holes of polygons with more corners are joined to their outlines on the lattice.
-constexpr std::size_t kManyCorners = 4096;
+constexpr std::size_t kManyMended = 4096;
 
 /// Maps between the plane of a polygon and a lattice over it.
 class PlaneLattice {
@@ -64,7 +63,7 @@ std::vector<LatticeLoop> lattice_loops(std::span<const Vec3> corners,
 }
 
 /// Moves corners to the plane; returns the largest distance.
-double flatten(std::vector<Vec3>& corners, const FacetPlane& plane) {
+double flatten_corners(std::vector<Vec3>& corners, const FacetPlane& plane) {
     double most = 0.0;
     for (Vec3& p : corners) {
         const double off = plane.at(p);
@@ -74,7 +73,13 @@ double flatten(std::vector<Vec3>& corners, const FacetPlane& plane) {
     return most;
 }
 
-double size_of(std::span<const Vec3> corners) {
+std::string three_digits(double value) {
+    char text[32];
+    (void)std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+double size_of_polygon(std::span<const Vec3> corners) {
     double most = 0.0;
     for (const Vec3& p : corners) most = std::max(most, length(p - corners[0]));
     return most;
@@ -86,34 +91,36 @@ RepairedPolygon repaired_polygon(std::span<const Vec3> corners, std::span<const 
                                  const FacetPlane& plane) {
     RepairedPolygon result;
     std::vector<Vec3> flat(corners.begin(), corners.end());
-    const double off = flatten(flat, plane);
-    const double size = size_of(corners);
-    if (off > kBent * size) {
-        result.refused = fmt::format("polygon with corners {:.3g} off its plane", off);
+    const double off = flatten_corners(flat, plane);
+    const double size = size_of_polygon(corners);
+    if (off > kBentPolygon * size) {
+        result.refused = "polygon with corners " + three_digits(off) + " off its plane";
         return result;
     }
-    if (off > kFlat * size) {
-        result.mended = fmt::format("corners up to {:.3g} off its plane were moved to it", off);
+    if (off > kFlatPolygon * size) {
+        result.mended = "corners up to " + three_digits(off) + " off its plane were moved to it";
         corners = flat;
     }
-    const bool many = corners.size() > kMostCorners;
+    const bool many = corners.size() > kMostMended;
     if (ends.size() <= 1 && (!many || is_convex_loop(corners, plane.normal))) {
         result.parts = convex_parts(corners, ends, plane.normal);
         if (result.parts.size() == 1 || corners.size() <= 3) return result;
     }
     if (many) {
-        result.refused = fmt::format("polygon of {} corners that is not convex (at most {})",
-                                     corners.size(), kMostCorners);
+        result.refused = "polygon of " + std::to_string(corners.size()) +
+                         " corners that is not convex (at most " + std::to_string(kMostMended) +
+                         ")";
         return result;
     }
     const PlaneLattice lattice(corners, plane);
     Mending mending;
     const PolygonSet set = polygon_set(lattice_loops(corners, ends, lattice), &mending);
     const bool crosses = mending.crossings + mending.overlaps > 0;
-    if (!crosses && (ends.size() <= 1 || corners.size() <= kManyCorners)) {
+    if (!crosses && (ends.size() <= 1 || corners.size() <= kManyMended)) {
         if (ends.size() > 1) result.parts = convex_parts(corners, ends, plane.normal);
         return result;
     }
+    result.crosses = crosses;
     if (crosses) {
         result.mended += (result.mended.empty() ? "" : "; ") + to_string(mending);
     }

@@ -1,4 +1,4 @@
-#include "alhazen/renderers/core/exact_optics.h"
+#include "alhazen/renderers/volumes/exact_optics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,13 +58,21 @@ ExactOptics::ExactOptics(const Scene& scene, const Optics& optics)
       optics_(optics),
       tints_events_(!optics.beer &&
                     scene.conventions.shading.refraction_tint == RefractionTint::PerEvent),
-      media_(1) {
+      media_(1),
+      faces_(scene) {
     media_[kOutside].index = scene.conventions.shading.air_index;
 }
 
-void ExactOptics::set_media(std::uint32_t around, ShadingPoint& point) {
+void ExactOptics::set_media(const Arrival& arrival, ShadingPoint& point) {
+    faces_.find(point, -point.view, arrival, arrival.mask);
+    if (faces_.opaque()) {
+        // Its material bounds no volume: no further faces are looked for.
+        return set_shading_point(scene_, Ray(faces_.ray()), Hit(*faces_.opaque()), arrival,
+                                 {.optics = this}, point);
+    }
     const MaterialSample& met = *point.material;
-    const Sides sides = sides_of(point.surface, met, point.entering, around);
+    const Sides sides =
+        sides_of(point.surface, met, point.entering, arrival.medium, faces_.others());
     const double cosine = dot(point.view, point.normal);
     point.medium = met.transmissive;
     point.medium_is_physical = met.physical || !tints_events_;
@@ -73,6 +81,7 @@ void ExactOptics::set_media(std::uint32_t around, ShadingPoint& point) {
     }
     point.behind = {true, sides.behind != kOutside, sides.here / sides.beyond,
                     media_[sides.behind].absorption, sides.behind};
+    point.behind.joined = sides.joined;
     if (met.physical) {
         turn(point.surface, cosine, sides.here, sides.beyond, point.own_material());
     } else if (optics_.fresnel && !met.transmissive.is_black()) {
@@ -83,6 +92,22 @@ void ExactOptics::set_media(std::uint32_t around, ShadingPoint& point) {
         return;
     }
     point.passing = tint_of(*point.material) * sides.before;
+}
+
+void ExactOptics::hide(std::uint32_t medium, const Surface& surface) {
+    const std::uint64_t part = part_number({surface.part, surface.instance});
+    for (std::uint32_t m = medium; m != kOutside; m = media_[m].around) {
+        if (media_[m].part != part) continue;
+        media_[m].hidden = true;
+        return;
+    }
+}
+
+std::uint32_t ExactOptics::seen_by_shadow_rays(std::uint32_t medium) {
+    for (std::uint32_t m = medium; m != kOutside; m = media_[m].around) {
+        if (media_[m].hidden) return seen_by_shadow_rays(remove(m, medium));
+    }
+    return medium;
 }
 
 double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point, double nm) const {
@@ -98,7 +123,10 @@ double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point,
         return of_material(static_cast<std::size_t>(surface.materials[0]), point.material->index);
     };
     double here = 1, beyond = 1;
-    if (const SurfaceMedia& media = surface.media; media.known) {
+    if (point.behind.joined) {
+        here = of_medium(around);
+        beyond = of_medium(point.behind.medium);
+    } else if (const SurfaceMedia& media = surface.media; media.known) {
         here = media.before ? of_material(static_cast<std::size_t>(*media.before),
                                           medium_at(scene_, surface, *media.before).index)
                             : of_medium(around);
@@ -111,10 +139,11 @@ double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point,
 }
 
 ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialSample& material,
-                                         const Vec3& direction, std::uint32_t around) {
+                                         const Vec3& direction, std::uint32_t around,
+                                         const OtherFaces& others) {
     const double cosine = dot(direction, surface.normal);
     const bool entering = cosine < 0.0;
-    const Sides sides = sides_of(surface, material, entering, around);
+    const Sides sides = sides_of(surface, material, entering, around, others);
     Rgb through = tint_of(material) * sides.before;
     if (optics_.fresnel) {
         const double thin = std::min(sides.here, sides.beyond);
@@ -131,14 +160,24 @@ ExactOptics::Straight ExactOptics::cross(const Surface& surface, const MaterialS
     return {through, sides.behind};
 }
 
+const OtherFaces& ExactOptics::faces_at(const Ray& ray, const Hit& crossing, float time) {
+    const Arrival arrival{.time = time};
+    set_shading_point(scene_, ray, crossing, arrival, {}, crossed_);
+    faces_.find(crossed_, ray.direction, arrival, mask_of(RayKind::Shadow));
+    return faces_.others();
+}
+
 ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialSample& material,
-                                         bool entering, std::uint32_t around) {
+                                         bool entering, std::uint32_t around,
+                                         const OtherFaces& others) {
     if (surface.media.known) return known_sides_of(surface, around);
+    if (!others.empty() && bounds_a_volume(material) && !is_open(material.physical, surface.part)) {
+        return sides_of_all(medium_of(surface, material), entering, around, others);
+    }
     Sides sides{media_[around].index, material.index, around};
     if (bounds_a_volume(material)) {
         const Medium inside = medium_of(surface, material);
-        const bool is_open = !material.physical && !optics_.beer && !scene_.is_closed(surface.part);
-        if (is_open && !tints_events_) {
+        if (is_open(material.physical, surface.part)) {
             if (!entering) std::swap(sides.here, sides.beyond);
         } else if (entering) {
             sides.behind = enter(inside, around);
@@ -148,6 +187,34 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
             sides.beyond = media_[sides.behind].index;
         }
     }
+    if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;
+    return sides;
+}
+
+ExactOptics::Sides ExactOptics::sides_of_all(const Medium& own, bool entering, std::uint32_t around,
+                                             const OtherFaces& others) {
+    Sides sides{media_[around].index, 1, around, true};
+    const auto has_inside = [&](const OtherFace& other) {
+        return !is_open(other.physical, static_cast<std::uint32_t>(other.inside.part));
+    };
+    const auto enter_those = [&](bool outside) {
+        for (const OtherFace& other : others) {
+            if (!other.entering || other.around != outside || !has_inside(other)) continue;
+            sides.behind = enter(medium_of(other), sides.behind);
+        }
+    };
+    // Volumes are left before others are entered: new ones are innermost.
+    if (!entering) sides.behind = without(own, sides.behind);
+    for (const OtherFace& other : others) {
+        if (!other.entering && has_inside(other)) {
+            sides.behind = without(medium_of(other), sides.behind);
+        }
+        if (!other.physical && tints_events_) sides.before = sides.before * other.kt;
+    }
+    enter_those(true);
+    if (entering) sides.behind = enter(own, sides.behind);
+    enter_those(false);
+    sides.beyond = media_[sides.behind].index;
     if (!(sides.here > 0.0 && sides.beyond > 0.0)) sides.here = sides.beyond = 1.0;
     return sides;
 }
@@ -180,13 +247,26 @@ ExactOptics::Sides ExactOptics::known_sides_of(const Surface& surface, std::uint
 ExactOptics::Medium ExactOptics::medium_of(const Surface& surface,
                                            const MaterialSample& sample) const {
     Medium medium;
-    medium.part = std::uint64_t{surface.instance} << 32 | surface.part;
+    medium.part = part_number({surface.part, surface.instance});
     medium.material = static_cast<std::uint32_t>(surface.materials[0]);
     medium.index = sample.index;
     if (sample.physical) {
         medium.absorption = sample.absorption;
     } else if (!tints_events_) {
         medium.absorption = absorption_of_unit_length(sample.transmissive);
+    }
+    return medium;
+}
+
+ExactOptics::Medium ExactOptics::medium_of(const OtherFace& face) const {
+    Medium medium;
+    medium.part = face.inside.part;
+    medium.material = face.inside.material;
+    medium.index = face.inside.index;
+    if (face.physical) {
+        medium.absorption = face.inside.absorption;
+    } else if (!tints_events_) {
+        medium.absorption = absorption_of_unit_length(face.kt);
     }
     return medium;
 }
@@ -229,7 +309,7 @@ void ExactOptics::turn(const Surface& surface, double cosine, double here, doubl
     }
     // The material's reflectance is that against index 1.
     const double thin = std::min(here, beyond), dense = std::max(here, beyond);
-    const bool as_evaluated = thin == 1.0 && (sample.index != 1.0 || dense == 1.0);
+    const bool as_evaluated = thin == 1.0 && (dense == 1.0 || dense == sample.index);
     const double dielectric = dielectric_share(scene_, surface);
     turn_to_view_between(sample, cosine, here / beyond, !as_evaluated && dielectric > 0.0,
                          optics_.fresnel ? dielectric : 0.0);

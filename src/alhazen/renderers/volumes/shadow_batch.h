@@ -17,6 +17,7 @@
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/core/tinted_media.h"
 #include "alhazen/renderers/core/wavefront.h"
+#include "alhazen/renderers/volumes/coincident_faces.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
@@ -71,6 +72,8 @@ class ShadowBatch {
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
+    /// True once for each face in `together_`.
+    [[nodiscard]] bool crossed_already(const Surface& surface);
     /// The surface at a crossing. Valid until the next call.
     [[nodiscard]] const Surface& crossed(const Ray& ray, const Hit& hit, float time);
     /// The material of a surface. Valid until the next call.
@@ -102,6 +105,7 @@ class ShadowBatch {
     MaterialSample own_;      ///< result of `material_of`
     MaterialSample medium_;   ///< between the surfaces of a solid of several media
     CrossedVolumes volumes_;  ///< around the shadow ray
+    OtherFaces together_;     ///< crossed with the last crossing
 };
 
 }  // namespace alhazen

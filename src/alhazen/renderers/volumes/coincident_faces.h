@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "alhazen/renderers/core/local_shading.h"
-#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/renderers/volumes/medium_stack.h"
 
 namespace alhazen {
 
@@ -25,8 +25,10 @@ namespace alhazen {
 struct OtherFace {
     Medium inside;  ///< of the volume that it bounds
     bool entering = true;
-    bool around = false;   ///< its volume surrounds that of the face that was hit
-    bool endless = false;  ///< its primitive is unbounded
+    bool around = false;    ///< its volume surrounds that of the face that was hit
+    bool endless = false;   ///< its primitive is unbounded
+    bool physical = false;  ///< its material (MaterialSample::physical)
+    Rgb kt;                 ///< of its material
 };
 /// Faces that are entered come first, the outermost volume first.
 using OtherFaces = std::vector<OtherFace>;
@@ -46,6 +48,8 @@ class CoincidentFaces {
     [[nodiscard]] const OtherFaces& others() const { return others_; }
     /// The hit of an opaque face along `ray()`; none: the surface itself is hit.
     [[nodiscard]] const std::optional<Hit>& opaque() const { return opaque_; }
+    /// Distance along the ray within which faces coincide with the surface.
+    [[nodiscard]] static double reach(const ShapeSurface& surface, const Ray& ray);
     /// The ray along which the faces were found.
     [[nodiscard]] const Ray& ray() const { return ray_; }
 

@@ -1,4 +1,4 @@
-#include "alhazen/renderers/light_transport/coincident_faces.h"
+#include "alhazen/renderers/volumes/coincident_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "alhazen/primitives/primitive_table.h"
-#include "alhazen/renderers/light_transport/scatter_point.h"
-#include "alhazen/renderers/light_transport/scattering_media.h"
-#include "alhazen/renderers/light_transport/shading_frame.h"
+#include "alhazen/renderers/volumes/volume_bounds.h"
 
 namespace alhazen {
 
@@ -18,17 +16,23 @@ namespace {
 /// all faces within.
 constexpr double kErrorsAway = LeavingRays::kErrorsAway, kLeastCosine = 1e-3;
 
+double error_along(const ShapeSurface& surface, const Vec3& direction) {
+    const double cosine = std::max(std::abs(dot(direction, surface.normal)), kLeastCosine);
+    return kErrorsAway * dot(abs(surface.normal), surface.error) / cosine;
+}
+
 /// The `number`-th direction in which ends of volumes are searched for, if a ray crosses a surface
 /// along `direction`: straight on, then nearly along the surface.
 Vec3 outward(const ShadingPoint& point, const Vec3& direction, std::size_t number) {
     if (number == 0) return direction;
     constexpr double kInward = 0.1;
     const Vec3& n = point.geometric;
-    const ShadingFrame frame = ShadingFrame::of(dot(direction, n) > 0.0 ? n : -n, {});
+    const Vec3 outward = dot(direction, n) > 0.0 ? n : -n;
+    const Vec3 u = perpendicular(outward), v = cross(outward, u);
     // 0.8 and 0.6, in steps of a right angle: unlikely to be along an edge of the model.
-    const Vec3 x = 0.8 * frame.x + 0.6 * frame.y, y = 0.8 * frame.y - 0.6 * frame.x;
+    const Vec3 x = 0.8 * u + 0.6 * v, y = 0.8 * v - 0.6 * u;
     const Vec3 along = number == 1 ? x : number == 2 ? -x : number == 3 ? y : -y;
-    return normalize(along + kInward * frame.z);
+    return normalize(along + kInward * outward);
 }
 
 }  // namespace
@@ -51,10 +55,9 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     const Surface& surface = point.surface;
     const auto material = static_cast<std::size_t>(surface.materials[0]);
     if (!kinds_ || (*kinds_)[material] != Kind::BoundsVolume) return;
-    if (point.behind.known || point.material->thin || point.material->coverage < 1.0) return;
+    if (surface.media.known || point.material->thin || point.material->coverage < 1.0) return;
     constexpr double kLeast = 0x1p-500;
-    const double cosine = std::max(std::abs(dot(direction, surface.normal)), kLeastCosine);
-    const double away = kErrorsAway * dot(abs(surface.normal), surface.error) / cosine;
+    const double away = error_along(surface, direction);
     ray_ = {surface.point - away * direction, direction, 0.0, std::max(2.0 * away, kLeast)};
     hits_.clear();
     scene_.aggregate->all_hits(ray_, hits_, {nullptr, mask, arrival.time});
@@ -69,16 +72,22 @@ void CoincidentFaces::find(const ShadingPoint& point, const Vec3& direction, con
     }
 }
 
+double CoincidentFaces::reach(const ShapeSurface& surface, const Ray& ray) {
+    return error_along(surface, ray.direction);
+}
+
 void CoincidentFaces::look_at(const Hit& hit, const Arrival& arrival) {
     set_shading_point(scene_, ray_, hit, arrival, {}, other_);
-    if (other_.behind.known || other_.material->thin || other_.material->coverage < 1.0) return;
+    if (other_.surface.media.known || other_.material->thin || other_.material->coverage < 1.0)
+        return;
     const auto material = static_cast<std::size_t>(other_.surface.materials[0]);
     if ((*kinds_)[material] == Kind::Opaque) {
         if (!opaque_) opaque_ = hit;
     } else if ((*kinds_)[material] == Kind::BoundsVolume) {
         const Box3 box = scene_.aggregate->primitives().box(static_cast<std::size_t>(hit.top()));
-        others_.push_back(
-            {ScatterPoint::volume_of(other_), other_.entering, false, !box.bounded()});
+        const MaterialSample& sample = *other_.material;
+        others_.push_back({volume_of(other_), other_.entering, false, !box.bounded(),
+                           sample.physical, sample.transmissive});
     }
 }
 
@@ -92,7 +101,7 @@ void CoincidentFaces::sort_entered(const ShadingPoint& point, const Vec3& direct
     if (entered_.size() < 2) return;
     const auto same = [](const Entered& a, const Entered& b) { return a.left == b.left; };
     const auto outer = [](const Entered& a, const Entered& b) { return a.left > b.left; };
-    const Medium own = ScatterPoint::volume_of(point);
+    const Medium own = volume_of(point);
     for (std::size_t k = 0; k < entered_[0].left.size(); ++k) {
         follow(leaving_ray(point.surface, outward(point, direction, k)), k, own, arrival, mask);
         std::stable_sort(entered_.begin(), entered_.end(), outer);
@@ -135,7 +144,7 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& o
             other_.material->thin) {
             continue;
         }
-        const Medium volume = ScatterPoint::volume_of(other_);
+        const Medium volume = volume_of(other_);
         if (other_.entering) {
             within_.push_back({volume.part, volume.material, entered_.size()});
             continue;
@@ -150,10 +159,7 @@ void CoincidentFaces::follow(const Ray& ray, std::size_t number, const Medium& o
         if (left == within_.rend()) continue;
         if (left->entered < entered_.size()) {
             // Faces that coincide are left together.
-            const Vec3& normal = other_.surface.normal;
-            const double cosine = std::max(std::abs(dot(ray.direction, normal)), kLeastCosine);
-            const double apart = kErrorsAway * dot(abs(normal), other_.surface.error) / cosine;
-            if (hit.t - last > 2.0 * apart) last = hit.t;
+            if (hit.t - last > 2.0 * error_along(other_.surface, ray.direction)) last = hit.t;
             entered_[left->entered].left[number] = last;
             --missing;
         }

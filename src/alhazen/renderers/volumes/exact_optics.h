@@ -10,7 +10,8 @@
 /// parallel faces is correct, the position of the light behind them is not.
 /// Conventions: a medium is a number: 0 is outside all volumes, others identify a volume and the
 /// medium around it. Volumes may be left in any order: they are identified by the part that bounds
-/// them, else by its material. A solid that states both media of its surfaces is one volume. The
+/// them, else by its material. A solid that states both media of its surfaces is one volume. Faces
+/// that coincide (coincident_faces.h) are one boundary; kt that acts at surfaces acts at each. The
 /// eye is outside all volumes. Threads: used by one at a time.
 
 #include <cstdint>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/volumes/coincident_faces.h"
 
 namespace alhazen {
 
@@ -30,7 +32,7 @@ struct OpticsSettings {
     }
 };
 
-class ExactOptics {
+class ExactOptics final : public SurfaceOptics {
   public:
     static constexpr std::uint32_t kOutside = 0;
 
@@ -45,9 +47,14 @@ class ExactOptics {
         return media_[medium].absorption;
     }
 
-    /// Completes a point hit by a ray in medium `around`: its reflection, its transmission and the
-    /// medium behind it.
-    void set_media(std::uint32_t around, ShadingPoint& point);
+    /// Completes a point hit by a ray: its reflection, its transmission and the medium behind it.
+    /// Of a volume's face and an opaque one that coincide the opaque one is hit.
+    void set_media(const Arrival& arrival, ShadingPoint& point) override;
+
+    /// Hides the volume that the surface bounds, if it is part of the medium, from shadow rays.
+    void hide(std::uint32_t medium, const Surface& surface);
+    /// The medium without hidden volumes.
+    [[nodiscard]] std::uint32_t seen_by_shadow_rays(std::uint32_t medium);
 
     /// Refractive index on the side of a ray in medium `around` over that behind, at wavelength
     /// `nm`. `point` must have been completed by `set_media`.
@@ -59,15 +66,20 @@ class ExactOptics {
         Rgb through;                      ///< transmittance
         std::uint32_t behind = kOutside;  ///< medium
     };
+    /// `others`: the faces that coincide with it.
     [[nodiscard]] Straight cross(const Surface& surface, const MaterialSample& material,
-                                 const Vec3& direction, std::uint32_t around);
+                                 const Vec3& direction, std::uint32_t around,
+                                 const OtherFaces& others);
+    /// The faces that coincide with the surface at a crossing of a shadow ray.
+    [[nodiscard]] const OtherFaces& faces_at(const Ray& ray, const Hit& crossing, float time);
 
   private:
     struct Medium {
         std::uint64_t part = 0;      ///< that bounds it
         std::uint32_t material = 0;  ///< of it
         std::uint32_t around = kOutside;
-        bool known = false;  ///< stated by a solid
+        bool known = false;   ///< stated by a solid
+        bool hidden = false;  ///< from shadow rays
         double index = 1;
         Rgb absorption;
     };
@@ -75,17 +87,26 @@ class ExactOptics {
     struct Sides {
         double here = 1, beyond = 1;  ///< indices
         std::uint32_t behind = kOutside;
-        Rgb before{1, 1, 1};  ///< at a wall: tint of the medium that is left
+        bool joined = false;  ///< of several faces
+        Rgb before{1, 1, 1};  ///< at a wall: tint of the medium that is left; of other faces
     };
 
     [[nodiscard]] Sides sides_of(const Surface& surface, const MaterialSample& material,
-                                 bool entering, std::uint32_t around);
+                                 bool entering, std::uint32_t around, const OtherFaces& others);
+    /// The sides of several faces that are crossed at once.
+    [[nodiscard]] Sides sides_of_all(const Medium& own, bool entering, std::uint32_t around,
+                                     const OtherFaces& others);
     [[nodiscard]] Sides known_sides_of(const Surface& surface, std::uint32_t around);
     [[nodiscard]] Medium medium_of(const Surface& surface, const MaterialSample& sample) const;
+    [[nodiscard]] Medium medium_of(const OtherFace& face) const;
     std::uint32_t enter(Medium medium, std::uint32_t around);
     /// The medium after `volume` has been left.
     [[nodiscard]] std::uint32_t without(const Medium& volume, std::uint32_t around);
     std::uint32_t remove(std::uint32_t left, std::uint32_t around);
+    /// True if a face of Whitted's materials has no inside.
+    [[nodiscard]] bool is_open(bool physical, std::uint32_t part) const {
+        return !physical && !tints_events_ && !optics_.beer && !scene_.is_closed(part);
+    }
     [[nodiscard]] Rgb tint_of(const MaterialSample& sample) const;
     void turn(const Surface& surface, double cosine, double here, double beyond,
               MaterialSample& sample) const;
@@ -95,6 +116,8 @@ class ExactOptics {
     /// kt of Whitted's materials acts at every surface; otherwise by length in volumes.
     bool tints_events_;
     std::vector<Medium> media_;
+    CoincidentFaces faces_;
+    ShadingPoint crossed_;  ///< by a shadow ray
 };
 
 }  // namespace alhazen

@@ -1,0 +1,26 @@
+#pragma once
+/// The volumes that surfaces bound.
+
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/volumes/medium_stack.h"
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+/// True if a surface of the material may bound a volume; false for opaque ones and thin sheets.
+[[nodiscard]] inline bool may_bound_volume(const Material& m) {
+    if (m.conductor || m.dielectric) return m.dielectric.has_value();
+    if (const auto& p = m.metallic_roughness) {
+        return p->transmission.value > 0.0 && p->thickness.value > 0.0;
+    }
+    return m.transmissive.texture != kNoTexture || !m.transmissive.color.is_black();
+}
+
+/// The volume that a surface bounds.
+[[nodiscard]] inline Medium volume_of(const ShadingPoint& point) {
+    const MaterialSample& material = *point.material;
+    return {part_number({point.surface.part, point.surface.instance}), material.index,
+            material.absorption, static_cast<std::uint32_t>(point.surface.materials[0])};
+}
+
+}  // namespace alhazen
