@@ -32,7 +32,7 @@ struct FilteredLanes {
 };
 
 /// Bits of the triangles of a block whose boxes the frustum of a packet meets.
-HWY_INLINE std::uint32_t meet_triangles(const TriangleBlock& block, const LanePacket& packet) {
+HWY_INLINE std::uint32_t intersect_triangles(const TriangleBlock& block, const LanePacket& packet) {
     Floats near[3], far[3], entry;
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -43,7 +43,7 @@ HWY_INLINE std::uint32_t meet_triangles(const TriangleBlock& block, const LanePa
         near[k] = up ? least : most;
         far[k] = up ? most : least;
     }
-    return packet.meet_planes(near, far, entry);
+    return packet.intersect_planes(near, far, entry);
 }
 
 /// False when no ray of `lanes` hits the triangle for all one knows; then `out` is not set.
@@ -156,7 +156,7 @@ HWY_INLINE std::uint32_t filter_lanes(const FrustumBlock& block, std::size_t i,
     if (lanes == 0) return 0;
     const SlabLine<F> slab = line_in_slab(line.along, line.climb);
     Chord<F> chord = side;
-    meet_slab(slab, F(block.half_height[i] + slack), chord);
+    clip_to_slab(slab, F(block.half_height[i] + slack), chord);
     lanes = reaching(chord, packet, lanes);
     if (!kSure || lanes == 0 || (block.certain >> i & 1) == 0) return lanes;
     F hi;

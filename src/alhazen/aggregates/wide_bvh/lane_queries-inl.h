@@ -153,7 +153,7 @@ class LaneLeaves : public LaneShapes<Derived> {
                 return visit_met(number, seen.met, seen, lanes, stats);
             }
         }
-        return visit_met(number, meet_triangles(block, packet_), block, lanes, stats);
+        return visit_met(number, intersect_triangles(block, packet_), block, lanes, stats);
     }
     /// Those of `met`, bits of the block; `Triangles` is what `filter_lanes` takes.
     template <class Triangles, class Stats>

@@ -68,7 +68,7 @@ class LaneShapes {
             const Block& block = blocks[n];
             const BlockBoxes boxes(block);
             Floats entries;
-            std::uint32_t met = packet_.meet_boxes(boxes.rows(), entries);
+            std::uint32_t met = packet_.intersect_boxes(boxes.rows(), entries);
             HWY_ALIGN float entry[kBlockWidth];
             store_lanes(entries, entry);
             while (met != 0 && lanes != 0) {
@@ -111,20 +111,20 @@ class LaneShapes {
         if (rays == 0) return 0;
         const PrimitiveId id = block.ids[lane].id();
         if constexpr (std::is_same_v<Block, SphereBlock>) {
-            return meet_sphere(id, sphere_of(scene_, block, lane), rays, stats);
+            return intersect_sphere(id, sphere_of(scene_, block, lane), rays, stats);
         } else if constexpr (std::is_same_v<Block, FrustumBlock>) {
             if ((block.balls >> lane & 1) != 0) {
-                return meet_sphere(id, sphere_of(scene_, block, lane), rays, stats);
+                return intersect_sphere(id, sphere_of(scene_, block, lane), rays, stats);
             }
-            return meet_frustum(id, rays, stats);
+            return intersect_frustum(id, rays, stats);
         } else {
-            return meet_other(id, rays, stats);
+            return intersect_other(id, rays, stats);
         }
     }
     /// Tests a shape of a known kind ray by ray. Returns the rays that need no more, as below.
     template <class S, class Stats>
-    HWY_INLINE std::uint32_t meet_first(PrimitiveId id, const S& shape, std::uint32_t lanes,
-                                        Stats stats) {
+    HWY_INLINE std::uint32_t intersect_first(PrimitiveId id, const S& shape, std::uint32_t lanes,
+                                             Stats stats) {
         std::uint32_t done = 0;
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -135,7 +135,7 @@ class LaneShapes {
     }
     /// Tests a shape ray by ray. Returns the rays that need no more, as the two below.
     template <class Stats>
-    HWY_INLINE std::uint32_t meet_alone(PrimitiveId id, std::uint32_t lanes, Stats stats) {
+    HWY_INLINE std::uint32_t intersect_alone(PrimitiveId id, std::uint32_t lanes, Stats stats) {
         std::uint32_t done = 0;
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -145,9 +145,9 @@ class LaneShapes {
         return done;
     }
     template <class Stats>
-    HWY_NOINLINE std::uint32_t meet_sphere(PrimitiveId id, const Sphere& sphere,
-                                           std::uint32_t lanes, Stats stats) {
-        std::uint32_t done = meet_together(
+    HWY_NOINLINE std::uint32_t intersect_sphere(PrimitiveId id, const Sphere& sphere,
+                                                std::uint32_t lanes, Stats stats) {
+        std::uint32_t done = intersect_together(
             id, lanes,
             [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) HWY_ATTR {
                 LaneCrossings found;
@@ -163,11 +163,11 @@ class LaneShapes {
         return done;
     }
     template <class Stats>
-    HWY_NOINLINE std::uint32_t meet_frustum(PrimitiveId id, std::uint32_t lanes, Stats stats) {
+    HWY_NOINLINE std::uint32_t intersect_frustum(PrimitiveId id, std::uint32_t lanes, Stats stats) {
         std::uint32_t done = 0;
         const auto meet = [&](const auto& shape) HWY_ATTR {
             if (!kFusesExactly) return;
-            done = meet_together(
+            done = intersect_together(
                 id, lanes,
                 [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) HWY_ATTR {
                     LaneCrossings found;
@@ -179,27 +179,27 @@ class LaneShapes {
         if (is_bare<Cylinder>(*scene_.table, id)) {
             const auto& cylinder = shape_of<Cylinder>(*scene_.table, id);
             meet(cylinder);
-            return done | meet_first(id, cylinder, lanes, stats);
+            return done | intersect_first(id, cylinder, lanes, stats);
         }
         if (is_bare<Cone>(*scene_.table, id)) meet(shape_of<Cone>(*scene_.table, id));
-        return done | meet_alone(id, lanes, stats);
+        return done | intersect_alone(id, lanes, stats);
     }
     template <class Stats>
-    HWY_NOINLINE std::uint32_t meet_other(PrimitiveId id, std::uint32_t lanes, Stats stats) {
-        if (!is_bare<Polygon>(*scene_.table, id)) return meet_alone(id, lanes, stats);
+    HWY_NOINLINE std::uint32_t intersect_other(PrimitiveId id, std::uint32_t lanes, Stats stats) {
+        if (!is_bare<Polygon>(*scene_.table, id)) return intersect_alone(id, lanes, stats);
         const auto& polygon = shape_of<Polygon>(*scene_.table, id);
-        const std::uint32_t done = meet_together(
+        const std::uint32_t done = intersect_together(
             id, lanes,
             [&](const RayLanes& rays, std::uint32_t wanted, GroupHits& hits) {
                 hits.hit = first_hits(polygon, rays, wanted, hits.of_ray);
             },
             stats);
-        return done | meet_first(id, polygon, lanes, stats);
+        return done | intersect_first(id, polygon, lanes, stats);
     }
     /// The groups of which several rays may meet a shape; leaves all other rays in `lanes`.
     template <class Test, class Stats>
-    HWY_INLINE std::uint32_t meet_together(PrimitiveId id, std::uint32_t& lanes, Test&& test,
-                                           Stats stats) {
+    HWY_INLINE std::uint32_t intersect_together(PrimitiveId id, std::uint32_t& lanes, Test&& test,
+                                                Stats stats) {
         std::uint32_t done = 0;
         for (std::size_t g = 0; g < kLaneGroups; ++g) {
             const std::uint32_t here = lanes >> (g * kRayLanes) & kAllRayLanes;

@@ -111,7 +111,7 @@ class PacketLeaves {
             work += 4;
             const BlockBoxes boxes(*blocks);
             Floats nearest;
-            std::uint32_t rest = packet_.meet_boxes(boxes.rows(), nearest);
+            std::uint32_t rest = packet_.intersect_boxes(boxes.rows(), nearest);
             HWY_ALIGN float depth[kBlockWidth];
             store_lanes(nearest, depth);
             while (rest != 0) {
@@ -124,8 +124,8 @@ class PacketLeaves {
                 if (!blocks->ids[lane].used()) continue;
                 const BlockBoxes::Bounds b = boxes.bounds(lane);
                 std::uint32_t groups =
-                    among & packet_.meet_groups(&boxes.rows()[0][lane], kBlockWidth);
-                if (groups != 0) groups &= packet_.meet_ball(b.center, b.radius);
+                    among & packet_.intersect_groups(&boxes.rows()[0][lane], kBlockWidth);
+                if (groups != 0) groups &= packet_.intersect_ball(b.center, b.radius);
                 work += Derived::kWork.shape * static_cast<std::uint32_t>(std::popcount(groups));
                 changed_ |= visit_shape(blocks->ids[lane].id(), groups, stats);
             }

@@ -137,7 +137,7 @@ class RecursiveEstimator {
             front.begin_surfaces();
             const std::size_t media = optics_ ? optics_->mark() : tinted_.mark();
             shadows_.expect(depth == 0 ? Coherence::Coherent : Coherence::Any);
-            meet_surfaces(part, depth, met == 0, front);
+            intersect_surfaces(part, depth, met == 0, front);
             shadows_.finish();
             trace_all(front.next, depth + 1);
             if constexpr (TreeWatcher<Randomness>) random_.gather(front, depth);
@@ -157,7 +157,7 @@ class RecursiveEstimator {
     }
 
     /// Finds the next surface along each active ray; `first`: none has been found yet.
-    void meet_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
+    void intersect_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
         const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
         const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
         const auto path_of = [&](std::size_t k) -> const Path& {

@@ -116,8 +116,8 @@ class SolidCurveFinder {
             return true;
         }
         if (b.kind == Kind::Sphere) return spheres(a, b);
-        if (a.kind == Kind::Side && radius_of(b) > radius_of(a)) return meet_sides(a, b);
-        return a.kind == Kind::Side ? meet_sides(b, a) : (trace(b, a), true);
+        if (a.kind == Kind::Side && radius_of(b) > radius_of(a)) return intersect_sides(a, b);
+        return a.kind == Kind::Side ? intersect_sides(b, a) : (trace(b, a), true);
     }
     [[nodiscard]] double radius_of(const SolidFace& f) const {
         return solid_.leaf(f).size > 0.0
@@ -213,7 +213,7 @@ class SolidCurveFinder {
         return true;
     }
 
-    bool meet_sides(const SolidFace& side, const SolidFace& other) {
+    bool intersect_sides(const SolidFace& side, const SolidFace& other) {
         const SolidLeaf &leaf = solid_.leaf(side), &to = solid_.leaf(other);
         if (&leaf == &to) return true;
         // Lines of a cylinder parallel to the axis of another lie in it or do not meet it. They lie

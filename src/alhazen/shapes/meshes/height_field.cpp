@@ -122,7 +122,7 @@ class HeightFieldWalk {
 
     void visit(std::uint32_t level, std::uint32_t i, std::uint32_t j, bool bottom) {
         if (i >= columns(level) || j >= rows(level) || !may_pass(box(level, i, j, bottom))) return;
-        if (level == 0) return bottom ? meet_bottom(i, j) : meet_top(i, j);
+        if (level == 0) return bottom ? intersect_bottom(i, j) : intersect_top(i, j);
         const std::uint32_t near_i = ray_.direction.x < 0.0, near_j = ray_.direction.y < 0.0;
         for (std::uint32_t k = 0; k < 4; ++k) {
             visit(level - 1, 2 * i + ((k & 1) ^ near_i), 2 * j + ((k >> 1) ^ near_j), bottom);
@@ -142,12 +142,12 @@ class HeightFieldWalk {
         hits_.push_back(hit);
         if (only_first_) nearest_ = std::min(nearest_, hit.t);
     }
-    void meet_bottom(std::uint32_t i, std::uint32_t j) {
+    void intersect_bottom(std::uint32_t i, std::uint32_t j) {
         const std::uint32_t first = 2 * (field_.cells() + j * (field_.columns - 1) + i);
         meet(first);
         meet(first + 1);
     }
-    void meet_top(std::uint32_t i, std::uint32_t j) {
+    void intersect_top(std::uint32_t i, std::uint32_t j) {
         const std::uint32_t columns = field_.columns - 1, rows = field_.rows - 1;
         const std::uint32_t first = 2 * (j * columns + i);
         meet(first);

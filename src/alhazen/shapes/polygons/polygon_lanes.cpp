@@ -52,7 +52,7 @@ struct PlaneCrossings {
 };
 
 /// Computes the crossings with the plane. Returns the rays that the polygon's box does not exclude.
-std::uint32_t meet_plane(const Polygon& polygon, const RayRows& rays, PlaneCrossings& met) {
+std::uint32_t intersect_plane(const Polygon& polygon, const RayRows& rays, PlaneCrossings& met) {
     const Vec3& n = polygon.normal;
     const auto along = [&](const std::array<Doubles, 3>& v) {
         return Doubles(n.x) * v[0] + Doubles(n.y) * v[1] + Doubles(n.z) * v[2];
@@ -176,7 +176,7 @@ void polygon_hits(const RayLanes& lanes, const Polygon& polygon, std::uint32_t w
     out.hit = out.unsure = 0;
     const RayRows rays(lanes);
     PlaneCrossings met;
-    std::uint32_t left = wanted & meet_plane(polygon, rays, met);
+    std::uint32_t left = wanted & intersect_plane(polygon, rays, met);
     if (left == 0) return;
     const Doubles at = clamped_to_box(met.t, rays, polygon.bounds);
     left &= rays.covers(at) & bits_of(abs(at) < Doubles(std::numeric_limits<double>::infinity()));

@@ -118,17 +118,18 @@ struct alignas(64) LanePacket {
     /// The largest s_max of the set.
     [[nodiscard]] HWY_INLINE float deepest() const { return set_s_max_; }
     /// Bits of eight boxes [lower x, y, z, upper x, y, z][box] that the frustum meets, and where.
-    HWY_INLINE std::uint32_t meet_boxes(const float (&planes)[6][kLaneCount], Floats& entry) const {
+    HWY_INLINE std::uint32_t intersect_boxes(const float (&planes)[6][kLaneCount],
+                                             Floats& entry) const {
         Floats near[3], far[3];
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {
             near[k] = load_lanes(planes[near_row[k]]);
             far[k] = load_lanes(planes[far_row(k)]);
         }
-        return meet_planes(near, far, entry);
+        return intersect_planes(near, far, entry);
     }
-    HWY_INLINE std::uint32_t meet_planes(const Floats (&near)[3], const Floats (&far)[3],
-                                         Floats& entry) const {
+    HWY_INLINE std::uint32_t intersect_planes(const Floats (&near)[3], const Floats (&far)[3],
+                                              Floats& entry) const {
         Floats in[3], out[3];
         HWY_UNROLL(3)
         for (std::size_t k = 0; k < 3; ++k) {

@@ -80,12 +80,12 @@ class RayPacket {
     }
 
     /// Bits of the children that the frustum meets; `nearest`: their least depths.
-    HWY_INLINE std::uint32_t meet_children(const WideNode& node, Floats& nearest) const {
-        return meet_boxes(node.planes, nearest);
+    HWY_INLINE std::uint32_t intersect_children(const WideNode& node, Floats& nearest) const {
+        return intersect_boxes(node.planes, nearest);
     }
     /// The same for eight boxes, [lower x, y, z, upper x, y, z][box].
-    HWY_INLINE std::uint32_t meet_boxes(const float (&planes)[6][kLaneCount],
-                                        Floats& nearest) const {
+    HWY_INLINE std::uint32_t intersect_boxes(const float (&planes)[6][kLaneCount],
+                                             Floats& nearest) const {
         const Floats sign(sign_), minus_depth(-depth_of_point_);
         // Depths of the near and the far plane.
         nearest = mul_add(load_lanes(planes[near_row_]), sign, minus_depth);
@@ -107,9 +107,9 @@ class RayPacket {
         return kAllLanes & ~bits_of(missed);
     }
 
-    /// Bits of the groups whose frustum meets a box. `box`: rows as in meet_boxes, `stride` floats
-    /// apart.
-    HWY_INLINE std::uint32_t meet_groups(const float* box, std::size_t stride) const {
+    /// Bits of the groups whose frustum meets a box. `box`: rows as in intersect_boxes, `stride`
+    /// floats apart.
+    HWY_INLINE std::uint32_t intersect_groups(const float* box, std::size_t stride) const {
         const Floats near(sign_ * box[near_row_ * stride] - depth_of_point_);
         const Floats far(sign_ * box[far_row_ * stride] - depth_of_point_);
         const Floats zero(0.0f);
@@ -139,7 +139,7 @@ class RayPacket {
     /// which slopes of the group differ from m. A ray that meets the ball does so where h <= C_h +
     /// r, so q <= r + w (C_h + r). The error of the computation in float is less than 34 e R plus,
     /// as for a box, delta and the distance at which rays pass P.
-    HWY_INLINE std::uint32_t meet_ball(const float (&center)[3], float radius) const {
+    HWY_INLINE std::uint32_t intersect_ball(const float (&center)[3], float radius) const {
         const float along = sign_ * center[kz] - depth_of_point_;
         const float deep = from_start_ ? along : -along;
         const float beside[2] = {center[kx] - point[0], center[ky] - point[1]};

@@ -229,7 +229,7 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
         stats.nodes(1);
         stats.boxes(node.child_count());
         Lanes<float, W> entries;
-        const LaneMask<float, W> hit = meet_children(node, query.slabs, query.s_max, entries);
+        const LaneMask<float, W> hit = intersect_children(node, query.slabs, query.s_max, entries);
         height = stack.template push<Query::kOrdered>(height, node, entries, hit,
                                                       query.slabs.near.octant);
     }

@@ -31,8 +31,8 @@ namespace HWY_NAMESPACE {
 
 /// The children whose boxes the ray meets. `entry`: its parameter where it enters each.
 template <std::size_t W>
-HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const SlabRay& ray,
-                                            float s_max, Lanes<float, W>& entry) {
+HWY_INLINE LaneMask<float, W> intersect_children(const WideNodeOf<W>& node, const SlabRay& ray,
+                                                 float s_max, Lanes<float, W>& entry) {
     using F = Lanes<float, W>;
     const float* planes = node.planes[0];
     F near[3], far[3];
@@ -156,7 +156,7 @@ HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay
             stats.nodes(1);
             stats.boxes(node.child_count());
             Lanes<float, W> entries;
-            std::uint32_t hit = bits_of(meet_children(node, ray, leaf.s_max, entries));
+            std::uint32_t hit = bits_of(intersect_children(node, ray, leaf.s_max, entries));
             if (hit != 0) {
                 const auto first = static_cast<std::size_t>(std::countr_zero(hit));
                 hit &= hit - 1;

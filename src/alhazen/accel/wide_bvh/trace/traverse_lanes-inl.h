@@ -41,7 +41,7 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const LanePacket& packet, 
                                 LaneStack& stack, std::size_t height,
                                 const PrefetchTable& prefetch_table) {
     Floats entries;
-    std::uint32_t hit = packet.meet_boxes(node.planes, entries);
+    std::uint32_t hit = packet.intersect_boxes(node.planes, entries);
     if (hit == 0) return height;
     HWY_ALIGN float entry[WideNode::kWidth];
     store_lanes(entries, entry);

@@ -33,7 +33,7 @@ template <bool kOrdered>
 HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet, std::uint32_t groups,
                                 PacketEntry* stack, std::size_t height) {
     Floats entries;
-    std::uint32_t hit = packet.meet_children(node, entries);
+    std::uint32_t hit = packet.intersect_children(node, entries);
     HWY_ALIGN float entry[WideNode::kWidth];
     store_lanes(entries, entry);
     const std::size_t base = height;
@@ -41,7 +41,7 @@ HWY_INLINE std::size_t push_met(const WideNode& node, const RayPacket& packet, s
         const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
         hit &= ~(1u << slot);
         const std::uint32_t met =
-            groups & packet.meet_groups(&node.planes[0][slot], WideNode::kWidth);
+            groups & packet.intersect_groups(&node.planes[0][slot], WideNode::kWidth);
         if (met == 0) continue;
         std::size_t place = height++;
         if constexpr (kOrdered) {

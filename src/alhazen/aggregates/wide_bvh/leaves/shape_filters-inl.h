@@ -71,7 +71,7 @@ HWY_INLINE SlabLine<F> line_in_slab(const F& along, const F& slope) {
     return {-(along * inverse), abs(inverse)};
 }
 template <class F>
-HWY_INLINE void meet_slab(const SlabLine<F>& line, const F& half, Chord<F>& chord) {
+HWY_INLINE void clip_to_slab(const SlabLine<F>& line, const F& half, Chord<F>& chord) {
     const F reach = half * line.stretch;
     chord.first = max_lanes(chord.first, line.middle - reach);
     chord.last = min_lanes(chord.last, line.middle + reach);
@@ -198,7 +198,7 @@ struct CylinderLine {
     HWY_INLINE auto sure(const Chord<F>& side, const SlabLine<F>& slab, const F& half_height,
                          const F& radius, const F& slack, const SureRange<F>& range, F& hi) const {
         Chord<F> between = whole_line<F>();
-        meet_slab(slab, half_height - slack - slack, between);
+        clip_to_slab(slab, half_height - slack - slack, between);
         return round.sure(side, radius - slack - slack, between, range, hi);
     }
 };
@@ -217,7 +217,7 @@ HWY_NOINLINE std::uint32_t shape_candidates(const FrustumBlock& block, const Tri
     if (!kAtOnce && (block.lanes & ~missed) == 0) return 0;
     const SlabLine<Floats> slab = line_in_slab(line.along, line.climb);
     Chord<Floats> chord = side;
-    meet_slab(slab, half_height + slack, chord);
+    clip_to_slab(slab, half_height + slack, chord);
     const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
     out.sure = 0;
     if (!kAtOnce && (met & block.certain) == 0) return met;
@@ -257,10 +257,10 @@ struct BoxLine {
     /// their plane is met.
     HWY_INLINE Chord<F> chord(const F (&half)[3], const F& inset) const {
         Chord<F> across = whole_line<F>();
-        meet_slab(slab[2], half[2], across);
+        clip_to_slab(slab[2], half[2], across);
         Chord<F> chord = across;
-        meet_slab(slab[0], half[0], chord);
-        meet_slab(slab[1], half[1], chord);
+        clip_to_slab(slab[0], half[0], chord);
+        clip_to_slab(slab[1], half[1], chord);
         const auto plane = (inset < F(BoxBlock::kNotFlat)) & (chord.first <= chord.last);
         return {select_lanes(plane, across.first, chord.first),
                 select_lanes(plane, across.last, chord.last)};
@@ -271,9 +271,9 @@ struct BoxLine {
                          const F& spread, const SureRange<F>& range, F& hi) const {
         const F less = slack + slack + inset;
         Chord<F> within = whole_line<F>(), flat = whole_line<F>();
-        meet_slab(slab[0], half[0] - less, within);
-        meet_slab(slab[1], half[1] - less, within);
-        meet_slab(slab[2], half[2], flat);
+        clip_to_slab(slab[0], half[0] - less, within);
+        clip_to_slab(slab[1], half[1] - less, within);
+        clip_to_slab(slab[2], half[2], flat);
         const F room = -(inset + slack + slack + spread);  // of a disc, whose radius is -inset
         const auto in_rectangle =
             (inset >= F(0.0f)) & (within.first <= flat.first) & (flat.last <= within.last);
