@@ -60,6 +60,8 @@ bool spheres_join(const PrimitiveTable& table) {
     const auto count = [&](std::uint32_t kind) {
         return table.first(kind + 1) - table.first(kind);
     };
+    // Among triangles the schedule counts blocks of spheres as tested in lanes (schedule.h).
+    if (count(kTriangleKind) > 0) return false;
     const std::uint32_t others =
         count(column_of<Cylinder>()) + count(column_of<Cone>()) + count(column_of<Disc>());
     return others > 0 && count(column_of<Sphere>()) / kMostSpheresPerFrustum <= others;
