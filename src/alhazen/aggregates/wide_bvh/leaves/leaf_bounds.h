@@ -44,7 +44,8 @@ template <class S>
 /// Most spheres for each cylinder, cone or disc where they share blocks: a tree of few kinds has
 /// fewer and fuller blocks, but the filter of cylinders takes longer than that of spheres.
 inline constexpr std::uint32_t kMostSpheresPerFrustum = 8;
-/// Whether the spheres of a table lie in the blocks of cylinders, cones and discs.
+/// Whether the spheres of a table lie in the blocks of cylinders, cones and discs: not among
+/// triangles.
 [[nodiscard]] bool spheres_join(const PrimitiveTable& table);
 /// The kind of leaf for a bounded primitive.
 [[nodiscard]] LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id);
