@@ -41,6 +41,39 @@ TEST(FlatShapes, ARectangleFillsItsSlabs) {
     EXPECT_NEAR(inset_of(corners, ends, 2.5, 1.25), 0.5, 1e-12);
 }
 
+/// An edge along the normal leaves nothing but rounding in the plane.
+TEST(FlatShapes, BoxesOfPolygonsWithNeedlesAlongTheirNormalsStandOnThem) {
+    Random random(5);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 x = random.unit_vector(), y = perpendicular(x), n = cross(x, y);
+        Polygon p;
+        const Vec3 corner = x + y, tip = corner + random.log_uniform(0.01, 2) * n;
+        p.vertices = {Vec3{} - x - y, x - y, corner, tip, corner, y - x};
+        p.prepare();
+        const SlantedBounds box = bounds_of(p);
+        EXPECT_NEAR(dot(box.direction[0], box.direction[2]), 0, 1e-9) << i;
+        EXPECT_NEAR(length(box.direction[1]), 1, 1e-9) << i;
+        PrimitiveTable table;
+        auto& column = std::get<ShapeColumn<Polygon>>(table.columns);
+        column.shapes.push_back(p);
+        column.placements.push_back(kNoPlacement);
+        column.materials.push_back(MaterialId{0});
+        table.material_opacity = {Opacity::Opaque};
+        table.finish();
+        const WideBvhAggregate tree(std::move(table));
+        int hits = 0;
+        for (int k = 0; k < 20; ++k) {
+            Ray ray{3 * random.unit_vector(), {}, 0, kInfinity};
+            ray.direction =
+                0.9 * (random.uniform(-1, 1) * x + random.uniform(-1, 1) * y) - ray.origin;
+            Hit hit;
+            hits += tree.closest(ray, hit, nullptr);
+            EXPECT_TRUE(tree.occluded(ray, nullptr)) << i << " " << k;
+        }
+        EXPECT_EQ(hits, 20) << i;
+    }
+}
+
 TEST(FlatShapes, TheMiddleMayBeOutside) {
     const std::vector<SlabPoint> bent{{-1, -1},     {1, -1},   {1, -0.9},
                                       {-0.9, -0.9}, {-0.9, 1}, {-1, 1}};

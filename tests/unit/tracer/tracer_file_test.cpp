@@ -101,5 +101,28 @@ TEST(TracerFile, OtherScenesAndAcceleratorsAreRefused) {
     EXPECT_NO_THROW((void)Tracer::load(mixed_scene(1), path)) << "still what it was";
 }
 
+/// The boxes and spheres around both are the same.
+TEST(TracerFile, APlateIsNotTheSamePlateWithAHole) {
+    const auto plate = [](bool with_hole) {
+        Polygon p;
+        p.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        p.loop_ends = {4};
+        if (with_hole) {
+            p.vertices.insert(p.vertices.end(),
+                              {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}});
+            p.loop_ends.push_back(8);
+        }
+        TracerScene scene;
+        scene.add(AnyShape{p});
+        scene.add_sphere({0, 0, -3}, 0.4);
+        return scene;
+    };
+    const ScratchFolder folder;
+    const auto path = folder.path() / "tree";
+    Tracer(plate(false)).save(path);
+    EXPECT_THROW((void)Tracer::load(plate(true), path), Error);
+    EXPECT_NO_THROW((void)Tracer::load(plate(false), path));
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -1,5 +1,6 @@
 #include "alhazen/aggregates/wide_bvh/table_fingerprint.h"
 
+#include "alhazen/aggregates/wide_bvh/leaves/flat_shapes.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/base/checksum.h"
 
@@ -30,6 +31,10 @@ void add_body(Checksum& sum, const PrimitiveTable& table, PrimitiveId id) {
         const BoundingSphere sphere = table.sphere(static_cast<std::size_t>(id));
         add(sum, sphere.center);
         sum.add(sphere.radius);
+        // What is surely within an outline depends on all of it.
+        const FlatOutline outline = flat_outline(table, id);
+        sum.add(std::span<const Vec3>(outline.vertices));
+        sum.add(std::span<const std::uint32_t>(outline.loop_ends));
     }
 }
 

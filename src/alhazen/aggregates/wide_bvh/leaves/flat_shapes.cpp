@@ -93,11 +93,7 @@ SlantedBounds bounds_of(const Polygon& polygon) {
     double least = kInfinity;
     Vec3 u_axis, v_axis;
     Interval u, v;
-    const std::size_t step = (polygon.vertices.size() + kMostEdges - 1) / kMostEdges;
-    for_each_edge(polygon.loop_ends, [&](std::size_t a, std::size_t b) {
-        if (a % step != 0) return;
-        const Vec3 edge = polygon.vertices[b] - polygon.vertices[a];
-        const Vec3 along = unit_or(edge - dot(edge, normal) * normal, polygon.u_axis);
+    const auto attempt = [&](const Vec3& along) {
         const Vec3 aside = cross(normal, along);
         const Interval here_u = range_along(along, polygon), here_v = range_along(aside, polygon);
         const double area = (here_u.hi - here_u.lo) * (here_v.hi - here_v.lo);
@@ -107,7 +103,18 @@ SlantedBounds bounds_of(const Polygon& polygon) {
         v_axis = aside;
         u = here_u;
         v = here_v;
+    };
+    // Of an edge along the normal only rounding is left in the plane: no direction across it.
+    constexpr double kLeastShare = 1e-12;  // squared
+    const std::size_t step = (polygon.vertices.size() + kMostEdges - 1) / kMostEdges;
+    for_each_edge(polygon.loop_ends, [&](std::size_t a, std::size_t b) {
+        if (a % step != 0) return;
+        const Vec3 edge = polygon.vertices[b] - polygon.vertices[a];
+        const Vec3 in_plane = edge - dot(edge, normal) * normal;
+        if (!(length_squared(in_plane) > kLeastShare * length_squared(edge))) return;
+        attempt(unit_or(in_plane, polygon.u_axis));
     });
+    if (!(least < kInfinity)) attempt(polygon.u_axis);
     SlantedBounds bounds;
     bounds.corner = polygon.point + u.lo * u_axis + v.lo * v_axis + across.lo * normal;
     bounds.edge[0] = (u.hi - u.lo) * u_axis;
