@@ -183,7 +183,7 @@ TEST(ImageIo, HdrIsWithinItsStepAndReadsBackTheSame) {
         const Image once = round_trip("hdr", image);
         for (int y = 0; y < 9; ++y) {
             for (int x = 0; x < width; ++x) {
-                const double step = image.rgb(x, y).max() / 256;
+                const double step = image.rgb(x, y).max() / 255;
                 for (int i = 0; i < 3; ++i) {
                     ASSERT_NEAR(once.rgb(x, y)[i], image.rgb(x, y)[i], step) << x << " " << y;
                 }

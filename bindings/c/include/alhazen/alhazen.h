@@ -13,7 +13,8 @@
  * Conventions: t is in [tnear, tfar], in units of the direction's length. On a hit tfar becomes t. Without a hit the
  * ids are ALHAZEN_INVALID_ID. Occlusion sets tfar to -infinity. A ray sees a geometry only if their masks share a bit.
  * Objects are reference-counted: New returns one reference, Release drops one; a scene holds its geometries.
- * Errors: no call with valid pointers ends the program. The first error of a thread is kept until alhazenGetDeviceError reads it.
+ * Errors: no call with valid pointers ends the program. The first error of a thread is kept until
+ * alhazenGetDeviceError reads it.
  * Threads: queries of a committed scene may run in many threads; no other call on the scene may run meanwhile. */
 
 #include <stdbool.h>

@@ -21,7 +21,7 @@ namespace alhazen {
                                const ImageLimits& limits);
 
 /// Precondition: `image` has valid sizes. Grey is repeated, alpha dropped. The error of each
-/// channel is at most 1/256 of the largest.
+/// channel is at most 1/255 of the largest.
 [[nodiscard]] std::vector<std::byte> encode_hdr(const Image& image);
 
 }  // namespace alhazen

@@ -129,10 +129,17 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     }
     const Medium* const around = entering_ ? media.here() : media.without(inside_);
     const double outside = around != nullptr ? around->index : air;
-    if (!waves.is_spectral()) return Spectrum::all(entering_ ? outside / own : own / outside);
+    // On the way out of an outer volume the view is in another, the innermost.
+    const Medium* const within = entering_ ? nullptr : media.within(inside_);
+    const double own_side = within != nullptr ? within->index : own;
+    if (!waves.is_spectral()) {
+        return Spectrum::all(entering_ ? outside / own : own_side / outside);
+    }
     const Spectrum there = around != nullptr ? index_of(material(around->material), outside, waves)
                                              : Spectrum::all(air);
-    const Spectrum here = index_of(material(inside_.material), own, waves);
+    const Spectrum here = within != nullptr
+                              ? index_of(material(within->material), within->index, waves)
+                              : index_of(material(inside_.material), own, waves);
     return entering_ ? over(there, here) : over(here, there);
 }
 

@@ -132,7 +132,7 @@ double ExactOptics::eta_by_wave(std::uint32_t around, const ShadingPoint& point,
                             : of_medium(around);
         beyond = of_medium(point.behind.medium);
     } else {
-        here = point.entering ? of_medium(around) : own();
+        here = point.entering || point.behind.medium != around ? of_medium(around) : own();
         beyond = point.entering ? own() : of_medium(point.behind.medium);
     }
     return here > 0.0 && beyond > 0.0 ? here / beyond : 1.0;
@@ -183,7 +183,8 @@ ExactOptics::Sides ExactOptics::sides_of(const Surface& surface, const MaterialS
             sides.behind = enter(inside, around);
         } else {
             sides.behind = without(inside, around);
-            sides.here = material.index;
+            // A volume that was not entered is that of the ray; of others the innermost is.
+            if (sides.behind == around) sides.here = material.index;
             sides.beyond = media_[sides.behind].index;
         }
     }
@@ -204,7 +205,10 @@ ExactOptics::Sides ExactOptics::sides_of_all(const Medium& own, bool entering, s
         }
     };
     // Volumes are left before others are entered: new ones are innermost.
-    if (!entering) sides.behind = without(own, sides.behind);
+    if (!entering) {
+        sides.behind = without(own, sides.behind);
+        if (sides.behind == around) sides.here = own.index;
+    }
     for (const OtherFace& other : others) {
         if (!other.entering && has_inside(other)) {
             sides.behind = without(medium_of(other), sides.behind);

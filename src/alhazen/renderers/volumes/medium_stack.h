@@ -47,6 +47,10 @@ class MediumStack {
         }
         return nullptr;
     }
+    /// The innermost volume, where `volume` is left and is another one around it; else null.
+    [[nodiscard]] const Medium* within(const Medium& volume) const {
+        return place_of(volume) + 1 < media_.size() ? here() : nullptr;
+    }
     void enter(const Medium& medium) {
         if (media_.full()) remove(0);
         media_.push_back(medium);

@@ -220,7 +220,11 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
     together_.clear();
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
         const Hit& crossing = crossings_[i];
-        if (crossing.t - met < min_distance) continue;
+        if (crossing.t - met < min_distance) {
+            // A face that was crossed with the last one is over, however near it is.
+            if (!together_.empty()) (void)crossed_already(crossed(ray, crossing, path.time));
+            continue;
+        }
         met = crossing.t;
         const Surface& surface = crossed(ray, crossing, path.time);
         in_wall = surface.media.before && surface.media.after && !in_wall;
@@ -233,7 +237,11 @@ Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
         if (crossed_already(surface)) continue;
         const bool alone = i + 1 == crossings_.size() ||
                            crossings_[i + 1].t - crossing.t > CoincidentFaces::reach(surface, ray);
-        if (!alone) together_ = optics_->faces_at(ray, crossing, path.time);
+        if (alone) {
+            together_.clear();
+        } else {
+            together_ = optics_->faces_at(ray, crossing, path.time);
+        }
         const auto [through, behind] =
             optics_->cross(surface, material, ray.direction, medium, together_);
         const double open = 1.0 - material.coverage;

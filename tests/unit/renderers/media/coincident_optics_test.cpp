@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "alhazen/renderers/whitted/whitted.h"
@@ -157,9 +158,17 @@ TEST(CoincidentOptics, ShadowRaysCrossTouchingFacesAsOne) {
     const std::vector<Layer> layers{{1.5, 0.1, 1.0}, {1.7, 0.2, 0.7}, {1.7, 0.3, 1.9}};
     Material matt;
     matt.diffuse.color = kWhite;
-    for (const double angle : {0.0, 0.7}) {
+    struct Case {
+        double angle;
+        bool reversed;
+        double min_distance;
+    };
+    for (const auto [angle, reversed, min_distance] :
+         {Case{0, false, 0}, Case{0.7, false, 0}, Case{0.7, true, 0}, Case{0, false, 1e-3},
+          Case{0, true, 1e-3}, Case{0.7, true, 1e-6}}) {
         for (const auto material : {&physical, &by_kt}) {
             SceneMaker maker = above_a_light();
+            maker.description().conventions.shading.min_distance = min_distance;
             maker.description().conventions.shading.max_depth = 0;
             const double c = std::cos(angle);
             maker.light(DirectionalLight{.to_light = {std::sin(angle), 0, c}, .color = kWhite});
@@ -167,17 +176,34 @@ TEST(CoincidentOptics, ShadowRaysCrossTouchingFacesAsOne) {
             maker.description().cameras[0].camera =
                 look_along({0, 0, -5}, {0, 0, -1}, {0, 1, 0}, 1e-9, 1.0);
             double top = 1.0, left = c;
+            std::vector<std::pair<BoxShape, MaterialId>> boxes;
             for (const Layer& layer : layers) {
-                maker.add(box(top - layer.thickness, top, 90), maker.material(material(layer)));
+                boxes.emplace_back(box(top - layer.thickness, top, 90),
+                                   maker.material(material(layer)));
                 top -= layer.thickness;
                 left *= std::exp(-layer.absorption * layer.thickness / c);
             }
+            if (reversed) std::reverse(boxes.begin(), boxes.end());
+            for (const auto& [shape, id] : boxes) maker.add(shape, id);
             // The angle is that on the side of the lower index.
             for (const double eta : {1 / 1.5, 1.5 / 1.7, 1 / 1.7}) {
                 left *= 1.0 - dielectric_reflectance(c, eta);
             }
             expect_near(center(maker.compile()), {left, left, left}, 1e-12);
         }
+    }
+}
+
+/// The volume entered last is the innermost: none of the indices changes where the other is left.
+/// From below it is the other one, with the same reflections.
+TEST(CoincidentOptics, OverlappingVolumesAreLeftInAnyOrder) {
+    const Layer above{1.5, 0, 2}, below{1.7, 0, 2};
+    for (const auto material : {&physical, &by_kt}) {
+        SceneMaker maker = above_a_light();
+        maker.add(box(0, 2), maker.material(material(above)));
+        maker.add(box(-1, 1), maker.material(material(below)));
+        // Reflections beyond the depth of 16 are left out.
+        expect_passed(maker, {{1}, above, below, {1}}, 1e-7);
     }
 }
 
