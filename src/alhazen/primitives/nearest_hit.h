@@ -1,6 +1,6 @@
 #pragma once
 /// The order of hits that every accelerator and every batch schedule uses: the smaller t is nearer;
-/// at equal t the lower primitive id wins, whatever the order of the tests.
+/// of a tie, at equal t, the lower primitive id wins, whatever the order of the tests.
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"

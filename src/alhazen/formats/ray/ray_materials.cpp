@@ -65,8 +65,8 @@ RayMaterial RayMaterials::read_block(TextNode block, const RayMaterial& enclosin
     read_color(reader, "ambient", m.ambient);
     read_color(reader, "diffuse", m.diffuse);
     read_color(reader, "specular", m.specular);
-    read_color(reader, "reflective", m.reflective);
-    read_color(reader, "transmissive", m.transmissive);
+    read_color(reader, "reflective", m.reflective);      // kr of the equation
+    read_color(reader, "transmissive", m.transmissive);  // kt
     read_scalar(reader, "shininess", context_.family.shininess_scale, kShininessMapScale,
                 m.shininess);
     read_scalar(reader, "index", 1.0, 1.0, m.index);
