@@ -120,8 +120,10 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
         return {"warning: " + of_bad_texels(bad)};
     }
     const Scene& scene = loaded.scene;
+    // In a format without surroundings a glow up to white is a label or a display, not the light.
+    const double glow = loaded.description.conventions.importing.surroundings ? 1.0 : 0.0;
     const bool dark = !scene.environment && scene.background.is_black() &&
-                      lacks_light(loaded.description, scene) && !glows(scene);
+                      lacks_light(loaded.description, scene) && !glows(scene, glow);
     if (!dark || !follows_light(renderer)) return {};
     EnvironmentSettings studio;
     studio.kind = EnvironmentKind::Studio;

@@ -74,6 +74,27 @@ TEST(EnvironmentOption, ASceneThatGlowsGetsNothingWhereLightIsFollowed) {
     EXPECT_TRUE(loaded.scene.background.is_black());
 }
 
+/// Labels and displays of glTF files are white at most; lamps have a strength.
+TEST(EnvironmentOption, AGlowUpToWhiteIsNoLightInAFormatWithoutSurroundings) {
+    for (const bool surroundings : {false, true}) {
+        for (const double radiance : {1.0, 1.5}) {
+            SceneMaker maker;
+            Material label;
+            label.emission.color = {radiance, 0.5, 0};
+            maker.add(Sphere{}, maker.material(label));
+            LoadedScene loaded;
+            loaded.scene = maker.compile();
+            loaded.description = maker.description();
+            loaded.description.conventions.importing.headlight = true;
+            loaded.description.conventions.importing.surroundings = surroundings;
+            const bool gets_studio = surroundings && radiance <= 1;
+            EXPECT_EQ(set_environment(loaded, "", "path_tracing", {}).size(),
+                      gets_studio ? 1u : 0u);
+            EXPECT_EQ(loaded.scene.environment != nullptr, gets_studio);
+        }
+    }
+}
+
 TEST(EnvironmentOption, NoneAddsNothing) {
     LoadedScene loaded = loaded_ball();
     EXPECT_TRUE(set_environment(loaded, "none", "path_tracing", {}).empty());

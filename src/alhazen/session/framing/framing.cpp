@@ -287,9 +287,9 @@ PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngl
                           });
 }
 
-bool glows(const Scene& scene) {
+bool glows(const Scene& scene, double radiance) {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& m) { return !m.emission.color.is_black(); });
+                       [&](const Material& m) { return m.emission.color.max() > radiance; });
 }
 
 bool lacks_light(const SceneDescription& description, const Scene& scene) {

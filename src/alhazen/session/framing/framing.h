@@ -48,8 +48,8 @@ struct FramingOptions {
     bool nothing_around = false;  ///< neither lights nor surroundings are added
 };
 
-/// True if a material of the scene emits light.
-[[nodiscard]] bool glows(const Scene& scene);
+/// True if a material of the scene emits light, of more than `radiance` in a channel of its factor.
+[[nodiscard]] bool glows(const Scene& scene, double radiance = 0);
 
 /// True if `complete_view` adds a light, unless an environment or emitting materials are enough.
 [[nodiscard]] bool lacks_light(const SceneDescription& description, const Scene& scene);
