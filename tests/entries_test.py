@@ -4,8 +4,9 @@
 Usage: entries_test.py CTEST BUILD_FOLDER
 
 Entries of a program divide its tests by filters and shards. Of entries with one filter all shards must be there; of two
-filters none may name the same test; together they name all. Left out are programs that are not built, and heavy entries
-of programs whose everyday entries have all of their tests. Of the program that repeats tests with other kernels, each
+filters none may name the same test; together they name all. Left out are programs that are not built, programs of heavy
+entries alone that are older than the everyday ones (the target `all` does not build them), and heavy entries of programs
+whose everyday entries have all of their tests. Of the program that repeats tests with other kernels, each
 pattern names some.
 """
 
@@ -22,6 +23,8 @@ CTEST, BUILD = sys.argv[1], sys.argv[2]
 FILTER = "--gtest_filter="
 # Runs some suites of others again.
 REPEATS = "alhazen_portable_kernels_test"
+# Programs of heavy entries alone.
+HEAVY = ("alhazen_heavy_test", REPEATS)
 # No GoogleTest programs.
 OTHERS = ("alhazen_c_api_test", "alhazen_c_callbacks_test")
 
@@ -53,13 +56,16 @@ def entries_of_programs():
         if program is None or pathlib.Path(program).name in OTHERS:
             continue
         properties = {p["name"]: p["value"] for p in test["properties"]}
-        if properties.get("LABELS") == ["heavy"] and pathlib.Path(program).name not in ("alhazen_heavy_test", REPEATS):
+        if properties.get("LABELS") == ["heavy"] and pathlib.Path(program).name not in HEAVY:
             continue
         environment = dict(variable.split("=", 1) for variable in properties.get("ENVIRONMENT", []))
         shard = int(environment.get("GTEST_SHARD_INDEX", 0)), int(environment.get("GTEST_TOTAL_SHARDS", 1))
         pattern = "".join(word[len(FILTER):] for word in words if word.startswith(FILTER))
         programs[program][pattern].append(shard)
-    return programs
+    built = {program: os.stat(program).st_mtime for program in programs}
+    newest = max((time for program, time in built.items() if pathlib.Path(program).name not in HEAVY), default=0)
+    return {program: filters for program, filters in programs.items()
+            if pathlib.Path(program).name not in HEAVY or built[program] >= newest}
 
 
 class Entries(unittest.TestCase):

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/math/constants.h"
@@ -34,6 +36,22 @@ double area_of(const SlantedBounds& bounds) {
     return length(bounds.edge[0]) * length(bounds.edge[1]);
 }
 
+/// Opaque shapes of one kind, in this order.
+template <class Shape>
+PrimitiveTable table_of(std::vector<Shape> shapes) {
+    PrimitiveTable table;
+    auto& column = std::get<ShapeColumn<Shape>>(table.columns);
+    for (Shape& shape : shapes) {
+        shape.prepare();
+        column.shapes.push_back(std::move(shape));
+        column.placements.push_back(kNoPlacement);
+        column.materials.push_back(MaterialId{0});
+    }
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    return table;
+}
+
 TEST(FlatShapes, ARectangleFillsItsSlabs) {
     const std::vector<SlabPoint> corners{{-2, -1}, {2, -1}, {2, 1}, {-2, 1}};
     const std::vector<std::uint32_t> ends{4};
@@ -53,14 +71,7 @@ TEST(FlatShapes, BoxesOfPolygonsWithNeedlesAlongTheirNormalsStandOnThem) {
         const SlantedBounds box = bounds_of(p);
         EXPECT_NEAR(dot(box.direction[0], box.direction[2]), 0, 1e-9) << i;
         EXPECT_NEAR(length(box.direction[1]), 1, 1e-9) << i;
-        PrimitiveTable table;
-        auto& column = std::get<ShapeColumn<Polygon>>(table.columns);
-        column.shapes.push_back(p);
-        column.placements.push_back(kNoPlacement);
-        column.materials.push_back(MaterialId{0});
-        table.material_opacity = {Opacity::Opaque};
-        table.finish();
-        const WideBvhAggregate tree(std::move(table));
+        const WideBvhAggregate tree(table_of<Polygon>({p}));
         int hits = 0;
         for (int k = 0; k < 20; ++k) {
             Ray ray{3 * random.unit_vector(), {}, 0, kInfinity};
@@ -169,20 +180,12 @@ TEST(FlatShapes, TheBoxAroundATurnedRectangleIsThatRectangle) {
 }
 
 PrimitiveTable two_squares() {
-    PrimitiveTable table;
-    auto& column = std::get<ShapeColumn<Polygon>>(table.columns);
+    std::vector<Polygon> squares(2);
     for (const double z : {0.0, 1.0}) {
         // Turned, so that the sides lie along no axis.
-        Polygon square;
-        square.vertices = {{-1, 0, z}, {0, -1, z}, {1, 0, z}, {0, 1, z}};
-        square.prepare();
-        column.shapes.push_back(square);
-        column.placements.push_back(kNoPlacement);
-        column.materials.push_back(MaterialId{0});
+        squares[z == 1.0].vertices = {{-1, 0, z}, {0, -1, z}, {1, 0, z}, {0, 1, z}};
     }
-    table.material_opacity = {Opacity::Opaque};
-    table.finish();
-    return table;
+    return table_of(std::move(squares));
 }
 
 /// A ray that leaves one square and certainly hits the other is occluded without a test of the one
@@ -209,17 +212,7 @@ TEST(FlatShapes, ASureHitIsNotTestedInDouble) {
 /// middle: the sure one is taken without a test of the other.
 template <class Shape>
 void expect_sure_one_first(const Shape& grazed, const Shape& met) {
-    PrimitiveTable table;
-    auto& column = std::get<ShapeColumn<Shape>>(table.columns);
-    for (Shape shape : {grazed, met}) {
-        shape.prepare();
-        column.shapes.push_back(shape);
-        column.placements.push_back(kNoPlacement);
-        column.materials.push_back(MaterialId{0});
-    }
-    table.material_opacity = {Opacity::Opaque};
-    table.finish();
-    const WideBvhAggregate tested(std::move(table));
+    const WideBvhAggregate tested(table_of<Shape>({grazed, met}));
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride use(target);
         const Ray ray{{-5, 0.25, 0}, {1, 0, 0}, 0, kInfinity};
@@ -244,19 +237,10 @@ Polygon gear(double x, double y, double z) {
 TEST(FlatShapes, ASureGearIsNotTestedInDouble) {
     for (int i = 0; i < 12; ++i) {
         const double x = 0.85 * std::cos(0.5 * i), y = 0.85 * std::sin(0.5 * i);
-        PrimitiveTable table;
-        auto& column = std::get<ShapeColumn<Polygon>>(table.columns);
         // The ray passes a corner of the first closer than the filter can tell.
-        for (Polygon polygon : {gear(x + 1 + 1e-9, y, 0), gear(0, 0, 1)}) {
-            polygon.prepare();
-            column.shapes.push_back(polygon);
-            column.placements.push_back(kNoPlacement);
-            column.materials.push_back(MaterialId{0});
-        }
-        EXPECT_NEAR(column.shapes[0].vertices[48].x, x, 1e-8);
-        table.material_opacity = {Opacity::Opaque};
-        table.finish();
-        const WideBvhAggregate tested(std::move(table));
+        const Polygon grazed = gear(x + 1 + 1e-9, y, 0);
+        EXPECT_NEAR(grazed.vertices[48].x, x, 1e-8);
+        const WideBvhAggregate tested(table_of<Polygon>({grazed, gear(0, 0, 1)}));
         for (const std::string& target : simd_targets()) {
             const SimdTargetOverride use(target);
             const Ray ray{{x, y, -1}, {0, 0, 1}, 0, kInfinity};

@@ -10,6 +10,7 @@
 #include "alhazen/renderers/whitted/whitted.h"
 #include "alhazen/shading/optics/fresnel.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/media/layers.h"
 #include "unit/renderers/one_pixel.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -18,31 +19,11 @@ namespace {
 using testing::center;
 using testing::expect_near;
 using testing::glowing;
+using testing::Layer;
+using testing::passed;
 using testing::SceneMaker;
 
 const Rgb kWhite{1, 1, 1};
-
-struct Layer {
-    double index, absorption = 0, thickness = 0;
-};
-
-/// Along the normal of layers: what passes and what returns, with all reflections between them; the
-/// first and the last layer are the surroundings.
-struct Passage {
-    double through = 1.0, back = 0.0;  ///< `back`: seen from behind
-    explicit Passage(const std::vector<Layer>& layers) {
-        for (std::size_t i = 1; i < layers.size(); ++i) {
-            const double m = layers[i - 1].index, n = layers[i].index;
-            const double r = std::pow((m - n) / (m + n), 2.0);
-            const double orders = 1.0 / (1.0 - back * r);
-            through *= (1.0 - r) * orders;
-            back = r + (1.0 - r) * (1.0 - r) * back * orders;
-            const double left = std::exp(-layers[i].absorption * layers[i].thickness);
-            through *= left;
-            back *= left * left;
-        }
-    }
-};
 
 Material physical(const Layer& layer) {
     Material m;
@@ -78,7 +59,7 @@ SceneMaker above_a_light() {
 }
 
 void expect_passed(SceneMaker& maker, const std::vector<Layer>& layers, double within = 1e-9) {
-    const double t = Passage(layers).through;
+    const double t = passed(layers);
     expect_near(center(maker.compile()), {t, t, t}, within);
 }
 

@@ -7,6 +7,7 @@
 
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/media/layers.h"
 #include "unit/renderers/one_pixel.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -15,6 +16,7 @@ namespace {
 using testing::center;
 using testing::expect_near;
 using testing::glowing;
+using testing::passed;
 using testing::SceneMaker;
 
 constexpr double kGlass = 1.5, kWater = 1.333;
@@ -28,26 +30,6 @@ Material clear(double index, double absorption) {
 
 BoxShape cube(double half) {
     return {{-half, -half, -half}, {half, half, half}};
-}
-
-struct Layer {
-    double index, absorption = 0, thickness = 0;
-};
-/// The share of the light that passes all layers, with the geometric series of the reflections
-/// between them; the first and the last layer are the surroundings.
-double passed(const std::vector<Layer>& layers) {
-    double through = 1.0, back = 0.0;  // of the layers so far; `back`: seen from behind
-    for (std::size_t i = 1; i < layers.size(); ++i) {
-        const double m = layers[i - 1].index, n = layers[i].index;
-        const double r = std::pow((m - n) / (m + n), 2.0);
-        const double orders = 1.0 / (1.0 - back * r);
-        through *= (1.0 - r) * orders;
-        back = r + (1.0 - r) * (1.0 - r) * back * orders;
-        const double left = std::exp(-layers[i].absorption * layers[i].thickness);
-        through *= left;
-        back *= left * left;
-    }
-    return through;
 }
 
 /// Surroundings without light, seen from above the origin, and a light below.
@@ -64,7 +46,7 @@ SceneMaker above_a_light(double air) {
     return maker;
 }
 
-void expect_passed(SceneMaker& maker, const std::vector<Layer>& layers) {
+void expect_passed(SceneMaker& maker, const std::vector<testing::Layer>& layers) {
     const double t = passed(layers);
     expect_near(center(maker.compile()), {t, t, t}, 1e-9);
 }
