@@ -7,7 +7,8 @@
 /// Constants of Metal Films", Applied Optics 34, 1995 (aluminium); the tables of them in
 /// Polyanskiy, refractiveindex.info (public domain). Linearly interpolated at 611.4, 549.1 and
 /// 464.3 nm, the dominant wavelengths of the primaries of sRGB, and rounded to three digits.
-/// Differs: three wavelengths stand for three channels, in place of integrals of the spectrum.
+/// Differs: three wavelengths stand for three channels, in place of integrals of the spectrum: up to
+/// 11 % of a channel of gold's reflectance, 6 % of copper's.
 
 #include <optional>
 #include <span>
