@@ -60,10 +60,11 @@ class SrgbCodes {
     [[nodiscard]] std::uint16_t code(double c) const {
         if (!(c > 0.0)) return 0;  // NaN too
         if (c >= 1.0) return 255;
-        // In range: c * kSteps < kSteps, and the last threshold is infinite.
-        const double* next = thresholds_.data() + first_.data()[int(c * kSteps)] + 1;
-        while (c >= *next) ++next;
-        return std::uint16_t(next - thresholds_.data() - 1);
+        // In range: c * kSteps < kSteps. A step of c is less than a code (the curve's slope is at
+        // most 12.92), so that it has one threshold at most.
+        static_assert(12.92 * 255.0 < double(kSteps));
+        const std::uint16_t first = first_.data()[int(c * kSteps)];
+        return std::uint16_t(first + (c >= thresholds_.data()[first + 1] ? 1 : 0));
     }
 
   private:
