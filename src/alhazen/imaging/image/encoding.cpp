@@ -1,5 +1,6 @@
 #include "alhazen/imaging/image/encoding.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -118,11 +119,18 @@ void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint1
     }
     if (bits == 8) {
         static const SrgbCodes kCodes;
-        for (std::size_t i = 0; i < codes.size(); ++i) {
-            // Backgrounds repeat pixels.
-            const bool repeats = i >= 3 && rgb[i] == rgb[i - 3];
-            codes.data()[i] = repeats ? codes.data()[i - 3] : kCodes.code(rgb[i]);
+        // Backgrounds repeat pixels.
+        double last[3] = {0.0, 0.0, 0.0};
+        std::uint16_t code[3] = {0, 0, 0};
+        std::size_t i = 0;
+        for (; i + 3 <= codes.size(); i += 3) {
+            const double* const pixel = rgb + i;
+            if (pixel[0] != last[0] || pixel[1] != last[1] || pixel[2] != last[2]) {
+                for (int k = 0; k < 3; ++k) code[k] = kCodes.code(last[k] = pixel[k]);
+            }
+            std::copy_n(code, 3, codes.data() + i);
         }
+        for (; i < codes.size(); ++i) codes.data()[i] = kCodes.code(rgb[i]);
         return;
     }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.
