@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <cstring>
 #include <random>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "alhazen/imaging/codecs/png.h"
@@ -93,6 +96,50 @@ TEST(PngFilter, TheFirstOfEqualSumsIsTaken) {
     EXPECT_EQ(best_png_filter(without_margin(same), without_margin(same), 3), PngFilter::Up);
 }
 
+TEST(PngFilter, DifferencesAreThoseOfTheStandard) {
+    std::mt19937 random(5);
+    for (int turn = 0; turn < 2000; ++turn) {
+        const std::size_t pixel = 1 + random() % 8, bytes = 1 + random() % 300;
+        const Row above = random_row(random, bytes, 64), row = random_row(random, bytes, 64);
+        for (int filter = 0; filter < 5; ++filter) {
+            Row filtered(bytes + 1, 77);
+            apply_png_filter(PngFilter(filter), without_margin(row), without_margin(above), pixel,
+                             filtered.data());
+            for (std::size_t i = 0; i < bytes; ++i) {
+                const std::size_t at = kPngRowMargin + i;
+                const int p = predicted(filter, row[at - pixel], above[at], above[at - pixel]);
+                ASSERT_EQ(filtered[i], std::uint8_t(row[at] - p)) << filter << ", byte " << i;
+            }
+            ASSERT_EQ(filtered[bytes], 77) << filter;
+        }
+    }
+}
+
+/// The bytes of the rows with their filters, decompressed by zlib.
+Row filtered_rows_of(const std::vector<std::byte>& file) {
+    Row stream;
+    std::size_t at = 8;
+    const auto number = [&](std::size_t from) {
+        std::size_t value = 0;
+        for (std::size_t i = from; i < from + 4; ++i) value = value << 8 | std::size_t(file[i]);
+        return value;
+    };
+    while (at < file.size()) {
+        const std::size_t bytes = number(at);
+        const auto* data = reinterpret_cast<const std::uint8_t*>(file.data()) + at + 4;
+        if (std::memcmp(data, "IDAT", 4) == 0)
+            stream.insert(stream.end(), data + 4, data + 4 + bytes);
+        EXPECT_EQ(crc32(crc32(0, nullptr, 0), data, uInt(bytes + 4)), number(at + 8 + bytes));
+        at += 12 + bytes;
+    }
+    EXPECT_EQ(at, file.size());
+    Row rows(std::size_t{1} << 20);
+    uLongf size = rows.size();
+    EXPECT_EQ(uncompress(rows.data(), &size, stream.data(), stream.size()), Z_OK);
+    rows.resize(size);
+    return rows;
+}
+
 /// The file as libpng writes it when it chooses the filters.
 std::vector<std::byte> written_by_libpng(const EncodedImage& image) {
     static constexpr int kColourType[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
@@ -128,7 +175,14 @@ std::vector<std::byte> written_by_libpng(const EncodedImage& image) {
     return bytes;
 }
 
-TEST(PngFilter, FilesAreThoseThatLibpngWritesWithItsOwnChoice) {
+std::vector<std::uint16_t> codes_of(const StoredImage& image) {
+    return std::visit(
+        [](const auto& codes) { return std::vector<std::uint16_t>(codes.begin(), codes.end()); },
+        image.samples);
+}
+
+/// Sizes above 1: for one row or column libpng tries fewer filters.
+TEST(PngFilter, RowsAreThoseThatLibpngWritesWithItsOwnChoice) {
     std::mt19937 random(11);
     const std::array<std::array<int, 2>, 7> sizes = {
         {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {33, 17}, {120, 60}, {257, 90}}};
@@ -144,9 +198,17 @@ TEST(PngFilter, FilesAreThoseThatLibpngWritesWithItsOwnChoice) {
                     image.samples.push_back(
                         std::uint16_t((i / 7 + y * y / 5 + noise) & (bits == 8 ? 255u : 65535u)));
                 }
-                EXPECT_EQ(encode_png(image, {}), written_by_libpng(image))
-                    << width << "x" << height << ", " << channels << " channels, " << bits
-                    << " bits";
+                const std::vector<std::byte> file = encode_png(image, {});
+                const Row rows = filtered_rows_of(file);
+                const std::string name = std::to_string(width) + "x" + std::to_string(height) +
+                                         ", " + std::to_string(channels) + " channels, " +
+                                         std::to_string(bits) + " bits";
+                if (width > 1 && height > 1) {
+                    EXPECT_EQ(rows, filtered_rows_of(written_by_libpng(image))) << name;
+                }
+                const auto* text = reinterpret_cast<const char*>(file.data());
+                const StoredImage read = decode_png({text, file.size()}, "a.png", {});
+                EXPECT_EQ(codes_of(read), image.samples) << name;
             }
         }
     }

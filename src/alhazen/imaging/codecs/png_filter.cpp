@@ -34,14 +34,29 @@ int paeth(int a, int b, int c) {
     return pb <= pc ? b : c;
 }
 
+/// By the filter, from the bytes to the left, above, and above to the left.
+int prediction(PngFilter filter, int a, int b, int c) {
+    switch (filter) {
+        case PngFilter::None:
+            return 0;
+        case PngFilter::Sub:
+            return a;
+        case PngFilter::Up:
+            return b;
+        case PngFilter::Average:
+            return (a + b) / 2;
+        case PngFilter::Paeth:
+            return paeth(a, b, c);
+    }
+    return 0;
+}
+
 /// Adds those of one byte.
 void add_costs(const std::uint8_t* x, const std::uint8_t* above, std::size_t pixel, Sums& sums) {
     const int a = *(x - pixel), b = *above, c = *(above - pixel);
-    sums[0] += cost(*x, 0);
-    sums[1] += cost(*x, a);
-    sums[2] += cost(*x, b);
-    sums[3] += cost(*x, (a + b) / 2);
-    sums[4] += cost(*x, paeth(a, b, c));
+    for (std::size_t filter = 0; filter < kFilters; ++filter) {
+        sums[filter] += cost(*x, prediction(PngFilter(filter), a, b, c));
+    }
 }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -65,6 +80,28 @@ HWY_INLINE Vector paeth(Vector a, Vector b, Vector c) {
     return hn::IfThenElse(nearest, a, b_or_c);
 }
 
+/// Rounded down.
+HWY_INLINE Vector mean(Vector a, Vector b) {
+    const Vector odd = hn::And(hn::Xor(a, b), hn::Set(Bytes(), 1));
+    return hn::Sub(hn::AverageRound(a, b), odd);
+}
+
+HWY_INLINE Vector prediction(PngFilter filter, Vector a, Vector b, Vector c) {
+    switch (filter) {
+        case PngFilter::None:
+            return hn::Zero(Bytes());
+        case PngFilter::Sub:
+            return a;
+        case PngFilter::Up:
+            return b;
+        case PngFilter::Average:
+            return mean(a, b);
+        case PngFilter::Paeth:
+            return paeth(a, b, c);
+    }
+    return hn::Zero(Bytes());
+}
+
 HWY_INLINE Sum costs(Vector x, Vector predicted) {
     const Vector difference = hn::Sub(x, predicted);
     return hn::SumsOf8(hn::Min(difference, hn::Sub(hn::Zero(Bytes()), difference)));
@@ -84,12 +121,10 @@ void sum_costs(std::span<const std::uint8_t> row, const std::uint8_t* above, std
         const Vector here = hn::LoadU(d, x + i);
         const Vector a = hn::LoadU(d, x + i - pixel), b = hn::LoadU(d, above + i),
                      c = hn::LoadU(d, above + i - pixel);
-        // The lanes' mean is rounded up.
-        const Vector odd = hn::And(hn::Xor(a, b), hn::Set(d, 1));
         none = hn::Add(none, costs(here, hn::Zero(d)));
         sub = hn::Add(sub, costs(here, a));
         up = hn::Add(up, costs(here, b));
-        average = hn::Add(average, costs(here, hn::Sub(hn::AverageRound(a, b), odd)));
+        average = hn::Add(average, costs(here, mean(a, b)));
         best = hn::Add(best, costs(here, paeth(a, b, c)));
     }
     const auto total = [&](Sum lanes) {
@@ -104,6 +139,26 @@ void sum_costs(std::span<const std::uint8_t> row, const std::uint8_t* above, std
     for (; i < row.size(); ++i) add_costs(x + i, above + i, pixel, sums);
 }
 
+/// Subtracts the predictions of the filter.
+template <PngFilter filter>
+void subtract(std::span<const std::uint8_t> row, const std::uint8_t* above, std::size_t pixel,
+              std::uint8_t* filtered) {
+    const std::uint8_t* const x = row.data();
+    std::size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+    const Bytes d;
+    for (; i + hn::Lanes(d) <= row.size(); i += hn::Lanes(d)) {
+        const Vector a = hn::LoadU(d, x + i - pixel), b = hn::LoadU(d, above + i),
+                     c = hn::LoadU(d, above + i - pixel);
+        hn::StoreU(hn::Sub(hn::LoadU(d, x + i), prediction(filter, a, b, c)), d, filtered + i);
+    }
+#endif
+    for (; i < row.size(); ++i) {
+        const int a = *(x + i - pixel), b = above[i], c = *(above + i - pixel);
+        filtered[i] = std::uint8_t(x[i] - prediction(filter, a, b, c));
+    }
+}
+
 }  // namespace
 
 PngFilter best_png_filter_of_target(std::span<const std::uint8_t> row, const std::uint8_t* above,
@@ -111,6 +166,23 @@ PngFilter best_png_filter_of_target(std::span<const std::uint8_t> row, const std
     Sums sums;
     sum_costs(row, above, pixel, sums);
     return PngFilter(std::min_element(sums.begin(), sums.end()) - sums.begin());
+}
+
+void apply_png_filter_of_target(PngFilter filter, std::span<const std::uint8_t> row,
+                                const std::uint8_t* above, std::size_t pixel,
+                                std::uint8_t* filtered) {
+    switch (filter) {
+        case PngFilter::None:
+            return subtract<PngFilter::None>(row, above, pixel, filtered);
+        case PngFilter::Sub:
+            return subtract<PngFilter::Sub>(row, above, pixel, filtered);
+        case PngFilter::Up:
+            return subtract<PngFilter::Up>(row, above, pixel, filtered);
+        case PngFilter::Average:
+            return subtract<PngFilter::Average>(row, above, pixel, filtered);
+        case PngFilter::Paeth:
+            return subtract<PngFilter::Paeth>(row, above, pixel, filtered);
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -121,10 +193,17 @@ HWY_AFTER_NAMESPACE();
 namespace alhazen {
 
 ALHAZEN_KERNEL_TABLE(best_png_filter_of_target);
+ALHAZEN_KERNEL_TABLE(apply_png_filter_of_target);
 
 PngFilter best_png_filter(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
                           std::size_t pixel) {
     return ALHAZEN_KERNEL(best_png_filter_of_target)(row, above.data(), pixel);
+}
+
+void apply_png_filter(PngFilter filter, std::span<const std::uint8_t> row,
+                      std::span<const std::uint8_t> above, std::size_t pixel,
+                      std::uint8_t* filtered) {
+    ALHAZEN_KERNEL(apply_png_filter_of_target)(filter, row, above.data(), pixel, filtered);
 }
 
 }  // namespace alhazen

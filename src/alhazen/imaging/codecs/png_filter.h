@@ -1,5 +1,5 @@
 #pragma once
-/// Selection of the filter of a PNG row, which predicts its bytes from earlier ones.
+/// The filters of a PNG row, which predict its bytes from earlier ones, and the selection of one.
 ///
 /// Source: ISO/IEC 15948 (PNG), clause 9 (the filters), and 12.7 (the filter with the least sum of
 /// absolute differences, as signed bytes).
@@ -20,6 +20,11 @@ enum class PngFilter : std::uint8_t { None, Sub, Up, Average, Paeth };
 /// 8. Both rows are preceded by `kPngRowMargin` zeros in memory.
 [[nodiscard]] PngFilter best_png_filter(std::span<const std::uint8_t> row,
                                         std::span<const std::uint8_t> above, std::size_t pixel);
+/// Sets `filtered`, of the size of `row`, to the differences of its bytes and their predictions.
+/// The other arguments are as above.
+void apply_png_filter(PngFilter filter, std::span<const std::uint8_t> row,
+                      std::span<const std::uint8_t> above, std::size_t pixel,
+                      std::uint8_t* filtered);
 inline constexpr std::size_t kPngRowMargin = 8;
 
 }  // namespace alhazen

@@ -1,5 +1,6 @@
 #include "alhazen/imaging/image/encoding.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -60,10 +61,11 @@ class SrgbCodes {
     [[nodiscard]] std::uint16_t code(double c) const {
         if (!(c > 0.0)) return 0;  // NaN too
         if (c >= 1.0) return 255;
-        // In range: c * kSteps < kSteps, and the last threshold is infinite.
-        const double* next = thresholds_.data() + first_.data()[int(c * kSteps)] + 1;
-        while (c >= *next) ++next;
-        return std::uint16_t(next - thresholds_.data() - 1);
+        // In range: c * kSteps < kSteps. A step of c is less than a code (the curve's slope is at
+        // most 12.92), so that it has one threshold at most.
+        static_assert(12.92 * 255.0 < double(kSteps));
+        const std::uint16_t first = first_.data()[int(c * kSteps)];
+        return std::uint16_t(first + (c >= thresholds_.data()[first + 1] ? 1 : 0));
     }
 
   private:
@@ -117,11 +119,18 @@ void encode(const double* rgb, Encoding encoding, int bits, std::span<std::uint1
     }
     if (bits == 8) {
         static const SrgbCodes kCodes;
-        for (std::size_t i = 0; i < codes.size(); ++i) {
-            // Backgrounds repeat pixels.
-            const bool repeats = i >= 3 && rgb[i] == rgb[i - 3];
-            codes.data()[i] = repeats ? codes.data()[i - 3] : kCodes.code(rgb[i]);
+        // Backgrounds repeat pixels.
+        double last[3] = {0.0, 0.0, 0.0};
+        std::uint16_t code[3] = {0, 0, 0};
+        std::size_t i = 0;
+        for (; i + 3 <= codes.size(); i += 3) {
+            const double* const pixel = rgb + i;
+            if (pixel[0] != last[0] || pixel[1] != last[1] || pixel[2] != last[2]) {
+                for (int k = 0; k < 3; ++k) code[k] = kCodes.code(last[k] = pixel[k]);
+            }
+            std::copy_n(code, 3, codes.data() + i);
         }
+        for (; i < codes.size(); ++i) codes.data()[i] = kCodes.code(rgb[i]);
         return;
     }
     // Caches the last codes: backgrounds repeat values, and the curve is expensive.

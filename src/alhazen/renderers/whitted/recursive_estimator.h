@@ -74,6 +74,7 @@ class RecursiveEstimator {
           conventions_(job.scene.conventions.shading),
           counters_(counters),
           rays_at_once_(rays_at_once),
+          eye_path_{.cone = job.cone},
           ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
@@ -95,10 +96,9 @@ class RecursiveEstimator {
 
     /// Writes the radiance along eye rays of unit direction.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
-        Path path{.cone = job_.cone};
-        eye_.begin(rays, path);
-        for (Path& p : eye_.paths()) {
-            p.sample = path.sample++;
+        eye_.begin(rays, eye_path_);
+        for (std::uint32_t sample = 0; Path& p : eye_.paths()) {
+            p.sample = sample++;
             p.time = random_.time(p.sample);
         }
         trace_all(eye_, 0);
@@ -408,6 +408,7 @@ class RecursiveEstimator {
     const ShadingConventions& conventions_;
     RayCounters& counters_;
     std::size_t rays_at_once_;
+    const Path eye_path_;  ///< of every eye ray; as a local it is kept in pieces and copied slowly
     const std::vector<Rgb> ambient_;
     std::vector<std::size_t> shadow_lights_;  ///< numbers of the lights with shadow rays
     std::span<Hit> eye_hits_;                 ///< see keep_hits
