@@ -3,8 +3,10 @@
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
 ///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact] [--masks]
 ///            [--target AVX3|AVX2|SSE4]
+///        alhazen_kernel_bench SCENE... --instructions [--rays N] [--side N] [--only RAYS] ...
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
-/// SCENE: see kernel_scenes.h. --check measures no times: it counts the rays on which the tracers
+/// SCENE: see kernel_scenes.h. --instructions counts those of some rays by single steps, the same
+/// numbers in every run. --check measures no times: it counts the rays on which the tracers
 /// disagree and resolves each disagreement by brute force in extended precision.
 
 #include <fmt/format.h>
@@ -13,8 +15,10 @@
 #include <optional>
 
 #include "alhazen/base/file.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/simd/targets.h"
 #include "command_line.h"
+#include "instruction_count.h"
 #include "report.h"
 #ifdef ALHAZEN_HAVE_EMBREE
 #include "check.h"
@@ -31,8 +35,9 @@ struct Settings {
     int rounds = 5;
     std::string only;  ///< name of a ray set; empty: all
     BuildOptions build{BuildQuality::High};
-    bool masks = false;  ///< also measures with masks
-    std::string target;  ///< instruction set of all tracers; empty: the best
+    bool masks = false;                     ///< also measures with masks
+    std::string target;                     ///< instruction set of all tracers; empty: the best
+    std::size_t counted_rays = 4 * kBatch;  ///< of each set, for --instructions
 };
 
 /// Embree's name of a target.
@@ -112,34 +117,126 @@ void add_peers(const Peers& peers, const RaySet& set,
 }
 #endif
 
+/// Our trees of a scene and those of the peer.
+struct Trees {
+    Trees(const KernelScene& scene, const Settings& settings)
+        : robust(build_ours(scene, settings.build)),
+          fast(build_ours(scene, with_float(settings.build))),
+          masked(settings.masks ? build_masked(scene, settings.build) : nullptr),
+          peers(scene, embree_isa(settings.target)) {}
+
+    static BuildOptions with_float(BuildOptions options) {
+        options.precision = Precision::Fast;
+        return options;
+    }
+
+    std::shared_ptr<const Aggregate> robust, fast, masked;
+    Peers peers;
+};
+
+/// All ways to trace a set, with their rays and results.
+class SetTracers {
+  public:
+    SetTracers(const Trees& trees, const RaySet& set)
+        : columns_(set), ours_(*trees.robust, set), fast_(*trees.fast, set) {
+        list = our_contenders(ours_, fast_, columns_.rays());
+        if (trees.masked != nullptr) {
+            add_masked(masked_.emplace(*trees.masked, set, kSeeing), list);
+        }
+#ifdef ALHAZEN_HAVE_EMBREE
+        add_peers(trees.peers, set, packets_, list);
+#endif
+    }
+    SetTracers(const SetTracers&) = delete;
+    SetTracers& operator=(const SetTracers&) = delete;
+
+    std::vector<Contender> list;
+
+  private:
+    ColumnsOfRays columns_;
+    OurTracer ours_, fast_;
+    std::optional<OurTracer> masked_;
+#ifdef ALHAZEN_HAVE_EMBREE
+    std::vector<std::unique_ptr<EmbreePackets>> packets_;
+#endif
+};
+
+std::vector<RaySet> sets_of(const KernelScene& scene, const Trees& trees,
+                            const Settings& settings) {
+    std::vector<RaySet> sets = ray_sets(scene, *trees.robust, settings.side);
+    std::erase_if(sets, [&](const RaySet& set) {
+        return set.rays.empty() || (!settings.only.empty() && set.name != settings.only);
+    });
+    return sets;
+}
+
 SceneResult run(const KernelScene& scene, const Settings& settings) {
-    const auto aggregate = build_ours(scene, settings.build);
-    BuildOptions fast_options = settings.build;
-    fast_options.precision = Precision::Fast;
-    const auto fast = build_ours(scene, fast_options);
-    const auto masked = settings.masks ? build_masked(scene, settings.build) : nullptr;
-    const Peers peers(scene, embree_isa(settings.target));
+    const Trees trees(scene, settings);
     SceneResult result{scene.name, scene.contents(), {}};
     fmt::print("{}: {}\n", scene.name, result.contents);
-    for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
-        if (!settings.only.empty() && set.name != settings.only) continue;
-        if (set.rays.empty()) continue;
-        const ColumnsOfRays columns(set);
-        OurTracer ours(*aggregate, set), ours_fast(*fast, set);
-        std::vector<Contender> tracers = our_contenders(ours, ours_fast, columns.rays());
-        std::optional<OurTracer> ours_masked;
-        if (masked != nullptr) add_masked(ours_masked.emplace(*masked, set, kSeeing), tracers);
-#ifdef ALHAZEN_HAVE_EMBREE
-        std::vector<std::unique_ptr<EmbreePackets>> packets;
-        add_peers(peers, set, packets, tracers);
-#endif
-        SetResult row{set.name, set.rays.size(), count_work(*aggregate, set),
-                      measure(tracers, set.rays.size(), settings.rounds)};
+    for (const RaySet& set : sets_of(scene, trees, settings)) {
+        const SetTracers tracers(trees, set);
+        SetResult row{set.name, set.rays.size(), count_work(*trees.robust, set),
+                      measure(tracers.list, set.rays.size(), settings.rounds)};
         fmt::print("{}", as_text(row));
         std::fflush(stdout);
         result.sets.push_back(std::move(row));
     }
     return result;
+}
+
+/// Whole batches of the set at places drawn with a fixed seed: about `count` rays. Even steps would
+/// stay in one column of the picture.
+RaySet some_batches(const RaySet& set, std::size_t count) {
+    const std::size_t all = set.rays.size() / kBatch;
+    const std::size_t some = std::max<std::size_t>(count / kBatch, 1);
+    if (all <= some) return set;
+    RandomStream random(1);
+    RaySet part{set.name, set.any_hit, set.coherent, {}};
+    for (std::size_t i = 0; i < some; ++i) {
+        const auto* first = set.rays.data() + random.below(all) * kBatch;
+        part.rays.insert(part.rays.end(), first, first + kBatch);
+    }
+    return part;
+}
+
+InstructionResult count_set(const Trees& trees, const RaySet& set) {
+    const SetTracers tracers(trees, set);
+    InstructionResult row{set.name, set.rays.size(), {}};
+    for (const Contender& t : tracers.list) {
+        if (t.group != kOurs && t.group != kRobust) continue;
+        const auto prepare = [&] {
+            if (t.prepare) t.prepare();
+        };
+        // What is made at the first call is not counted.
+        prepare();
+        t.trace();
+        const std::size_t hits = t.count_hits();
+        prepare();
+        const auto counted = static_cast<double>(count_instructions(t.trace));
+        row.tracers.push_back(
+            {t.group, t.name, hits, counted / static_cast<double>(set.rays.size())});
+    }
+    return row;
+}
+
+void run_instructions(const CommandLine& line, const Settings& settings, const RunFacts& facts) {
+    check_instruction_count();
+    std::vector<InstructionScene> scenes;
+    for (const std::string& spec : line.rest) {
+        const KernelScene scene = make_scene(spec);
+        const Trees trees(scene, settings);
+        InstructionScene& result =
+            scenes.emplace_back(InstructionScene{scene.name, scene.contents(), {}});
+        fmt::print("{}: {}\n", scene.name, result.contents);
+        for (const RaySet& set : sets_of(scene, trees, settings)) {
+            result.sets.push_back(count_set(trees, some_batches(set, settings.counted_rays)));
+            fmt::print("{}", as_text(result.sets.back()));
+            std::fflush(stdout);
+        }
+        const std::string markdown = line.text("--markdown", "");
+        if (!markdown.empty()) write_file_atomically(markdown, as_markdown(facts, scenes));
+    }
 }
 
 /// Returns the number of rays that wide_bvh gets wrong plus that of undetected planted errors.
@@ -178,10 +275,10 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
 }
 
 int run_program(int argc, char** argv) {
-    const CommandLine line(
-        argc, argv,
-        {"--side", "--rounds", "--only", "--json", "--markdown", "--build", "--width", "--target"},
-        {"--check", "--compact", "--masks"});
+    const CommandLine line(argc, argv,
+                           {"--side", "--rounds", "--only", "--json", "--markdown", "--build",
+                            "--width", "--target", "--rays"},
+                           {"--check", "--compact", "--instructions", "--masks"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
     }
@@ -195,6 +292,7 @@ int run_program(int argc, char** argv) {
     if (line.has("--compact")) settings.build.leaves = Leaves::Indices;
     settings.masks = line.has("--masks");
     settings.target = line.text("--target", "");
+    settings.counted_rays = line.count("--rays", settings.counted_rays);
     std::optional<SimdTargetOverride> forced;
     if (!settings.target.empty()) forced.emplace(settings.target);
     if (line.has("--check")) {
@@ -203,6 +301,10 @@ int run_program(int argc, char** argv) {
         return faults == 0 ? 0 : 1;
     }
     const RunFacts facts = run_facts(argc, argv, settings.rounds);
+    if (line.has("--instructions")) {
+        run_instructions(line, settings, facts);
+        return 0;
+    }
     std::vector<SceneResult> scenes;
     for (const std::string& spec : line.rest) {
         scenes.push_back(run(make_scene(spec), settings));

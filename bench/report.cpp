@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "alhazen/parallel/parallel.h"
@@ -86,11 +88,11 @@ std::string hit_differences(const SetResult& set) {
 }
 
 /// One row per set; only the first row of a scene contains its name.
-template <class Cells>
-std::string rows(const std::vector<SceneResult>& scenes, Cells&& cells) {
+template <class Scene, class Cells>
+std::string rows(const std::vector<Scene>& scenes, Cells&& cells) {
     std::string text;
-    for (const SceneResult& scene : scenes) {
-        for (const SetResult& set : scene.sets) {
+    for (const Scene& scene : scenes) {
+        for (const auto& set : scene.sets) {
             const bool first = &set == &scene.sets.front();
             text += fmt::format("| {} | {} |{}\n",
                                 first ? fmt::format("{}: {}", scene.name, scene.contents) : "",
@@ -124,6 +126,47 @@ std::string medians_row(const SetResult& set) {
                        best(robust), best(best_of(set.tracers, kFast)), ratio(single, robust1),
                        ratio(single, robust), ratio(batch, robust), ratio(columns, robust),
                        ratio(single, fast), ratio(batch, fast_batch));
+}
+
+/// Null if there is none.
+const Counted* find(const InstructionResult& set, const std::string& group,
+                    const std::string& name) {
+    const auto place = std::ranges::find_if(set.tracers, [&](const Counted& c) {
+        return c.group == group && (c.name == name || c.name.starts_with(name + ","));
+    });
+    return place == set.tracers.end() ? nullptr : &*place;
+}
+
+/// The peer's robust call of the fewest instructions, among those with the right number of hits.
+const Counted* least_robust(const InstructionResult& set) {
+    const Counted* least = nullptr;
+    const auto expected = static_cast<double>(set.tracers.front().hits);
+    for (const Counted& c : set.tracers) {
+        const bool right = std::abs(static_cast<double>(c.hits) - expected) <= 0.005 * expected;
+        if (c.group != kRobust || !right) continue;
+        if (least == nullptr || c.per_ray < least->per_ray) least = &c;
+    }
+    return least;
+}
+
+std::string whole(const Counted* c) {
+    return c == nullptr ? "-" : fmt::format("{:.0f}", c->per_ray);
+}
+
+std::string quotient(const Counted* a, const Counted* b) {
+    if (a == nullptr || b == nullptr) return "-";
+    return fmt::format("{:.2f}", a->per_ray / b->per_ray);
+}
+
+std::string instructions_row(const InstructionResult& set) {
+    const Counted *single = find(set, kOurs, "single"), *batch = find(set, kOurs, "batch");
+    const Counted *columns = find(set, kOurs, "columns"), *robust1 = find(set, kRobust, "1");
+    const Counted* least = least_robust(set);
+    return fmt::format(
+        " {} | {} | {} | {} | {} | {} | {} | {} |", whole(single), whole(batch), whole(columns),
+        whole(robust1),
+        least == nullptr ? "-" : fmt::format("{:.0f} ({})", least->per_ray, least->name),
+        quotient(single, robust1), quotient(batch, least), quotient(columns, least));
 }
 
 }  // namespace
@@ -224,6 +267,26 @@ std::string as_markdown(const RunFacts& facts, const std::vector<SceneResult>& s
            "\nWhere the numbers of hits differ:\n\n| scene | rays | hits of ours | Embree |\n"
            "|---|---|---|---|\n" +
            differences;
+}
+
+std::string as_text(const InstructionResult& set) {
+    std::string text = fmt::format("  {}: {} rays\n", set.rays, set.count);
+    for (const Counted& c : set.tracers) {
+        text += fmt::format("    {:<14}{:<20}{:9.1f} instructions per ray  {} hits\n", c.group,
+                            c.name, c.per_ray, c.hits);
+    }
+    return text;
+}
+
+std::string as_markdown(const RunFacts& facts, const std::vector<InstructionScene>& scenes) {
+    return fmt::format(
+               "`{}`\n\n{}. Instructions per ray, counted by single steps. `least`: the call of "
+               "Embree's robust mode that takes the fewest.\n\n"
+               "| scene | rays | `wide_bvh` single | batch | columns | Embree robust 1 | robust "
+               "least | single / robust 1 | batch / robust least | columns / robust least |\n"
+               "|---|---|---|---|---|---|---|---|---|---|\n",
+               facts.command, facts.machine) +
+           rows(scenes, instructions_row);
 }
 
 }  // namespace alhazen::bench

@@ -27,6 +27,24 @@ struct SceneResult {
     std::vector<SetResult> sets;
 };
 
+/// Instructions per ray.
+struct Counted {
+    std::string group, name;
+    std::size_t hits = 0;
+    double per_ray = 0;
+};
+
+struct InstructionResult {
+    std::string rays;
+    std::size_t count = 0;
+    std::vector<Counted> tracers;
+};
+
+struct InstructionScene {
+    std::string name, contents;
+    std::vector<InstructionResult> sets;
+};
+
 /// Settings of a run, for the head of a table.
 struct RunFacts {
     std::string command;
@@ -43,5 +61,10 @@ struct RunFacts {
 /// hits if they differ.
 [[nodiscard]] std::string as_markdown(const RunFacts& facts,
                                       const std::vector<SceneResult>& scenes);
+
+[[nodiscard]] std::string as_text(const InstructionResult& set);
+/// A table of ours and of the peer's robust calls.
+[[nodiscard]] std::string as_markdown(const RunFacts& facts,
+                                      const std::vector<InstructionScene>& scenes);
 
 }  // namespace alhazen::bench
