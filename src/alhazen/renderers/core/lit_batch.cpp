@@ -1,0 +1,103 @@
+#include "alhazen/renderers/core/lit_batch.h"
+
+#include <algorithm>
+
+#include "alhazen/shading/materials/texture_inputs.h"
+
+namespace alhazen {
+
+namespace {
+
+LitMaterial lit_material(const Scene& scene, const Material& material,
+                         std::span<const Rgb> ambient) {
+    LitMaterial lit;
+    if (reads_textures(material)) return lit;
+    lit.sample = evaluate(material, scene.textures, SurfaceLookup{});
+    const MaterialSample& sample = lit.sample;
+    lit.fits = sample.coverage == 1.0 && sample.transmissive.is_black() && !sample.physical &&
+               !is_unseen_from_behind(sample);
+    ShadingPoint point;
+    point.own = sample;
+    lit.base = unshadowed_terms(scene.conventions.shading, ambient, point);
+    lit.shiny = !sample.specular.is_black();
+    return lit;
+}
+
+}  // namespace
+
+LitBatch::LitBatch(const Scene& scene, std::span<const Rgb> ambient)
+    : scene_(scene), ambient_(ambient) {
+    const auto emits = [](const Rgb& light) { return !light.is_black(); };
+    const bool depends_on_view = scene.conventions.shading.ambient_from_eye &&
+                                 std::any_of(ambient.begin(), ambient.end(), emits);
+    if (scene.has_motion || depends_on_view) return;
+    for (const Material& material : scene.materials) {
+        materials_.push_back(lit_material(scene, material, ambient));
+        any_ = any_ || materials_.back().fits;
+    }
+    if (!any_) return;
+    first_triangle_ = PrimitiveId{scene.aggregate->primitives().first(kTriangleKind)};
+    for (const Light& light : scene.lights) {
+        if (illuminates(light)) lights_.push_back(&light);
+    }
+    known_.resize(kKnown);
+}
+
+void LitBatch::learn(const Hit& hit, PrimitiveId around, Known& known) const {
+    known = {hit.primitive, around, surface_source(*scene_.aggregate, hit), nullptr};
+    if (known.source.kind == SurfaceSource::Kind::None) return;
+    const LitMaterial& material = materials_[static_cast<std::size_t>(known.source.material)];
+    if (material.fits) known.material = &material;
+}
+
+void LitBatch::add(const Known& known, std::size_t k, const Ray& ray, const Hit& hit,
+                   std::span<Rgb> radiance) {
+    Group* group = nullptr;
+    for (Group& other : groups_) {
+        if (!other.surfaces.takes(known.source)) continue;
+        group = &other;
+        if (!other.surfaces.empty()) break;
+    }
+    if (group == nullptr) {
+        group = &groups_[next_];
+        next_ = (next_ + 1) % kGroups;
+        shade(*group, radiance);
+    }
+    if (group->surfaces.empty()) group->lanes.shiny = 0;
+    const std::size_t lane = group->surfaces.add(known.source, ray, hit);
+    group->lanes.set(lane, ray.direction, known.source.side, *known.material);
+    group->number[lane] = k;
+    group->ray[lane] = &ray;
+    group->primitive[lane] = known.primitive;
+    group->around[lane] = known.around;
+    if (group->surfaces.full()) shade(*group, radiance);
+}
+
+void LitBatch::shade(Group& group, std::span<Rgb> radiance) {
+    const std::size_t count = group.surfaces.size();
+    LitLanes& lanes = group.lanes;
+    const std::uint32_t wanted = (1u << count) - 1;
+    const std::uint32_t found = group.surfaces.find();
+    if (found == wanted) {
+        if (count < kRayLanes) lanes.fill(count);
+        shade_lanes(scene_.conventions.shading, lights_, count, group.surfaces.surfaces(), lanes);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        radiance[group.number[i]] +=
+            found == wanted ? Rgb{lanes.radiance[0][i], lanes.radiance[1][i], lanes.radiance[2][i]}
+                            : shade_alone(group, i);
+    }
+    group.surfaces.clear();
+}
+
+Rgb LitBatch::shade_alone(const Group& group, std::size_t lane) {
+    Hit hit;
+    static_cast<ShapeHit&>(hit) = group.surfaces.hit(lane);
+    hit.primitive = group.primitive[lane];
+    if (group.around[lane] != kNoPrimitive) hit.path.push_back(group.around[lane]);
+    set_shading_point(scene_, *group.ray[lane], hit, {},
+                      {.coordinates = CoordinateNeed::of(scene_.reads_coordinates)}, alone_);
+    return unhindered_light(scene_, ambient_, alone_);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,84 @@
+#pragma once
+/// Lit batch: the light of hits on exact solids of opaque materials without textures, eight at a
+/// time in lanes.
+///
+/// Conventions: for eye rays through air, and renderers without shadows; radiance is bit for bit
+/// that of `unhindered_light`. Hits that lanes do not cover are left to the caller.
+/// Threads: used by one thread.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "alhazen/primitives/surface_group.h"
+#include "alhazen/renderers/core/lit_lanes.h"
+#include "alhazen/renderers/core/local_shading.h"
+
+namespace alhazen {
+
+class LitBatch {
+  public:
+    /// `ambient`: as for `unshadowed_terms`. The scene must outlive the batch.
+    LitBatch(const Scene& scene, std::span<const Rgb> ambient);
+
+    /// Takes the hit of ray k, which is unit and stays valid until `finish`, to add its light to
+    /// `radiance[k]`. False if lanes do not cover it.
+    bool take(std::size_t k, const Ray& ray, const Hit& hit, std::span<Rgb> radiance) {
+        if (!any_ || hit.part != 0) return false;
+        if (hit.path.empty() ? hit.primitive >= first_triangle_ : hit.path.size() > 1) return false;
+        const Known& known = look_up(hit);
+        if (known.material == nullptr) return false;
+        add(known, k, ray, hit, radiance);
+        return true;
+    }
+    /// Adds the light of all hits taken.
+    void finish(std::span<Rgb> radiance) {
+        for (Group& group : groups_) {
+            if (!group.surfaces.empty()) shade(group, radiance);
+        }
+    }
+
+  private:
+    /// A primitive inside at most one instance.
+    struct Known {
+        PrimitiveId primitive = kNoPrimitive, around = kNoPrimitive;
+        SurfaceSource source;
+        const LitMaterial* material = nullptr;  ///< null: not in lanes
+    };
+    struct Group {
+        SurfaceGroup surfaces;
+        LitLanes lanes;
+        std::array<std::size_t, kRayLanes> number;  ///< of the ray
+        std::array<const Ray*, kRayLanes> ray;
+        std::array<PrimitiveId, kRayLanes> primitive, around;
+    };
+    static constexpr std::size_t kKnown = 512, kGroups = 4;
+
+    [[nodiscard]] const Known& look_up(const Hit& hit) {
+        const PrimitiveId around = hit.path.empty() ? kNoPrimitive : hit.path[0];
+        const auto mixed =
+            static_cast<std::uint32_t>(hit.primitive) + 37 * static_cast<std::uint32_t>(around);
+        Known& known = known_[mixed % kKnown];
+        if (known.primitive != hit.primitive || known.around != around) learn(hit, around, known);
+        return known;
+    }
+    void learn(const Hit& hit, PrimitiveId around, Known& known) const;
+    void add(const Known& known, std::size_t k, const Ray& ray, const Hit& hit,
+             std::span<Rgb> radiance);
+    void shade(Group& group, std::span<Rgb> radiance);
+    [[nodiscard]] Rgb shade_alone(const Group& group, std::size_t lane);
+
+    const Scene& scene_;
+    const std::span<const Rgb> ambient_;
+    bool any_ = false;
+    PrimitiveId first_triangle_{};        ///< of the outermost aggregate
+    std::vector<LitMaterial> materials_;  ///< [material]
+    std::vector<const Light*> lights_;    ///< those that illuminate
+    std::vector<Known> known_;
+    std::array<Group, kGroups> groups_;
+    std::size_t next_ = 0;  ///< the group that is shaded first if none takes a hit
+    ShadingPoint alone_;
+};
+
+}  // namespace alhazen

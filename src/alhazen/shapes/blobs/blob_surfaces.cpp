@@ -1,0 +1,147 @@
+/// The surfaces of a blob in lanes (shapes/core/lane_surfaces.h).
+///
+/// Source: blob_surface.cpp, the same operations in the same order.
+/// Differs: components near any of the eight points are added for all, as 0 where they are not
+/// active. Blobs with rods, points beside a component that begins within the step to the surface,
+/// and points without a gradient are left to the scalar code.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "alhazen/shapes/blobs/blob.h"
+#include "alhazen/shapes/core/lane_surfaces.h"
+#include "alhazen/simd/dispatch.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/shapes/blobs/blob_surfaces.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include "alhazen/shapes/core/lane_surface_formulas-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace blob_surfaces {
+
+using namespace lane_surface_formulas;
+
+/// A component that is active, or nearly so, at some of the points.
+struct NearComponent {
+    const BlobComponent* component;
+    std::uint32_t active;  ///< the lanes where it is
+};
+struct NearComponents {
+    static constexpr std::size_t kMost = 64;
+    std::array<NearComponent, kMost> list;
+    std::size_t count = 0;
+};
+struct Density {
+    Doubles value;
+    Vectors gradient;
+};
+HWY_INLINE Density no_density() {
+    return {Doubles(0.0), vectors_of({})};
+}
+
+/// Adds the component to the sum, as 0 where it is not active, where q > 0.
+HWY_INLINE void add(const BlobComponent& c, const Vectors& r, const Doubles& q, const Mask& active,
+                    Density& sum) {
+    const Doubles own = select_lanes(active, q, Doubles(0.0));
+    sum.value = sum.value + Doubles(c.strength) * own * own;
+    sum.gradient =
+        sum.gradient - (Doubles(4.0 * c.strength) * own / Doubles(c.radius * c.radius)) * r;
+}
+HWY_INLINE Doubles profile_of(const BlobComponent& c, const Vectors& r) {
+    return Doubles(1.0) - dot(r, r) / Doubles(c.radius * c.radius);
+}
+
+HWY_INLINE Box3 box_of(const Vectors& p) {
+    alignas(64) double rows[3][kRayLanes];
+    store_vectors(p, rows);
+    Box3 box;
+    for (int k = 0; k < 3; ++k) {
+        box.lo[k] = *std::min_element(rows[k], rows[k] + kRayLanes);
+        box.hi[k] = *std::max_element(rows[k], rows[k] + kRayLanes);
+    }
+    return box;
+}
+
+/// The density at the points, which may move by `margin` afterwards: `near` holds the components
+/// that may be active then. False if components are too many, or are rods.
+HWY_INLINE bool density_near(const Blob& blob, const Vectors& p, double margin,
+                             NearComponents& near, Density& sum) {
+    bool fits = true;
+    blob.tree->for_box(box_of(p), [&](std::uint32_t i) HWY_ATTR {
+        const BlobComponent& c = blob.components[i];
+        if (c.rod || near.count == NearComponents::kMost) {
+            fits = false;
+            return;
+        }
+        const Vectors r = p - vectors_of(c.base);
+        const Doubles q = profile_of(c, r);
+        // A step s changes the root of 1 - q by s / radius: q <= -4 s / radius stays below 0.
+        const double room = 4.0 * margin / c.radius + 0x1p-40;
+        if (room < 1.0 && bits_of(q > Doubles(-room)) == 0) return;
+        const Mask active = !(q <= Doubles(0.0));
+        near.list[near.count++] = {&c, bits_of(active)};
+        add(c, r, q, active, sum);
+    });
+    return fits;
+}
+
+std::uint32_t blob(const Blob& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+    const Doubles nothing(0.0);
+    const Vectors origin = load_vectors(lanes.origin), d = load_vectors(lanes.direction);
+    const Vectors far = abs(origin);
+    const Doubles margin =
+        Doubles(0x1p-48) * (max_lanes(far.x, max_lanes(far.y, far.z)) + Doubles(shape.reach));
+    alignas(64) double margins[kRayLanes];
+    store_lanes(margin, margins);
+    Vectors p = hit_points(lanes);
+    NearComponents near;
+    Density before = no_density(), there = no_density();
+    const double most = *std::max_element(margins, margins + kRayLanes);
+    if (!density_near(shape, p, most, near, before)) return 0;
+    const Doubles steepness = sqrt(dot(before.gradient, before.gradient));
+    Mask sure = steepness > nothing;
+    const Doubles off = (Doubles(shape.threshold) - before.value) / steepness;
+    const Doubles step =
+        select_lanes(off < -margin, -margin, select_lanes(margin < off, margin, off));
+    p = p + (step / steepness) * before.gradient;
+    std::uint32_t begun = 0;
+    for (std::size_t i = 0; i < near.count; ++i) {
+        const BlobComponent& c = *near.list[i].component;
+        const Vectors r = p - vectors_of(c.base);
+        const Doubles q = profile_of(c, r);
+        const Mask active = !(q <= nothing);
+        begun |= bits_of(active) & ~near.list[i].active;
+        add(c, r, q, active, there);
+    }
+    Vectors normal = unit_of(-there.gradient, sure);
+    normal = select_lanes(dot(normal, d) * load_lanes(lanes.v) < nothing, -normal, normal);
+    return finish(p, normal, sure, wanted & ~begun, lanes);
+}
+
+}  // namespace blob_surfaces
+
+auto blob_surfaces_of_target() -> std::uint32_t (*)(const Blob&, std::uint32_t, LaneSurfaces&) {
+    return &blob_surfaces::blob;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+ALHAZEN_KERNEL_TABLE(blob_surfaces_of_target);
+
+std::uint32_t lane_surfaces(const Blob& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+    return ALHAZEN_KERNEL(blob_surfaces_of_target)()(shape, wanted, lanes);
+}
+
+}  // namespace alhazen
+#endif
