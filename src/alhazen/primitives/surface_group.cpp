@@ -39,7 +39,7 @@ void set_own_source(const Aggregate& aggregate, PrimitiveId id, SurfaceSource& s
         }
         source.material = column.materials[index];
     });
-    if (aggregate.turns_normal(id)) source.side = -source.side;
+    if (aggregate.turns_normal(id)) source.turned = !source.turned;
 }
 
 }  // namespace
@@ -57,34 +57,21 @@ SurfaceSource surface_source(const Aggregate& aggregate, const Hit& hit) {
     set_own_source(*instance.aggregate, hit.primitive, source);
     source.in_place = instance.in_place && instance.placement.outer_from_inner == Affine{};
     if (!source.in_place) source.instance = &instance.placement;
-    if (aggregate.turns_normal(hit.path[0])) source.side = -source.side;
+    if (aggregate.turns_normal(hit.path[0])) source.turned = !source.turned;
     return source;
 }
 
-std::size_t SurfaceGroup::add(const SurfaceSource& source, const Ray& ray, const ShapeHit& hit) {
-    const std::size_t lane = count_++;
-    if (lane == 0) first_ = source;
-    if (source.own == nullptr && source.instance == nullptr) {
-        surfaces_.set(lane, ray, hit);
-    } else {
-        Ray inner = ray;
-        if (source.instance != nullptr) {
-            inner = transformed(source.instance->inner_from_outer, inner);
-        }
-        if (source.own != nullptr) inner = transformed(source.own->inner_from_outer, inner);
-        surfaces_.set(lane, inner, hit);
-    }
-    if (source.kind == Kind::Sphere) {
-        spheres_.set(lane, *static_cast<const Sphere*>(source.shape));
-    } else if (source.kind == Kind::Side) {
-        frusta_.set(lane, *static_cast<const Frustum*>(source.shape));
-    }
-    return lane;
+void SurfaceGroup::set_placed(std::size_t lane, const SurfaceSource& source, const Ray& ray,
+                              const ShapeHit& hit) {
+    Ray inner = ray;
+    if (source.instance != nullptr) inner = transformed(source.instance->inner_from_outer, inner);
+    if (source.own != nullptr) inner = transformed(source.own->inner_from_outer, inner);
+    surfaces_.set(lane, inner, hit);
 }
 
 std::uint32_t SurfaceGroup::find() {
     const std::uint32_t wanted = (1u << count_) - 1;
-    if (count_ < kRayLanes) {
+    if (count_ < kSurfaceLanes) {
         fill_lanes(surfaces_.origin, count_);
         fill_lanes(surfaces_.direction, count_);
         fill_lanes(surfaces_.t, count_);
@@ -112,9 +99,9 @@ std::uint32_t SurfaceGroup::find() {
             break;
     }
     if (found == 0) return 0;
-    if (first_.own != nullptr) carry_lanes_outward(*first_.own, surfaces_);
-    if (first_.instance != nullptr) carry_lanes_outward(*first_.instance, surfaces_);
-    if (first_.in_place) carry_lanes_in_place(surfaces_);
+    if (first_.own != nullptr) carry_lanes_outward(*first_.own, count_, surfaces_);
+    if (first_.instance != nullptr) carry_lanes_outward(*first_.instance, count_, surfaces_);
+    if (first_.in_place) carry_lanes_in_place(count_, surfaces_);
     return found;
 }
 

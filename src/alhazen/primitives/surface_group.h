@@ -1,5 +1,5 @@
 #pragma once
-/// The points and normals of up to eight hits in lanes, for renderers that need no more of a
+/// The points and normals of up to sixteen hits in lanes, for renderers that need no more of a
 /// surface.
 ///
 /// Source: `set_surface`, the same operations in the same order.
@@ -19,10 +19,11 @@ namespace alhazen {
 /// What the surface of a primitive is computed from, the same for all its hits.
 struct SurfaceSource {
     enum class Kind : std::uint8_t { None, Sphere, Side, OneShape };
+    static constexpr std::size_t kKinds = 4;
 
     Kind kind = Kind::None;  ///< None: not in lanes
     bool in_place = false;   ///< of an instance whose placement is the identity
-    double side = 1;         ///< -1: the normal is reversed
+    bool turned = false;     ///< the normal is reversed
     const void* shape = nullptr;
     /// OneShape: sets the surfaces of one shape.
     std::uint32_t (*find)(const void* shape, std::uint32_t wanted, LaneSurfaces& lanes) = nullptr;
@@ -37,7 +38,7 @@ struct SurfaceSource {
 class SurfaceGroup {
   public:
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] bool full() const { return count_ == kRayLanes; }
+    [[nodiscard]] bool full() const { return count_ == kSurfaceLanes; }
     [[nodiscard]] std::size_t size() const { return count_; }
     /// True if a hit of the source may be added.
     [[nodiscard]] bool takes(const SurfaceSource& source) const {
@@ -47,18 +48,39 @@ class SurfaceGroup {
                (source.kind != SurfaceSource::Kind::OneShape || source.shape == first_.shape);
     }
     /// Adds a hit on part 0; returns its lane. Precondition: `takes(source)` and not full.
-    std::size_t add(const SurfaceSource& source, const Ray& ray, const ShapeHit& hit);
+    std::size_t add(const SurfaceSource& source, const Ray& ray, const ShapeHit& hit) {
+        const std::size_t lane = count_++;
+        if (lane == 0) first_ = source;
+        if (source.own == nullptr && source.instance == nullptr) {
+            surfaces_.set(lane, ray, hit);
+        } else {
+            set_placed(lane, source, ray, hit);
+        }
+        if (source.kind == SurfaceSource::Kind::Sphere) {
+            spheres_.set(lane, *static_cast<const Sphere*>(source.shape));
+        } else if (source.kind == SurfaceSource::Kind::Side) {
+            frusta_.set(lane, *static_cast<const Frustum*>(source.shape));
+        }
+        return lane;
+    }
     /// Sets the surfaces; returns the lanes that are set.
     std::uint32_t find();
     void clear() { count_ = 0; }
 
     /// As the shapes have them: not reversed.
     [[nodiscard]] const LaneSurfaces& surfaces() const { return surfaces_; }
+    /// True if the rays of `surfaces` are those added.
+    [[nodiscard]] bool in_world() const {
+        return first_.own == nullptr && first_.instance == nullptr;
+    }
     [[nodiscard]] ShapeHit hit(std::size_t lane) const {
         return {surfaces_.t[lane], 0, surfaces_.v[lane], 0};
     }
 
   private:
+    void set_placed(std::size_t lane, const SurfaceSource& source, const Ray& ray,
+                    const ShapeHit& hit);
+
     SurfaceSource first_;
     std::size_t count_ = 0;
     LaneSurfaces surfaces_;

@@ -61,7 +61,7 @@ void check_lanes(const LaneSurfaces& lanes, std::uint32_t found, const std::vect
 }
 
 void set_lanes(const std::vector<RayHit>& hits, LaneSurfaces& lanes) {
-    for (std::size_t i = 0; i < kRayLanes; ++i) {
+    for (std::size_t i = 0; i < kSurfaceLanes; ++i) {
         const RayHit& h = hits[i < hits.size() ? i : 0];
         lanes.set(i, h.ray, h.hit);
     }
@@ -88,7 +88,7 @@ double check_shape(const S& shape, Random& random) {
     int wanted_count = 0, found_count = 0;
     for (int block = 0; block < 20 && !::testing::Test::HasFailure(); ++block) {
         std::vector<RayHit> hits{random_hit(shape, random)};
-        const std::size_t size = 1 + random.below(8);
+        const std::size_t size = 1 + random.below(16);
         while (hits.size() < size) hits.push_back(random_hit(shape, random));
         LaneSurfaces lanes;
         set_lanes(hits, lanes);
@@ -158,7 +158,7 @@ void check_many(std::uint64_t seed, Find&& find) {
     for_each_target(seed, [&](Random& random, int i) {
         std::vector<S> shapes;
         std::vector<RayHit> hits;
-        while (shapes.size() < kRayLanes) {
+        while (shapes.size() < kSurfaceLanes) {
             shapes.push_back(testing::random_shape<S>({random, i % 2 == 1}));
             hits.push_back(random_hit(shapes.back(), random));
         }
@@ -166,23 +166,23 @@ void check_many(std::uint64_t seed, Find&& find) {
         set_lanes(hits, lanes);
         const std::uint32_t found = find(shapes, lanes);
         check_lanes(lanes, found, hits, [&](std::size_t k) -> const S& { return shapes[k]; });
-        EXPECT_GE(std::popcount(found), 6);
+        EXPECT_GE(std::popcount(found), 12);
     });
 }
 
 TEST(LaneSurfaces, OfSpheresAreThoseOfEachHitAlone) {
     check_many<Sphere>(5, [](const std::vector<Sphere>& shapes, LaneSurfaces& lanes) {
         SphereLanes spheres;
-        for (std::size_t i = 0; i < kRayLanes; ++i) spheres.set(i, shapes[i]);
-        return sphere_surfaces(spheres, kAllRayLanes, lanes);
+        for (std::size_t i = 0; i < kSurfaceLanes; ++i) spheres.set(i, shapes[i]);
+        return sphere_surfaces(spheres, 0xffff, lanes);
     });
 }
 
 template <class S>
 std::uint32_t sides(const std::vector<S>& shapes, LaneSurfaces& lanes) {
     FrustumLanes frusta;
-    for (std::size_t i = 0; i < kRayLanes; ++i) frusta.set(i, shapes[i].frustum);
-    return side_surfaces(frusta, kAllRayLanes, lanes);
+    for (std::size_t i = 0; i < kSurfaceLanes; ++i) frusta.set(i, shapes[i].frustum);
+    return side_surfaces(frusta, 0xffff, lanes);
 }
 
 TEST(LaneSurfaces, OfSidesOfCylindersAndConesAreThoseOfEachHitAlone) {

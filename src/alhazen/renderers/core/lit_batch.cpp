@@ -52,25 +52,31 @@ void LitBatch::learn(const Hit& hit, PrimitiveId around, Known& known) const {
 
 void LitBatch::add(const Known& known, std::size_t k, const Ray& ray, const Hit& hit,
                    std::span<Rgb> radiance) {
-    Group* group = nullptr;
-    for (Group& other : groups_) {
-        if (!other.surfaces.takes(known.source)) continue;
-        group = &other;
-        if (!other.surfaces.empty()) break;
+    const auto kind = static_cast<std::size_t>(known.source.kind);
+    Group* group = &groups_[last_of_kind_[kind]];
+    if (!group->surfaces.takes(known.source)) {
+        group = &group_for(known.source, radiance);
+        last_of_kind_[kind] = static_cast<std::size_t>(group - groups_.data());
     }
-    if (group == nullptr) {
-        group = &groups_[next_];
-        next_ = (next_ + 1) % kGroups;
-        shade(*group, radiance);
-    }
-    if (group->surfaces.empty()) group->lanes.shiny = 0;
     const std::size_t lane = group->surfaces.add(known.source, ray, hit);
-    group->lanes.set(lane, ray.direction, known.source.side, *known.material);
+    group->lanes.set(lane, ray, known.source.turned, *known.material);
     group->number[lane] = k;
-    group->ray[lane] = &ray;
     group->primitive[lane] = known.primitive;
     group->around[lane] = known.around;
     if (group->surfaces.full()) shade(*group, radiance);
+}
+
+LitBatch::Group& LitBatch::group_for(const SurfaceSource& source, std::span<Rgb> radiance) {
+    for (Group& group : groups_) {
+        if (!group.surfaces.empty() && group.surfaces.takes(source)) return group;
+    }
+    for (Group& group : groups_) {
+        if (group.surfaces.empty()) return group;
+    }
+    Group& group = groups_[next_];
+    next_ = (next_ + 1) % kGroups;
+    shade(group, radiance);
+    return group;
 }
 
 void LitBatch::shade(Group& group, std::span<Rgb> radiance) {
@@ -79,8 +85,8 @@ void LitBatch::shade(Group& group, std::span<Rgb> radiance) {
     const std::uint32_t wanted = (1u << count) - 1;
     const std::uint32_t found = group.surfaces.find();
     if (found == wanted) {
-        if (count < kRayLanes) lanes.fill(count);
-        shade_lanes(scene_.conventions.shading, lights_, count, group.surfaces.surfaces(), lanes);
+        shade_lanes(scene_.conventions.shading, lights_, count, group.surfaces.in_world(),
+                    group.surfaces.surfaces(), lanes);
     }
     for (std::size_t i = 0; i < count; ++i) {
         radiance[group.number[i]] +=
@@ -95,7 +101,7 @@ Rgb LitBatch::shade_alone(const Group& group, std::size_t lane) {
     static_cast<ShapeHit&>(hit) = group.surfaces.hit(lane);
     hit.primitive = group.primitive[lane];
     if (group.around[lane] != kNoPrimitive) hit.path.push_back(group.around[lane]);
-    set_shading_point(scene_, *group.ray[lane], hit, {},
+    set_shading_point(scene_, *group.lanes.ray[lane], hit, {},
                       {.coordinates = CoordinateNeed::of(scene_.reads_coordinates)}, alone_);
     return unhindered_light(scene_, ambient_, alone_);
 }

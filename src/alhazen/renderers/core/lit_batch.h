@@ -1,5 +1,5 @@
 #pragma once
-/// Lit batch: the light of hits on exact solids of opaque materials without textures, eight at a
+/// Lit batch: the light of hits on exact solids of opaque materials without textures, sixteen at a
 /// time in lanes.
 ///
 /// Conventions: for eye rays through air, and renderers without shadows; radiance is bit for bit
@@ -49,9 +49,8 @@ class LitBatch {
     struct Group {
         SurfaceGroup surfaces;
         LitLanes lanes;
-        std::array<std::size_t, kRayLanes> number;  ///< of the ray
-        std::array<const Ray*, kRayLanes> ray;
-        std::array<PrimitiveId, kRayLanes> primitive, around;
+        std::array<std::size_t, kSurfaceLanes> number;  ///< of the ray
+        std::array<PrimitiveId, kSurfaceLanes> primitive, around;
     };
     static constexpr std::size_t kKnown = 512, kGroups = 4;
 
@@ -66,6 +65,8 @@ class LitBatch {
     void learn(const Hit& hit, PrimitiveId around, Known& known) const;
     void add(const Known& known, std::size_t k, const Ray& ray, const Hit& hit,
              std::span<Rgb> radiance);
+    /// A group that takes hits of the source.
+    [[nodiscard]] Group& group_for(const SurfaceSource& source, std::span<Rgb> radiance);
     void shade(Group& group, std::span<Rgb> radiance);
     [[nodiscard]] Rgb shade_alone(const Group& group, std::size_t lane);
 
@@ -77,6 +78,7 @@ class LitBatch {
     std::vector<const Light*> lights_;    ///< those that illuminate
     std::vector<Known> known_;
     std::array<Group, kGroups> groups_;
+    std::array<std::size_t, SurfaceSource::kKinds> last_of_kind_{};  ///< groups
     std::size_t next_ = 0;  ///< the group that is shaded first if none takes a hit
     ShadingPoint alone_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// The light of eight points of opaque materials without textures, in lanes.
+/// The light of up to sixteen points of opaque materials without textures, in lanes.
 ///
 /// Source: `unhindered_light` and `sample` of a light, the same operations in the same order.
 /// Differs: lights other than points and directions are sampled, and highlights are computed, lane
@@ -25,35 +25,29 @@ struct LitMaterial {
 };
 
 struct alignas(64) LitLanes {
-    double direction[3][kRayLanes];  ///< unit, of the rays in the world
-    double side[kRayLanes];          ///< -1: the normal is reversed
-    double base[3][kRayLanes], diffuse[3][kRayLanes];
-    double radiance[3][kRayLanes];  ///< the result
-    const LitMaterial* material[kRayLanes];
-    std::uint32_t shiny;  ///< lanes with highlights
+    double radiance[3][kSurfaceLanes];  ///< the result
+    const Ray* ray[kSurfaceLanes];      ///< unit, in the world
+    const LitMaterial* material[kSurfaceLanes];
+    std::uint32_t turned;  ///< lanes whose normals are reversed
+    std::uint32_t shiny;   ///< lanes with highlights
+    bool mixed;            ///< materials differ
 
-    void set(std::size_t lane, const Vec3& ray_direction, double side_of, const LitMaterial& of) {
-        for (int k = 0; k < 3; ++k) {
-            direction[k][lane] = ray_direction[k];
-            base[k][lane] = of.base[k];
-            diffuse[k][lane] = of.sample.diffuse[k];
+    void set(std::size_t lane, const Ray& of_lane, bool turns, const LitMaterial& of) {
+        if (lane == 0) {
+            turned = shiny = 0;
+            mixed = false;
         }
-        side[lane] = side_of;
+        ray[lane] = &of_lane;
         material[lane] = &of;
-        if (of.shiny) shiny |= 1u << lane;
-    }
-    /// Copies the first lane to those from `count` on.
-    void fill(std::size_t count) {
-        fill_lanes(direction, count);
-        fill_lanes(base, count);
-        fill_lanes(diffuse, count);
-        fill_lanes(side, count);
+        turned |= std::uint32_t{turns} << lane;
+        shiny |= std::uint32_t{of.shiny} << lane;
+        mixed = mixed || &of != material[0];
     }
 };
 
-/// Sets `radiance` of `count` lanes, from the surfaces as their shapes have them; others are
-/// filled. `lights`: those that illuminate.
+/// Sets `radiance` of the first `count` lanes, from the surfaces as their shapes have them.
+/// `in_world`: `surfaces` has the rays in the world. `lights`: those that illuminate.
 void shade_lanes(const ShadingConventions& conventions, std::span<const Light* const> lights,
-                 std::size_t count, const LaneSurfaces& surfaces, LitLanes& lanes);
+                 std::size_t count, bool in_world, const LaneSurfaces& surfaces, LitLanes& lanes);
 
 }  // namespace alhazen

@@ -26,49 +26,72 @@ namespace HWY_NAMESPACE {
 namespace polynomial_surfaces {
 
 using namespace lane_surface_formulas;
+template <std::size_t N>
+using Mask = LaneMask<double, N>;
 using Node = PolynomialExpression::Node;
 
-std::uint32_t torus(const Torus& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+template <std::size_t N>
+HWY_INLINE std::uint32_t torus_of(const Torus& shape, std::uint32_t wanted, std::size_t first,
+                                  LaneSurfaces& lanes) {
     const SolidFrame& frame = shape.frame;
-    const Doubles nothing(0.0), unit(1.0);
-    const Vectors p = times(frame.local_from_object, hit_points(lanes) - vectors_of(frame.origin));
+    const Numbers<N> nothing(0.0), unit(1.0);
+    const VectorLanes<N> p =
+        times(frame.local_from_object, hit_points<N>(lanes, first) - vectors_of<N>(frame.origin));
     // As `nearest_on_tube`.
-    const Doubles across = sqrt(p.x * p.x + p.y * p.y), out = across - unit;
-    const Doubles distance = sqrt(out * out + p.z * p.z);
-    Mask sure = (across > nothing) & (distance > nothing);
-    const Doubles scale = Doubles(shape.tube) / distance;
-    const Doubles ratio = (unit + out * scale) / across, radial = out / across;
-    const Vectors nearest{p.x * ratio, p.y * ratio, p.z * scale};
-    const Vectors gradient{p.x * radial, p.y * radial, p.z};
-    const Vectors normal = unit_of(transpose_times(frame.local_from_object, gradient), sure);
-    const Vectors point = times(frame.object_from_local, nearest) + vectors_of(frame.origin);
-    return finish(point, normal, sure, wanted, lanes);
+    const Numbers<N> across = sqrt(p.x * p.x + p.y * p.y), out = across - unit;
+    const Numbers<N> distance = sqrt(out * out + p.z * p.z);
+    Mask<N> sure = (across > nothing) & (distance > nothing);
+    const Numbers<N> scale = Numbers<N>(shape.tube) / distance;
+    const Numbers<N> ratio = (unit + out * scale) / across, radial = out / across;
+    const VectorLanes<N> nearest{p.x * ratio, p.y * ratio, p.z * scale};
+    const VectorLanes<N> gradient{p.x * radial, p.y * radial, p.z};
+    const VectorLanes<N> normal = unit_of(transpose_times(frame.local_from_object, gradient), sure);
+    const VectorLanes<N> point =
+        times(frame.object_from_local, nearest) + vectors_of<N>(frame.origin);
+    return finish(point, normal, sure, wanted, first, lanes);
 }
 
 /// Numbers of two doubles: math/double_double.h.
+template <std::size_t N>
 struct Pair {
-    Doubles high, low;
+    Numbers<N> high, low;
 };
-HWY_INLINE Pair two_sum(const Doubles& a, const Doubles& b) {
-    const Doubles sum = a + b, b_virtual = sum - a;
+template <std::size_t N>
+HWY_INLINE Pair<N> two_sum(const Numbers<N>& a, const Numbers<N>& b) {
+    const Numbers<N> sum = a + b, b_virtual = sum - a;
     return {sum, (a - (sum - b_virtual)) + (b - b_virtual)};
 }
-HWY_INLINE Pair fast_two_sum(const Doubles& a, const Doubles& b) {
-    const Doubles sum = a + b;
+template <std::size_t N>
+HWY_INLINE Pair<N> fast_two_sum(const Numbers<N>& a, const Numbers<N>& b) {
+    const Numbers<N> sum = a + b;
     return {sum, b - (sum - a)};
 }
-HWY_INLINE Pair operator-(const Pair& a) {
+template <std::size_t N>
+HWY_INLINE Pair<N> operator-(const Pair<N>& a) {
     return {-a.high, -a.low};
 }
-HWY_INLINE Pair operator+(const Pair& a, const Pair& b) {
-    const Pair s = two_sum(a.high, b.high), t = two_sum(a.low, b.low);
-    const Pair v = fast_two_sum(s.high, s.low + t.high);
+template <std::size_t N>
+HWY_INLINE Pair<N> operator+(const Pair<N>& a, const Pair<N>& b) {
+    const Pair<N> s = two_sum(a.high, b.high), t = two_sum(a.low, b.low);
+    const Pair<N> v = fast_two_sum(s.high, s.low + t.high);
     return fast_two_sum(v.high, t.low + v.low);
 }
-HWY_INLINE Pair operator*(const Pair& a, const Pair& b) {
-    const Doubles product = a.high * b.high, rest = mul_sub(a.high, b.high, product);
-    const Doubles low = mul_add(a.low, b.high, mul_add(a.high, b.low, a.low * b.low));
+template <std::size_t N>
+HWY_INLINE Pair<N> operator*(const Pair<N>& a, const Pair<N>& b) {
+    const Numbers<N> product = a.high * b.high, rest = mul_sub(a.high, b.high, product);
+    const Numbers<N> low = mul_add(a.low, b.high, mul_add(a.high, b.low, a.low * b.low));
     return fast_two_sum(product, rest + low);
+}
+
+/// The product of two doubles is exact, and is what the product of their pairs rounds to.
+template <std::size_t N>
+HWY_INLINE Pair<N> square_of(const Numbers<N>& a) {
+    const Numbers<N> product = a * a;
+    return {product, mul_sub(a, a, product)};
+}
+HWY_INLINE bool is_coordinate(const Node& n) {
+    using enum PolynomialExpression::Op;
+    return n.op == X || n.op == Y || n.op == Z;
 }
 
 constexpr std::size_t kMostNodes = 64;
@@ -80,111 +103,111 @@ struct NodeValues {
     T& operator[](std::size_t i) { return reinterpret_cast<T*>(bytes)[i]; }
 };
 
-/// The value of the expression, rounded from double-double.
-HWY_INLINE Doubles value_at(std::span<const Node> nodes, const Vectors& p) {
-    using enum PolynomialExpression::Op;
-    const Doubles nothing(0.0);
-    NodeValues<Pair> of;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Node& n = nodes[i];
-        switch (n.op) {
-            case Constant:
-                of[i] = {Doubles(n.constant.high), Doubles(n.constant.low)};
-                break;
-            case X:
-                of[i] = {p.x, nothing};
-                break;
-            case Y:
-                of[i] = {p.y, nothing};
-                break;
-            case Z:
-                of[i] = {p.z, nothing};
-                break;
-            case Add:
-                of[i] = of[n.a] + of[n.b];
-                break;
-            case Subtract:
-                of[i] = of[n.a] + -of[n.b];
-                break;
-            case Multiply:
-                of[i] = of[n.a] * of[n.b];
-                break;
-        }
-    }
-    return of[nodes.size() - 1].high;
-}
-
-HWY_INLINE Vectors gradient_at(std::span<const Node> nodes, const Vectors& p) {
+/// The value of the expression, rounded from double-double, and its gradient in double.
+template <std::size_t N>
+struct ValueAndGradient {
+    Numbers<N> value;
+    VectorLanes<N> gradient;
+};
+/// Both at once: neither waits for the other.
+template <std::size_t N>
+HWY_INLINE ValueAndGradient<N> at_point(std::span<const Node> nodes, const VectorLanes<N>& p) {
     using enum PolynomialExpression::Op;
     struct Value {
-        Doubles v;
-        Vectors g;
+        Pair<N> exact;
+        Numbers<N> v;
+        VectorLanes<N> g;
     };
+    const Numbers<N> nothing(0.0);
     NodeValues<Value> of;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node& n = nodes[i];
+        Value& out = of[i];
+        const Value &a = of[n.a], &b = of[n.b];
         switch (n.op) {
             case Constant:
-                of[i] = {Doubles(n.constant.high), vectors_of({})};
+                out.exact = {Numbers<N>(n.constant.high), Numbers<N>(n.constant.low)};
+                out.v = Numbers<N>(n.constant.high);
+                out.g = vectors_of<N>({});
                 break;
             case X:
-                of[i] = {p.x, vectors_of({1, 0, 0})};
+                out = {{p.x, nothing}, p.x, vectors_of<N>({1, 0, 0})};
                 break;
             case Y:
-                of[i] = {p.y, vectors_of({0, 1, 0})};
+                out = {{p.y, nothing}, p.y, vectors_of<N>({0, 1, 0})};
                 break;
             case Z:
-                of[i] = {p.z, vectors_of({0, 0, 1})};
+                out = {{p.z, nothing}, p.z, vectors_of<N>({0, 0, 1})};
                 break;
             case Add:
-                of[i] = {of[n.a].v + of[n.b].v, of[n.a].g + of[n.b].g};
+                out = {a.exact + b.exact, a.v + b.v, a.g + b.g};
                 break;
             case Subtract:
-                of[i] = {of[n.a].v - of[n.b].v, of[n.a].g - of[n.b].g};
+                out = {a.exact + -b.exact, a.v - b.v, a.g - b.g};
                 break;
             case Multiply:
-                of[i] = {of[n.a].v * of[n.b].v, of[n.b].v * of[n.a].g + of[n.a].v * of[n.b].g};
+                out.exact = n.a == n.b && is_coordinate(nodes[n.a]) ? square_of(a.exact.high)
+                                                                    : a.exact * b.exact;
+                out.v = a.v * b.v;
+                out.g = b.v * a.g + a.v * b.g;
                 break;
         }
     }
-    return of[nodes.size() - 1].g;
+    const Value& whole = of[nodes.size() - 1];
+    return {whole.exact.high, whole.g};
 }
 
-HWY_INLINE Doubles largest_of(const Vectors& v) {
+template <std::size_t N>
+HWY_INLINE Numbers<N> largest_of(const VectorLanes<N>& v) {
     return max_lanes(v.x, max_lanes(v.y, v.z));
 }
-HWY_INLINE Doubles length_of(const Vectors& v) {
+template <std::size_t N>
+HWY_INLINE Numbers<N> length_of(const VectorLanes<N>& v) {
     return sqrt(dot(v, v));
 }
 
-std::uint32_t algebraic(const Algebraic& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+template <std::size_t N>
+HWY_INLINE std::uint32_t algebraic_of(const Algebraic& shape, std::uint32_t wanted,
+                                      std::size_t first, LaneSurfaces& lanes) {
     const std::span<const Node> nodes(shape.polynomial->nodes());
-    if (!kFusesExactly || nodes.size() > kMostNodes) return 0;
-    const Doubles nothing(0.0);
-    Vectors p = hit_points(lanes);
-    Vectors gradient = gradient_at(nodes, p);
-    Doubles value = value_at(nodes, p), squared = dot(gradient, gradient);
-    Mask sure = squared > nothing;
-    const Vectors back = Doubles(-1e-6 * shape.size) * unit_of(load_vectors(lanes.direction), sure);
-    const Doubles most = Doubles(1e-5) * (length_of(p) + length_of(back));
+    const Numbers<N> nothing(0.0);
+    VectorLanes<N> p = hit_points<N>(lanes, first);
+    ValueAndGradient<N> f = at_point(nodes, p);
+    Numbers<N> squared = dot(f.gradient, f.gradient);
+    Mask<N> sure = squared > nothing;
+    const VectorLanes<N> back =
+        Numbers<N>(-1e-6 * shape.size) * unit_of(load_from<N>(lanes.direction, first), sure);
+    const Numbers<N> most = Numbers<N>(1e-5) * (length_of(p) + length_of(back));
     std::uint32_t moving = wanted & bits_of(sure);
     for (int i = 0; i < 2; ++i) {
-        const Vectors step = (value / squared) * gradient;
-        const Doubles size = length_of(step);
-        const Vectors next = p - step;
-        const Mask moves = (size <= most) & !(size <= Doubles(0x1p-51) * largest_of(abs(p))) &
-                           ((next.x < p.x) | (next.x > p.x) | (next.y < p.y) | (next.y > p.y) |
-                            (next.z < p.z) | (next.z > p.z));
+        const VectorLanes<N> step = (f.value / squared) * f.gradient;
+        const Numbers<N> size = length_of(step);
+        const VectorLanes<N> next = p - step;
+        const Mask<N> moves = (size <= most) & !(size <= Numbers<N>(0x1p-51) * largest_of(abs(p))) &
+                              ((next.x < p.x) | (next.x > p.x) | (next.y < p.y) | (next.y > p.y) |
+                               (next.z < p.z) | (next.z > p.z));
         moving &= bits_of(moves);
         if (moving == 0) break;
-        p = select_lanes(lanes_of_bits<double>(moving), next, p);
-        gradient = gradient_at(nodes, p);
-        squared = dot(gradient, gradient);
+        p = select_lanes(lanes_of_bits<double, N>(moving), next, p);
+        f = at_point(nodes, p);
+        squared = dot(f.gradient, f.gradient);
         moving &= bits_of(squared > nothing);
-        if (i == 0) value = value_at(nodes, p);
     }
     sure = sure & (squared > nothing);
-    return finish(p, unit_of(gradient, sure), sure, wanted, lanes);
+    return finish(p, unit_of(f.gradient, sure), sure, wanted, first, lanes);
+}
+
+std::uint32_t torus(const Torus& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+    return for_lane_blocks(wanted, [&](auto n, std::size_t first, std::uint32_t set) HWY_ATTR {
+        return torus_of<n()>(shape, set, first, lanes);
+    });
+}
+std::uint32_t algebraic(const Algebraic& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+    if (!kFusesExactly || shape.polynomial->nodes().size() > kMostNodes) return 0;
+    // Larger blocks take the steps of their slowest lane.
+    return for_blocks_of_eight(wanted, [&](auto n, std::size_t first, std::uint32_t set) HWY_ATTR {
+        return algebraic_of<n()>(shape, set, first, lanes);
+    });
 }
 
 }  // namespace polynomial_surfaces

@@ -26,6 +26,8 @@ namespace HWY_NAMESPACE {
 namespace blob_surfaces {
 
 using namespace lane_surface_formulas;
+template <std::size_t N>
+using Mask = LaneMask<double, N>;
 
 /// A component that is active, or nearly so, at some of the points.
 struct NearComponent {
@@ -37,41 +39,47 @@ struct NearComponents {
     std::array<NearComponent, kMost> list;
     std::size_t count = 0;
 };
+template <std::size_t N>
 struct Density {
-    Doubles value;
-    Vectors gradient;
+    Numbers<N> value;
+    VectorLanes<N> gradient;
 };
-HWY_INLINE Density no_density() {
-    return {Doubles(0.0), vectors_of({})};
+template <std::size_t N>
+HWY_INLINE Density<N> no_density() {
+    return {Numbers<N>(0.0), vectors_of<N>({})};
 }
 
 /// Adds the component to the sum, as 0 where it is not active, where q > 0.
-HWY_INLINE void add(const BlobComponent& c, const Vectors& r, const Doubles& q, const Mask& active,
-                    Density& sum) {
-    const Doubles own = select_lanes(active, q, Doubles(0.0));
-    sum.value = sum.value + Doubles(c.strength) * own * own;
+template <std::size_t N>
+HWY_INLINE void add(const BlobComponent& c, const VectorLanes<N>& r, const Numbers<N>& q,
+                    const Mask<N>& active, Density<N>& sum) {
+    const Numbers<N> own = select_lanes(active, q, Numbers<N>(0.0));
+    sum.value = sum.value + Numbers<N>(c.strength) * own * own;
     sum.gradient =
-        sum.gradient - (Doubles(4.0 * c.strength) * own / Doubles(c.radius * c.radius)) * r;
+        sum.gradient - (Numbers<N>(4.0 * c.strength) * own / Numbers<N>(c.radius * c.radius)) * r;
 }
-HWY_INLINE Doubles profile_of(const BlobComponent& c, const Vectors& r) {
-    return Doubles(1.0) - dot(r, r) / Doubles(c.radius * c.radius);
+template <std::size_t N>
+HWY_INLINE Numbers<N> profile_of(const BlobComponent& c, const VectorLanes<N>& r) {
+    return Numbers<N>(1.0) - dot(r, r) / Numbers<N>(c.radius * c.radius);
 }
 
-HWY_INLINE Box3 box_of(const Vectors& p) {
-    alignas(64) double rows[3][kRayLanes];
+template <std::size_t N>
+HWY_INLINE Box3 box_of(const VectorLanes<N>& p) {
+    alignas(64) double rows[3][N];
     store_vectors(p, rows);
     Box3 box;
     for (int k = 0; k < 3; ++k) {
-        box.lo[k] = *std::min_element(rows[k], rows[k] + kRayLanes);
-        box.hi[k] = *std::max_element(rows[k], rows[k] + kRayLanes);
+        box.lo[k] = *std::min_element(rows[k], rows[k] + N);
+        box.hi[k] = *std::max_element(rows[k], rows[k] + N);
     }
     return box;
 }
 
 /// The density at the points, which may move by `margin` afterwards: `near` holds the components
 /// that may be active then. False if components are too many, or are rods.
-HWY_INLINE bool density_near(const Blob& blob, const Vectors& p, double margin,
-                             NearComponents& near, Density& sum) {
+template <std::size_t N>
+HWY_INLINE bool density_near(const Blob& blob, const VectorLanes<N>& p, double margin,
+                             NearComponents& near, Density<N>& sum) {
     bool fits = true;
     blob.tree->for_box(box_of(p), [&](std::uint32_t i) HWY_ATTR {
         const BlobComponent& c = blob.components[i];
@@ -79,49 +87,58 @@ HWY_INLINE bool density_near(const Blob& blob, const Vectors& p, double margin,
             fits = false;
             return;
         }
-        const Vectors r = p - vectors_of(c.base);
-        const Doubles q = profile_of(c, r);
+        const VectorLanes<N> r = p - vectors_of<N>(c.base);
+        const Numbers<N> q = profile_of(c, r);
         // A step s changes the root of 1 - q by s / radius: q <= -4 s / radius stays below 0.
         const double room = 4.0 * margin / c.radius + 0x1p-40;
-        if (room < 1.0 && bits_of(q > Doubles(-room)) == 0) return;
-        const Mask active = !(q <= Doubles(0.0));
+        if (room < 1.0 && bits_of(q > Numbers<N>(-room)) == 0) return;
+        const Mask<N> active = !(q <= Numbers<N>(0.0));
         near.list[near.count++] = {&c, bits_of(active)};
         add(c, r, q, active, sum);
     });
     return fits;
 }
 
-std::uint32_t blob(const Blob& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
-    const Doubles nothing(0.0);
-    const Vectors origin = load_vectors(lanes.origin), d = load_vectors(lanes.direction);
-    const Vectors far = abs(origin);
-    const Doubles margin =
-        Doubles(0x1p-48) * (max_lanes(far.x, max_lanes(far.y, far.z)) + Doubles(shape.reach));
-    alignas(64) double margins[kRayLanes];
+template <std::size_t N>
+HWY_INLINE std::uint32_t blob_of(const Blob& shape, std::uint32_t wanted, std::size_t first,
+                                 LaneSurfaces& lanes) {
+    const Numbers<N> nothing(0.0);
+    const VectorLanes<N> origin = load_from<N>(lanes.origin, first),
+                         d = load_from<N>(lanes.direction, first);
+    const VectorLanes<N> far = abs(origin);
+    const Numbers<N> margin =
+        Numbers<N>(0x1p-48) * (max_lanes(far.x, max_lanes(far.y, far.z)) + Numbers<N>(shape.reach));
+    alignas(64) double margins[N];
     store_lanes(margin, margins);
-    Vectors p = hit_points(lanes);
+    VectorLanes<N> p = hit_points<N>(lanes, first);
     NearComponents near;
-    Density before = no_density(), there = no_density();
-    const double most = *std::max_element(margins, margins + kRayLanes);
+    Density<N> before = no_density<N>(), there = no_density<N>();
+    const double most = *std::max_element(margins, margins + N);
     if (!density_near(shape, p, most, near, before)) return 0;
-    const Doubles steepness = sqrt(dot(before.gradient, before.gradient));
-    Mask sure = steepness > nothing;
-    const Doubles off = (Doubles(shape.threshold) - before.value) / steepness;
-    const Doubles step =
+    const Numbers<N> steepness = sqrt(dot(before.gradient, before.gradient));
+    Mask<N> sure = steepness > nothing;
+    const Numbers<N> off = (Numbers<N>(shape.threshold) - before.value) / steepness;
+    const Numbers<N> step =
         select_lanes(off < -margin, -margin, select_lanes(margin < off, margin, off));
     p = p + (step / steepness) * before.gradient;
     std::uint32_t begun = 0;
     for (std::size_t i = 0; i < near.count; ++i) {
         const BlobComponent& c = *near.list[i].component;
-        const Vectors r = p - vectors_of(c.base);
-        const Doubles q = profile_of(c, r);
-        const Mask active = !(q <= nothing);
+        const VectorLanes<N> r = p - vectors_of<N>(c.base);
+        const Numbers<N> q = profile_of(c, r);
+        const Mask<N> active = !(q <= nothing);
         begun |= bits_of(active) & ~near.list[i].active;
         add(c, r, q, active, there);
     }
-    Vectors normal = unit_of(-there.gradient, sure);
-    normal = select_lanes(dot(normal, d) * load_lanes(lanes.v) < nothing, -normal, normal);
-    return finish(p, normal, sure, wanted & ~begun, lanes);
+    VectorLanes<N> normal = unit_of(-there.gradient, sure);
+    normal =
+        select_lanes(dot(normal, d) * load_lanes<N>(lanes.v + first) < nothing, -normal, normal);
+    return finish(p, normal, sure, wanted & ~begun, first, lanes);
+}
+
+std::uint32_t blob(const Blob& shape, std::uint32_t wanted, LaneSurfaces& lanes) {
+    return for_lane_blocks(wanted, [&](auto n, std::size_t first, std::uint32_t set)
+                                       HWY_ATTR { return blob_of<n()>(shape, set, first, lanes); });
 }
 
 }  // namespace blob_surfaces

@@ -16,22 +16,29 @@ namespace carried_lanes {
 
 using namespace lane_surface_formulas;
 
-HWY_INLINE Vectors normalized(const Vectors& v) {
-    return v / sqrt(dot(v, v));
+template <std::size_t N>
+HWY_INLINE void carry_from(const Placement* placement, std::size_t first, LaneSurfaces& lanes) {
+    VectorLanes<N> normal = load_from<N>(lanes.normal, first);
+    if (placement != nullptr) {
+        const Affine& outer = placement->outer_from_inner;
+        const VectorLanes<N> point = load_from<N>(lanes.point, first);
+        store_from(times(outer.linear, point) + vectors_of<N>(outer.translation), lanes.point,
+                   first);
+        normal = transpose_times(placement->inner_from_outer.linear, normal);
+    }
+    store_from(normal / sqrt(dot(normal, normal)), lanes.normal, first);
 }
 
-void carry(const Placement* placement, LaneSurfaces& lanes) {
-    const Vectors normal = load_vectors(lanes.normal);
-    if (placement == nullptr) return store_vectors(normalized(normal), lanes.normal);
-    const Affine &outer = placement->outer_from_inner, &inner = placement->inner_from_outer;
-    store_vectors(normalized(transpose_times(inner.linear, normal)), lanes.normal);
-    const Vectors point = load_vectors(lanes.point);
-    store_vectors(times(outer.linear, point) + vectors_of(outer.translation), lanes.point);
+void carry(const Placement* placement, std::size_t count, LaneSurfaces& lanes) {
+    for_lane_blocks((1u << count) - 1, [&](auto n, std::size_t first, std::uint32_t set) HWY_ATTR {
+        carry_from<n()>(placement, first, lanes);
+        return set;
+    });
 }
 
 }  // namespace carried_lanes
 
-auto carry_of_target() -> void (*)(const Placement*, LaneSurfaces&) {
+auto carry_of_target() -> void (*)(const Placement*, std::size_t, LaneSurfaces&) {
     return &carried_lanes::carry;
 }
 
@@ -44,11 +51,11 @@ namespace alhazen {
 
 ALHAZEN_KERNEL_TABLE(carry_of_target);
 
-void carry_lanes_outward(const Placement& placement, LaneSurfaces& lanes) {
-    ALHAZEN_KERNEL(carry_of_target)()(&placement, lanes);
+void carry_lanes_outward(const Placement& placement, std::size_t count, LaneSurfaces& lanes) {
+    ALHAZEN_KERNEL(carry_of_target)()(&placement, count, lanes);
 }
-void carry_lanes_in_place(LaneSurfaces& lanes) {
-    ALHAZEN_KERNEL(carry_of_target)()(nullptr, lanes);
+void carry_lanes_in_place(std::size_t count, LaneSurfaces& lanes) {
+    ALHAZEN_KERNEL(carry_of_target)()(nullptr, count, lanes);
 }
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// Points and normals of surfaces at eight hits, in lanes.
+/// Points and normals of surfaces at up to sixteen hits, in lanes.
 ///
 /// Conventions: each lane has the values of `plain_surface` (zeros may differ in sign), or is left
 /// to it. A shape with lanes declares `std::uint32_t lane_surfaces(const S&, std::uint32_t wanted,
@@ -15,20 +15,24 @@
 
 namespace alhazen {
 
+/// Registers of eight doubles hold them in two, where there are such.
+inline constexpr std::size_t kSurfaceLanes = 16;
+
 /// Copies the first lane of a row, or of each row, to the lanes from `count` on.
-inline void fill_lanes(double (&row)[kRayLanes], std::size_t count) {
-    for (std::size_t i = count; i < kRayLanes; ++i) row[i] = row[0];
+inline void fill_lanes(double (&row)[kSurfaceLanes], std::size_t count) {
+    for (std::size_t i = count; i < kSurfaceLanes; ++i) row[i] = row[0];
 }
-inline void fill_lanes(double (&rows)[3][kRayLanes], std::size_t count) {
+inline void fill_lanes(double (&rows)[3][kSurfaceLanes], std::size_t count) {
     for (auto& row : rows) fill_lanes(row, count);
 }
 
 struct alignas(64) LaneSurfaces {
     // ---- the hits
-    double origin[3][kRayLanes], direction[3][kRayLanes];  ///< rays in the frame of the shape
-    double t[kRayLanes], v[kRayLanes];                     ///< as ShapeHit
+    double origin[3][kSurfaceLanes],
+        direction[3][kSurfaceLanes];            ///< rays in the frame of the shape
+    double t[kSurfaceLanes], v[kSurfaceLanes];  ///< as ShapeHit
     // ---- the surfaces: `normal` is the shading normal, too
-    double point[3][kRayLanes], normal[3][kRayLanes];
+    double point[3][kSurfaceLanes], normal[3][kSurfaceLanes];
 
     void set(std::size_t lane, const Ray& ray, const ShapeHit& hit) {
         for (int k = 0; k < 3; ++k) {
@@ -45,9 +49,9 @@ concept HasLaneSurfaces = requires(const S& shape, LaneSurfaces& lanes) {
     lane_surfaces(shape, 0u, lanes);
 };
 
-/// Transforms points and normals out of an inner frame, as `set_surface` does.
-void carry_lanes_outward(const Placement& placement, LaneSurfaces& lanes);
+/// Transforms the first `count` points and normals out of an inner frame, as `set_surface` does.
+void carry_lanes_outward(const Placement& placement, std::size_t count, LaneSurfaces& lanes);
 /// The same for the identity.
-void carry_lanes_in_place(LaneSurfaces& lanes);
+void carry_lanes_in_place(std::size_t count, LaneSurfaces& lanes);
 
 }  // namespace alhazen

@@ -15,31 +15,50 @@ namespace HWY_NAMESPACE {
 namespace round_surfaces {
 
 using namespace lane_surface_formulas;
+template <std::size_t N>
+using Mask = LaneMask<double, N>;
 
-std::uint32_t spheres(const SphereLanes& spheres, std::uint32_t wanted, LaneSurfaces& lanes) {
-    const Vectors center = load_vectors(spheres.center);
-    Mask sure = lanes_of_bits<double>(kAllLanes);
-    const Vectors normal = unit_of(hit_points(lanes) - center, sure);
-    const Vectors point = center + load_lanes(spheres.radius) * normal;
-    return finish(point, normal, sure, wanted, lanes);
+template <std::size_t N>
+HWY_INLINE std::uint32_t spheres_of(const SphereLanes& spheres, std::uint32_t wanted,
+                                    std::size_t first, LaneSurfaces& lanes) {
+    const VectorLanes<N> center = load_from<N>(spheres.center, first);
+    Mask<N> sure = lanes_of_bits<double, N>((1u << N) - 1);
+    const VectorLanes<N> normal = unit_of(hit_points<N>(lanes, first) - center, sure);
+    const VectorLanes<N> point = center + load_lanes<N>(spheres.radius + first) * normal;
+    return finish(point, normal, sure, wanted, first, lanes);
 }
 
+template <std::size_t N>
+HWY_INLINE std::uint32_t sides_of(const FrustumLanes& frusta, std::uint32_t wanted,
+                                  std::size_t first, LaneSurfaces& lanes) {
+    const VectorLanes<N> center = load_from<N>(frusta.center, first),
+                         axis = load_from<N>(frusta.axis, first);
+    const Numbers<N> half_height = load_lanes<N>(frusta.half_height + first),
+                     slope = load_lanes<N>(frusta.slope + first),
+                     middle_radius = load_lanes<N>(frusta.middle_radius + first);
+    Mask<N> sure = lanes_of_bits<double, N>((1u << N) - 1);
+    const VectorLanes<N> from_center = hit_points<N>(lanes, first) - center;
+    const Numbers<N> along = dot(axis, from_center);
+    const VectorLanes<N> across = from_center - along * axis, outward = unit_of(across, sure);
+    const Numbers<N> distance = sqrt(dot(across, across)) - (middle_radius + slope * along);
+    const Numbers<N> foot = along + slope * distance / (Numbers<N>(1.0) + slope * slope);
+    const Numbers<N> height = select_lanes(foot < -half_height, -half_height,
+                                           select_lanes(half_height < foot, half_height, foot));
+    const Numbers<N> radius = middle_radius + slope * height;
+    const VectorLanes<N> point = center + height * axis + radius * outward;
+    const VectorLanes<N> normal = unit_of(outward - slope * axis, sure);
+    return finish(point, normal, sure, wanted, first, lanes);
+}
+
+std::uint32_t spheres(const SphereLanes& spheres, std::uint32_t wanted, LaneSurfaces& lanes) {
+    return for_lane_blocks(wanted, [&](auto n, std::size_t first, std::uint32_t set) HWY_ATTR {
+        return spheres_of<n()>(spheres, set, first, lanes);
+    });
+}
 std::uint32_t sides(const FrustumLanes& frusta, std::uint32_t wanted, LaneSurfaces& lanes) {
-    const Vectors center = load_vectors(frusta.center), axis = load_vectors(frusta.axis);
-    const Doubles half_height = load_lanes(frusta.half_height), slope = load_lanes(frusta.slope),
-                  middle_radius = load_lanes(frusta.middle_radius);
-    Mask sure = lanes_of_bits<double>(kAllLanes);
-    const Vectors from_center = hit_points(lanes) - center;
-    const Doubles along = dot(axis, from_center);
-    const Vectors across = from_center - along * axis, outward = unit_of(across, sure);
-    const Doubles distance = sqrt(dot(across, across)) - (middle_radius + slope * along);
-    const Doubles foot = along + slope * distance / (Doubles(1.0) + slope * slope);
-    const Doubles height = select_lanes(foot < -half_height, -half_height,
-                                        select_lanes(half_height < foot, half_height, foot));
-    const Doubles radius = middle_radius + slope * height;
-    const Vectors point = center + height * axis + radius * outward;
-    const Vectors normal = unit_of(outward - slope * axis, sure);
-    return finish(point, normal, sure, wanted, lanes);
+    return for_lane_blocks(wanted, [&](auto n, std::size_t first, std::uint32_t set) HWY_ATTR {
+        return sides_of<n()>(frusta, set, first, lanes);
+    });
 }
 
 }  // namespace round_surfaces

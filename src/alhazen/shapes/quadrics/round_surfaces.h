@@ -12,7 +12,7 @@
 namespace alhazen {
 
 struct alignas(64) SphereLanes {
-    double center[3][kRayLanes], radius[kRayLanes];
+    double center[3][kSurfaceLanes], radius[kSurfaceLanes];
 
     void set(std::size_t lane, const Sphere& sphere) {
         for (int k = 0; k < 3; ++k) center[k][lane] = sphere.center[k];
@@ -20,8 +20,8 @@ struct alignas(64) SphereLanes {
     }
 };
 struct alignas(64) FrustumLanes {
-    double center[3][kRayLanes], axis[3][kRayLanes];
-    double half_height[kRayLanes], middle_radius[kRayLanes], slope[kRayLanes];
+    double center[3][kSurfaceLanes], axis[3][kSurfaceLanes];
+    double half_height[kSurfaceLanes], middle_radius[kSurfaceLanes], slope[kSurfaceLanes];
 
     void set(std::size_t lane, const Frustum& frustum) {
         for (int k = 0; k < 3; ++k) {
