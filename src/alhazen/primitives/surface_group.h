@@ -24,12 +24,12 @@ struct SurfaceSource {
     Kind kind = Kind::None;  ///< None: not in lanes
     bool in_place = false;   ///< of an instance whose placement is the identity
     bool turned = false;     ///< the normal is reversed
+    MaterialId material{0};
     const void* shape = nullptr;
-    /// OneShape: sets the surfaces of one shape.
-    std::uint32_t (*find)(const void* shape, std::uint32_t wanted, LaneSurfaces& lanes) = nullptr;
     const Placement* own = nullptr;       ///< of the shape; null: none
     const Placement* instance = nullptr;  ///< of the instance around it; null: none, or in place
-    MaterialId material{0};
+    /// OneShape: sets the surfaces of one shape.
+    std::uint32_t (*find)(const void* shape, std::uint32_t wanted, LaneSurfaces& lanes) = nullptr;
 };
 
 /// The source of the primitive of a hit.

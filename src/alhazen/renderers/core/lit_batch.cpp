@@ -27,6 +27,7 @@ LitMaterial lit_material(const Scene& scene, const Material& material,
 
 LitBatch::LitBatch(const Scene& scene, std::span<const Rgb> ambient)
     : scene_(scene), ambient_(ambient) {
+    for (Group*& group : last_of_kind_) group = &groups_[0];
     const auto emits = [](const Rgb& light) { return !light.is_black(); };
     const bool depends_on_view = scene.conventions.shading.ambient_from_eye &&
                                  std::any_of(ambient.begin(), ambient.end(), emits);
@@ -44,38 +45,27 @@ LitBatch::LitBatch(const Scene& scene, std::span<const Rgb> ambient)
 }
 
 void LitBatch::learn(const Hit& hit, PrimitiveId around, Known& known) const {
-    known = {hit.primitive, around, surface_source(*scene_.aggregate, hit), nullptr};
+    known = {hit.primitive, around, nullptr, surface_source(*scene_.aggregate, hit)};
     if (known.source.kind == SurfaceSource::Kind::None) return;
     const LitMaterial& material = materials_[static_cast<std::size_t>(known.source.material)];
     if (material.fits) known.material = &material;
 }
 
-void LitBatch::add(const Known& known, std::size_t k, const Ray& ray, const Hit& hit,
-                   std::span<Rgb> radiance) {
-    const auto kind = static_cast<std::size_t>(known.source.kind);
-    Group* group = &groups_[last_of_kind_[kind]];
-    if (!group->surfaces.takes(known.source)) {
-        group = &group_for(known.source, radiance);
-        last_of_kind_[kind] = static_cast<std::size_t>(group - groups_.data());
-    }
-    const std::size_t lane = group->surfaces.add(known.source, ray, hit);
-    group->lanes.set(lane, ray, known.source.turned, *known.material);
-    group->number[lane] = k;
-    group->primitive[lane] = known.primitive;
-    group->around[lane] = known.around;
-    if (group->surfaces.full()) shade(*group, radiance);
-}
-
 LitBatch::Group& LitBatch::group_for(const SurfaceSource& source, std::span<Rgb> radiance) {
-    for (Group& group : groups_) {
-        if (!group.surfaces.empty() && group.surfaces.takes(source)) return group;
-    }
-    for (Group& group : groups_) {
-        if (group.surfaces.empty()) return group;
-    }
-    Group& group = groups_[next_];
-    next_ = (next_ + 1) % kGroups;
-    shade(group, radiance);
+    const auto choose = [&]() -> Group& {
+        for (Group& group : groups_) {
+            if (!group.surfaces.empty() && group.surfaces.takes(source)) return group;
+        }
+        for (Group& group : groups_) {
+            if (group.surfaces.empty()) return group;
+        }
+        Group& group = groups_[next_];
+        next_ = (next_ + 1) % kGroups;
+        shade(group, radiance);
+        return group;
+    };
+    Group& group = choose();
+    last_of_kind_[static_cast<std::size_t>(source.kind)] = &group;
     return group;
 }
 

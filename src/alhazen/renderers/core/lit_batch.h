@@ -21,6 +21,8 @@ class LitBatch {
   public:
     /// `ambient`: as for `unshadowed_terms`. The scene must outlive the batch.
     LitBatch(const Scene& scene, std::span<const Rgb> ambient);
+    LitBatch(const LitBatch&) = delete;  // points into itself
+    LitBatch& operator=(const LitBatch&) = delete;
 
     /// Takes the hit of ray k, which is unit and stays valid until `finish`, to add its light to
     /// `radiance[k]`. False if lanes do not cover it.
@@ -29,7 +31,14 @@ class LitBatch {
         if (hit.path.empty() ? hit.primitive >= first_triangle_ : hit.path.size() > 1) return false;
         const Known& known = look_up(hit);
         if (known.material == nullptr) return false;
-        add(known, k, ray, hit, radiance);
+        Group* group = last_of_kind_[static_cast<std::size_t>(known.source.kind)];
+        if (!group->surfaces.takes(known.source)) group = &group_for(known.source, radiance);
+        const std::size_t lane = group->surfaces.add(known.source, ray, hit);
+        group->lanes.set(lane, ray, known.source.turned, *known.material);
+        group->number[lane] = static_cast<std::uint32_t>(k);
+        group->primitive[lane] = known.primitive;
+        group->around[lane] = known.around;
+        if (group->surfaces.full()) shade(*group, radiance);
         return true;
     }
     /// Adds the light of all hits taken.
@@ -41,18 +50,18 @@ class LitBatch {
 
   private:
     /// A primitive inside at most one instance.
-    struct Known {
+    struct alignas(64) Known {
         PrimitiveId primitive = kNoPrimitive, around = kNoPrimitive;
-        SurfaceSource source;
         const LitMaterial* material = nullptr;  ///< null: not in lanes
+        SurfaceSource source;
     };
     struct Group {
         SurfaceGroup surfaces;
         LitLanes lanes;
-        std::array<std::size_t, kSurfaceLanes> number;  ///< of the ray
-        std::array<PrimitiveId, kSurfaceLanes> primitive, around;
+        std::uint32_t number[kSurfaceLanes];  ///< of the ray
+        PrimitiveId primitive[kSurfaceLanes], around[kSurfaceLanes];
     };
-    static constexpr std::size_t kKnown = 512, kGroups = 4;
+    static constexpr std::size_t kKnown = 1024, kGroups = 4;
 
     [[nodiscard]] const Known& look_up(const Hit& hit) {
         const PrimitiveId around = hit.path.empty() ? kNoPrimitive : hit.path[0];
@@ -63,9 +72,7 @@ class LitBatch {
         return known;
     }
     void learn(const Hit& hit, PrimitiveId around, Known& known) const;
-    void add(const Known& known, std::size_t k, const Ray& ray, const Hit& hit,
-             std::span<Rgb> radiance);
-    /// A group that takes hits of the source.
+    /// A group that takes hits of the source, from now on the last one of its kind.
     [[nodiscard]] Group& group_for(const SurfaceSource& source, std::span<Rgb> radiance);
     void shade(Group& group, std::span<Rgb> radiance);
     [[nodiscard]] Rgb shade_alone(const Group& group, std::size_t lane);
@@ -78,7 +85,7 @@ class LitBatch {
     std::vector<const Light*> lights_;    ///< those that illuminate
     std::vector<Known> known_;
     std::array<Group, kGroups> groups_;
-    std::array<std::size_t, SurfaceSource::kKinds> last_of_kind_{};  ///< groups
+    Group* last_of_kind_[SurfaceSource::kKinds];
     std::size_t next_ = 0;  ///< the group that is shaded first if none takes a hit
     ShadingPoint alone_;
 };
