@@ -26,7 +26,7 @@ LitMaterial lit_material(const Scene& scene, const Material& material,
 }  // namespace
 
 LitBatch::LitBatch(const Scene& scene, std::span<const Rgb> ambient)
-    : scene_(scene), ambient_(ambient) {
+    : scene_(scene), ambient_(ambient), constant_(scene) {
     for (Group*& group : last_of_kind_) group = &groups_[0];
     const auto emits = [](const Rgb& light) { return !light.is_black(); };
     const bool depends_on_view = scene.conventions.shading.ambient_from_eye &&
@@ -91,8 +91,9 @@ Rgb LitBatch::shade_alone(const Group& group, std::size_t lane) {
     static_cast<ShapeHit&>(hit) = group.surfaces.hit(lane);
     hit.primitive = group.primitive[lane];
     if (group.around[lane] != kNoPrimitive) hit.path.push_back(group.around[lane]);
-    set_shading_point(scene_, *group.lanes.ray[lane], hit, {},
-                      {.coordinates = CoordinateNeed::of(scene_.reads_coordinates)}, alone_);
+    const PointNeeds needs{.coordinates = CoordinateNeed::of(scene_.reads_coordinates),
+                           .constant = &constant_};
+    set_shading_point(scene_, *group.lanes.ray[lane], hit, {}, needs, alone_);
     return unhindered_light(scene_, ambient_, alone_);
 }
 

@@ -87,6 +87,7 @@ class LitBatch {
     std::array<Group, kGroups> groups_;
     Group* last_of_kind_[SurfaceSource::kKinds];
     std::size_t next_ = 0;  ///< the group that is shaded first if none takes a hit
+    MaterialCache constant_;
     ShadingPoint alone_;
 };
 
