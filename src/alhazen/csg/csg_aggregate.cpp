@@ -163,7 +163,7 @@ void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
         surface.material_count = 1;
         surface.weights = {1, 0, 0};
     }
-    if (turned_[static_cast<std::size_t>(primitive)]) {
+    if (turns_normal(primitive)) {
         surface.normal = -surface.normal;
         surface.shading_normal = -surface.shading_normal;
     }

@@ -5,7 +5,6 @@
 /// Conventions: those of `Aggregate`; the primitive of a hit is the one whose surface is visible;
 /// the surface of a subtracted primitive is reversed (`complete`). All evaluators (csg_evaluator.h)
 /// give the same hits.
-/// same hits.
 /// Threads: const functions may be called from many threads.
 
 #include "alhazen/csg/csg_evaluator.h"
@@ -35,6 +34,9 @@ class CsgAggregate final : public SolidAggregate {
     [[nodiscard]] bool completes_surfaces() const override { return true; }
     [[nodiscard]] bool changes_materials() const override {
         return solid_.has_media() || !shows_minuend_.empty();
+    }
+    [[nodiscard]] bool turns_normal(PrimitiveId primitive) const override {
+        return turned_[static_cast<std::size_t>(primitive)];
     }
 
   private:

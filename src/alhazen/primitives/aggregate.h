@@ -83,6 +83,10 @@ class Aggregate {
     /// True if `complete` may change the material.
     [[nodiscard]] virtual bool changes_materials() const { return false; }
 
+    /// True if `complete` reverses the normals of a primitive. Where it does not change materials
+    /// it only reverses normals and adds to errors.
+    [[nodiscard]] virtual bool turns_normal(PrimitiveId) const { return false; }
+
     /// The interface for eight rays in lanes; null if lanes are not faster than single rays.
     [[nodiscard]] virtual const LaneSolid* lane_solid() const { return nullptr; }
 

@@ -261,11 +261,23 @@ double schlick_highlight(double cosine, double shininess) {
 
 }  // namespace
 
+Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& m,
+                   double highlight_cosine, double cosine, const Rgb& matt) {
+    // Only on the lit side: 0^0 would light every point of a material of shininess 0 from behind.
+    if (!(highlight_cosine > 0.0)) return matt;
+    const double falloff = m.physical ? cosine : 1.0;
+    const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
+    if (!schlick && is_lost(highlight_cosine, m.shininess, m.specular, matt)) return matt;
+    const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)
+                                     : std::pow(highlight_cosine, m.shininess);
+    return matt + (falloff * highlight) * m.specular;
+}
+
 Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
                        const LightSample& light, double cosine) {
     const MaterialSample& m = *point.material;
     const Vec3& to_light = light.to_light;
-    Rgb fraction = cosine * m.diffuse;
+    const Rgb fraction = cosine * m.diffuse;
     if (m.specular.is_black() || (!light.glints && !m.transmissive.is_black())) return fraction;
     double highlight_cosine;
     if (conventions.highlight == ShadingConventions::Highlight::BlinnPhong) {
@@ -274,18 +286,7 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         const Vec3 mirrored = 2.0 * cosine * point.normal - to_light;
         highlight_cosine = dot(mirrored, point.view);
     }
-    // Only on the lit side: 0^0 would light every point of a material of shininess 0 from behind.
-    if (highlight_cosine > 0.0) {
-        const double falloff = m.physical ? cosine : 1.0;
-        const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
-        if (!schlick && is_lost(highlight_cosine, m.shininess, m.specular, fraction)) {
-            return fraction;
-        }
-        const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)
-                                         : std::pow(highlight_cosine, m.shininess);
-        fraction += (falloff * highlight) * m.specular;
-    }
-    return fraction;
+    return with_highlight(conventions, m, highlight_cosine, cosine, fraction);
 }
 
 Rgb unhindered_light(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {

@@ -161,6 +161,10 @@ inline constexpr double kLeastTransmittance = 1.0 / 4096;
 [[nodiscard]] Rgb unshadowed_terms(const ShadingConventions& conventions,
                                    std::span<const Rgb> ambient, const ShadingPoint& point);
 
+/// `matt`, kd (N.L), and ks highlight, if its cosine is positive.
+[[nodiscard]] Rgb with_highlight(const ShadingConventions& conventions, const MaterialSample& m,
+                                 double highlight_cosine, double cosine, const Rgb& matt);
+
 /// kd (N.L) + ks highlight for a light as seen from the point, with N.L = `cosine` > 0.
 [[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions,
                                      const ShadingPoint& point, const LightSample& light,

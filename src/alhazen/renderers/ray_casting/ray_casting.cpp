@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "alhazen/renderers/core/lit_batch.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/pixel_loop.h"
 #include "alhazen/renderers/core/unlit_cache.h"
@@ -22,6 +23,7 @@ class Caster {
           eye_{0, 1.0, job.cone},
           ambient_(ambient_terms(job.scene.lights)),
           unlit_(job.scene, ambient_),
+          lit_(job.scene, ambient_),
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr) {}
 
     void trace(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
@@ -37,10 +39,12 @@ class Caster {
         };
         const auto take = [&](std::size_t k, const Hit& hit) {
             if (!eye_hits_.empty()) eye_hits_[k] = hit;
-            const Rgb* color = unlit_.find(hit);
-            if (color == nullptr) return false;
+            if (const Rgb* color = unlit_.find(hit)) {
+                radiance[k] += *color;
+            } else if (!lit_.take(k, eye_rays[k], hit, radiance)) {
+                return false;
+            }
             ++count_.hit;
-            radiance[k] += *color;
             return true;
         };
         if (known_hits_.empty()) {
@@ -48,6 +52,7 @@ class Caster {
         } else {
             visible_.go_on(known_hits_, eye_rays, path, tell, take);
         }
+        lit_.finish(radiance);
         for (int met = 1; met < kMaxPassedSurfaces && !behind_.empty(); ++met) {
             if (job_.stop_requested()) return;
             go_on(radiance);
@@ -106,6 +111,7 @@ class Caster {
     const OnWay eye_;  ///< the state of every eye ray at its start
     const std::vector<Rgb> ambient_;
     UnlitCache unlit_;
+    LitBatch lit_;
     VisibleBatch visible_;
     std::span<Hit> eye_hits_;          ///< see keep_hits
     std::span<const Hit> known_hits_;  ///< see start_from

@@ -19,6 +19,8 @@
 
 namespace alhazen {
 
+struct LaneSurfaces;
+
 struct Algebraic {
     static constexpr const char* kName = "algebraic";
     static constexpr int kMaxHits = PolynomialExpression::kMaxDegree + 2;
@@ -49,6 +51,9 @@ struct Algebraic {
 /// The first crossings of a packet (shapes/core/first_hits.h).
 [[nodiscard]] std::uint32_t first_hits(const Algebraic& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
+/// Surfaces in lanes (shapes/core/lane_surfaces.h).
+[[nodiscard]] std::uint32_t lane_surfaces(const Algebraic& shape, std::uint32_t wanted,
+                                          LaneSurfaces& lanes);
 /// The surface without texture coordinates (shapes/core/plain_surface.h).
 [[nodiscard]] ShapeSurface plain_surface(const Algebraic& shape, const Ray& ray,
                                          const ShapeHit& hit);

@@ -16,6 +16,8 @@
 
 namespace alhazen {
 
+struct LaneSurfaces;
+
 struct Torus {
     static constexpr const char* kName = "torus";
     static constexpr int kMaxHits = 4;
@@ -49,6 +51,9 @@ struct Torus {
 /// The first crossings of a packet (shapes/core/first_hits.h).
 [[nodiscard]] std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
+/// Surfaces in lanes (shapes/core/lane_surfaces.h).
+[[nodiscard]] std::uint32_t lane_surfaces(const Torus& shape, std::uint32_t wanted,
+                                          LaneSurfaces& lanes);
 /// The surface without texture coordinates (shapes/core/plain_surface.h).
 [[nodiscard]] ShapeSurface plain_surface(const Torus& shape, const Ray& ray, const ShapeHit& hit);
 

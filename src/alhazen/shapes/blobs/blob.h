@@ -22,6 +22,8 @@
 
 namespace alhazen {
 
+struct LaneSurfaces;
+
 /// A soft ball about `base`, or a soft rod with round ends from `base` to `top`.
 struct BlobComponent {
     Vec3 base{0, 0, 0}, top{0, 0, 0};
@@ -58,6 +60,9 @@ struct Blob {
 /// The first crossings of a packet (shapes/core/first_hits.h).
 [[nodiscard]] std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
+/// Surfaces in lanes (shapes/core/lane_surfaces.h).
+[[nodiscard]] std::uint32_t lane_surfaces(const Blob& shape, std::uint32_t wanted,
+                                          LaneSurfaces& lanes);
 /// The surface without texture coordinates (shapes/core/plain_surface.h).
 [[nodiscard]] ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hit);
 

@@ -44,6 +44,16 @@ class BlobTree {
     void for_line(const Vec3& o, const Vec3& d, double pad, F f) const {
         visit([&](const Box3& box) { return meets_line(box, o, d, pad); }, f);
     }
+    /// Calls f(component) for all components whose box contains a point of `around`, in the order
+    /// of `for_point`.
+    template <class F>
+    void for_box(const Box3& around, F f) const {
+        const auto meets = [&](const Box3& box) {
+            return box.lo.x <= around.hi.x && around.lo.x <= box.hi.x && box.lo.y <= around.hi.y &&
+                   around.lo.y <= box.hi.y && box.lo.z <= around.hi.z && around.lo.z <= box.hi.z;
+        };
+        visit(meets, f);
+    }
     /// Calls f(component) for all components whose box contains the point.
     template <class F>
     void for_point(const Vec3& p, F f) const {
