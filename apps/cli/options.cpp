@@ -96,6 +96,17 @@ CLI::Validator number_in(double lo, double hi) {
             range};
 }
 
+/// A count from 1, as digits.
+static CLI::Validator count_up_to(std::uint64_t most) {
+    return {[most](std::string& text) {
+                std::uint64_t value = 0;
+                const bool read = CLI::detail::lexical_cast(text, value);
+                if (read && value >= 1 && value <= most) return std::string();
+                return fmt::format("expected a whole number from 1 to {}, not {}", most, text);
+            },
+            fmt::format("INT in [1 - {}]", most)};
+}
+
 void add_strict(CLI::App& command, bool& strict) {
     command.add_flag("--strict", strict,
                      "Warnings about the scene are errors: exit 3, and nothing is done");
@@ -107,7 +118,7 @@ void ImageLimitArguments::add_to(CLI::App& command) {
                     "Larger pictures are refused before they are decoded")
         ->capture_default_str()
         ->type_name("N")
-        ->check(number_in(1.0, 1e15));
+        ->check(count_up_to(1'000'000'000'000'000));
     command.add_option("--max-image-side", max_side, "The same for longer sides")
         ->capture_default_str()
         ->type_name("N")
@@ -117,7 +128,7 @@ void ImageLimitArguments::add_to(CLI::App& command) {
                     "Memory for all pictures together, also while they are read")
         ->capture_default_str()
         ->type_name("N")
-        ->check(number_in(1.0, 1e9));
+        ->check(count_up_to(1'000'000'000));
 }
 
 ImageLimits ImageLimitArguments::limits() const {
@@ -218,7 +229,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "Memory for the meshes and instances that a glTF file makes of shared data; "
                     "default: 64, and 64 times the file")
         ->type_name("N")
-        ->check(number_in(1.0, 1e9));
+        ->check(count_up_to(1'000'000'000));
     command.add_option("-t,--threads", threads, "Threads; 0 = all cores")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))

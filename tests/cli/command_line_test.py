@@ -6,6 +6,7 @@ Usage: command_line_test.py ALHAZEN SOURCE_FOLDER
 
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -215,6 +216,7 @@ class CommandLine(CommandLineCase):
             self.assertIn(option[0], message)
             named = message.split("renderers ")[1].split(";")[0].split(", ")
             self.assertIn("path_tracing", named)
+            self.assertEqual("vcm:merge=off" in named, option[0] == "--time")
             for renderer in named:
                 result = self.render("--renderer", renderer, "--spp", "1", *option, size="2x2")
                 self.assertEqual(result.returncode, 0, result.stderr)
@@ -226,6 +228,19 @@ class CommandLine(CommandLineCase):
             result = run("vector", self.scene, "-o", self.path("f.svg"), "--tolerance", wrong)
             self.assertEqual(result.returncode, 2, wrong)
             self.assertIn(f"expected a number above 0, not {wrong}", result.stderr)
+
+    def test_memory_limits_are_whole_numbers_up_to_the_bound_that_help_prints(self):
+        text = run("info", "--help").stdout
+        for option in "--max-image-pixels", "--max-image-mib", "--max-import-mib":
+            shown = text.split(option)[1].split("--")[0]
+            self.assertNotIn("FLOAT", shown)
+            most = re.search(r"INT in \[1 - (\d+)\]", shown).group(1)
+            result = run("info", self.scene, option, most)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for wrong in "0", "1.5", "1e3", str(int(most) + 1):
+                result = run("info", self.scene, option, wrong)
+                self.assertEqual(result.returncode, 2, wrong)
+                self.assertIn(f"expected a whole number from 1 to {most}, not {wrong}", result.stderr)
 
     def test_a_bad_scene_exits_3_with_every_place(self):
         bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\nsphere { radius = nan }\nbanana { }\n")

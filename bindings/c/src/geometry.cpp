@@ -80,10 +80,12 @@ void write_affine(const Affine& transform, AlhazenFormat format, float* m) {
 template <class Work>
 void with_geometry(AlhazenGeometry handle, const Work& work) {
     Geometry* geometry = object(handle);
-    guarded(device_of(geometry), [&] {
-        need_argument(geometry != nullptr, "the geometry is NULL");
-        work(*geometry);
-    });
+    if (geometry == nullptr) {
+        return guarded(nullptr, [] { need_argument(false, "the geometry is NULL"); });
+    }
+    // Releasing the scene of an instance calls a monitor, which may release the geometry.
+    const Reference<Device> device = held_device_of(*geometry);
+    guarded(device.get(), [&] { work(*geometry); });
 }
 
 /// Replaces a buffer. Throws CodedError for one that the geometry cannot have.

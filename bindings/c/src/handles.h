@@ -244,5 +244,11 @@ template <class Object>
 Device* device_of(const Object* object) {
     return object != nullptr ? object->device.get() : nullptr;
 }
+/// The same with a reference of its own, for work that may release the object.
+template <class Object>
+Reference<Device> held_device_of(const Object& object) {
+    object.device->retain();
+    return Reference<Device>::adopt(object.device.get());
+}
 
 }  // namespace alhazen::capi

@@ -138,10 +138,12 @@ class ToldMemory {
 template <class Work>
 void with_scene(AlhazenScene handle, const Work& work) {
     Scene* scene = object(handle);
-    guarded(device_of(scene), [&] {
-        need_argument(scene != nullptr, "the scene is NULL");
-        work(*scene);
-    });
+    if (scene == nullptr) {
+        return guarded(nullptr, [] { need_argument(false, "the scene is NULL"); });
+    }
+    // A monitor may release the scene, and with it the last reference to the device.
+    const Reference<Device> device = held_device_of(*scene);
+    guarded(device.get(), [&] { work(*scene); });
 }
 
 /// The nearest floats, rounded outward.
@@ -286,7 +288,7 @@ void Scene::build() {
     const std::int64_t before = built ? built->bytes : 0;
     built = std::move(next);
     if (before != 0) device->tell_memory(-before, true);
-    if (progress != nullptr) progress(progress_pointer, 1.0);
+    if (progress != nullptr) (void)progress(progress_pointer, 1.0);  // too late to end the commit
 }
 
 }  // namespace alhazen::capi

@@ -137,6 +137,48 @@ static void test_the_outer_error_keeps_its_text(void) {
     scene = NULL;
 }
 
+static int ends_told = 0;
+static bool release_and_end(void* user, double done) {
+    (void)user;
+    (void)done;
+    alhazenReleaseScene(scene);
+    return false;
+}
+static void note_end(void* user, enum AlhazenError code, const char* text) {
+    EXPECT(*(int*)user == 7); /* read through the device */
+    EXPECT(code == ALHAZEN_ERROR_CANCELLED && strstr(text, "ended the commit") != NULL);
+    ++ends_told;
+}
+
+static void test_a_monitor_may_release_the_last_reference(void) {
+    int seven = 7;
+    AlhazenDevice held = device;
+    device = alhazenNewDevice(NULL);
+    scene = alhazenNewScene(device);
+    alhazenSetDeviceErrorFunction(device, note_end, &seven);
+    alhazenSetSceneProgressMonitorFunction(scene, release_and_end, NULL);
+    alhazenReleaseDevice(device); /* the scene holds it */
+    alhazenCommitScene(scene);
+    EXPECT(ends_told == 1);
+    scene = NULL;
+    device = held;
+}
+
+static bool end_at_last(void* user, double done) {
+    *(double*)user = done;
+    return done < 1;
+}
+static void test_the_last_report_does_not_end_a_commit(void) {
+    double last = 0;
+    struct AlhazenBounds bounds;
+    AlhazenScene done = alhazenNewScene(device);
+    alhazenSetSceneProgressMonitorFunction(done, end_at_last, &last);
+    alhazenCommitScene(done);
+    alhazenGetSceneBounds(done, &bounds);
+    EXPECT(last == 1 && alhazenGetDeviceError(device) == ALHAZEN_ERROR_NONE);
+    alhazenReleaseScene(done);
+}
+
 static void test_no_rays_are_nothing_to_do(void) {
     AlhazenScene empty = alhazenNewScene(device);
     alhazenCommitScene(empty);
@@ -171,6 +213,8 @@ int main(void) {
     test_monitors_may_ask_the_scene();
     test_a_scene_is_no_instance_in_itself();
     test_the_outer_error_keeps_its_text();
+    test_a_monitor_may_release_the_last_reference();
+    test_the_last_report_does_not_end_a_commit();
     test_no_rays_are_nothing_to_do();
     test_items_stay_within_their_buffer();
     alhazenReleaseDevice(device);

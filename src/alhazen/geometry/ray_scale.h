@@ -8,6 +8,7 @@
 /// way back (it becomes 0 or infinite, or loses digits).
 
 #include <cmath>
+#include <limits>
 
 #include "alhazen/geometry/ray.h"
 
@@ -32,6 +33,11 @@ inline constexpr double kShortestDirection = 0x1p-40, kLongestDirection = 0x1p40
     usual.t_min = std::ldexp(ray.t_min, exponent);
     usual.t_max = std::ldexp(ray.t_max, exponent);
     return usual;
+}
+
+/// False for a t that may have lost digits on its way back from a rescaled ray.
+[[nodiscard]] inline bool keeps_digits(double t) {
+    return std::abs(t) >= std::numeric_limits<double>::min() && std::isfinite(t);
 }
 
 }  // namespace alhazen

@@ -229,12 +229,13 @@ void check_sampling(const RenderOptions& options, const Renderer& renderer) {
     if (!options.sampling) return;
     if (!renderer.takes_samplers()) {
         const bool rounds = options.sampling->has_rounds();
-        throw Error(ErrorKind::Usage,
-                    fmt::format("{} are for the renderers {}; renderer '{}' has samples of its own",
-                                rounds ? "--noise and a limit of --time" : "--sampler and --filter",
-                                renderers_where(rounds ? &Renderer::renders_in_rounds
-                                                       : &Renderer::takes_samplers),
-                                options.renderer));
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format(
+                "{} are for the renderers {}{}; renderer '{}' has samples of its own",
+                rounds ? "--noise and a limit of --time" : "--sampler and --filter",
+                renderers_where(rounds ? &Renderer::renders_in_rounds : &Renderer::takes_samplers),
+                rounds ? ", vcm:merge=off" : "", options.renderer));
     }
     if (options.antialias) {
         throw Error(ErrorKind::Usage,

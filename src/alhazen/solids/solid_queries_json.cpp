@@ -31,7 +31,7 @@ json ray_json(const Ray& ray) {
 
 json end_json(const SolidScene& scene, const SpanEnd& end, const SpanSurface& surface) {
     json out{{"t", number(end.t)}};
-    if (std::isfinite(end.t)) out["point"] = vector(surface.point);
+    if (end.is_crossing || std::isfinite(end.t)) out["point"] = vector(surface.point);
     if (end.is_crossing) {
         out["normal"] = vector(surface.normal);
         out["material"] = scene.material_name(surface.material);
@@ -46,14 +46,19 @@ json end_json(const SolidScene& scene, const SpanEnd& end, const SpanSurface& su
 json spans_json(const SolidScene& scene, const Ray& ray, std::span<const SolidSpan> spans) {
     json out = ray_json(ray);
     json list = json::array();
+    const SolidQueries& queries = scene.queries();
+    // Lengths are those of the rescaled ray, whose t do not leave the range of double.
     const int exponent = unusual_exponent(ray.direction);
-    const double scale = length(rescaled(ray, exponent).direction);
-    for (const SolidSpan& span : spans) {
-        const SolidQueries& queries = scene.queries();
+    const Ray usual = rescaled(ray, exponent);
+    SpanList rescaled_list;
+    if (exponent != 0) queries.spans(usual, rescaled_list);
+    const std::span<const SolidSpan> measured = exponent != 0 ? rescaled_list.spans : spans;
+    const double scale = length(usual.direction);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const SolidSpan& span = spans[i];
         list.push_back({{"solid", static_cast<std::uint64_t>(span.solid)},
                         {"name", scene.name(span.solid)},
-                        {"length", number(scale * (std::ldexp(span.exit.t, exponent) -
-                                                   std::ldexp(span.entry.t, exponent)))},
+                        {"length", number(scale * (measured[i].exit.t - measured[i].entry.t))},
                         {"entry", end_json(scene, span.entry, queries.entry_surface(ray, span))},
                         {"exit", end_json(scene, span.exit, queries.exit_surface(ray, span))}});
     }

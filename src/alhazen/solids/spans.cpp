@@ -132,6 +132,25 @@ class Pairer {
     std::size_t first_ = 0;
 };
 
+/// The hits that the end of a span (`side` -1: the entry, 1: the exit) may stand for, as its t left
+/// the range of double: in the units of the rescaled ray, the nearest first.
+std::vector<Hit> same_ends(const SolidQueries& queries, const Ray& usual, int exponent,
+                           const SpanEnd& end, double side) {
+    SpanList list;
+    queries.spans(usual, list);
+    std::vector<Hit> same;
+    for (const SolidSpan& span : list.spans) {
+        const SpanEnd& other = side < 0.0 ? span.entry : span.exit;
+        const Hit &a = other.hit, &b = end.hit;
+        if (other.is_crossing && a.primitive == b.primitive && a.path == b.path &&
+            a.part == b.part && a.u == b.u && a.v == b.v &&
+            std::ldexp(other.t, -exponent) == end.t) {
+            same.push_back(a);
+        }
+    }
+    return same;
+}
+
 /// Directions of the lines through a point: near the diagonals of a cube, so that one of them
 /// enters any octant or quadrant along the axes.
 constexpr std::array<Vec3, 12> kLines{{{1.0, 0.91374, 1.10353},
@@ -281,7 +300,19 @@ SpanSurface SolidQueries::surface(const Ray& ray, const SpanEnd& end, double sid
     const Ray usual = exponent == 0 ? ray : rescaled(ray, exponent);
     Hit hit = end.hit;
     hit.t = std::ldexp(hit.t, exponent);
-    const Surface surface = surface_at(solids_.aggregate(), usual, hit);
+    std::vector<Hit> same;
+    if (exponent != 0 && !keeps_digits(end.t)) {
+        same = same_ends(*this, usual, exponent, end, side);
+        if (!same.empty()) hit = same.front();
+    }
+    Surface surface = surface_at(solids_.aggregate(), usual, hit);
+    for (const Hit& other : same) {
+        const Vec3 point = surface_at(solids_.aggregate(), usual, other).point;
+        surface.error += abs(point - surface.point);
+    }
+    if (exponent != 0 && !keeps_digits(end.t) && same.empty()) {
+        surface.error = {kInfinity, kInfinity, kInfinity};
+    }
     found.point = surface.point;
     // A mesh may be wound inside out; the order of crossings is reliable.
     const bool as_wound = side * dot(surface.normal, usual.direction) >= 0.0;

@@ -28,7 +28,8 @@ struct SpanEnd {
     Hit hit;
 };
 
-/// A part of the ray inside a solid: entry.t < exit.t.
+/// A part of the ray inside a solid: entry.t < exit.t, or both have left the range of double for a
+/// very short or long direction (geometry/ray_scale.h).
 struct SolidSpan {
     SolidId solid{};
     SpanEnd entry, exit;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/ray_scale.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/shapes/meshes/triangle_normal.h"
@@ -34,6 +36,51 @@ void check_id(const PrimitiveTable& table, PrimitiveId id, bool instance) {
     if (i < table.size() && (i >= table.first(kInstanceKind)) == instance) return;
     throw Error(ErrorKind::Usage, id == kNoPrimitive ? "the ray has no hit"
                                                      : "the hit does not belong to this tracer");
+}
+
+/// A hit in the units of the rescaled ray.
+struct UsualHit {
+    Hit hit;
+    /// Other crossings of the primitive that `hit` may stand for, as its t left the range of double
+    /// in the units of the given ray; u, v and part are the same.
+    std::vector<Hit> others;
+    bool lost = false;  ///< not found again
+};
+
+/// Converts the t of `hit` to the units of `usual`. Where the digits of t are lost, finds the hit
+/// again, of several crossings with its t the nearest.
+UsualHit usual_hit(const Aggregate& aggregate, const Ray& usual, const Hit& hit, int exponent) {
+    UsualHit found{hit, {}, false};
+    found.hit.t = std::ldexp(hit.t, exponent);
+    if (exponent == 0 || keeps_digits(hit.t)) return found;
+    std::vector<Hit> all;
+    aggregate.all_hits(usual, all, nullptr);
+    std::erase_if(all, [&](const Hit& other) {
+        return other.primitive != hit.primitive || other.path != hit.path ||
+               other.part != hit.part || std::ldexp(other.t, -exponent) != hit.t;
+    });
+    // Parameters may be those of a test in float (Precision::Fast).
+    const auto same = [&](const Hit& other) { return other.u == hit.u && other.v == hit.v; };
+    if (std::any_of(all.begin(), all.end(), same)) std::erase_if(all, std::not_fn(same));
+    found.lost = all.empty();
+    if (found.lost) return found;
+    found.hit.t = all.front().t;
+    found.others.assign(all.begin() + 1, all.end());
+    return found;
+}
+
+/// Widens the bound of the error of the surface at `hit` where it may be another.
+void cover_others(const Aggregate& aggregate, const Ray& usual, const UsualHit& hit,
+                  Surface& surface) {
+    if (hit.lost) surface.error = {kInfinity, kInfinity, kInfinity};
+    Vec3 farthest;
+    Surface other;
+    for (const Hit& one : hit.others) {
+        set_surface(aggregate, usual, one, CoordinateNeed::none(), other);
+        const Vec3 away = abs(other.point - surface.point);
+        for (int k = 0; k < 3; ++k) farthest[k] = std::max(farthest[k], away[k]);
+    }
+    surface.error += farthest;
 }
 
 /// Calls trace(ray, exponent) with a ray of usual length, whose t are 2^exponent times larger.
@@ -274,9 +321,10 @@ HitIds Tracer::ids(const Hit& hit) const {
 void Tracer::surface(const Ray& ray, const Hit& hit, Surface& surface) const {
     const int exponent = unusual_exponent(ray.direction);
     if (exponent == 0) return set_surface(*aggregate_, ray, hit, CoordinateNeed::none(), surface);
-    Hit usual = hit;
-    usual.t = std::ldexp(hit.t, exponent);
-    set_surface(*aggregate_, rescaled(ray, exponent), usual, CoordinateNeed::none(), surface);
+    const Ray usual = rescaled(ray, exponent);
+    const UsualHit found = usual_hit(*aggregate_, usual, hit, exponent);
+    set_surface(*aggregate_, usual, found.hit, CoordinateNeed::none(), surface);
+    cover_others(*aggregate_, usual, found, surface);
 }
 
 Vec3 Tracer::normal(const Ray& ray, const Hit& hit, Surface& scratch) const {
@@ -306,9 +354,11 @@ HitDetails Tracer::details(const Ray& ray, const Hit& hit) const {
     }
     check_id(*table, hit.primitive, false);
     static_cast<Surface&>(details) = with_usual(ray, [&](const Ray& usual, int exponent) {
-        Hit usual_hit = hit;
-        usual_hit.t = std::ldexp(hit.t, exponent);
-        return surface_at(*aggregate_, usual, usual_hit);
+        if (exponent == 0) return surface_at(*aggregate_, usual, hit);
+        const UsualHit found = usual_hit(*aggregate_, usual, hit, exponent);
+        Surface surface = surface_at(*aggregate_, usual, found.hit);
+        cover_others(*aggregate_, usual, found, surface);
+        return surface;
     });
     details.geometry = GeometryId{details.part};
     if (table->kind(hit.primitive) == kTriangleKind) {

@@ -122,7 +122,9 @@ class Tracer {
     /// The ids of the geometry hit; faster than `details`. Throws Error (Usage) without a hit.
     [[nodiscard]] HitIds ids(const Hit& hit) const;
     /// The surface at a hit of this tracer. `leaving_ray` (primitives/surface.h) starts the next
-    /// ray there. Throws Error (Usage) without a hit.
+    /// ray there. Throws Error (Usage) without a hit. A hit whose t has left the range of double,
+    /// of a very short or long direction, is found again; where t is that of several crossings of
+    /// the primitive, the point is the nearest and the bound of its error covers all.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
 
     /// Writes the surface without texture coordinates into `surface`, as the type is large.

@@ -126,6 +126,32 @@ TEST(SolidQueriesJson, AnswersHaveWhatWasAskedFor) {
     EXPECT_NEAR(thick["thickness"].get<double>(), 1 + 4 * std::sqrt(3.0) / 2, 1e-14);
 }
 
+TEST(SolidQueriesJson, LengthsAndPointsOutliveTheirParameters) {
+    SceneMaker maker = cars();
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    SpanList list;
+    const auto spans_of = [&](const Ray& ray) {
+        solids.queries().spans(ray, list);
+        return spans_json(solids, ray, list.spans)["spans"];
+    };
+    const auto plain = spans_of(parse_ray("-5, 0.375 0.25 1,0,0"));
+    const auto slow = spans_of(parse_ray("-5, 0.375 0.25 1e-310,0,0"));
+    ASSERT_EQ(slow.size(), plain.size());
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        EXPECT_TRUE(slow[i]["entry"]["t"].is_null());
+        EXPECT_NEAR(slow[i]["length"].get<double>(), plain[i]["length"].get<double>(), 1e-14);
+        for (const char* end : {"entry", "exit"}) {
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_NEAR(slow[i][end]["point"][k].get<double>(),
+                            plain[i][end]["point"][k].get<double>(), 1e-14);
+                EXPECT_NEAR(slow[i][end]["normal"][k].get<double>(),
+                            plain[i][end]["normal"][k].get<double>(), 1e-14);
+            }
+        }
+    }
+}
+
 TEST(SolidQueriesJson, BadNumbersAreRefusedWithTheirPlace) {
     for (const char* bad : {"", "1,2,3", "1,2,3,4,5,x", "1,2,3,0,0,0", "1,2,3,4,5,6,7",
                             "nan,0,0,1,0,0", "1,2,3,4,5,6,9,8", "1;2;3;4;5;6"}) {

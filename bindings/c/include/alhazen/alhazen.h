@@ -63,7 +63,8 @@ typedef void (*AlhazenErrorFunction)(void* userPtr, enum AlhazenError code, cons
  * with post true are freed, and reported as such. Monitors run in the thread of the commit and may query the scene. */
 typedef bool (*AlhazenMemoryMonitorFunction)(void* userPtr, ssize_t bytes, bool post);
 /* Called by alhazenCommitScene with the fraction done, from 0 to 1; returning false ends it with
- * ALHAZEN_ERROR_CANCELLED. The build of the acceleration structure is a single step. */
+ * ALHAZEN_ERROR_CANCELLED, except for the last call, with 1: the commit is done then, and the result is ignored. The
+ * build of the acceleration structure is a single step. */
 typedef bool (*AlhazenProgressMonitorFunction)(void* userPtr, double done);
 
 /* Creates a device. config: NULL, or for example "threads=4,accelerator=wide_bvh,quality=high". threads: number used by

@@ -1,12 +1,14 @@
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "alhazen/aggregates/wide_bvh/wide_bvh_file.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/huge_pages.h"
 #include "alhazen/primitives/bounded_primitives.h"
+#include "alhazen/primitives/surface.h"
 
 namespace alhazen {
 
@@ -16,10 +18,27 @@ namespace {
 /// cache.
 constexpr std::size_t kInCache = 512;
 
+/// What the test of a triangle in float adds to the error bound of its points. `scale`: of the
+/// frame.
+double float_error(const Vec3& a, const Vec3& b, const Vec3& c, double scale) {
+    const Vec3 ab = b - a, ac = c - a, bc = c - b;
+    const double longest =
+        std::sqrt(std::max({length_squared(ab), length_squared(ac), length_squared(bc)}));
+    // Its height over the longest side is area / longest.
+    const double area = length(cross(ab, ac));
+    constexpr double e = 0x1p-24;
+    const double slender = 0.125 * e * longest * longest * (longest / area);
+    // Written so that NaN, of a triangle without area, takes the length.
+    const double most = 0.125 * longest;
+    return 0.25 * e / scale + (slender < most ? slender : most);
+}
+
 }  // namespace
 
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
-    : table_(std::move(table)), kernels_(wide_bvh_kernels(options.width, options.precision)) {
+    : table_(std::move(table)),
+      precision_(options.precision),
+      kernels_(wide_bvh_kernels(options.width, options.precision)) {
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
@@ -95,6 +114,17 @@ void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) c
                         return a.primitive == b.primitive && is_triangle(a) && is_triangle(b);
                     });
     hits.erase(last, hits.end());
+}
+
+void WideBvhAggregate::complete(const Ray&, double, PrimitiveId primitive, Surface& surface) const {
+    if (precision_ != Precision::Fast || table_.kind(primitive) != kTriangleKind) return;
+    const std::uint32_t index = table_.index(primitive);
+    const PlacedMesh& placed = table_.mesh_of(index);
+    const TriangleMesh& mesh = *placed.mesh;
+    const auto& corners = mesh.triangles[index - placed.first_triangle];
+    const double error = float_error(mesh.positions[corners[0]], mesh.positions[corners[1]],
+                                     mesh.positions[corners[2]], layout_.frame.scale);
+    surface.error += Vec3{error, error, error};
 }
 
 bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {

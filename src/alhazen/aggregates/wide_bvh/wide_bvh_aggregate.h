@@ -51,6 +51,10 @@ class WideBvhAggregate final : public Aggregate {
     void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 RayQuery query) const override;
+    /// With Precision::Fast, adds to the error bound of a triangle's point what the test in float
+    /// needs to miss the triangle for a ray that leaves it (docs/design/triangles.md, Fast mode).
+    void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
+    [[nodiscard]] bool completes_surfaces() const override { return precision_ == Precision::Fast; }
     [[nodiscard]] bool gains_by_batches(Coherence coherence) const override {
         return schedules_.of_batch(coherence) != Schedule::Single;
     }
@@ -92,6 +96,7 @@ class WideBvhAggregate final : public Aggregate {
     UnboundedParts outside_;    ///< those of `unbounded_`
     TreelessPackets treeless_;  ///< all primitives of the tree, or none
     WideBvhLayout layout_;
+    Precision precision_ = Precision::Robust;
     Schedules schedules_;
     double built_cost_ = 0;  ///< of the tree before any refit
     WideBvhKernelPair kernels_;

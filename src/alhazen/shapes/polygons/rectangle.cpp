@@ -19,7 +19,7 @@ void Rectangle::validate(const FileLocation& where, Diagnostics& diagnostics) co
     checks.fields(*this);
     if (!checks.ok()) return;
     const double area = length(accurate_cross(edge_u, edge_v));
-    if (!(area >= 1e-12 * length(edge_u) * length(edge_v)) || !(area >= kMinLength)) {
+    if (!(area >= 1e-12 * length(edge_u) * length(edge_v))) {
         checks.fail("edge_u and edge_v must not be parallel");
     }
 }

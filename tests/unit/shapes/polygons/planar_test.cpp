@@ -172,6 +172,29 @@ TEST(Rectangle, BoxIsThatOfTheCorners) {
     }
 }
 
+TEST(Rectangle, MayBeAsSmallAsALength) {
+    // The area of most of them is less than the least length.
+    for (const double size : {1.0, 1e-36, 1e-42, 1e-60, 1e-70, 1e60}) {
+        for (const Vec3& other : {Vec3{0, 1, 0}, Vec3{1, 1e-9, 0}}) {
+            const Rectangle rectangle =
+                prepared(Rectangle{{0, 0, 0}, size * Vec3{1, 0, 0}, size * other});
+            Diagnostics found;
+            rectangle.validate({}, found);
+            ASSERT_EQ(found.error_count(), 0u) << size;
+            const Vec3 middle = 0.5 * rectangle.edge_u + 0.25 * rectangle.edge_v;
+            ShapeHit hit;
+            ASSERT_EQ(rectangle.intersect({middle + size * Vec3{0, 0, 2}, {0, 0, -size}}, &hit), 1)
+                << size;
+            EXPECT_EQ(hit.t, 2.0);
+            EXPECT_NEAR(hit.u, 0.5, 1e-6);
+            EXPECT_NEAR(hit.v, 0.25, 1e-6);
+        }
+        Diagnostics found;
+        Rectangle{{0, 0, 0}, size * Vec3{1, 0, 0}, size * Vec3{1, 1e-13, 0}}.validate({}, found);
+        EXPECT_EQ(found.error_count(), 1u) << size;
+    }
+}
+
 TEST(PlanarShapes, RaysAlongThemAreNoInvalidOperation) {
     const Plane plane = prepared(Plane{.point = {0, 0, 2}, .normal = {0, 0, 1}});
     const Disc disc = prepared(Disc{.center = {0, 0, 2}, .normal = {0, 0, 1}});

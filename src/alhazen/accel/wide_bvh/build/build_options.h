@@ -18,7 +18,8 @@ enum class BuildQuality : std::uint8_t {
 enum class Precision : std::uint8_t {
     Robust,  ///< double with exact signs: no leaks, the same bits as every other accelerator
     Fast,    ///< float where an accelerator supports it: may leak at edges, parameters have float
-             ///< precision
+             ///< precision; a leaving_ray misses the triangle that it leaves, unless that is thinner
+             ///< than 2^-20 of the largest coordinate of the accelerator's geometry (measured)
 };
 
 /// The representation of triangles in the leaves.
