@@ -2,8 +2,8 @@
 /// per instruction set and width of the nodes.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
-/// Differs: slab test with all slack in the ray's constants (`SlabRay`); separate code for one and
-/// two children hit; the next child by a jump that can be foreseen (`child_of`).
+/// Differs: all slack of the slab test is in the ray's constants (`SlabRay`); the nearest child in
+/// lanes, but for one and two hit apart; the next by a jump that can be foreseen (`child_of`).
 /// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` has `bool visit(NodeRef,
 /// stats)`, which returns true to stop, and `float s_max`, the parameter up to which hits are
 /// searched; boxes that begin exactly there are visited.
