@@ -27,7 +27,6 @@
 
 #include <hwy/cache_control.h>
 
-#include <array>
 #include <new>
 
 #include "alhazen/accel/wide_bvh/build/build_types.h"
@@ -78,126 +77,11 @@ class PrefetchTable {
     Place place_[16];
 };
 
-/// The subtrees to visit, with entry parameters and references in separate arrays, so that lanes
-/// are stored. The height is kept outside, in a register. The lowest element is a sentinel.
-template <std::size_t W>
-struct StreamStack {
-    static constexpr std::size_t kSize = 1 + kTraversalStackSize<W> + W;
-    float entry[kSize];
-    std::uint32_t child[kSize];
-
-    HWY_INLINE void clear() {
-        entry[0] = -std::numeric_limits<float>::infinity();
-        child[0] = NodeRef::none().bits();
-    }
-
-    /// Pushes the children that are hit: the farthest first by the order of the octant, or else
-    /// those of the highest slots first.
-    template <bool kOrdered, std::size_t kRegisters = kParts<float, W>>
-    [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNodeOf<W>& node,
-                                              const Lanes<float, W>& entries,
-                                              const LaneMask<float, W>& hit, std::uint32_t octant) {
-        if constexpr (kRegisters == 1) {
-            return push_lanes<kOrdered>(height, node, entries, hit, octant);
-        } else {
-            HWY_ALIGN float near[W];
-            store_lanes(entries, near);
-            const std::uint32_t bits = bits_of(hit);
-            auto order = node.order[octant];
-            for (std::size_t i = 0; i < W; ++i) {
-                const std::size_t slot = kOrdered ? order & (W - 1) : W - 1 - i;
-                order = static_cast<decltype(order)>(order >> WideNodeOf<W>::kSlotBits);
-                entry[height] = near[slot];
-                child[height] = node.child[slot].bits();
-                height += bits >> slot & 1;
-            }
-            return height;
-        }
-    }
-
-  private:
-    using Tag = LaneTag<float, W>;
-
-    /// [lane] The slot of the child that belongs there.
-    static HWY_INLINE auto slots_of(const WideNodeOf<W>& node, std::uint32_t octant) {
-        const hn::RebindToUnsigned<Tag> du;
-        constexpr std::uint32_t kBits = WideNodeOf<W>::kSlotBits;
-        constexpr std::uint32_t kInWord = 32 / kBits;  // slots in 32 bits of an order
-        HWY_ALIGN static constexpr auto kShifts = [] {
-            std::array<std::uint32_t, W> shifts{};
-            for (std::uint32_t i = 0; i < W; ++i) shifts[i] = i % kInWord * kBits;
-            return shifts;
-        }();
-        const auto order = node.order[octant];
-        auto word = hn::Set(du, static_cast<std::uint32_t>(order));
-        if constexpr (W > kInWord) {
-            const auto rest = hn::Set(du, static_cast<std::uint32_t>(order >> 32));
-            word = hn::IfThenElse(hn::FirstN(du, kInWord), word, rest);
-        }
-        return hn::And(hn::Shr(word, hn::Load(du, kShifts.data())), hn::Set(du, W - 1));
-    }
-
-    /// Moves the lanes of `mask` to the front, as hn::Compress. The version of AVX2 reads a table
-    /// that GCC first copies to the stack, 1 KiB per call.
-    static HWY_INLINE auto first_lanes(const hn::Mask<Tag>& mask) {
-#if HWY_TARGET == HWY_AVX2
-        if constexpr (W == 8) {
-            static constexpr auto kPlaces = [] {
-                std::array<std::array<std::uint8_t, 8>, 256> places{};
-                for (std::uint32_t bits = 0; bits < 256; ++bits) {
-                    std::size_t count = 0;
-                    for (std::uint8_t i = 0; i < 8; ++i) {
-                        if ((bits >> i & 1) != 0) places[bits][count++] = i;
-                    }
-                }
-                return places;
-            }();
-            std::uint8_t bits[8];
-            hn::StoreMaskBits(Tag(), mask, bits);
-            const auto places =
-                hn::PromoteTo(hn::RebindToSigned<Tag>(),
-                              hn::LoadU(hn::Rebind<std::uint8_t, Tag>(), kPlaces[bits[0]].data()));
-            const auto indices = hn::IndicesFromVec(Tag(), places);
-            return [indices](const hn::Vec<Tag>& v)
-                       HWY_ATTR { return hn::TableLookupLanes(v, indices); };
-        } else
-#endif
-        {
-            return [mask](const hn::Vec<Tag>& v) HWY_ATTR { return hn::Compress(v, mask); };
-        }
-    }
-
-    template <bool kOrdered>
-    HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNodeOf<W>& node,
-                                      const Lanes<float, W>& entries, const LaneMask<float, W>& hit,
-                                      std::uint32_t octant) {
-        const Tag d;
-        const auto missed = hn::Set(d, std::numeric_limits<float>::infinity());
-        const auto entries_hit = hn::IfThenElse(hit.part[0], entries.part[0], missed);
-        const auto children = hn::Load(d, reinterpret_cast<const float*>(node.child));
-        const auto in_order = [&](const auto& values) HWY_ATTR {
-            if constexpr (kOrdered) {
-                const hn::RebindToSigned<Tag> di;
-                return hn::TableLookupLanes(
-                    values, hn::IndicesFromVec(d, hn::BitCast(di, slots_of(node, octant))));
-            } else {
-                return hn::Reverse(d, values);
-            }
-        };
-        const auto near = in_order(entries_hit);
-        const auto mask = hn::Lt(near, missed);
-        const auto first = first_lanes(mask);
-        hn::StoreU(first(near), d, entry + height);
-        hn::StoreU(first(in_order(children)), d, reinterpret_cast<float*>(child + height));
-        return height + hn::CountTrue(d, mask);
-    }
-};
-
 template <class Query, std::size_t W>
 struct StreamSlot {
     alignas(64) std::byte place[sizeof(Query)];
     std::size_t height;
-    StreamStack<W> stack;
+    NodeStack<W> stack;
 
     [[nodiscard]] HWY_INLINE Query& query() {
         return *std::launder(reinterpret_cast<Query*>(place));
@@ -212,7 +96,7 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
     if constexpr (requires { query.settle(stats); }) {
         if (query.settle(stats)) return false;
     }
-    StreamStack<W>& stack = slot.stack;
+    NodeStack<W>& stack = slot.stack;
     std::size_t height = slot.height;
     do {
         --height;

@@ -1,0 +1,128 @@
+// Of the children that a ray meets, the stack takes all but the nearest, the farthest first by the
+// order of the octant, on every instruction set.
+
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "alhazen/simd/dispatch.h"
+#include "alhazen/simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "unit/accel/node_stack_test.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// Must follow foreach_target.h.
+#include "alhazen/accel/wide_bvh/trace/node_stack-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Returns the nearest; sets the number of the others, their entries and their children.
+std::size_t push_on_stack(const WideNode& node, const float* entries, const float* exits,
+                          std::uint32_t octant, std::size_t& count, float* pushed_entries,
+                          std::uint32_t* pushed_children) {
+    NodeStack<8> stack;
+    const Floats entry = load_unaligned(entries);
+    const auto hit = entry <= load_unaligned(exits);
+    count = 0;
+    const std::size_t nearest =
+        stack.push_but_nearest(count, node, entry, hit, bits_of(hit), octant);
+    for (std::size_t i = 0; i < count; ++i) {
+        pushed_entries[i] = stack.entry[i];
+        pushed_children[i] = stack.child[i];
+    }
+    return nearest;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+ALHAZEN_KERNEL_TABLE(push_on_stack);
+
+using NodeRandom = std::mt19937;
+
+struct PushedChildren {
+    std::size_t nearest = 8, count = 0;
+    std::array<float, 8> entries{};
+    std::array<std::uint32_t, 8> children{};
+    friend bool operator==(const PushedChildren&, const PushedChildren&) = default;
+};
+
+/// A node of eight children in any places.
+WideNode random_node(NodeRandom& random) {
+    WideNode node;
+    for (std::uint32_t slot = 0; slot < 8; ++slot) {
+        FloatBox box;
+        for (int k = 0; k < 3; ++k) {
+            box.lo[k] = static_cast<float>(random() % 1000);
+            box.hi[k] = box.lo[k] + 1.0f;
+        }
+        node.set_box(slot, box);
+        node.child[slot] = NodeRef::node(100 + slot);
+    }
+    node.set_order();
+    return node;
+}
+
+PushedChildren expected_of(const WideNode& node, const float (&entries)[8], std::uint32_t hit,
+                           std::uint32_t octant) {
+    PushedChildren expected;
+    for (std::size_t slot = 0; slot < 8; ++slot) {
+        if ((hit >> slot & 1) == 0) continue;
+        if (expected.nearest == 8 || entries[slot] < entries[expected.nearest]) {
+            expected.nearest = slot;
+        }
+    }
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        const std::uint32_t slot = node.order[octant] >> 3 * i & 7;
+        if ((hit >> slot & 1) == 0 || slot == expected.nearest) continue;
+        expected.entries[expected.count] = entries[slot];
+        expected.children[expected.count++] = node.child[slot].bits();
+    }
+    return expected;
+}
+
+TEST(NodeStack, TakesAllChildrenButTheNearestOnEveryInstructionSet) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    // Far enough apart that the bits of the slot decide equal ones only.
+    const float choices[] = {0.0f, 0x1p-100f, 0.25f, 1.0f, 1.0f, 3.5f, 1e37f, kInfinity};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        NodeRandom random(7);
+        for (int i = 0; i < 5000; ++i) {
+            const WideNode node = random_node(random);
+            float entries[8], exits[8];
+            std::uint32_t hit = 0;
+            for (std::uint32_t slot = 0; slot < 8; ++slot) {
+                entries[slot] = choices[random() % 8];
+                const bool met = random() % 2 == 0;
+                exits[slot] = met ? kInfinity : -1.0f;
+                hit |= std::uint32_t{met} << slot;
+            }
+            if ((hit & (hit - 1)) == 0) continue;
+            const std::uint32_t octant = random() % 8;
+            PushedChildren pushed;
+            pushed.nearest =
+                ALHAZEN_KERNEL(push_on_stack)(node, entries, exits, octant, pushed.count,
+                                              pushed.entries.data(), pushed.children.data());
+            ASSERT_EQ(pushed, expected_of(node, entries, hit, octant)) << target << ", node " << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
+#endif
