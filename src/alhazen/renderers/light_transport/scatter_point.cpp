@@ -4,6 +4,7 @@
 
 #include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/shading/bsdf/dispersing.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 
 namespace alhazen {
 
@@ -23,6 +24,22 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
     }
     bsdf = {};
     for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
+}
+
+/// BsdfPlace::mirrored, for materials that depend on it. By the sides of the interpolated normal: a
+/// path from the other direction then sees the same grooves, whichever normals a map gives.
+bool is_mirrored(const Scene& scene, const Surface& surface, const Vec3& view) {
+    bool turned = false;
+    for (int i = 0; i < surface.material_count; ++i) {
+        const auto id = static_cast<std::size_t>(surface.materials[static_cast<std::size_t>(i)]);
+        turned = turned || has_turned_grooves(scene.materials[id]);
+    }
+    if (!turned) return false;
+    const bool has_tangent = surface.tangent != Vec3{};
+    const Vec3& tangent = has_tangent ? surface.tangent : surface.dpdu;
+    const Vec3& bitangent = has_tangent ? surface.bitangent : surface.dpdv;
+    const bool left_handed = dot(cross(surface.shading_normal, tangent), bitangent) < 0.0;
+    return left_handed != (dot(view, surface.shading_normal) < 0.0);
 }
 
 }  // namespace
@@ -76,6 +93,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     const bool disperses = !(all == Spectrum::all(all.a));
     BsdfPlace place{.eta = all.a,
                     .from_inside = !entering_,
+                    .mirrored = is_mirrored(scene, surface, view_),
                     .etas = disperses ? &all : nullptr,
                     .waves = waves};
     set_bsdf(scene, surface, place, known);

@@ -157,6 +157,9 @@ struct BsdfPlace {
     /// (CSG walls); else 0: given by the material's index and `from_inside`.
     double eta = 0;
     bool from_inside = false;  ///< the view is inside the volume that the surface bounds
+    /// The surface's bitangent is along -y of the local frame, not along y: of mirrored
+    /// coordinates, or seen from behind, not both.
+    bool mirrored = false;
     /// `eta` of each of four wavelengths, the first of which equals `eta`; null if all are equal.
     const Spectrum* etas = nullptr;
     /// The wavelengths of the path.

@@ -79,7 +79,8 @@ class LayerMaker {
         strength = clipped(strength);
         const double alpha = roughness_ * roughness_;
         ggx_ = {alpha + (1.0 - alpha) * strength * strength, alpha};
-        if (strength > 0.0) axis_ = {std::cos(angle), std::sin(angle)};
+        if (!(strength > 0.0)) return;
+        axis_ = {std::cos(angle), place_.mirrored ? -std::sin(angle) : std::sin(angle)};
     }
 
     void read_film() {
