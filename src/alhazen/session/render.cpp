@@ -282,6 +282,17 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
                         options.renderer, renderers_where(&Renderer::scatters_in_volumes)));
     }
     if (renderer.distributes()) return notes;
+    const auto blurs = [](const Material& m) {
+        const auto& p = m.metallic_roughness;
+        return p && !p->unlit && p->transmission.value > 0.0 && p->roughness.value > 0.0;
+    };
+    if (const auto rough = std::ranges::count_if(scene.materials, blurs);
+        rough > 0 && !renderer.lights_have_extent()) {
+        notes.push_back(fmt::format(
+            "renderer '{}' leaves transmission through rough surfaces sharp ({} material{}); "
+            "'distributed', 'cone_tracing' and the renderers of light transport blur it",
+            options.renderer, rough, rough == 1 ? "" : "s"));
+    }
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
     if (!renderer.lights_have_extent() &&
         std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {

@@ -351,5 +351,30 @@ TEST(Lighting, SurroundingsTakeThePlaceOfThoseOfTheScene) {
     EXPECT_TRUE(Lighting{}.is_that_of_the_scene());
 }
 
+/// The note is for the renderers whose transmitted rays are exact.
+TEST(Simplified, NamesRenderersThatLeaveRoughTransmissionSharp) {
+    const auto notes = [](double roughness, const char* renderer) {
+        SceneMaker maker;
+        Material frosted;
+        frosted.metallic_roughness.emplace();
+        frosted.metallic_roughness->transmission.value = 0.7;
+        frosted.metallic_roughness->roughness.value = roughness;
+        maker.add(Sphere{}, maker.material(frosted));
+        const Scene scene = maker.compile();
+        RenderOptions options;
+        options.renderer = renderer;
+        return simplified(scene, options, *make_renderer(renderer));
+    };
+    const auto said = notes(0.3, "whitted");
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("transmission through rough surfaces sharp (1 material)"),
+              std::string::npos)
+        << said[0];
+    EXPECT_TRUE(notes(0.0, "whitted").empty());
+    for (const char* blurs : {"path_tracing", "vcm", "distributed", "cone_tracing"}) {
+        EXPECT_TRUE(notes(0.3, blurs).empty()) << blurs;
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

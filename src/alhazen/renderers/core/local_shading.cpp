@@ -23,16 +23,9 @@ Vec2 in_coordinates(const Vec3& v, const Vec3& dpdu, const Vec3& dpdv) {
     return {(vv * u - uv * w) / determinant, (uu * w - uv * u) / determinant};
 }
 
-bool has_normal_map(const Scene& scene, const Surface& surface) {
-    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
-    return material.normal_map.texture != kNoTexture;
-}
-
-/// The interpolated normal, modified by the material's normal map (an image: see `validate`).
-Vec3 mapped_normal(const Scene& scene, const Surface& surface,
+/// The interpolated normal, modified by a normal map (an image: see `validate`).
+Vec3 mapped_normal(const Scene& scene, const Surface& surface, const NormalMap& map,
                    const std::array<UvFootprint, 2>& footprint) {
-    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
-    const NormalMap& map = material.normal_map;
     const auto& texture =
         std::get<ImageTexture>(scene.textures[static_cast<std::size_t>(map.texture)]);
     const bool second = texture.uv_set == 1;
@@ -48,6 +41,23 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface,
     }
     const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, {1, 1, 1, 1}, {}};
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
+}
+
+/// Sets the normal of a clear coat where it is not that of the layers below. Blended materials have
+/// one normal.
+void set_coat_normal(const Scene& scene, const Material& material,
+                     const std::array<UvFootprint, 2>& footprint, ShadingPoint& point) {
+    if (!material.metallic_roughness || point.surface.material_count != 1) return;
+    const ClearCoat& coat = material.metallic_roughness->coat;
+    const NormalMap& own = coat.normal_map;
+    const NormalMap& base = material.normal_map;
+    const bool is_shared = own.texture == base.texture && own.scale == base.scale;
+    const bool has_any = own.texture != kNoTexture || base.texture != kNoTexture;
+    if (!(coat.strength.value > 0.0) || is_shared || !has_any) return;
+    point.coat_is_tilted = true;
+    point.coat_mapped = own.texture != kNoTexture
+                            ? mapped_normal(scene, point.surface, own, footprint)
+                            : point.surface.shading_normal;
 }
 
 }  // namespace
@@ -184,9 +194,13 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     // The interpolated normal is turned by its own cosine: near silhouettes, and in meshes wound
     // against their normals, its side differs from that of the geometric normal.
     const Vec3& shading = point.surface.shading_normal;
-    point.has_map = varies && has_normal_map(scene, point.surface);
+    const Material& material =
+        scene.materials[static_cast<std::size_t>(point.surface.materials[0])];
+    point.has_map = varies && material.normal_map.texture != kNoTexture;
+    point.coat_is_tilted = false;
+    if (varies) set_coat_normal(scene, material, footprint, point);
     if (point.has_map) {
-        point.mapped = mapped_normal(scene, point.surface, footprint);
+        point.mapped = mapped_normal(scene, point.surface, material.normal_map, footprint);
         point.normal = mapped_normal_seen(point.mapped, shading, point.view);
     } else {
         point.normal = dot(ray.direction, shading) > 0.0 ? -shading : shading;

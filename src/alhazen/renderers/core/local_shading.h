@@ -66,6 +66,8 @@ struct ShadingPoint {
     Vec3 view;                        ///< unit, towards the ray's origin
     bool has_map = false;             ///< `normal` is that of a normal map
     Vec3 mapped;                      ///< with one: its unit normal, as the surface has it
+    bool coat_is_tilted = false;      ///< a clear coat has another normal than `normal`
+    Vec3 coat_mapped;                 ///< then: its unit normal, as the surface has it
 };
 
 /// Evaluates the material at the surface. `footprint`: that of the ray's cone in both sets of

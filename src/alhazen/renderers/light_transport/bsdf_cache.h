@@ -28,14 +28,14 @@ class BsdfCache {
         Entry& entry = entries_[static_cast<std::uint32_t>(id) % kEntries];
         if (entry.id != id || !entry.used) begin(id, entry);
         if (!entry.constant) return nullptr;
-        Side& side = entry.sides[place.from_inside ? 1 : 0];
+        Side& side = entry.sides[(place.from_inside ? 1 : 0) + (place.mirrored ? 2 : 0)];
         if (!side.made || !(side.eta == place.eta)) make(id, place, side);
         return side.bsdf.get();
     }
 
   private:
     static constexpr std::size_t kEntries = 32;
-    /// The BSDF from outside or from inside the volume that the surface bounds.
+    /// The BSDF from outside or from inside the volume that the surface bounds, mirrored or not.
     struct Side {
         double eta = 0;  ///< BsdfPlace::eta
         bool made = false;
@@ -44,7 +44,7 @@ class BsdfCache {
     struct Entry {
         MaterialId id{};
         bool used = false, constant = false;
-        std::array<Side, 2> sides;
+        std::array<Side, 4> sides;
     };
 
     void begin(MaterialId id, Entry& entry) const;

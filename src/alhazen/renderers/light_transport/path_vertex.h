@@ -52,7 +52,7 @@ struct PathVertex {
     [[nodiscard]] Vec3 view() const { return in_volume ? -volume.value.along : scatter.view(); }
     [[nodiscard]] LitPoint lit() const {
         if (in_volume) return LitPoint::inside_volume(point());
-        return {point(), scatter.normal(), scatter.transmits()};
+        return {point(), scatter.normal(), scatter.is_lit_from_both_sides()};
     }
     [[nodiscard]] bool connects() const { return in_volume || scatter.has_density(); }
     /// Factor from a density by area perpendicular to `direction` to one at the vertex: |cosine|.

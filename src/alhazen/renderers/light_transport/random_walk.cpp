@@ -173,7 +173,7 @@ RandomWalk::Step RandomWalk::scatter_at_surface(Transport transport, Front& fron
     v.singular = drawn->singular;
     front.density = drawn->singular ? 1.0 : drawn->density;
     if (drawn->singular) {
-        v.back = v.scatter.singular_is_mutual() ? 1.0 : 0.0;
+        v.back = drawn->mutual ? 1.0 : 0.0;
     } else {
         v.back = v.scatter.reverse_density(drawn->direction);
     }

@@ -1,18 +1,23 @@
 #include "alhazen/renderers/light_transport/scatter_point.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/renderers/volumes/volume_bounds.h"
 #include "alhazen/shading/bsdf/dispersing.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 
 namespace alhazen {
 
 namespace {
 
+SurfaceLookup lookup_at(const Surface& surface) {
+    return {{surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
+}
+
 /// Sets the BSDF at the point; for blended materials the weighted sum.
 void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& place, Bsdf& bsdf) {
-    const SurfaceLookup lookup{
-        {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
+    const SurfaceLookup lookup = lookup_at(surface);
     const auto of = [&](std::size_t i) {
         return bsdf_of(scene.materials[static_cast<std::size_t>(surface.materials[i])],
                        scene.textures, lookup, place);
@@ -23,6 +28,22 @@ void make_bsdf(const Scene& scene, const Surface& surface, const BsdfPlace& plac
     }
     bsdf = {};
     for (std::size_t i = 0; i < 3; ++i) bsdf.add(of(i), surface.weights[i]);
+}
+
+/// BsdfPlace::mirrored, for materials that depend on it. By the sides of the interpolated normal: a
+/// path from the other direction then sees the same grooves, whichever normals a map gives.
+bool is_mirrored(const Scene& scene, const Surface& surface, const Vec3& view) {
+    bool turned = false;
+    for (int i = 0; i < surface.material_count; ++i) {
+        const auto id = static_cast<std::size_t>(surface.materials[static_cast<std::size_t>(i)]);
+        turned = turned || has_turned_grooves(scene.materials[id]);
+    }
+    if (!turned) return false;
+    const bool has_tangent = surface.tangent != Vec3{};
+    const Vec3& tangent = has_tangent ? surface.tangent : surface.dpdu;
+    const Vec3& bitangent = has_tangent ? surface.bitangent : surface.dpdv;
+    const bool left_handed = dot(cross(surface.shading_normal, tangent), bitangent) < 0.0;
+    return left_handed != (dot(view, surface.shading_normal) < 0.0);
 }
 
 }  // namespace
@@ -73,9 +94,12 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         }
     }
     const Spectrum all = etas(scene, point, media, waves);
+    if (point.coat_is_tilted) known = nullptr;
     const bool disperses = !(all == Spectrum::all(all.a));
     BsdfPlace place{.eta = all.a,
                     .from_inside = !entering_,
+                    .mirrored = is_mirrored(scene, surface, view_),
+                    .without_coat = point.coat_is_tilted,
                     .etas = disperses ? &all : nullptr,
                     .waves = waves};
     set_bsdf(scene, surface, place, known);
@@ -84,8 +108,10 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         place.etas = nullptr;
         set_bsdf(scene, surface, place, known);
     }
-    null_ = scene.has_scattering && all == Spectrum::all(1) && !thin_ && material.coverage >= 1.0 &&
-            material.emission.is_black() && !material.unlit && bsdf().refracts_alone();
+    set_coat(scene, point, tangent);
+    null_ = scene.has_scattering && !coat_ && all == Spectrum::all(1) && !thin_ &&
+            material.coverage >= 1.0 && material.emission.is_black() && !material.unlit &&
+            bsdf().refracts_alone();
     from_behind_.reset();
     if (!both_ways || !bsdf().has_density() || !bsdf().transmits()) return;
     place.etas = nullptr;
@@ -143,16 +169,78 @@ Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const
     return entering_ ? over(there, here) : over(here, there);
 }
 
-std::optional<ScatterPoint::Directions> ScatterPoint::seen_from(const Vec3& direction) const {
+void ScatterPoint::set_coat(const Scene& scene, const ShadingPoint& point, const Vec3& tangent) {
+    coat_.reset();
+    coat_share_ = 0.0;
+    if (!point.coat_is_tilted) return;
+    const Surface& surface = point.surface;
+    const auto layer = coat_of(scene.materials[static_cast<std::size_t>(surface.materials[0])],
+                               scene.textures, lookup_at(surface));
+    if (!layer) return;
+    coat_.emplace(*layer,
+                  TiltedCoat::Normals{geometric_, surface.shading_normal, point.coat_mapped},
+                  tangent, view_);
+    coat_share_ = coat_->share(bsdf().albedo(local_view_).max());
+}
+
+ScatterPoint::Directions ScatterPoint::any_seen_from(const Vec3& direction) const {
+    if (!map_) return {local_view_, frame_.to_local(direction)};
     const Vec3 seen = mapped_normal_seen(map_->mapped, map_->shading, direction);
     const bool same_side = dot(direction, geometric_) > 0.0;
     const ShadingFrame frame = ShadingFrame::of(same_side ? seen : -seen, map_->tangent);
-    const Directions local{frame.to_local(view_), frame.to_local(direction)};
+    return {frame.to_local(view_), frame.to_local(direction)};
+}
+
+std::optional<ScatterPoint::Directions> ScatterPoint::seen_from(const Vec3& direction) const {
+    const Directions local = any_seen_from(direction);
     if (!(local.view.z > 0.0)) return std::nullopt;
     return local;
 }
 
 Spectrum ScatterPoint::value(const Vec3& direction, Transport transport) const {
+    if (!coat_) return value_below(direction, transport);
+    if (transport == Transport::Radiance) {
+        return coat_->value(direction) + coat_->through() * value_below(direction, transport);
+    }
+    return coat_->value_seen_from(direction) +
+           coat_->through_to(direction) * value_below_seen_from(direction);
+}
+
+Spectrum ScatterPoint::value_below_seen_from(const Vec3& direction) const {
+    const Directions local = any_seen_from(direction);
+    if (map_ ? !(local.view.z > 0.0) : !sides_agree(direction, local.direction)) return {};
+    return local.view.z * bsdf().value(local.view, local.direction, Transport::Importance);
+}
+
+Spectrum ScatterPoint::diffuse_share(const Vec3& direction) const {
+    const Spectrum below = bsdf().diffuse_share(local_view_, frame_.to_local(direction));
+    if (!coat_) return below;
+    const Spectrum all = value(direction, Transport::Radiance);
+    const Spectrum part = coat_->through() * (below * value_below(direction, Transport::Radiance));
+    Spectrum share;
+    for (int i = 0; i < Spectrum::kCount; ++i) share[i] = all[i] > 0.0 ? part[i] / all[i] : 0.0;
+    return share;
+}
+
+PlaneMueller ScatterPoint::polarization(const Vec3& direction, bool singular) const {
+    if (coat_ && singular && coat_->mirrors_to(direction)) {
+        return coat_->polarization(direction, true);
+    }
+    PlaneMueller below = bsdf().polarization(local_view_, frame_.to_local(direction), singular);
+    if (!coat_ || singular) return below;
+    const PlaneMueller coat = coat_->polarization(direction, false);
+    const Spectrum on_top = coat_->value(direction);
+    const Spectrum rest = coat_->through() * value_below(direction, Transport::Radiance);
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        const double sum = on_top[i] + rest[i];
+        const double a = sum > 0.0 ? on_top[i] / sum : 0.0, b = sum > 0.0 ? rest[i] / sum : 0.0;
+        below.set(i, {a * coat.q[i] + b * below.q[i], a * coat.d[i] + b * below.d[i],
+                      a * coat.c[i] + b * below.c[i], a * coat.e[i] + b * below.e[i]});
+    }
+    return below;
+}
+
+Spectrum ScatterPoint::value_below(const Vec3& direction, Transport transport) const {
     if (map_ && transport == Transport::Importance) {
         const std::optional<Directions> seen = seen_from(direction);
         if (!seen) return {};
@@ -164,11 +252,31 @@ Spectrum ScatterPoint::value(const Vec3& direction, Transport transport) const {
 }
 
 double ScatterPoint::density(const Vec3& direction) const {
+    const double below = density_below(direction);
+    if (!coat_) return below;
+    return coat_share_ * coat_->density(direction) + (1.0 - coat_share_) * below;
+}
+
+double ScatterPoint::reverse_density(const Vec3& direction) const {
+    const double density = reverse_density_below(direction);
+    if (!coat_) return density;
+    const Vec3 local = any_seen_from(direction).direction;
+    double below = 0.0;
+    if (local.z > 0.0) {
+        below = bsdf().albedo(local).max();
+    } else if (from_behind_) {
+        below = from_behind_->albedo({local.x, local.y, -local.z}).max();
+    }
+    const double share = coat_->share_seen_from(direction, below);
+    return share * coat_->reverse_density(direction) + (1.0 - share) * density;
+}
+
+double ScatterPoint::density_below(const Vec3& direction) const {
     const Vec3 local = frame_.to_local(direction);
     return sides_agree(direction, local) ? bsdf().density(local_view_, local) : 0.0;
 }
 
-double ScatterPoint::reverse_density(const Vec3& direction) const {
+double ScatterPoint::reverse_density_below(const Vec3& direction) const {
     Directions local{local_view_, frame_.to_local(direction)};
     if (map_) {
         const std::optional<Directions> seen = seen_from(direction);
@@ -184,6 +292,45 @@ double ScatterPoint::reverse_density(const Vec3& direction) const {
 
 std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
                                               Transport transport) const {
+    return coat_ ? sample_coated(choice, u, transport) : sample_below(choice, u, transport);
+}
+
+std::optional<Scattered> ScatterPoint::sample_coated(double choice, const Vec2& u,
+                                                     Transport transport) const {
+    constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+    const bool adjoint = transport == Transport::Importance;
+    std::optional<Scattered> s;
+    if (choice < coat_share_) {
+        const auto drawn = coat_->sample(std::min(choice / coat_share_, kBelowOne), u);
+        if (!drawn) return std::nullopt;
+        const BsdfSample& local = drawn->drawn;
+        s = Scattered{.direction = drawn->direction,
+                      .weight = (1.0 / coat_share_) * local.weight,
+                      .density = coat_share_ * local.density,
+                      .singular = local.singular,
+                      .mutual = !coat_->turned()};
+        if (s->singular && adjoint && coat_->turned()) return std::nullopt;
+    } else {
+        const double rest = 1.0 - coat_share_;
+        s = sample_below(std::min((choice - coat_share_) / rest, kBelowOne), u, transport);
+        if (!s) return std::nullopt;
+        double factor = (adjoint ? coat_->through_to(s->direction) : coat_->through()) / rest;
+        // `value` of importance has the cosine of the view.
+        if (adjoint && !s->straight) {
+            factor *= std::abs(local_view_.z / dot(s->direction, frame_.z));
+        }
+        s->weight = factor * s->weight;
+        s->density *= rest;
+    }
+    if (s->singular) return s;
+    s->density = density(s->direction);
+    if (!(s->density > 0.0)) return std::nullopt;
+    s->weight = (1.0 / s->density) * value(s->direction, transport);
+    return s;
+}
+
+std::optional<Scattered> ScatterPoint::sample_below(double choice, const Vec2& u,
+                                                    Transport transport) const {
     if (null_) {
         return Scattered{.direction = -view_,
                          .weight = straight(),
@@ -196,7 +343,7 @@ std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
     std::optional<Scattered> s = drawn ? in_world(*drawn) : std::nullopt;
     if (s && map_ && transport == Transport::Importance && !s->straight) {
         if (!s->singular) {
-            s->weight = (1.0 / s->density) * value(s->direction, transport);
+            s->weight = (1.0 / s->density) * value_below(s->direction, transport);
         } else if (map_->turned) {
             return std::nullopt;
         }
@@ -212,6 +359,7 @@ std::optional<Scattered> ScatterPoint::sample_matt(const Vec3& local) const {
 std::optional<Scattered> ScatterPoint::in_world(const BsdfSample& drawn) const {
     Scattered s{frame_.to_world(drawn.direction), drawn.weight, drawn.density, drawn.singular,
                 drawn.direction.z < 0.0,          drawn.eta,    false,         drawn.dispersed};
+    s.mutual = !map_ || !map_->turned;
     s.straight = s.singular && s.transmitted && thin_;
     if (s.straight) {
         s.direction = -view_;
@@ -222,6 +370,7 @@ std::optional<Scattered> ScatterPoint::in_world(const BsdfSample& drawn) const {
 }
 
 std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transport) const {
+    if (coat_) return std::nullopt;
     // The lowest choice gives reflection, the highest refraction.
     const auto reflected = sample(0.0, {}, transport);
     if (!reflected || !reflected->singular || reflected->transmitted) return std::nullopt;
@@ -239,7 +388,10 @@ std::optional<std::array<Scattered, 2>> ScatterPoint::both_ways(Transport transp
 
 double ScatterPoint::importance_correction(const Vec3& direction) const {
     double view_cosine = local_view_.z, cosine = dot(direction, frame_.z);
-    if (map_) {
+    if (coat_) {
+        // Each layer has its cosines in `value`.
+        view_cosine = cosine = 1.0;
+    } else if (map_) {
         const std::optional<Directions> seen = seen_from(direction);
         if (!seen) return 0.0;
         view_cosine = seen->view.z;

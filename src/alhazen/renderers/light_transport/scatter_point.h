@@ -7,8 +7,9 @@
 /// whether a direction is reflected or transmitted; if the shading normal disagrees, nothing is
 /// scattered. The normal of a map is turned to a viewer (mapped_normal_seen): light is scattered by
 /// that which the eye sees, in whichever direction a path goes, and each density is that of the
-/// normal that the path before the point sees. In scenes with scattering volumes, a boundary
-/// between volumes of the same index is a null boundary: it is passed straight, as thin sheets are.
+/// normal that the path before the point sees. A clear coat with another normal (TiltedCoat) has a
+/// frame of its own. In scenes with scattering volumes, a boundary between volumes of the same index
+/// is a null boundary: it is passed straight, as thin sheets are.
 
 #include <array>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/light_transport/bsdf_cache.h"
 #include "alhazen/renderers/light_transport/shading_frame.h"
+#include "alhazen/renderers/light_transport/tilted_coat.h"
 #include "alhazen/renderers/volumes/coincident_faces.h"
 #include "alhazen/renderers/volumes/medium_stack.h"
 #include "alhazen/shading/bsdf/bsdf.h"
@@ -32,6 +34,9 @@ struct Scattered {
     bool straight = false;  ///< through a thin sheet or a null boundary; not a scattering
     /// The direction is that of the hero wavelength: call Wavelengths::keep_hero.
     bool dispersed = false;
+    /// Singular: paths from both sides follow it; not if the normal of a map was turned to the
+    /// view.
+    bool mutual = true;
 };
 
 class ScatterPoint {
@@ -51,13 +56,9 @@ class ScatterPoint {
     /// BSDF * |cosine| for light from `direction`, without singular lobes.
     [[nodiscard]] Spectrum value(const Vec3& direction, Transport transport) const;
     /// Share of diffuse lobes in `value`.
-    [[nodiscard]] Spectrum diffuse_share(const Vec3& direction) const {
-        return bsdf().diffuse_share(local_view_, frame_.to_local(direction));
-    }
+    [[nodiscard]] Spectrum diffuse_share(const Vec3& direction) const;
     /// The Mueller matrix for light from `direction`, of the singular lobes or of the others.
-    [[nodiscard]] PlaneMueller polarization(const Vec3& direction, bool singular) const {
-        return bsdf().polarization(local_view_, frame_.to_local(direction), singular);
-    }
+    [[nodiscard]] PlaneMueller polarization(const Vec3& direction, bool singular) const;
     /// The density of `sample` for `direction`.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// The density with which a path from `direction` would continue to the view. Requires `set`
@@ -66,11 +67,11 @@ class ScatterPoint {
     [[nodiscard]] std::optional<Scattered> sample(double choice, const Vec2& u,
                                                   Transport transport) const;
     /// True if the BSDF is a single diffuse reflection.
-    [[nodiscard]] bool is_matt() const { return bsdf().is_only_matt(); }
+    [[nodiscard]] bool is_matt() const { return !coat_ && bsdf().is_only_matt(); }
     /// `sample` for a direction of `cosine_direction`; valid if `is_matt`.
     [[nodiscard]] std::optional<Scattered> sample_matt(const Vec3& local) const;
     /// True if `sample` uses `choice`.
-    [[nodiscard]] bool chooses() const { return !null_ && bsdf().chooses(); }
+    [[nodiscard]] bool chooses() const { return coat_ || (!null_ && bsdf().chooses()); }
 
     /// Reflection and refraction, in this order, at a smooth boundary without dispersion, each with
     /// its weight without a random choice; none at other surfaces and if one of the two is missing.
@@ -80,17 +81,25 @@ class ScatterPoint {
     /// The straight transmittance of a thin sheet or a null boundary.
     [[nodiscard]] Spectrum straight() const {
         return null_ ? bsdf().singular(local_view_, Transport::Radiance).transmitted
-                     : bsdf().straight(local_view_);
+                     : through() * bsdf().straight(local_view_);
     }
     /// The probability that `sample` passes a thin sheet straight.
     [[nodiscard]] double straight_probability() const {
-        return thin_ ? bsdf().straight_probability(local_view_) : 0.0;
+        return thin_ ? (1.0 - coat_share_) * bsdf().straight_probability(local_view_) : 0.0;
     }
-    [[nodiscard]] bool has_density() const { return bsdf().has_density(); }
-    [[nodiscard]] std::optional<Spectrum> lambert() const { return bsdf().lambert(); }
-    [[nodiscard]] bool has_singular() const { return bsdf().has_singular(); }
+    [[nodiscard]] bool has_density() const {
+        return bsdf().has_density() || (coat_ && coat_->has_density());
+    }
+    [[nodiscard]] std::optional<Spectrum> lambert() const {
+        return coat_ ? std::nullopt : bsdf().lambert();
+    }
+    [[nodiscard]] bool has_singular() const {
+        return bsdf().has_singular() || (coat_ && !coat_->has_density());
+    }
     [[nodiscard]] bool transmits() const { return bsdf().transmits(); }
-    /// The singular lobes for light to the view.
+    /// True if light from below the normal may be scattered to the view.
+    [[nodiscard]] bool is_lit_from_both_sides() const { return transmits() || coat_; }
+    /// The singular lobes for light to the view, without a tilted coat.
     [[nodiscard]] SingularLight singular(Transport transport) const {
         return bsdf().singular(local_view_, transport);
     }
@@ -103,10 +112,6 @@ class ScatterPoint {
     }
     /// Correction factor for importance that leaves along `direction`, due to shading normals.
     [[nodiscard]] double importance_correction(const Vec3& direction) const;
-    /// True if paths from both sides of a singular scattering follow it: not if the normal of a map
-    /// was turned to the view.
-    [[nodiscard]] bool singular_is_mutual() const { return !map_ || !map_->turned; }
-
     /// True if the surface bounds a volume.
     [[nodiscard]] bool bounds_volume() const {
         return media_known_ || (bsdf().lets_through() && !thin_);
@@ -127,12 +132,26 @@ class ScatterPoint {
     /// The index on the side of the view over that behind, by wavelength; 0: that of the material.
     [[nodiscard]] Spectrum etas(const Scene& scene, const ShadingPoint& point,
                                 const MediumStack& media, const Wavelengths& waves) const;
-    struct Directions {
-        Vec3 view, direction;  ///< z of the view is positive
-    };
+    using Directions = LocalDirections;
     /// View and direction in the frame of the normal that is seen from `direction`. None: the view
     /// is behind that normal, and nothing is scattered. Requires `map_`.
     [[nodiscard]] std::optional<Directions> seen_from(const Vec3& direction) const;
+    /// `seen_from` even where nothing is scattered, with a map or without.
+    [[nodiscard]] Directions any_seen_from(const Vec3& direction) const;
+    /// Adds the clear coat of the point if its normal is another.
+    void set_coat(const Scene& scene, const ShadingPoint& point, const Vec3& tangent);
+    /// Share of light that a tilted coat leaves to the layers below, to the view.
+    [[nodiscard]] double through() const { return coat_ ? coat_->through() : 1.0; }
+    /// `value`, `density`, `reverse_density` and `sample` without a tilted coat.
+    [[nodiscard]] Spectrum value_below(const Vec3& direction, Transport transport) const;
+    [[nodiscard]] double density_below(const Vec3& direction) const;
+    [[nodiscard]] double reverse_density_below(const Vec3& direction) const;
+    [[nodiscard]] std::optional<Scattered> sample_below(double choice, const Vec2& u,
+                                                        Transport transport) const;
+    [[nodiscard]] std::optional<Scattered> sample_coated(double choice, const Vec2& u,
+                                                         Transport transport) const;
+    /// `value_below` for an eye in `direction`, with the cosine of the view.
+    [[nodiscard]] Spectrum value_below_seen_from(const Vec3& direction) const;
     [[nodiscard]] bool sides_agree(const Vec3& direction, const Vec3& local) const {
         return local.z * dot(direction, geometric_) > 0.0;
     }
@@ -145,6 +164,8 @@ class ScatterPoint {
         bool turned = false;  ///< `frame_` has another normal than the map
     };
     std::optional<Map> map_;
+    std::optional<TiltedCoat> coat_;
+    double coat_share_ = 0;  ///< probability of sampling `coat_`
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;
     Medium inside_;  ///< of the volume that the surface bounds

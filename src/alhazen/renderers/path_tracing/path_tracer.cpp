@@ -188,7 +188,7 @@ void PathTracer::scatter_all() {
         const EyePath& path = *vertex.path;
         const Vec2 place = random_.draw(path.sample, path.drawn, PathRandomness::kLight);
         const double choice = choices(path, chooses_light_).y;
-        draws_.add({vertex.place, vertex.scatter.normal(), vertex.scatter.transmits()}, choice,
+        draws_.add({vertex.place, vertex.scatter.normal(), vertex.scatter.is_lit_from_both_sides()}, choice,
                    place, waves(path));
     }
     draws_.draw();
@@ -328,7 +328,7 @@ void PathTracer::scatter(const Vertex& vertex, const std::optional<Scattered>& d
         }
         path.singular = drawn->singular;
         path.density = drawn->density;
-        path.from = {vertex.place, scatter.normal(), scatter.transmits()};
+        path.from = {vertex.place, scatter.normal(), scatter.is_lit_from_both_sides()};
         path.travelled = 0.0;
         path.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
         path.kind = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;

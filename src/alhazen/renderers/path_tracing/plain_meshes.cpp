@@ -48,8 +48,11 @@ const PlainMaterial* PlainMeshes::material_of(MaterialId id) {
     const auto number = static_cast<std::size_t>(id);
     if (materials_[number]) return materials_[number].get();
     const Material& material = scene_.materials[number];
-    // Boundaries of volumes may coincide with other faces.
-    if (reads_textures(material) || may_bound_volume(material)) return nullptr;
+    // Boundaries of volumes may coincide with other faces. Turned grooves depend on the handedness
+    // of the coordinates.
+    if (reads_textures(material) || may_bound_volume(material) || has_turned_grooves(material)) {
+        return nullptr;
+    }
     const MaterialSample sample = evaluate(material, scene_.textures, SurfaceLookup{});
     const bool is_seen = sample.coverage >= 1.0 && !sample.single_sided;
     if (!is_seen || sample.unlit || !sample.emission.is_black()) return nullptr;

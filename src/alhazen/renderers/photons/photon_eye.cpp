@@ -199,7 +199,7 @@ bool PhotonEye::leave(const SampleId& id, int& event, const Scattered& drawn, Br
         ++at.last.scatterings;
         at.last.singular = drawn.singular;
         at.last.density = drawn.density;
-        at.last.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
+        at.last.from = {point.surface.point, scatter_.normal(), scatter_.is_lit_from_both_sides()};
         at.last.eta_scale *= drawn.transmitted ? drawn.eta * drawn.eta : 1.0;
     }
     NextSurface::go_on(at.path, point.surface, scatter_, drawn);
@@ -264,7 +264,7 @@ void PhotonEye::add_shadow_ray(const Branch& branch, double choice, const Vec2& 
                                const Wavelengths& waves, Spectrum& direct) {
     const PathEnd& path = branch.path;
     const ShadingPoint& point = next_.point();
-    const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
+    const LitPoint at{point.surface.point, scatter_.normal(), scatter_.is_lit_from_both_sides()};
     const LightDraw drawn = lights_.draw(at, choice, place, *path.waves);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     const Spectrum light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;

@@ -157,6 +157,11 @@ struct BsdfPlace {
     /// (CSG walls); else 0: given by the material's index and `from_inside`.
     double eta = 0;
     bool from_inside = false;  ///< the view is inside the volume that the surface bounds
+    /// The surface's bitangent is along -y of the local frame, not along y: of mirrored
+    /// coordinates, or seen from behind, not both.
+    bool mirrored = false;
+    /// Without the clear coat, which has a normal of its own: `coat_of`.
+    bool without_coat = false;
     /// `eta` of each of four wavelengths, the first of which equals `eta`; null if all are equal.
     const Spectrum* etas = nullptr;
     /// The wavelengths of the path.
@@ -166,5 +171,15 @@ struct BsdfPlace {
 /// The BSDF of a material at a point.
 [[nodiscard]] Bsdf bsdf_of(const Material& material, std::span<const Texture> textures,
                            const SurfaceLookup& lookup, const BsdfPlace& place);
+
+/// A clear coat by itself: its reflection, and the attenuation of all layers below.
+struct CoatLayer {
+    Bsdf bsdf;
+    Cover cover;
+};
+/// The coat of a material at a point; empty if there is none.
+[[nodiscard]] std::optional<CoatLayer> coat_of(const Material& material,
+                                               std::span<const Texture> textures,
+                                               const SurfaceLookup& lookup);
 
 }  // namespace alhazen

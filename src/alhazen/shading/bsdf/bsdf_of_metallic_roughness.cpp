@@ -53,11 +53,11 @@ class LayerMaker {
     [[nodiscard]] static Spectrum grey(double x) { return Spectrum::all(x); }
 
     void add_coat() {
-        const double strength = scalar(p_.coat.strength);
-        if (!(strength > 0.0)) return;
-        const double roughness = scalar(p_.coat.roughness);
-        bsdf_.add(grey(strength), reflection_lobe(roughness, SchlickTerm{grey(0.04), grey(1)}));
-        covers_ |= bsdf_.add_cover(Cover::face(roughness * roughness, 0.04, 1.0, strength));
+        if (place_.without_coat) return;
+        const std::optional<CoatLayer> coat = coat_of(m_, textures_, lookup_);
+        if (!coat) return;
+        bsdf_.add(coat->bsdf, 1.0);
+        covers_ |= bsdf_.add_cover(coat->cover);
     }
 
     void add_sheen() {
@@ -79,7 +79,8 @@ class LayerMaker {
         strength = clipped(strength);
         const double alpha = roughness_ * roughness_;
         ggx_ = {alpha + (1.0 - alpha) * strength * strength, alpha};
-        if (strength > 0.0) axis_ = {std::cos(angle), std::sin(angle)};
+        if (!(strength > 0.0)) return;
+        axis_ = {std::cos(angle), place_.mirrored ? -std::sin(angle) : std::sin(angle)};
     }
 
     void read_film() {
@@ -185,6 +186,20 @@ class LayerMaker {
 };
 
 }  // namespace
+
+std::optional<CoatLayer> coat_of(const Material& material, std::span<const Texture> textures,
+                                 const SurfaceLookup& lookup) {
+    if (!material.metallic_roughness || material.metallic_roughness->unlit) return std::nullopt;
+    const ClearCoat& coat = material.metallic_roughness->coat;
+    const double strength = clipped(value_at(coat.strength, textures, lookup));
+    if (!(strength > 0.0)) return std::nullopt;
+    const double roughness = clipped(value_at(coat.roughness, textures, lookup));
+    CoatLayer layer;
+    layer.bsdf.add(Spectrum::all(strength),
+                   reflection_lobe(roughness, SchlickTerm{Spectrum::all(0.04), Spectrum::all(1)}));
+    layer.cover = Cover::face(roughness * roughness, 0.04, 1.0, strength);
+    return layer;
+}
 
 Bsdf bsdf_of_metallic_roughness(const Material& material, const MetallicRoughness& parameters,
                                 std::span<const Texture> textures, const SurfaceLookup& lookup,

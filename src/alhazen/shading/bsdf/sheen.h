@@ -4,6 +4,9 @@
 /// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", Imageworks 2017 (the
 /// distribution and the fit of its shadowing), as in KHR_materials_sheen: alpha is the squared
 /// roughness; the terminator is not softened.
+/// Differs: roughnesses below 0.05 count as 0.05. Where the lobe would scatter more light than it
+/// gets (cosines below 0.06 and roughnesses below 0.25) it is divided by its albedo, at the view
+/// and at the light, so that it stays reciprocal.
 
 #include <optional>
 

@@ -51,6 +51,12 @@ bool reads_coordinates(const Material& m) {
            (m.metallic_roughness && m.metallic_roughness->anisotropy.strength != 0.0);
 }
 
+bool has_turned_grooves(const Material& m) {
+    if (!m.metallic_roughness) return false;
+    const Grooves& grooves = m.metallic_roughness->anisotropy;
+    return grooves.strength != 0.0 && (grooves.rotation != 0.0 || grooves.texture != kNoTexture);
+}
+
 double channel_of(const Rgba& texel, Channel channel) {
     switch (channel) {
         case Channel::Red:

@@ -17,6 +17,8 @@ namespace alhazen {
 [[nodiscard]] bool reads_textures(const Material& material);
 /// True if the material depends on texture coordinates or on their directions in the surface.
 [[nodiscard]] bool reads_coordinates(const Material& material);
+/// True if its grooves are at an angle to the tangent: the BSDF depends on BsdfPlace::mirrored.
+[[nodiscard]] bool has_turned_grooves(const Material& material);
 
 /// The metallic-roughness parameters as terms of Whitted's equation; docs/reference/materials.md
 /// derives them.

@@ -1,6 +1,7 @@
 #include "alhazen/shading/microfacets/lobe_albedo.h"
 
 #include "alhazen/shading/microfacets/albedo_table.h"
+#include "alhazen/shading/microfacets/cubic_table.h"
 #include "alhazen/shading/microfacets/gauss_legendre.h"
 #include "alhazen/shading/microfacets/local_directions.h"
 
@@ -56,7 +57,19 @@ double integrate_blinn(double mu, double alpha) {
     });
 }
 
-double integrate_sheen(double mu, double roughness) {
+/// Below this roughness fibres are so thin that the lobe is invisible.
+double usable_sheen(double roughness) {
+    return std::clamp(roughness, 0.05, 1.0);
+}
+/// Tables begin below it, so that they are smooth there.
+constexpr double kLeastTabled = 0.02;
+
+/// Charlie's lobe as the source has it.
+double charlie_lobe(double mu_view, double mu_light, double half, double roughness);
+
+/// The albedo of the lobe `f` of cosines of the view, the light and the half vector.
+template <class F>
+double integrate_sheen(double mu, const F& lobe) {
     static const GaussLegendre<48> heights;
     static const GaussLegendre<32> turns;
     const Vec3 v = view_at(mu);
@@ -66,11 +79,30 @@ double integrate_sheen(double mu, double roughness) {
         for (std::size_t j = 0; j < turns.points.size(); ++j) {
             const double turn = kPi * turns.points[j];
             const Vec3 l{s * std::cos(turn), s * std::sin(turn), z};
-            const double f = sheen_lobe(mu, z, normalize(v + l).z, roughness);
+            const double f = lobe(mu, z, normalize(v + l).z);
             sum += 4.0 * kPi * t * z * heights.weights[i] * turns.weights[j] * f;
         }
     }
     return sum;
+}
+
+/// The part of the angles and roughnesses in which Charlie's lobe may have an albedo above 1.
+constexpr double kGrazing = 0.08, kThinFibres = 0.3;
+
+/// The factor by which Charlie's albedo exceeds 1 there; 1 where it does not.
+double charlie_excess(double mu, double roughness) {
+    if (mu >= kGrazing || roughness >= kThinFibres) return 1.0;
+    // A / (1 + A) of the albedo A is bounded.
+    static const CubicTable<2> table({24, 16}, [](const std::array<double, 2>& p) {
+        const double r = kLeastTabled + p[1] * (kThinFibres - kLeastTabled);
+        const double a = integrate_sheen(
+            std::max(kGrazing * p[0] * p[0], AlbedoAxes::kLeastMu),
+            [&](double v, double l, double half) { return charlie_lobe(v, l, half, r); });
+        return a / (1.0 + a);
+    });
+    const double share = table.at(
+        {std::sqrt(mu / kGrazing), (roughness - kLeastTabled) / (kThinFibres - kLeastTabled)});
+    return std::max(1.0, share / (1.0 - share));
 }
 
 /// Shadowing among the fibres, for one direction.
@@ -83,6 +115,15 @@ double fibre_shadow(double mu, double roughness) {
     return std::exp(mu < 0.5 ? l(mu) : 2.0 * l(0.5) - l(1.0 - mu));
 }
 
+double charlie_lobe(double mu_view, double mu_light, double half, double r) {
+    const double power = 1.0 / (r * r);
+    const double sine_squared = std::max(0.0, 1.0 - half * half);
+    const double normals = (2.0 + power) / (2.0 * kPi) * std::pow(sine_squared, 0.5 * power);
+    const double visible =
+        1.0 / (1.0 + fibre_shadow(mu_view, r * r) + fibre_shadow(mu_light, r * r));
+    return normals * visible / (4.0 * mu_view * mu_light);
+}
+
 const AlbedoTable& phong_table() {
     static const AlbedoTable made(integrate_phong);
     return made;
@@ -91,8 +132,16 @@ const AlbedoTable& blinn_table() {
     static const AlbedoTable made(integrate_blinn);
     return made;
 }
+/// Albedo of the lobe divided by the excess at the light only, which is smooth in `mu`, times
+/// kSheenScale: it may exceed 1.
+constexpr double kSheenScale = 0.25;
 const AlbedoTable& sheen_table() {
-    static const AlbedoTable made(integrate_sheen);
+    static const AlbedoTable made([](double mu, double roughness) {
+        const double r = std::max(roughness, kLeastTabled);
+        return kSheenScale * integrate_sheen(mu, [&](double v, double l, double half) {
+                   return charlie_lobe(v, l, half, r) / charlie_excess(l, r);
+               });
+    });
     return made;
 }
 
@@ -115,7 +164,8 @@ double mean_blinn_albedo(double alpha) {
     return blinn_table().mean(alpha);
 }
 double sheen_albedo(double mu, double roughness) {
-    return sheen_table().at(mu, roughness);
+    const double r = usable_sheen(roughness);
+    return sheen_table().at(mu, r) / (kSheenScale * charlie_excess(mu, r));
 }
 
 double phong_lobe(double mu_view, double mu_light, double between, double exponent) {
@@ -133,14 +183,9 @@ double blinn_lobe(double mu_view, double mu_light, double half, double view_half
 }
 
 double sheen_lobe(double mu_view, double mu_light, double half, double roughness) {
-    // Below this roughness fibres are so thin that the lobe is invisible.
-    const double r = std::clamp(roughness, 0.05, 1.0);
-    const double power = 1.0 / (r * r);
-    const double sine_squared = std::max(0.0, 1.0 - half * half);
-    const double normals = (2.0 + power) / (2.0 * kPi) * std::pow(sine_squared, 0.5 * power);
-    const double visible =
-        1.0 / (1.0 + fibre_shadow(mu_view, r * r) + fibre_shadow(mu_light, r * r));
-    return normals * visible / (4.0 * mu_view * mu_light);
+    const double r = usable_sheen(roughness);
+    return charlie_lobe(mu_view, mu_light, half, r) /
+           (charlie_excess(mu_view, r) * charlie_excess(mu_light, r));
 }
 
 }  // namespace alhazen

@@ -21,6 +21,7 @@ namespace alhazen {
 /// `half`: cosine of the half vector to the normal, `view_half`: of the view to the half vector.
 [[nodiscard]] double blinn_lobe(double mu_view, double mu_light, double half, double view_half,
                                 double exponent);
+/// Its albedo is at most 1.
 [[nodiscard]] double sheen_lobe(double mu_view, double mu_light, double half, double roughness);
 
 }  // namespace alhazen

@@ -43,6 +43,16 @@ TEST(NativeImporter, GlassesHaveTheirIndexByNameByFormulaOrByAbbe) {
     EXPECT_TRUE(m.dielectric && m.dispersion->name == "BK7");
     EXPECT_EQ(material("abbe = 30; index = 1.6; dielectric = { }").messages(), "");
     EXPECT_EQ(material("sellmeier = (1.1, 0.01)").messages(), "");
+    // An index alone is that of a clear body.
+    for (const char* alone : {"sellmeier = (1.1, 0.01)", "index = 1.6; abbe = 20",
+                              "glass = \"BK7\"; emission = 0.1; roughness = 0.2"}) {
+        EXPECT_TRUE(material(alone).scene.materials.at(0).material.dielectric) << alone;
+    }
+    for (const char* of : {"sellmeier = (1.1, 0.01); diffuse = 0.5", "abbe = 20; transmissive = 1",
+                           "glass = \"BK7\"; reflective = 0", "abbe = 20; conductor = \"gold\"",
+                           "abbe = 20; metallic_roughness = { }"}) {
+        EXPECT_FALSE(material(of).scene.materials.at(0).material.dielectric) << of;
+    }
     EXPECT_EQ(material("emission = blackbody(3200)").messages(), "");
     EXPECT_EQ(material("emission = illuminant(\"A\", 2.5)").messages(), "");
     EXPECT_TRUE(material("glass = \"crown\"").says("fused_quartz"));

@@ -298,7 +298,11 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
     lamp.illuminant = Illuminant{IlluminantKind::BlackBody, 3200, n.positive()};
     filament.illuminant = Illuminant{IlluminantKind::A, 0, n.positive()};
     for (Material* m : {&lamp, &filament}) m->emission.color = color_of(*m->illuminant);
-    for (const Material& m : {bk7, formula, lamp, filament}) scene.materials.push_back({m, {}});
+    Material black = bk7, clear = formula;
+    black.dielectric.reset();
+    clear.dielectric.emplace();
+    for (const Material& m : {bk7, formula, black, clear, lamp, filament})
+        scene.materials.push_back({m, {}});
     for (const Material& m : {gold, metal, water}) scene.materials.push_back({m, {}});
     expect_round_trip(scene);
 }

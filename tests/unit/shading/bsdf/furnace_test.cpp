@@ -166,6 +166,26 @@ TEST(Furnace, LayersOverAndUnderGroovesGiveBackAllLight) {
     }
 }
 
+TEST(Furnace, SheenOfEveryRoughnessGivesBackAllLight) {
+    for (const double r : {0.0, 0.001, 0.03, 0.05, 0.1, 0.15, 0.3, 0.6, 1.0}) {
+        MetallicRoughness p;
+        p.metallic.value = 0;
+        p.roughness.value = 0.5;
+        p.sheen.color.color = {1, 1, 1};
+        p.sheen.roughness.value = r;
+        const Bsdf white = bsdf_of_parameters(p);
+        const Bsdf sheen = bsdf_of_lobe(Sheen{{1, 1, 1, 1}, r});
+        for (const double cosine : {0.01, 0.05, 0.06, 0.08, 0.1, 0.2, 0.5, 1.0}) {
+            const Vec3 view = view_at(cosine);
+            const std::string what =
+                "roughness " + std::to_string(r) + ", view " + std::to_string(cosine);
+            EXPECT_LE(furnace(sheen, view, 1 << 14).max(), 1.002) << what;
+            const double error = cosine < 0.1 ? 5e-3 : 1e-3;
+            EXPECT_NEAR(furnace(white, view, 1 << 14).a, 1.0, error) << what;
+        }
+    }
+}
+
 TEST(Furnace, NoMaterialGivesBackMoreThanItGets) {
     for (const double r : {0.0, 0.2, 0.5, 1.0}) {
         MetallicRoughness p;

@@ -139,16 +139,6 @@ void add_materials(const Document& document, const ImportSource& source, SceneDe
                    Diagnostics& diagnostics) {
     Textures textures(document, source, scene, diagnostics);
     MaterialMaker maker(textures);
-    std::size_t rough = 0;
-    for (const Material& m : document.materials) {
-        if (m.transmission > 0 && m.roughness > 0) ++rough;
-    }
-    if (rough != 0) {
-        diagnostics.warning({source.path.string(), 0, 0},
-                            fmt::format("transmission through rough surfaces is left sharp "
-                                        "({} material{})",
-                                        rough, rough == 1 ? "" : "s"));
-    }
     for (std::size_t i = 0; i < document.materials.size(); ++i) {
         const Material& material = document.materials[i];
         std::string name = material.name.empty() ? fmt::format("material {}", i) : material.name;

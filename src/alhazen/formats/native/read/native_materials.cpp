@@ -1,6 +1,7 @@
 #include "alhazen/formats/native/read/native_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/formats/native/native_words.h"
@@ -327,7 +328,8 @@ void read_sellmeier(BlockReader& reader, TextNode value, Material& m) {
     m.dispersion = d;
 }
 
-/// Reads the dependence of the index on the wavelength: `glass`, `sellmeier` or `abbe`.
+/// Reads the dependence of the index on the wavelength: `glass`, `sellmeier` or `abbe`. A material
+/// of nothing else is a clear dielectric.
 void read_dispersion(BlockReader& reader, Material& m) {
     const auto glass = reader.find("glass"), sellmeier = reader.find("sellmeier"),
                abbe = reader.find("abbe");
@@ -353,9 +355,12 @@ void read_dispersion(BlockReader& reader, Material& m) {
     }
     if (!m.dispersion) return;
     if (!abbe) m.index.value = m.dispersion->sellmeier.index(kLineD);
-    const bool is_clear =
-        m.metallic_roughness || m.conductor || m.dielectric || reader.has("transmissive");
-    if (glass && !is_clear) m.dielectric.emplace();
+    const bool has_coefficients = std::ranges::any_of(
+        std::array{"ambient", "diffuse", "specular", "reflective", "transmissive"},
+        [&](const char* key) { return reader.has(key); });
+    if (!m.metallic_roughness && !m.conductor && !m.dielectric && !has_coefficients) {
+        m.dielectric.emplace();
+    }
 }
 
 MaterialId add_material(TextNode block, std::string name, NativeContext& context) {

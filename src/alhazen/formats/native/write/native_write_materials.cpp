@@ -154,6 +154,16 @@ void add_dispersion(const Dispersion& d, NativeBlockText& material) {
     }
 }
 
+/// True if the reader takes a material of an index alone for a clear dielectric, which it is not.
+bool would_become_clear(const Material& m) {
+    const auto is_usual = [](const ColorInput& c) {
+        return c.texture == kNoTexture && c.color.is_black();
+    };
+    return m.dispersion && !m.metallic_roughness && !m.conductor && !m.dielectric &&
+           is_usual(m.ambient) && is_usual(m.diffuse) && is_usual(m.specular) &&
+           is_usual(m.reflective) && is_usual(m.transmissive);
+}
+
 // Pictures.
 
 std::string write_picture(const NativeWriteContext& context, const StoredImage& image,
@@ -230,7 +240,11 @@ void write_native_materials(NativeWriteContext& context) {
         } else {
             inputs.add("emission", m.emission, usual.emission);
         }
-        inputs.add("diffuse", m.diffuse, usual.diffuse);
+        if (would_become_clear(m)) {
+            block.add("diffuse", native_value(m.diffuse.color));
+        } else {
+            inputs.add("diffuse", m.diffuse, usual.diffuse);
+        }
         inputs.add("ambient", m.ambient, m.diffuse);  // the reader's default
         inputs.add("specular", m.specular, usual.specular);
         inputs.add("reflective", m.reflective, usual.reflective);

@@ -1,0 +1,164 @@
+// Grooves at an angle to the tangent, in mirrored coordinates and seen from behind.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "alhazen/renderers/light_transport/scatter_point.h"
+#include "support/light_pictures.h"
+#include "support/random.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+
+enum class Frame { Tangents, MirroredTangents, Coordinates, MirroredCoordinates };
+
+bool is_mirrored(Frame frame) {
+    return frame == Frame::MirroredTangents || frame == Frame::MirroredCoordinates;
+}
+
+/// A square of side 2 in the plane z = 0 with the tangent +x and, unless mirrored, the bitangent
+/// +y.
+TriangleMesh square(Frame frame) {
+    TriangleMesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    if (frame == Frame::Coordinates || frame == Frame::MirroredCoordinates) {
+        mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        if (is_mirrored(frame)) mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    } else {
+        mesh.tangents.assign(4, {1, 0, 0, is_mirrored(frame) ? -1.0f : 1.0f});
+    }
+    return mesh;
+}
+
+Material grooved(double angle, bool is_metal) {
+    Material m;
+    MetallicRoughness& p = m.metallic_roughness.emplace();
+    p.metallic.value = is_metal ? 1 : 0;
+    p.transmission.value = is_metal ? 0 : 1;
+    p.roughness.value = is_metal ? 0.25 : 0.4;
+    p.anisotropy.strength = 0.6;
+    p.anisotropy.rotation = angle;
+    m.index.value = 1.5;
+    return m;
+}
+
+Scene scene_of(Frame frame, const Material& material) {
+    SceneMaker maker;
+    maker.add(maker.mesh(square(frame)), maker.material(material));
+    return maker.compile();
+}
+
+void set_point(const Scene& scene, const Vec3& view, ScatterPoint& scatter,
+               BsdfCache* known = nullptr) {
+    const Ray ray{Vec3{0.1, 0.2, 0} + 5 * view, -view};
+    Hit hit;
+    ASSERT_TRUE(scene.aggregate->closest(ray, hit, {nullptr}));
+    ShadingPoint point;
+    set_shading_point(scene, ray, hit, {.meets_backs = true}, {}, point);
+    scatter.set(scene, point, {}, kColorChannels, true, known);
+}
+
+double value(const Scene& scene, const Vec3& view, const Vec3& light, BsdfCache* known = nullptr) {
+    ScatterPoint scatter;
+    set_point(scene, view, scatter, known);
+    return scatter.value(light, Transport::Radiance).a;
+}
+
+void expect_close(double a, double b, const std::string& what) {
+    EXPECT_NEAR(a, b, 1e-9 * std::max(std::abs(a), std::abs(b)) + 1e-12) << what;
+}
+
+const Frame kFrames[] = {Frame::Tangents, Frame::MirroredTangents, Frame::Coordinates,
+                         Frame::MirroredCoordinates};
+
+/// The angle counts from the tangent to the bitangent: mirrored, it is that of the other sense.
+TEST(Grooves, TurnFromTheTangentToTheBitangent) {
+    const Vec3 view = normalize(Vec3{0.3, 0.5, 0.8}), light = normalize(Vec3{-0.1, -0.45, 0.8});
+    const Scene plain = scene_of(Frame::Tangents, grooved(0.5, true));
+    const Scene other = scene_of(Frame::Tangents, grooved(-0.5, true));
+    const double along = value(plain, view, light), against = value(other, view, light);
+    ASSERT_GT(std::abs(along - against), 0.2 * along);
+    for (const Frame frame : kFrames) {
+        const Scene scene = scene_of(frame, grooved(0.5, true));
+        BsdfCache known(scene);
+        const std::string what = std::to_string(static_cast<int>(frame));
+        expect_close(value(scene, view, light), is_mirrored(frame) ? against : along, what);
+        expect_close(value(scene, view, light, &known), is_mirrored(frame) ? against : along, what);
+    }
+}
+
+/// The grooves are lines of the surface: seen from behind, they are the same lines.
+TEST(Grooves, LieAlongTheSameLinesFromBothSides) {
+    const auto behind = [](const Vec3& v) { return Vec3{v.x, v.y, -v.z}; };
+    for (const Frame frame : kFrames) {
+        const Scene scene = scene_of(frame, grooved(0.7, true));
+        BsdfCache known(scene);
+        testing::Random random(3);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 view = random.unit_vector(), light = random.unit_vector();
+            const std::string what = std::to_string(i);
+            const double front = value(scene, view, light);
+            expect_close(value(scene, behind(view), behind(light)), front, what);
+            expect_close(value(scene, behind(view), behind(light), &known), front, what);
+            expect_close(value(scene, view, light, &known), front, what);
+        }
+    }
+}
+
+TEST(Grooves, OfThinSheetsScatterAlikeInBothDirections) {
+    for (const Frame frame : kFrames) {
+        const Scene scene = scene_of(frame, grooved(0.7, false));
+        testing::Random random(5);
+        int through = 0;
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 to_eye = random.unit_vector(), to_light = random.unit_vector();
+            ScatterPoint eye, light;
+            set_point(scene, to_eye, eye);
+            set_point(scene, to_light, light);
+            const std::string what = std::to_string(i);
+            const double seen = eye.value(to_light, Transport::Radiance).a;
+            expect_close(seen / std::abs(to_light.z),
+                         light.value(to_eye, Transport::Importance).a / std::abs(to_eye.z), what);
+            expect_close(eye.density(to_light), light.reverse_density(to_eye), what);
+            expect_close(light.density(to_eye), eye.reverse_density(to_light), what);
+            through += seen > 1e-3 && to_eye.z * to_light.z < 0;
+        }
+        EXPECT_GT(through, 50);
+    }
+}
+
+/// Meshes without tangents are candidates for lanes.
+TEST(Grooves, AreSeenAlikeByPathsInLanes) {
+    for (const bool mirrored : {false, true}) {
+        for (const double side : {1.0, -1.0}) {
+            double brightness[2];
+            for (const bool lanes : {false, true}) {
+                const Frame frame = lanes
+                                        ? mirrored ? Frame::MirroredCoordinates : Frame::Coordinates
+                                    : mirrored ? Frame::MirroredTangents
+                                               : Frame::Tangents;
+                SceneMaker maker;
+                maker.add(maker.mesh(square(frame)), maker.material(grooved(0.5, true)));
+                const Vec3 eye = 4 * normalize(Vec3{0.3, 0.5, side * 0.8});
+                maker.description().cameras[0].camera =
+                    look_along(eye, normalize(-eye), {0, 1, 0.1}, 0.02, 1.0);
+                maker.light(DirectionalLight{.to_light = normalize(Vec3{-0.1, -0.45, side * 0.8}),
+                                             .color = {1, 1, 1}});
+                const Scene scene = maker.compile();
+                brightness[lanes] =
+                    testing::mean_of(testing::picture_of(scene, "path_tracing", 4, 4)).g;
+            }
+            EXPECT_GT(brightness[0], 0.01);
+            EXPECT_NEAR(brightness[1], brightness[0], 1e-6 * brightness[0]) << mirrored << side;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
