@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "alhazen/illumination/light_importance.h"
 #include "alhazen/math/constants.h"
@@ -17,6 +17,12 @@ constexpr int kBins = 12;
 /// Only nodes with a number of lights in this range are split along the best of all axes, others
 /// along their longest axis.
 constexpr std::size_t kTriesAllAxesFrom = 12, kTriesAllAxesTo = 2048;
+
+/// The variance of an importance per variance of the places of its lights; found by experiments
+/// (docs/log/light_transport.md).
+constexpr double kWidth = 1.4;
+/// The least share of a node in the intensity of all lights: products stay normal numbers.
+constexpr double kLeastIntensity = 1e-12;
 
 /// Bounds of a set of lights.
 struct Cluster {
@@ -85,13 +91,88 @@ double cost_of(const Cluster& c) {
 
 }  // namespace
 
+/// What the importance of a set of lights depends on, in world space.
+struct Moments {
+    Vec3 center;          ///< mean by intensity
+    double variance = 0;  ///< of places, along one axis
+    Vec3 axis;            ///< mean by intensity
+    double intensity = 0;
+    bool two_sided = false;
+    Box3 box;
+    Cluster cone;  ///< if the tree has cones
+};
+
+bool emits_to_all_directions(const TreeLight& l) {
+    return l.bounds.cosine_spread <= -1.0 || l.cosine_reach <= -1.0;
+}
+bool is_surface(const TreeLight& l) {
+    return l.cosine_reach == 0.0;
+}
+
+Moments moments_of(const TreeLight& l) {
+    Moments m;
+    m.center = l.bounds.center;
+    m.box = l.bounds.box;
+    // Emitters fill about their box.
+    m.variance = length_squared(m.box.size()) / 36.0;
+    m.two_sided = l.two_sided;
+    m.intensity = l.intensity;
+    if (is_surface(l) && !emits_to_all_directions(l)) {
+        m.axis = 0.5 * (1.0 + l.bounds.cosine_spread) * l.bounds.axis;
+    } else {
+        // The largest intensity in all directions, and not in one.
+        m.intensity *= l.two_sided ? 2.0 : 4.0;
+    }
+    return m;
+}
+
+Moments united(const Moments& a, const Moments& b) {
+    Moments m;
+    m.intensity = a.intensity + b.intensity;
+    const double of_a = a.intensity / m.intensity, of_b = b.intensity / m.intensity;
+    m.center = of_a * a.center + of_b * b.center;
+    m.variance = of_a * a.variance + of_b * b.variance +
+                 of_a * of_b * length_squared(a.center - b.center) / 3.0;
+    m.two_sided = a.two_sided || b.two_sided;
+    const bool turned = m.two_sided && dot(a.axis, b.axis) < 0.0;
+    m.axis = of_a * a.axis + (turned ? -of_b : of_b) * b.axis;
+    m.box = a.box;
+    m.box.include(b.box);
+    m.cone = a.cone;
+    unite(m.cone, b.cone);
+    return m;
+}
+
+/// The largest squared distance of the point to points of the box.
+double squared_reach(const Box3& box, const Vec3& from) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double reach = std::max(from[k] - box.lo[k], box.hi[k] - from[k]);
+        sum += reach * reach;
+    }
+    return sum;
+}
+
+std::uint32_t low_half(double axis) {
+    const auto number =
+        static_cast<std::int16_t>(std::lround(std::clamp(axis, -1.0, 1.0) * LightTree::kAxisUnits));
+    return static_cast<std::uint16_t>(number);
+}
+
+/// The upper half of a float that is not below `x`.
+std::uint32_t high_half_above(double x) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
+    return (bits + 0x1FFFFu) & 0xFFFF0000u;
+}
+
 class LightTreeBuilder {
   public:
     explicit LightTreeBuilder(const std::vector<TreeLight>& lights) : lights_(lights) {
         for (std::size_t i = 0; i < lights.size(); ++i) {
             if (lights[i].intensity > 0.0 && std::isfinite(lights[i].intensity)) {
                 order_.push_back(static_cast<std::uint32_t>(i));
-                surfaces_only_ = surfaces_only_ && lights[i].cosine_reach == 0.0;
+                has_cones_ =
+                    has_cones_ || !(is_surface(lights[i]) || emits_to_all_directions(lights[i]));
             }
         }
     }
@@ -99,10 +180,10 @@ class LightTreeBuilder {
     void build(LightTree& tree) {
         tree.leaves_.assign(lights_.size(), LightTree::kNone);
         tree.empty_ = order_.empty();
-        tree.surfaces_only_ = surfaces_only_;
         if (order_.empty()) return;
         const std::size_t pairs = order_.size() - 1;
         tree.pairs_.resize(pairs);
+        tree.parents_.resize(pairs);
         std::uint32_t made = 0;
         // Not recursive: a tree of equal lights may be deep.
         std::vector<Task> waiting{{LightTree::kNone, 0, order_.size()}};
@@ -112,9 +193,6 @@ class LightTreeBuilder {
             const bool is_root = task.node == LightTree::kNone;
             LightTree::Link& link =
                 is_root ? tree.root_ : tree.pairs_[task.node / 2].links[task.node % 2];
-            if (!is_root) {
-                tree.pairs_[task.node / 2].set(task.node % 2, node_of(bound(task)));
-            }
             if (task.end - task.begin == 1) {
                 const std::uint32_t light = order_[task.begin];
                 link = LightTree::Link::to_light(light);
@@ -123,11 +201,13 @@ class LightTreeBuilder {
             }
             const std::size_t middle = divide(task);
             link = LightTree::Link::to_siblings(made);
-            tree.pairs_[made].parent = task.node;
+            tree.parents_[made] = task.node;
             waiting.push_back({2 * made + 1, middle, task.end});
             waiting.push_back({2 * made, task.begin, middle});
             ++made;
         }
+        set_frame(tree);
+        set_numbers(tree);
     }
 
   private:
@@ -173,29 +253,73 @@ class LightTreeBuilder {
         c.cosine_spread = std::min(c.cosine_spread, cosine);
     }
 
-    [[nodiscard]] Cluster bound(const Task& task) const {
-        Bin all;
-        for (std::size_t i = task.begin; i < task.end; ++i) add_to(all, light(i));
-        begin_cone(all);
-        for (std::size_t i = task.begin; i < task.end; ++i) widen_cone(all, light(i));
-        return all.cluster;
+    void set_frame(LightTree& tree) {
+        Box3 box;
+        for (const std::uint32_t i : order_) {
+            box.include(lights_[i].bounds.box);
+            intensity_ += moments_of(lights_[i]).intensity;
+        }
+        tree.origin_ = box.center();
+        const double radius = 0.5 * length(box.size());
+        tree.scale_ = radius > 0.0 && std::isfinite(1.0 / radius) ? 1.0 / radius : 1.0;
     }
 
-    static LightTree::Node node_of(const Cluster& c) {
-        LightTree::Node node;
-        constexpr float kInf = std::numeric_limits<float>::infinity();
-        for (int k = 0; k < 3; ++k) {
-            node.lo[k] = std::nextafter(static_cast<float>(c.box.lo[k]), -kInf);
-            node.hi[k] = std::nextafter(static_cast<float>(c.box.hi[k]), kInf);
-            node.axis[k] = static_cast<float>(c.axis[k]);
+    /// Sets the numbers of all siblings, from the leaves to the root.
+    void set_numbers(LightTree& tree) const {
+        if (has_cones_) tree.cones_.resize(tree.pairs_.size());
+        // A pair precedes what is below it, that of its first sibling before the rest.
+        std::vector<Moments> made;
+        for (std::size_t k = tree.pairs_.size(); k-- > 0;) {
+            Moments both[2];
+            for (std::size_t i = 0; i < 2; ++i) {
+                const LightTree::Link link = tree.pairs_[k].links[i];
+                if (link.is_leaf()) {
+                    both[i] = moments_of(lights_[link.target()]);
+                    if (has_cones_) both[i].cone = cone_of(lights_[link.target()]);
+                } else {
+                    both[i] = made.back();
+                    made.pop_back();
+                }
+                set(tree, k, i, both[i]);
+            }
+            made.push_back(united(both[0], both[1]));
         }
+    }
+
+    static Cluster cone_of(const TreeLight& l) {
+        Cluster c;
+        c.axis = l.bounds.axis;
+        c.cosine_spread = l.bounds.cosine_spread;
+        c.cosine_reach = l.cosine_reach;
+        c.two_sided = l.two_sided;
+        c.count = 1;
+        return c;
+    }
+
+    void set(LightTree& tree, std::size_t pair, std::size_t i, const Moments& m) const {
+        LightTree::Siblings& to = tree.pairs_[pair];
+        const Vec3 center = tree.scale_ * (m.center - tree.origin_);
+        for (int k = 0; k < 3; ++k) to.center[k][i] = static_cast<float>(center[k]);
+        // Larger by more than the rounding of places.
+        const double radius = tree.scale_ * std::sqrt(squared_reach(m.box, m.center)) + 1e-6;
+        const double variance = kWidth * m.variance * (tree.scale_ * tree.scale_);
+        to.variance[i] =
+            static_cast<float>(std::max(variance, std::max(2e-6 * radius * radius, 1e-12)));
+        const auto share =
+            static_cast<float>(std::clamp(m.intensity / intensity_, kLeastIntensity, 1.0));
+        to.intensity[i] = m.two_sided ? -share : share;
+        to.axis_xy[i] = low_half(m.axis.x) | low_half(m.axis.y) << 16;
+        // More than (radius + error)^2, if the square of the error is a hundredth of kGrazing.
+        to.axis_z_radius2[i] = low_half(m.axis.z) | high_half_above(1.01 * radius * radius);
+        if (!has_cones_) return;
+        LightTree::Cones& cones = tree.cones_[pair];
+        for (int k = 0; k < 3; ++k) cones.axis[k][i] = static_cast<float>(m.cone.axis[k]);
         // Widened by more than the rounding of the axis.
-        const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0)) + 1e-3;
-        node.cosine_spread = spread >= kPi ? -1.0f : static_cast<float>(std::cos(spread));
-        node.cosine_reach = static_cast<float>(c.cosine_reach);
-        node.intensity = static_cast<float>(std::clamp(c.intensity, 1e-37, 1e37));
-        node.two_sided = c.two_sided;
-        return node;
+        const double angle = std::acos(std::clamp(m.cone.cosine_spread, -1.0, 1.0)) +
+                             std::acos(std::clamp(m.cone.cosine_reach, -1.0, 1.0)) + 1e-3;
+        const bool open = m.cone.two_sided || angle >= kPi;
+        cones.cosine[i] = open ? -2.0f : static_cast<float>(std::cos(angle));
+        cones.radius[i] = static_cast<float>(1.001 * radius);
     }
 
     /// Orders the lights of the task by the sides of a split; returns the end of the first side.
@@ -266,21 +390,9 @@ class LightTreeBuilder {
 
     const std::vector<TreeLight>& lights_;
     std::vector<std::uint32_t> order_;
-    bool surfaces_only_ = true;
+    double intensity_ = 0;  ///< of all lights
+    bool has_cones_ = false;
 };
-
-void LightTree::Siblings::set(std::size_t sibling, const Node& node) {
-    const Vec3 lo{node.lo[0], node.lo[1], node.lo[2]}, hi{node.hi[0], node.hi[1], node.hi[2]};
-    const Vec3 middle = 0.5 * (lo + hi);
-    for (int k = 0; k < 3; ++k) {
-        center[k][sibling] = middle[k];
-        axis[k][sibling] = node.axis[k];
-    }
-    radius2[sibling] = 0.25 * length_squared(hi - lo);
-    cosine_spread[sibling] = node.cosine_spread;
-    cosine_reach[sibling] = node.cosine_reach;
-    intensity[sibling] = node.two_sided ? -node.intensity : node.intensity;
-}
 
 LightTree::LightTree(const std::vector<TreeLight>& lights) {
     LightTreeBuilder(lights).build(*this);
@@ -288,21 +400,23 @@ LightTree::LightTree(const std::vector<TreeLight>& lights) {
 
 ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
     if (empty_) return {};
-    double probability = 1.0;
+    const PointOfTree seen(*this, at);
+    // The lights below the node have the choices from `from` on.
+    double from = 0.0, probability = 1.0;
     Link link = root_;
     while (!link.is_leaf()) {
         const Siblings& pair = pairs_[link.target()];
-        const auto [first, second] = importances(pair, at);
-        const double sum = first + second;
+        const auto [first, second] = importances(pair, cones_of(link.target()), seen);
+        const double of_first = first, of_second = second, sum = of_first + of_second;
         if (!(sum > 0.0)) return {};
-        const double share = first / sum;
-        if (choice < share) {
-            choice = std::min(choice / share, 0x1.fffffffffffffp-1);
-            probability *= share;
+        const double part = 1.0 / sum;
+        const double of_choices = probability * (of_first * part), next = from + of_choices;
+        if (choice < next) {
+            probability = of_choices;
             link = pair.links[0];
         } else {
-            choice = std::min((choice - share) / (1.0 - share), 0x1.fffffffffffffp-1);
-            probability *= second / sum;
+            from = next;
+            probability = probability * (of_second * part);
             link = pair.links[1];
         }
     }
@@ -312,11 +426,13 @@ ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
 double LightTree::probability(const LitPoint& at, std::size_t light) const {
     if (empty_ || (leaves_[light] == kNone && !pairs_.empty())) return 0.0;
     if (pairs_.empty()) return root_.target() == light ? 1.0 : 0.0;
+    const PointOfTree seen(*this, at);
     double probability = 1.0;
-    for (std::uint32_t node = leaves_[light]; node != kNone; node = pairs_[node / 2].parent) {
-        const auto [one, two] = importances(pairs_[node / 2], at);
-        if (!(one + two > 0.0)) return 0.0;
-        probability *= (node % 2 == 0 ? one : two) / (one + two);
+    for (std::uint32_t node = leaves_[light]; node != kNone; node = parents_[node / 2]) {
+        const auto [one, two] = importances(pairs_[node / 2], cones_of(node / 2), seen);
+        const double sum = double{one} + double{two};
+        if (!(sum > 0.0)) return 0.0;
+        probability *= double{node % 2 == 0 ? one : two} / sum;
     }
     return probability;
 }

@@ -4,13 +4,14 @@
 ///
 /// Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
 /// Splitting", HPG 2018: orientation cones (section 4.1), the surface area orientation heuristic
-/// (4.4), the importance of a node (5).
-/// Differs: no adaptive splitting: one light is chosen. A node of two-sided emitters has the cone
-/// of one side. Cones of bins are around the mean axis. Large nodes are split along their longest
-/// axis only. The energy of a light is its largest intensity.
+/// (4.4).
+/// Differs: no adaptive splitting: one light is chosen. Importances are means instead of bounds
+/// (light_importance.h). Cones of bins are around the mean axis. Large nodes are split along their
+/// longest axis only. The energy of a light is its largest intensity.
 /// Conventions: every light that may reach a point has a probability above 0. Leaves hold one
-/// light.
-/// Complexity: O(n log n) to build, 132 bytes a light; O(depth) for a choice or a probability.
+/// light. Nodes are in the frame of the tree: the box of all lights is around its origin, its half
+/// diagonal is 1.
+/// Complexity: O(n log n) to build, 76 bytes a light; O(depth) for a choice or a probability.
 /// Threads: const functions may be called from many.
 
 #include <cstddef>
@@ -26,8 +27,9 @@ namespace alhazen {
 struct TreeLight {
     EmitterBounds bounds;
     bool two_sided = false;
-    double intensity = 0;     ///< 0: not in the tree
-    double cosine_reach = 0;  ///< cosine of the largest angle of emission from a normal
+    double intensity = 0;  ///< 0: not in the tree
+    double cosine_reach =
+        0;  ///< cosine of the largest angle of emission from a normal; surfaces: 0
 };
 
 class LightTree {
@@ -40,14 +42,6 @@ class LightTree {
     /// The probability of `choose` for a light.
     [[nodiscard]] double probability(const LitPoint& at, std::size_t light) const;
 
-    struct Node {
-        float lo[3], hi[3];  ///< rounded outward
-        float axis[3];
-        float cosine_spread;  ///< as in EmitterBounds
-        float cosine_reach;
-        float intensity;
-        bool two_sided;
-    };
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
     /// What a node leads to: a pair of siblings, or a light.
@@ -71,31 +65,47 @@ class LightTree {
 
     /// Two siblings, [sibling]: the numbers that an importance depends on, and what follows.
     struct alignas(64) Siblings {
-        double center[3][2];
-        double radius2[2];  ///< squared, of the sphere around the box
-        float axis[3][2];
-        float cosine_spread[2];
-        float cosine_reach[2];
-        float intensity[2];  ///< negative: that of two-sided lights
+        float center[3][2];  ///< mean of the lights by intensity
+        float variance[2];   ///< about the centre, along one axis; enlarged, never 0
+        float intensity[2];  ///< share of all; negative: that of two-sided lights
+        /// x and y of the mean of the axes of emission, in units of 1 / kAxisUnits, 16 bits each.
+        std::uint32_t axis_xy[2];
+        /// z of that mean, 16 bits; the upper half of the float of a squared radius around the
+        /// centre, rounded up.
+        std::uint32_t axis_z_radius2[2];
         Link links[2];
-        std::uint32_t parent;  ///< a node, or kNone
-
-        void set(std::size_t sibling, const Node& node);
+    };
+    static constexpr float kAxisUnits = 32767.0f;
+    /// The cones of emission of two siblings, [sibling], around all axes of their lights.
+    struct Cones {
+        float axis[3][2];
+        float cosine[2];  ///< of the half angle; below -1: all directions
+        float radius[2];  ///< around the centre
     };
     [[nodiscard]] bool empty() const { return empty_; }
     [[nodiscard]] Link root() const { return root_; }
-    /// True if each light emits up to a right angle from its normals, as surfaces do.
-    [[nodiscard]] bool has_surfaces_only() const { return surfaces_only_; }
     /// Node 2 k + i is sibling i of pair k.
     [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
+    /// [pair]; empty if all lights are surfaces or emit in all directions.
+    [[nodiscard]] const std::vector<Cones>& cones() const { return cones_; }
+    /// The origin of the frame of the tree in world space, and its units per unit there.
+    [[nodiscard]] const Vec3& origin() const { return origin_; }
+    [[nodiscard]] double scale() const { return scale_; }
 
   private:
     friend class LightTreeBuilder;
 
+    [[nodiscard]] const Cones* cones_of(std::uint32_t pair) const {
+        return cones_.empty() ? nullptr : &cones_[pair];
+    }
+
     bool empty_ = true;
-    bool surfaces_only_ = true;
     Link root_;
+    Vec3 origin_;
+    double scale_ = 1;
     std::vector<Siblings> pairs_;
+    std::vector<std::uint32_t> parents_;  ///< [pair]: a node, or kNone
+    std::vector<Cones> cones_;
     std::vector<std::uint32_t> leaves_;  ///< [light]: a node, or kNone
 };
 
