@@ -401,21 +401,20 @@ LightTree::LightTree(const std::vector<TreeLight>& lights) {
 ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
     if (empty_) return {};
     const PointOfTree seen(*this, at);
-    // The lights below the node have the choices from `from` on.
-    double from = 0.0, probability = 1.0;
+    // `rest`: of the choice, less than `probability`.
+    double rest = choice, probability = 1.0;
     Link link = root_;
     while (!link.is_leaf()) {
         const Siblings& pair = pairs_[link.target()];
         const auto [first, second] = importances(pair, cones_of(link.target()), seen);
         const double of_first = first, of_second = second, sum = of_first + of_second;
         if (!(sum > 0.0)) return {};
-        const double part = 1.0 / sum;
-        const double of_choices = probability * (of_first * part), next = from + of_choices;
-        if (choice < next) {
+        const double part = 1.0 / sum, of_choices = probability * (of_first * part);
+        if (rest * sum < probability * of_first) {
             probability = of_choices;
             link = pair.links[0];
         } else {
-            from = next;
+            rest = std::max(rest - of_choices, 0.0);
             probability = probability * (of_second * part);
             link = pair.links[1];
         }

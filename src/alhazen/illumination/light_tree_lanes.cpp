@@ -50,8 +50,8 @@ static_assert(sizeof(Siblings) == 64 && offsetof(Siblings, variance) == 24 &&
 struct Walkers {
     alignas(64) float point[3][kLanes], normal[3][kLanes];
     std::uint32_t both_sides = 0, in_volume = 0;  ///< bits of lanes
-    /// The lights below the next siblings have the choices from `from` on.
-    alignas(64) double choice[kPoints], from[kPoints], probability[kPoints];
+    /// `rest`: of the choice, less than `probability`.
+    alignas(64) double rest[kPoints], probability[kPoints];
     alignas(64) const Siblings* pairs[kPoints];  ///< whose siblings are next
     alignas(64) std::uint64_t links[kPoints];    ///< LightTree::Link, taken last
     bool walk = false;                           ///< some links lead to siblings
@@ -196,14 +196,14 @@ HWY_INLINE void descend(const LightTree& tree, const LightRecord* lights, Walker
     const auto zero = hn::Zero(tag), one = hn::Set(tag, 1.0);
     const auto sum = hn::Add(of_first, of_second);
     const auto is_lit = hn::Gt(sum, zero);
+    const auto probability = hn::Load(tag, w.probability), rest = hn::Load(tag, w.rest);
+    // What follows waits for no division.
+    const auto first = hn::Lt(hn::Mul(rest, sum), hn::Mul(probability, of_first));
     // No division by 0.
     const auto part = hn::Div(one, hn::IfThenElse(is_lit, sum, one));
-    const auto probability = hn::Load(tag, w.probability), from = hn::Load(tag, w.from);
     const auto of_choices = hn::Mul(probability, hn::Mul(of_first, part));
     const auto of_others = hn::Mul(probability, hn::Mul(of_second, part));
-    const auto end = hn::Add(from, of_choices);
-    const auto first = hn::Lt(hn::Load(tag, w.choice), end);
-    hn::Store(hn::IfThenElse(first, from, end), tag, w.from);
+    hn::Store(hn::IfThenElse(first, rest, hn::Max(hn::Sub(rest, of_choices), zero)), tag, w.rest);
 
     const auto before = hn::Load(words, w.links);
     const auto leaf = hn::Set(words, kLeafBit);
@@ -224,27 +224,21 @@ HWY_INLINE void descend(const LightTree& tree, const LightRecord* lights, Walker
     const auto start = hn::Set(words, reinterpret_cast<std::uint64_t>(tree.pairs().data()));
     const auto there = hn::Add(start, hn::ShiftLeft<6>(links));
     hn::Store(hn::IfThenElse(walk_on, there, hn::Load(words, addresses)), words, addresses);
-    // Of points that end, what is read of their lights.
-    alignas(64) const char* fetched[2][kPoints];
+    // Of points that end, the first line of what is read of their lights.
+    alignas(64) const char* fetched[kPoints];
     const auto light = hn::Add(hn::Set(words, reinterpret_cast<std::uint64_t>(lights)),
                                hn::ShiftLeft<7>(hn::AndNot(leaf, links)));
-    const auto line = hn::IfThenElse(walk_on, there, light);
-    hn::Store(line, words, reinterpret_cast<std::uint64_t*>(fetched[0]));
-    hn::Store(hn::IfThenElse(walk_on, line, hn::Add(line, hn::Set(words, 64))), words,
-              reinterpret_cast<std::uint64_t*>(fetched[1]));
+    hn::Store(hn::IfThenElse(walk_on, there, light), words,
+              reinterpret_cast<std::uint64_t*>(fetched));
     ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kPoints; ++i) {
-        __builtin_prefetch(fetched[0][i]);
-        __builtin_prefetch(fetched[1][i]);
-    }
+    for (std::size_t i = 0; i < kPoints; ++i) __builtin_prefetch(fetched[i]);
 }
 
 HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
                       std::size_t first, std::size_t count, Walkers& w) {
     set_points(tree, at, first, w);
     for (std::size_t i = 0; i < kPoints; ++i) {
-        w.choice[i] = choices.of[first + i];
-        w.from[i] = 0.0;
+        w.rest[i] = choices.of[first + i];
         w.probability[i] = 1.0;
         w.pairs[i] = &tree.pairs()[tree.root().target()];
         w.links[i] = i < count ? tree.root().bits() : kLeafBit;

@@ -238,6 +238,12 @@ TEST(LightTree, DimLightsAreChosenSometimes) {
             const double distance = size * std::exp(random.uniform(-12, 30));
             LitPoint at{origin + distance * random_unit(random), random_unit(random), k % 7 == 0};
             if (k % 11 == 0) at = LitPoint::inside_volume(at.point);
+            if (k % 3 == 0) {
+                // A light is a little above the horizon.
+                const Vec3 to_light = lights[random.below(60)].bounds.center - at.point;
+                const Vec3 along = normalize(to_light);
+                at.normal = normalize(normalize(cross(along, random_unit(random))) + 1e-9 * along);
+            }
             for (std::size_t j = 0; j < lights.size(); ++j) {
                 if (!(sent_to(at, lights[j]) > 0.0)) continue;
                 ++lit;
