@@ -41,23 +41,24 @@ PointOfTree::PointOfTree(const LightTree& tree, const LitPoint& at)
     }
 }
 
-std::array<float, 2> importances(const LightTree::Siblings& two, const LightTree::Cones* cones,
-                                 const PointOfTree& at) {
+std::array<float, LightTree::kWidth> importances(const LightTree::Node& node,
+                                                 const LightTree::Cones* cones,
+                                                 const PointOfTree& at) {
     constexpr float kUnit = 1.0f / LightTree::kAxisUnits;
-    std::array<float, 2> result;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const float x = two.center[0][i] - at.point[0], y = two.center[1][i] - at.point[1],
-                    z = two.center[2][i] - at.point[2];
-        const float squared = x * x + y * y + z * z, variance = two.variance[i];
-        const float axis_x = lower_number(two.axis_xy[i]), axis_y = upper_number(two.axis_xy[i]);
-        const float axis_z = lower_number(two.axis_z_radius2[i]);
-        const float radius2 = std::bit_cast<float>(two.axis_z_radius2[i] & 0xFFFF0000u);
+    std::array<float, LightTree::kWidth> result;
+    for (std::size_t i = 0; i < LightTree::kWidth; ++i) {
+        const float x = node.center[0][i] - at.point[0], y = node.center[1][i] - at.point[1],
+                    z = node.center[2][i] - at.point[2];
+        const float squared = x * x + y * y + z * z, variance = node.variance[i];
+        const float axis_x = lower_number(node.axis_xy[i]), axis_y = upper_number(node.axis_xy[i]);
+        const float axis_z = lower_number(node.axis_z_radius2[i]);
+        const float radius2 = std::bit_cast<float>(node.axis_z_radius2[i] & 0xFFFF0000u);
 
         const float along = -((axis_x * x + axis_y * y + axis_z * z) * kUnit);
         const float equal = (axis_x * axis_x + axis_y * axis_y + axis_z * axis_z) * (kUnit * kUnit);
         const float turn = kTurned * std::max(0.0f, 1.0f - equal) + kLeastTurn;
         const float sent_root = std::sqrt(along * along + turn * squared + variance);
-        const float sent = sent_root + (two.intensity[i] < 0.0f ? sent_root : along);
+        const float sent = sent_root + (node.intensity[i] < 0.0f ? sent_root : along);
 
         const float height = at.normal[0] * x + at.normal[1] * y + at.normal[2] * z;
         const float grazing = kGrazing * squared, height2 = height * height;
@@ -67,7 +68,7 @@ std::array<float, 2> importances(const LightTree::Siblings& two, const LightTree
         const bool below = height < 0.0f && height2 >= radius2 + grazing;
 
         const float spread = squared + variance;
-        const float importance = std::abs(two.intensity[i]) * sent * received / (spread * spread);
+        const float importance = std::abs(node.intensity[i]) * sent * received / (spread * spread);
         const bool dark = (below && !at.both_sides && !at.in_volume) ||
                           (cones != nullptr && is_outside(*cones, i, x, y, z));
         result[i] = dark ? 0.0f : importance;

@@ -10,11 +10,10 @@
 /// different places. Of two-sided nodes, and points that light from both sides reaches, the roots
 /// count twice instead, without a or c.
 ///
-/// Source: none known.
 /// Conventions: numbers are float, in the frame of the tree; sums are from left to right.
 /// An importance is 0 only if all lights of the node are behind the surface, or a point outside of
 /// all their cones. It is positive for every other light, whatever is rounded: the terms
-/// kLeastTurn, kGrazing and LightTree::Siblings::variance make each root larger than the number
+/// kLeastTurn, kGrazing and LightTree::Node::variance make each root larger than the number
 /// beside it by more than a rounding.
 
 #include <array>
@@ -39,9 +38,9 @@ struct PointOfTree {
     bool both_sides, in_volume;
 };
 
-/// The importances of two siblings. `cones`: null, if the tree has none.
-[[nodiscard]] std::array<float, 2> importances(const LightTree::Siblings& two,
-                                               const LightTree::Cones* cones,
-                                               const PointOfTree& at);
+/// The importances of the children of a node. `cones`: null, if the tree has none.
+[[nodiscard]] std::array<float, LightTree::kWidth> importances(const LightTree::Node& node,
+                                                               const LightTree::Cones* cones,
+                                                               const PointOfTree& at);
 
 }  // namespace alhazen

@@ -20,7 +20,7 @@ constexpr std::size_t kTriesAllAxesFrom = 12, kTriesAllAxesTo = 2048;
 
 /// The variance of an importance per variance of the places of its lights; found by experiments
 /// (docs/log/light_transport.md).
-constexpr double kWidth = 1.4;
+constexpr double kVarianceFactor = 1.4;
 /// The least share of a node in the intensity of all lights: products stay normal numbers.
 constexpr double kLeastIntensity = 1e-12;
 
@@ -181,30 +181,40 @@ class LightTreeBuilder {
         tree.leaves_.assign(lights_.size(), LightTree::kNone);
         tree.empty_ = order_.empty();
         if (order_.empty()) return;
-        const std::size_t pairs = order_.size() - 1;
-        tree.pairs_.resize(pairs);
-        tree.parents_.resize(pairs);
-        std::uint32_t made = 0;
         // Not recursive: a tree of equal lights may be deep.
         std::vector<Task> waiting{{LightTree::kNone, 0, order_.size()}};
         while (!waiting.empty()) {
             const Task task = waiting.back();
             waiting.pop_back();
-            const bool is_root = task.node == LightTree::kNone;
-            LightTree::Link& link =
-                is_root ? tree.root_ : tree.pairs_[task.node / 2].links[task.node % 2];
+            const bool is_root = task.child == LightTree::kNone;
+            LightTree::Link& link = is_root ? tree.root_
+                                            : tree.nodes_[task.child / LightTree::kWidth]
+                                                  .links[task.child % LightTree::kWidth];
             if (task.end - task.begin == 1) {
                 const std::uint32_t light = order_[task.begin];
                 link = LightTree::Link::to_light(light);
-                tree.leaves_[light] = task.node;
+                tree.leaves_[light] = task.child;
                 continue;
             }
-            const std::size_t middle = divide(task);
-            link = LightTree::Link::to_siblings(made);
-            tree.parents_[made] = task.node;
-            waiting.push_back({2 * made + 1, middle, task.end});
-            waiting.push_back({2 * made, task.begin, middle});
-            ++made;
+            const auto made = static_cast<std::uint32_t>(tree.nodes_.size());
+            link = LightTree::Link::to_node(made);
+            tree.nodes_.emplace_back();
+            tree.parents_.push_back(task.child);
+            // The halves of both halves.
+            const std::size_t middle = divide(task.begin, task.end);
+            std::array<std::size_t, LightTree::kWidth + 1> ends{task.begin};
+            std::uint32_t children = 0;
+            for (const auto& [begin, end] :
+                 {std::pair{task.begin, middle}, std::pair{middle, task.end}}) {
+                if (end - begin > 1) ends[++children] = divide(begin, end);
+                ends[++children] = end;
+            }
+            std::fill(std::begin(tree.nodes_[made].links) + children,
+                      std::end(tree.nodes_[made].links), LightTree::Link::to_light(0));
+            for (std::uint32_t i = children; i-- > 0;) {
+                waiting.push_back({LightTree::kWidth * made + i, ends[i], ends[i + 1]});
+            }
+            counts_.push_back(children);
         }
         set_frame(tree);
         set_numbers(tree);
@@ -212,7 +222,7 @@ class LightTreeBuilder {
 
   private:
     struct Task {
-        std::uint32_t node;  ///< kNone: the root
+        std::uint32_t child;  ///< as LightTree::parents_; kNone: the root
         std::size_t begin, end;
     };
     struct Bin {
@@ -264,26 +274,39 @@ class LightTreeBuilder {
         tree.scale_ = radius > 0.0 && std::isfinite(1.0 / radius) ? 1.0 / radius : 1.0;
     }
 
-    /// Sets the numbers of all siblings, from the leaves to the root.
+    /// Sets the numbers of all nodes, from the leaves to the root.
     void set_numbers(LightTree& tree) const {
-        if (has_cones_) tree.cones_.resize(tree.pairs_.size());
-        // A pair precedes what is below it, that of its first sibling before the rest.
+        if (has_cones_) tree.cones_.resize(tree.nodes_.size());
+        // A node precedes what is below it, its first child before the rest.
         std::vector<Moments> made;
-        for (std::size_t k = tree.pairs_.size(); k-- > 0;) {
-            Moments both[2];
-            for (std::size_t i = 0; i < 2; ++i) {
-                const LightTree::Link link = tree.pairs_[k].links[i];
+        for (std::size_t k = tree.nodes_.size(); k-- > 0;) {
+            Moments all;
+            for (std::size_t i = 0; i < LightTree::kWidth; ++i) {
+                if (i >= counts_[k]) {
+                    set_none(tree.nodes_[k], i);
+                    continue;
+                }
+                const LightTree::Link link = tree.nodes_[k].links[i];
+                Moments child;
                 if (link.is_leaf()) {
-                    both[i] = moments_of(lights_[link.target()]);
-                    if (has_cones_) both[i].cone = cone_of(lights_[link.target()]);
+                    child = moments_of(lights_[link.target()]);
+                    if (has_cones_) child.cone = cone_of(lights_[link.target()]);
                 } else {
-                    both[i] = made.back();
+                    child = made.back();
                     made.pop_back();
                 }
-                set(tree, k, i, both[i]);
+                set(tree, k, i, child);
+                all = i == 0 ? child : united(all, child);
             }
-            made.push_back(united(both[0], both[1]));
+            made.push_back(all);
         }
+    }
+
+    static void set_none(LightTree::Node& node, std::size_t i) {
+        for (auto& place : node.center) place[i] = 0.0f;
+        node.variance[i] = 1.0f;
+        node.intensity[i] = 0.0f;
+        node.axis_xy[i] = node.axis_z_radius2[i] = 0;
     }
 
     static Cluster cone_of(const TreeLight& l) {
@@ -296,13 +319,13 @@ class LightTreeBuilder {
         return c;
     }
 
-    void set(LightTree& tree, std::size_t pair, std::size_t i, const Moments& m) const {
-        LightTree::Siblings& to = tree.pairs_[pair];
+    void set(LightTree& tree, std::size_t node, std::size_t i, const Moments& m) const {
+        LightTree::Node& to = tree.nodes_[node];
         const Vec3 center = tree.scale_ * (m.center - tree.origin_);
         for (int k = 0; k < 3; ++k) to.center[k][i] = static_cast<float>(center[k]);
         // Larger by more than the rounding of places.
         const double radius = tree.scale_ * std::sqrt(squared_reach(m.box, m.center)) + 1e-6;
-        const double variance = kWidth * m.variance * (tree.scale_ * tree.scale_);
+        const double variance = kVarianceFactor * m.variance * (tree.scale_ * tree.scale_);
         to.variance[i] =
             static_cast<float>(std::max(variance, std::max(2e-6 * radius * radius, 1e-12)));
         const auto share =
@@ -312,7 +335,7 @@ class LightTreeBuilder {
         // More than (radius + error)^2, if the square of the error is a hundredth of kGrazing.
         to.axis_z_radius2[i] = low_half(m.axis.z) | high_half_above(1.01 * radius * radius);
         if (!has_cones_) return;
-        LightTree::Cones& cones = tree.cones_[pair];
+        LightTree::Cones& cones = tree.cones_[node];
         for (int k = 0; k < 3; ++k) cones.axis[k][i] = static_cast<float>(m.cone.axis[k]);
         // Widened by more than the rounding of the axis.
         const double angle = std::acos(std::clamp(m.cone.cosine_spread, -1.0, 1.0)) +
@@ -322,10 +345,11 @@ class LightTreeBuilder {
         cones.radius[i] = static_cast<float>(1.001 * radius);
     }
 
-    /// Orders the lights of the task by the sides of a split; returns the end of the first side.
-    std::size_t divide(const Task& task) {
-        const std::size_t count = task.end - task.begin;
-        const std::size_t half = task.begin + count / 2;
+    /// Orders the lights of a range by the sides of a split; returns the end of the first side.
+    std::size_t divide(std::size_t begin, std::size_t end) {
+        const Task task{LightTree::kNone, begin, end};
+        const std::size_t count = end - begin;
+        const std::size_t half = begin + count / 2;
         if (count == 2) return half;
         Box3 centers;
         for (std::size_t i = task.begin; i < task.end; ++i) {
@@ -390,9 +414,24 @@ class LightTreeBuilder {
 
     const std::vector<TreeLight>& lights_;
     std::vector<std::uint32_t> order_;
-    double intensity_ = 0;  ///< of all lights
+    std::vector<std::uint32_t> counts_;  ///< [node] children
+    double intensity_ = 0;               ///< of all lights
     bool has_cones_ = false;
 };
+
+namespace {
+
+/// The importances before each child, and of all.
+struct ImportanceSums {
+    LightTree::OfChildren<double> before;
+    double all;
+};
+ImportanceSums sums_of(const std::array<float, LightTree::kWidth>& of) {
+    const double two = double{of[0]} + double{of[1]}, three = two + double{of[2]};
+    return {{0.0, of[0], two, three}, three + double{of[3]}};
+}
+
+}  // namespace
 
 LightTree::LightTree(const std::vector<TreeLight>& lights) {
     LightTreeBuilder(lights).build(*this);
@@ -405,33 +444,33 @@ ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
     double rest = choice, probability = 1.0;
     Link link = root_;
     while (!link.is_leaf()) {
-        const Siblings& pair = pairs_[link.target()];
-        const auto [first, second] = importances(pair, cones_of(link.target()), seen);
-        const double of_first = first, of_second = second, sum = of_first + of_second;
-        if (!(sum > 0.0)) return {};
-        const double part = 1.0 / sum, of_choices = probability * (of_first * part);
-        if (rest * sum < probability * of_first) {
-            probability = of_choices;
-            link = pair.links[0];
-        } else {
-            rest = std::max(rest - of_choices, 0.0);
-            probability = probability * (of_second * part);
-            link = pair.links[1];
-        }
+        const Node& node = nodes_[link.target()];
+        const auto own = importances(node, cones_of(link.target()), seen);
+        const ImportanceSums sums = sums_of(own);
+        if (!(sums.all > 0.0)) return {};
+        const double at_rest = rest * sums.all;
+        std::size_t i = 0;
+        while (i < kWidth - 1 && at_rest >= probability * sums.before[i + 1]) ++i;
+        const double part = 1.0 / sums.all;
+        rest = std::max(rest - probability * (sums.before[i] * part), 0.0);
+        probability = probability * (double{own[i]} * part);
+        link = node.links[i];
     }
     return {link.target(), probability};
 }
 
 double LightTree::probability(const LitPoint& at, std::size_t light) const {
-    if (empty_ || (leaves_[light] == kNone && !pairs_.empty())) return 0.0;
-    if (pairs_.empty()) return root_.target() == light ? 1.0 : 0.0;
+    if (empty_ || (leaves_[light] == kNone && !nodes_.empty())) return 0.0;
+    if (nodes_.empty()) return root_.target() == light ? 1.0 : 0.0;
     const PointOfTree seen(*this, at);
     double probability = 1.0;
-    for (std::uint32_t node = leaves_[light]; node != kNone; node = parents_[node / 2]) {
-        const auto [one, two] = importances(pairs_[node / 2], cones_of(node / 2), seen);
-        const double sum = double{one} + double{two};
+    for (std::uint32_t child = leaves_[light]; child != kNone;) {
+        const std::uint32_t node = child / kWidth;
+        const auto own = importances(nodes_[node], cones_of(node), seen);
+        const double sum = sums_of(own).all;
         if (!(sum > 0.0)) return 0.0;
-        probability *= double{node % 2 == 0 ? one : two} / sum;
+        probability *= double{own[child % kWidth]} / sum;
+        child = parents_[node];
     }
     return probability;
 }

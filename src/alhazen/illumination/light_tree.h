@@ -1,17 +1,17 @@
 #pragma once
-/// A binary tree over many lights, with bounds of position, direction and intensity: chooses a
-/// light by an estimate of what it sends to a point.
+/// A tree over many lights, with means and bounds of places, axes and intensities: chooses a light
+/// by an estimate of what it sends to a point.
 ///
 /// Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
 /// Splitting", HPG 2018: orientation cones (section 4.1), the surface area orientation heuristic
 /// (4.4).
-/// Differs: no adaptive splitting: one light is chosen. Importances are means instead of bounds
-/// (light_importance.h). Cones of bins are around the mean axis. Large nodes are split along their
-/// longest axis only. The energy of a light is its largest intensity.
+/// Differs: nodes have four children, two levels of their splits. One light is chosen. Importances
+/// are means instead of bounds (light_importance.h). Cones of bins are around the mean axis. Large
+/// nodes are split along their longest axis only. The energy of a light is its largest intensity.
 /// Conventions: every light that may reach a point has a probability above 0. Leaves hold one
 /// light. Nodes are in the frame of the tree: the box of all lights is around its origin, its half
 /// diagonal is 1.
-/// Complexity: O(n log n) to build, 76 bytes a light; O(depth) for a choice or a probability.
+/// Complexity: O(n log n) to build, about 70 bytes a light; O(depth) for a choice or a probability.
 /// Threads: const functions may be called from many.
 
 #include <cstddef>
@@ -28,8 +28,8 @@ struct TreeLight {
     EmitterBounds bounds;
     bool two_sided = false;
     double intensity = 0;  ///< 0: not in the tree
-    double cosine_reach =
-        0;  ///< cosine of the largest angle of emission from a normal; surfaces: 0
+    /// Cosine of the largest angle of emission from a normal; of surfaces 0.
+    double cosine_reach = 0;
 };
 
 class LightTree {
@@ -44,17 +44,17 @@ class LightTree {
 
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    /// What a node leads to: a pair of siblings, or a light.
+    /// What a child is: a node, or a light.
     class Link {
       public:
         Link() = default;
-        [[nodiscard]] static Link to_siblings(std::uint32_t pair) { return Link(pair); }
+        [[nodiscard]] static Link to_node(std::uint32_t node) { return Link(node); }
         [[nodiscard]] static Link to_light(std::uint32_t light) { return Link(light | kLight); }
 
         [[nodiscard]] bool is_leaf() const { return (bits_ & kLight) != 0; }
         [[nodiscard]] std::uint32_t bits() const { return bits_; }
         [[nodiscard]] static Link of_bits(std::uint32_t bits) { return Link(bits); }
-        /// The number of the light or of the pair.
+        /// The number of the light or of the node.
         [[nodiscard]] std::uint32_t target() const { return bits_ & ~kLight; }
 
       private:
@@ -63,30 +63,35 @@ class LightTree {
         std::uint32_t bits_ = 0;
     };
 
-    /// Two siblings, [sibling]: the numbers that an importance depends on, and what follows.
-    struct alignas(64) Siblings {
-        float center[3][2];  ///< mean of the lights by intensity
-        float variance[2];   ///< about the centre, along one axis; enlarged, never 0
-        float intensity[2];  ///< share of all; negative: that of two-sided lights
+    /// Children of a node.
+    static constexpr std::uint32_t kWidth = 4;
+    template <class T>
+    using OfChildren = T[kWidth];
+
+    /// A node, [child]: the numbers that the importance of a child depends on, and what follows.
+    /// Those that it has not have the intensity 0.
+    struct alignas(128) Node {
+        OfChildren<float> center[3];  ///< mean of the lights by intensity
+        OfChildren<float> variance;   ///< about the centre, along one axis; enlarged, never 0
+        OfChildren<float> intensity;  ///< share of all; negative: that of two-sided lights
         /// x and y of the mean of the axes of emission, in units of 1 / kAxisUnits, 16 bits each.
-        std::uint32_t axis_xy[2];
+        OfChildren<std::uint32_t> axis_xy;
         /// z of that mean, 16 bits; the upper half of the float of a squared radius around the
         /// centre, rounded up.
-        std::uint32_t axis_z_radius2[2];
-        Link links[2];
+        OfChildren<std::uint32_t> axis_z_radius2;
+        OfChildren<Link> links;
     };
     static constexpr float kAxisUnits = 32767.0f;
-    /// The cones of emission of two siblings, [sibling], around all axes of their lights.
+    /// The cones of emission of the children of a node, [child], around all axes of their lights.
     struct Cones {
-        float axis[3][2];
-        float cosine[2];  ///< of the half angle; below -1: all directions
-        float radius[2];  ///< around the centre
+        OfChildren<float> axis[3];
+        OfChildren<float> cosine;  ///< of the half angle; below -1: all directions
+        OfChildren<float> radius;  ///< around the centre
     };
     [[nodiscard]] bool empty() const { return empty_; }
     [[nodiscard]] Link root() const { return root_; }
-    /// Node 2 k + i is sibling i of pair k.
-    [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
-    /// [pair]; empty if all lights are surfaces or emit in all directions.
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+    /// [node]; empty if all lights are surfaces or emit in all directions.
     [[nodiscard]] const std::vector<Cones>& cones() const { return cones_; }
     /// The origin of the frame of the tree in world space, and its units per unit there.
     [[nodiscard]] const Vec3& origin() const { return origin_; }
@@ -95,18 +100,18 @@ class LightTree {
   private:
     friend class LightTreeBuilder;
 
-    [[nodiscard]] const Cones* cones_of(std::uint32_t pair) const {
-        return cones_.empty() ? nullptr : &cones_[pair];
+    [[nodiscard]] const Cones* cones_of(std::uint32_t node) const {
+        return cones_.empty() ? nullptr : &cones_[node];
     }
 
     bool empty_ = true;
     Link root_;
     Vec3 origin_;
     double scale_ = 1;
-    std::vector<Siblings> pairs_;
-    std::vector<std::uint32_t> parents_;  ///< [pair]: a node, or kNone
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> parents_;  ///< [node]: kWidth times its parent, and which child
     std::vector<Cones> cones_;
-    std::vector<std::uint32_t> leaves_;  ///< [light]: a node, or kNone
+    std::vector<std::uint32_t> leaves_;  ///< [light]: the same, or kNone
 };
 
 }  // namespace alhazen

@@ -19,7 +19,7 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace light_choices {
 
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET == HWY_SCALAR || HWY_MAX_BYTES < 32
 
 inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
                    std::size_t count, ChosenLight* chosen, const LightRecord* /*lights*/) {
@@ -28,41 +28,50 @@ inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceL
 
 #else
 
-using Siblings = LightTree::Siblings;
+using Node = LightTree::Node;
 
-/// Both siblings of several pairs: lanes 2 i and 2 i + 1 belong to point i, as does lane i of
-/// doubles and words.
+/// The children of the nodes of several points: lanes 4 i to 4 i + 3 of a register belong to point
+/// i of a half, those of the other half are in a second register. Doubles and words have a lane for
+/// each point of both.
 using FloatTag = hn::CappedTag<float, 16>;
-constexpr std::size_t kLanes = hn::MaxLanes(FloatTag()), kPoints = kLanes / 2;
-using DoubleTag = hn::Rebind<double, hn::Half<FloatTag> >;
+constexpr std::size_t kWidth = LightTree::kWidth;
+constexpr std::size_t kLanes = hn::MaxLanes(FloatTag()), kHalf = kLanes / kWidth;
+constexpr std::size_t kPoints = 2 * kHalf;
+using HalfFloats = hn::Half<FloatTag>;
+using DoubleTag = hn::Rebind<double, HalfFloats>;
 using WordTag = hn::RebindToUnsigned<DoubleTag>;
-using Words = hn::Vec<WordTag>;
+using IntegerTag = hn::RebindToSigned<FloatTag>;
+using Integers = hn::Vec<IntegerTag>;
 using Numbers = Lanes<float, kLanes>;
 using Mask = LaneMask<float, kLanes>;
 
 /// The bit of a link to a light, and the link to light 0.
 const std::uint64_t kLeafBit = LightTree::Link::to_light(0).bits();
 
-static_assert(sizeof(Siblings) == 64 && offsetof(Siblings, variance) == 24 &&
-              offsetof(Siblings, axis_xy) == 40 && offsetof(Siblings, links) == 56);
+static_assert(sizeof(Node) == 128 && offsetof(Node, links) == 112);
 
 /// Points on their way down the tree.
 struct Walkers {
-    alignas(64) float point[3][kLanes], normal[3][kLanes];
-    std::uint32_t both_sides = 0, in_volume = 0;  ///< bits of lanes
+    alignas(64) float point[2][3][kLanes], normal[2][3][kLanes];  ///< [half]
+    std::uint32_t both_sides[2] = {}, in_volume[2] = {};          ///< [half] bits of lanes
     /// `rest`: of the choice, less than `probability`.
     alignas(64) double rest[kPoints], probability[kPoints];
-    alignas(64) const Siblings* pairs[kPoints];  ///< whose siblings are next
-    alignas(64) std::uint64_t links[kPoints];    ///< LightTree::Link, taken last
-    bool walk = false;                           ///< some links lead to siblings
+    alignas(64) const Node* nodes[kPoints];    ///< whose children are next
+    alignas(64) std::uint64_t links[kPoints];  ///< LightTree::Link, taken last
+    bool walk = false;                         ///< some links lead to nodes
 };
 
-/// The doubles as floats, each twice.
-HWY_INLINE hn::Vec<FloatTag> twice(hn::Vec<DoubleTag> a) {
-    const hn::Half<FloatTag> floats;
-    const hn::RebindToUnsigned<hn::Half<FloatTag> > bits;
-    const auto once = hn::PromoteTo(WordTag(), hn::BitCast(bits, hn::DemoteTo(floats, a)));
-    return hn::BitCast(FloatTag(), hn::Or(once, hn::ShiftLeft<32>(once)));
+/// Stores the doubles as floats, each in the lanes of its point.
+HWY_INLINE void store_repeated(hn::Vec<DoubleTag> a, float* low, float* high) {
+    HWY_ALIGN std::int32_t places[2][kLanes];
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        places[0][i] = static_cast<std::int32_t>(i / kWidth);
+        places[1][i] = static_cast<std::int32_t>(kHalf + i / kWidth);
+    }
+    const FloatTag tag;
+    const auto once = hn::ZeroExtendVector(tag, hn::DemoteTo(HalfFloats(), a));
+    hn::Store(hn::TableLookupLanes(once, hn::SetTableIndices(tag, places[0])), tag, low);
+    hn::Store(hn::TableLookupLanes(once, hn::SetTableIndices(tag, places[1])), tag, high);
 }
 
 /// Sets the points to those from `first` on, as PointOfTree does.
@@ -82,85 +91,74 @@ HWY_INLINE void set_points(const LightTree& tree, const LitPointLanes& at, std::
     const auto is_far = hn::Gt(most, far);
     const auto nearer = hn::IfThenElse(is_far, hn::Div(far, hn::Max(most, one)), one);
     for (int k = 0; k < 3; ++k) {
-        hn::Store(twice(hn::Mul(place[k], nearer)), FloatTag(), w.point[k]);
-        hn::Store(twice(hn::Load(tag, at.normal[k] + first)), FloatTag(), w.normal[k]);
+        store_repeated(hn::Mul(place[k], nearer), w.point[0][k], w.point[1][k]);
+        store_repeated(hn::Load(tag, at.normal[k] + first), w.normal[0][k], w.normal[1][k]);
     }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        w.both_sides |= (at.both_sides >> (first + lane / 2) & 1u) << lane;
-        w.in_volume |= (at.in_volume >> (first + lane / 2) & 1u) << lane;
+    if ((at.both_sides | at.in_volume) == 0) return;
+    for (std::size_t lane = 0; lane < 2 * kLanes; ++lane) {
+        const std::size_t half = lane / kLanes, point = first + lane / kWidth;
+        w.both_sides[half] |= (at.both_sides >> point & 1u) << lane % kLanes;
+        w.in_volume[half] |= (at.in_volume >> point & 1u) << lane % kLanes;
     }
 }
 
-/// A register of blocks of 16 bytes, of block `block` of each pair.
+/// A member of the children of some points, of 4 bytes; `place` counts members.
 template <class Tag>
-HWY_INLINE hn::Vec<Tag> blocks_of(Tag tag, const Siblings* const* pairs, std::size_t block) {
-    constexpr std::size_t kBlocks = hn::MaxLanes(tag) / 2;
-    if constexpr (kBlocks == 1) {
-        return hn::Load(tag, reinterpret_cast<const std::uint64_t*>(pairs[0]) + 2 * block);
+HWY_INLINE hn::Vec<Tag> member_of(Tag tag, const Node* const* nodes, std::size_t place) {
+    constexpr std::size_t kNodes = hn::MaxLanes(tag) / kWidth;
+    if constexpr (kNodes == 1) {
+        return hn::Load(tag, reinterpret_cast<const hn::TFromD<Tag>*>(nodes[0]) + kWidth * place);
     } else {
         const hn::Half<Tag> half;
-        return hn::Combine(tag, blocks_of(half, pairs + kBlocks / 2, block),
-                           blocks_of(half, pairs, block));
+        return hn::Combine(tag, member_of(half, nodes + kNodes / 2, place),
+                           member_of(half, nodes, place));
     }
 }
-/// Two successive members of Siblings, each for both siblings of each point.
-struct TwoMembers {
-    Words first, second;
-};
-HWY_INLINE TwoMembers members_of(const Siblings* const* pairs, std::size_t block) {
-    const WordTag tag;
-    const auto low = blocks_of(tag, pairs, block);
-    const auto high = blocks_of(tag, pairs + kPoints / 2, block);
-    return {hn::ConcatEven(tag, high, low), hn::ConcatOdd(tag, high, low)};
-}
-
-HWY_INLINE Numbers as_numbers(Words words) {
+HWY_INLINE Numbers numbers_of(const Node* const* nodes, std::size_t place) {
     Numbers r;
-    r.part[0] = hn::BitCast(FloatTag(), words);
+    r.part[0] = member_of(FloatTag(), nodes, place);
     return r;
 }
-/// The lower and the upper half of each word of 32 bits, as signed numbers.
-HWY_INLINE Numbers lower_numbers(Words words) {
-    const hn::RebindToSigned<FloatTag> integers;
+/// The lower and the upper half of each integer, as signed numbers.
+HWY_INLINE Numbers lower_numbers(Integers of) {
     Numbers r;
-    const auto low = hn::ShiftRight<16>(hn::ShiftLeft<16>(hn::BitCast(integers, words)));
-    r.part[0] = hn::ConvertTo(FloatTag(), low);
+    r.part[0] = hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(hn::ShiftLeft<16>(of)));
     return r;
 }
-HWY_INLINE Numbers upper_numbers(Words words) {
-    const hn::RebindToSigned<FloatTag> integers;
+HWY_INLINE Numbers upper_numbers(Integers of) {
     Numbers r;
-    const auto high = hn::ShiftRight<16>(hn::BitCast(integers, words));
-    r.part[0] = hn::ConvertTo(FloatTag(), high);
+    r.part[0] = hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(of));
     return r;
 }
 
-/// `importances` (light_importance.h) of both siblings of each point, operation by operation, and
-/// their links. `kSimple`: all points count light of one side.
+/// `importances` (light_importance.h) of the children of each point of a half, operation by
+/// operation.
+/// `kSimple`: all points count light of one side.
 template <bool kSimple>
-HWY_INLINE Numbers importances_of(const Walkers& w, Words& links) {
+HWY_INLINE Numbers importances_of(const Walkers& w, std::size_t half) {
+    const Node* const* const nodes = w.nodes + half * kHalf;
     constexpr float kUnit = 1.0f / LightTree::kAxisUnits;
-    const auto [centers_x, centers_y] = members_of(w.pairs, 0);
-    const auto [centers_z, variances] = members_of(w.pairs, 1);
-    const auto [intensities, axes_xy] = members_of(w.pairs, 2);
-    const auto [axes_z, both_links] = members_of(w.pairs, 3);
-    links = both_links;
-    const auto point = [&](std::size_t k) HWY_ATTR { return load_lanes<kLanes>(w.point[k]); };
-    const auto normal = [&](std::size_t k) HWY_ATTR { return load_lanes<kLanes>(w.normal[k]); };
+    const auto point = [&](std::size_t k) HWY_ATTR { return load_lanes<kLanes>(w.point[half][k]); };
+    const auto normal = [&](std::size_t k)
+                            HWY_ATTR { return load_lanes<kLanes>(w.normal[half][k]); };
     const Numbers zero(0.0f), one(1.0f);
-    const Numbers x = as_numbers(centers_x) - point(0), y = as_numbers(centers_y) - point(1),
-                  z = as_numbers(centers_z) - point(2);
-    const Numbers squared = x * x + y * y + z * z, variance = as_numbers(variances);
+    const Numbers x = numbers_of(nodes, 0) - point(0), y = numbers_of(nodes, 1) - point(1),
+                  z = numbers_of(nodes, 2) - point(2);
+    const Numbers squared = x * x + y * y + z * z, variance = numbers_of(nodes, 3);
+    const Integers axes_xy = member_of(IntegerTag(), nodes, 5);
+    const Integers axes_z = member_of(IntegerTag(), nodes, 6);
     const Numbers axis_x = lower_numbers(axes_xy), axis_y = upper_numbers(axes_xy);
     const Numbers axis_z = lower_numbers(axes_z);
-    const Numbers radius2 = as_numbers(hn::And(axes_z, hn::Set(WordTag(), 0xFFFF0000FFFF0000u)));
+    Numbers radius2;
+    radius2.part[0] =
+        hn::BitCast(FloatTag(), hn::And(axes_z, hn::Set(IntegerTag(), std::int32_t{-0x10000})));
 
     const Numbers along = -((axis_x * x + axis_y * y + axis_z * z) * Numbers(kUnit));
     const Numbers equal =
         (axis_x * axis_x + axis_y * axis_y + axis_z * axis_z) * Numbers(kUnit * kUnit);
     const Numbers turn = Numbers(kTurned) * max_lanes(one - equal, zero) + Numbers(kLeastTurn);
     const Numbers sent_root = sqrt(along * along + turn * squared + variance);
-    const Numbers intensity = as_numbers(intensities);
+    const Numbers intensity = numbers_of(nodes, 4);
     const Numbers sent = sent_root + select_lanes(intensity < zero, sent_root, along);
 
     const Numbers height = normal(0) * x + normal(1) * y + normal(2) * z;
@@ -170,8 +168,8 @@ HWY_INLINE Numbers importances_of(const Walkers& w, Words& links) {
     Numbers received = received_root + height;
     Mask dark = (height < zero) & (height2 >= radius2 + grazing);
     if (!kSimple) {
-        const Mask in_volume = lanes_of_bits<float, kLanes>(w.in_volume);
-        const Mask both_sides = lanes_of_bits<float, kLanes>(w.both_sides);
+        const Mask in_volume = lanes_of_bits<float, kLanes>(w.in_volume[half]);
+        const Mask both_sides = lanes_of_bits<float, kLanes>(w.both_sides[half]);
         received = received_root + select_lanes(both_sides, received_root, height);
         received = select_lanes(in_volume, Numbers(2.0f) * sqrt(spread), received);
         dark = dark & !(in_volume | both_sides);
@@ -180,58 +178,96 @@ HWY_INLINE Numbers importances_of(const Walkers& w, Words& links) {
     return select_lanes(dark, zero, importance);
 }
 
+/// Importances of the children of all points, [child], from those of both halves.
+struct Importances {
+    hn::Vec<DoubleTag> of[kWidth];
+};
+HWY_INLINE hn::Vec<DoubleTag> promoted(hn::Vec<FloatTag> a) {
+    return hn::PromoteTo(DoubleTag(), hn::LowerHalf(HalfFloats(), a));
+}
+HWY_INLINE Importances all_importances(hn::Vec<FloatTag> low, hn::Vec<FloatTag> high) {
+    const FloatTag tag;
+    const auto even = hn::ConcatEven(tag, high, low), odd = hn::ConcatOdd(tag, high, low);
+    return {{promoted(hn::ConcatEven(tag, even, even)), promoted(hn::ConcatEven(tag, odd, odd)),
+             promoted(hn::ConcatOdd(tag, even, even)), promoted(hn::ConcatOdd(tag, odd, odd))}};
+}
+/// Links to the children of all points, [child].
+struct Links {
+    hn::Vec<WordTag> to[kWidth];
+};
+HWY_INLINE Links all_links(const Node* const* nodes) {
+    const hn::RebindToUnsigned<FloatTag> tag;
+    const WordTag words;
+    constexpr std::size_t kPlace = offsetof(Node, links) / sizeof(Node::links);
+    const auto low = member_of(tag, nodes, kPlace), high = member_of(tag, nodes + kHalf, kPlace);
+    const auto even = hn::BitCast(words, hn::ConcatEven(tag, high, low));
+    const auto odd = hn::BitCast(words, hn::ConcatOdd(tag, high, low));
+    const auto lower = hn::Set(words, 0xFFFFFFFFu);
+    return {{hn::And(even, lower), hn::And(odd, lower), hn::ShiftRight<32>(even),
+             hn::ShiftRight<32>(odd)}};
+}
+
 /// One step down the tree for each point that has not ended. The others stay where they are:
 /// without branches, as the end of a point is not predictable.
 template <bool kSimple>
 HWY_INLINE void descend(const LightTree& tree, const LightRecord* lights, Walkers& w) {
     const DoubleTag tag;
     const WordTag words;
-    Words both_links;
-    const auto own = importances_of<kSimple>(w, both_links).part[0];
-    const hn::Half<FloatTag> half;
-    const auto of_first =
-        hn::PromoteTo(tag, hn::LowerHalf(half, hn::ConcatEven(FloatTag(), own, own)));
-    const auto of_second =
-        hn::PromoteTo(tag, hn::LowerHalf(half, hn::ConcatOdd(FloatTag(), own, own)));
+    const auto low = importances_of<kSimple>(w, 0).part[0];
+    const auto high = importances_of<kSimple>(w, 1).part[0];
+    const Importances own = all_importances(low, high);
+    const auto of0 = own.of[0], of1 = own.of[1], of2 = own.of[2], of3 = own.of[3];
+    const auto two = hn::Add(of0, of1), three = hn::Add(two, of2), sum = hn::Add(three, of3);
     const auto zero = hn::Zero(tag), one = hn::Set(tag, 1.0);
-    const auto sum = hn::Add(of_first, of_second);
     const auto is_lit = hn::Gt(sum, zero);
     const auto probability = hn::Load(tag, w.probability), rest = hn::Load(tag, w.rest);
     // What follows waits for no division.
-    const auto first = hn::Lt(hn::Mul(rest, sum), hn::Mul(probability, of_first));
-    // No division by 0.
-    const auto part = hn::Div(one, hn::IfThenElse(is_lit, sum, one));
-    const auto of_choices = hn::Mul(probability, hn::Mul(of_first, part));
-    const auto of_others = hn::Mul(probability, hn::Mul(of_second, part));
-    hn::Store(hn::IfThenElse(first, rest, hn::Max(hn::Sub(rest, of_choices), zero)), tag, w.rest);
+    const auto at_rest = hn::Mul(rest, sum);
+    const auto from1 = hn::Ge(at_rest, hn::Mul(probability, of0));
+    const auto from2 = hn::And(from1, hn::Ge(at_rest, hn::Mul(probability, two)));
+    const auto from3 = hn::And(from2, hn::Ge(at_rest, hn::Mul(probability, three)));
+    const auto selected = [&](auto t, auto a, auto b, auto c, auto d) HWY_ATTR {
+        const auto upper = hn::IfThenElse(hn::RebindMask(t, from3), d, c);
+        const auto lower = hn::IfThenElse(hn::RebindMask(t, from1), b, a);
+        return hn::IfThenElse(hn::RebindMask(t, from2), upper, lower);
+    };
+    const Links to = all_links(w.nodes);
+    const auto next = selected(words, to.to[0], to.to[1], to.to[2], to.to[3]);
 
     const auto before = hn::Load(words, w.links);
     const auto leaf = hn::Set(words, kLeafBit);
     const auto walks = hn::Eq(hn::And(before, leaf), hn::Zero(words));
-    const auto next = hn::IfThenElse(hn::RebindMask(words, first),
-                                     hn::And(both_links, hn::Set(words, 0xFFFFFFFFu)),
-                                     hn::ShiftRight<32>(both_links));
     const auto found = hn::IfThenElse(hn::RebindMask(words, is_lit), next, leaf);
     const auto links = hn::IfThenElse(walks, found, before);
     hn::Store(links, words, w.links);
-    const auto taken = hn::IfThenElseZero(is_lit, hn::IfThenElse(first, of_choices, of_others));
-    hn::Store(hn::IfThenElse(hn::RebindMask(tag, walks), taken, probability), tag, w.probability);
-
     const auto walk_on = hn::Eq(hn::And(links, leaf), hn::Zero(words));
     w.walk = !hn::AllFalse(words, walk_on);
-    static_assert(sizeof(Siblings*) == sizeof(std::uint64_t) && sizeof(LightRecord) == 128);
-    auto* const addresses = reinterpret_cast<std::uint64_t*>(w.pairs);
-    const auto start = hn::Set(words, reinterpret_cast<std::uint64_t>(tree.pairs().data()));
-    const auto there = hn::Add(start, hn::ShiftLeft<6>(links));
+    static_assert(sizeof(Node*) == sizeof(std::uint64_t) && sizeof(LightRecord) == sizeof(Node));
+    auto* const addresses = reinterpret_cast<std::uint64_t*>(w.nodes);
+    const auto start = hn::Set(words, reinterpret_cast<std::uint64_t>(tree.nodes().data()));
+    const auto there = hn::Add(start, hn::ShiftLeft<7>(links));
     hn::Store(hn::IfThenElse(walk_on, there, hn::Load(words, addresses)), words, addresses);
-    // Of points that end, the first line of what is read of their lights.
+    // Of points that end, what is read of their lights.
     alignas(64) const char* fetched[kPoints];
     const auto light = hn::Add(hn::Set(words, reinterpret_cast<std::uint64_t>(lights)),
                                hn::ShiftLeft<7>(hn::AndNot(leaf, links)));
     hn::Store(hn::IfThenElse(walk_on, there, light), words,
               reinterpret_cast<std::uint64_t*>(fetched));
     ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kPoints; ++i) __builtin_prefetch(fetched[i]);
+    for (std::size_t i = 0; i < kPoints; ++i) {
+        __builtin_prefetch(fetched[i]);
+        __builtin_prefetch(fetched[i] + 64);
+    }
+
+    // No division by 0.
+    const auto part = hn::Div(one, hn::IfThenElse(is_lit, sum, one));
+    const auto sum_before = selected(tag, zero, of0, two, three);
+    const auto skipped = hn::Mul(probability, hn::Mul(sum_before, part));
+    hn::Store(hn::Max(hn::Sub(rest, skipped), zero), tag, w.rest);
+    const auto taken = hn::Mul(probability, hn::Mul(selected(tag, of0, of1, of2, of3), part));
+    hn::Store(
+        hn::IfThenElse(hn::RebindMask(tag, walks), hn::IfThenElseZero(is_lit, taken), probability),
+        tag, w.probability);
 }
 
 HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
@@ -240,7 +276,7 @@ HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const Choi
     for (std::size_t i = 0; i < kPoints; ++i) {
         w.rest[i] = choices.of[first + i];
         w.probability[i] = 1.0;
-        w.pairs[i] = &tree.pairs()[tree.root().target()];
+        w.nodes[i] = &tree.nodes()[tree.root().target()];
         w.links[i] = i < count ? tree.root().bits() : kLeafBit;
     }
     w.walk = true;
@@ -248,7 +284,7 @@ HWY_INLINE void begin(const LightTree& tree, const LitPointLanes& at, const Choi
 
 inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceLanes& choices,
                    std::size_t count, ChosenLight* chosen, const LightRecord* lights) {
-    // While one group takes a step, the next nodes of the other are fetched.
+    // While one group takes a step, the next nodes of the others are fetched.
     constexpr std::size_t kGroups = LitPointLanes::kMost / kPoints;
     Walkers groups[kGroups];
     std::size_t used = 0;
@@ -256,7 +292,7 @@ inline void choose(const LightTree& tree, const LitPointLanes& at, const ChoiceL
         begin(tree, at, choices, first, std::min(kPoints, count - first), groups[used++]);
     }
     // Addresses of nothing would be looked up in all tables of pages.
-    if (lights == nullptr) lights = reinterpret_cast<const LightRecord*>(tree.pairs().data());
+    if (lights == nullptr) lights = reinterpret_cast<const LightRecord*>(tree.nodes().data());
     const bool simple = (at.both_sides | at.in_volume) == 0;
     for (bool any = true; any;) {
         any = false;
