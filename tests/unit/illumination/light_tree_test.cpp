@@ -221,7 +221,7 @@ TEST(LightTree, DimLightsAreChosenSometimes) {
     int lit = 0;
     for (int i = 0; i < 400; ++i) {
         const Vec3 origin = (i % 3 == 0 ? 1e7 : 1.0) * random_unit(random);
-        const double size = std::exp(random.uniform(-9, 9));
+        const double size = std::exp(random.uniform(-9, 9)), dimness = i % 2 == 0 ? 1e-9 : 1.0;
         std::vector<TreeLight> lights(60);
         for (TreeLight& light : lights) {
             const bool dim = random.below(5) == 0;
@@ -229,7 +229,7 @@ TEST(LightTree, DimLightsAreChosenSometimes) {
             light.bounds.center = origin + size * place;
             light.bounds.box.include(light.bounds.center);
             light.bounds.axis = dim ? random_unit(random) : Vec3{0, 0, 1};
-            light.intensity = dim ? std::exp(random.uniform(-16, 0)) : 1e3;
+            light.intensity = dim ? dimness * std::exp(random.uniform(-16, 0)) : 1e3;
             if (i % 4 == 0) light.cosine_reach = random.uniform(0, 0.9);
             light.two_sided = i % 5 == 0;
         }
@@ -237,6 +237,10 @@ TEST(LightTree, DimLightsAreChosenSometimes) {
         for (int k = 0; k < 40; ++k) {
             const double distance = size * std::exp(random.uniform(-12, 30));
             LitPoint at{origin + distance * random_unit(random), random_unit(random), k % 7 == 0};
+            if (k % 5 == 0) {
+                const double beside = size * std::exp(random.uniform(-16, -6));
+                at.point = lights[random.below(60)].bounds.center + beside * random_unit(random);
+            }
             if (k % 11 == 0) at = LitPoint::inside_volume(at.point);
             if (k % 3 == 0) {
                 // A light is a little above the horizon.
