@@ -442,6 +442,8 @@ EmitterBounds bounds_of(const Emitter& e) {
         bounds.axis = {0, 0, 1};
         bounds.cosine_spread = -1.0;
     }
+    bounds.center = bounds.box.center();
+    if (e.form == EmitterForm::Triangle) bounds.center = at + (x + y) / 3.0;
     return bounds;
 }
 

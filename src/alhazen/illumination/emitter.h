@@ -120,6 +120,7 @@ struct EmitterPoint {
 /// Bounds for the choice among many emitters (light_tree.h).
 struct EmitterBounds {
     Box3 box;
+    Vec3 center;               ///< of mass, or near it
     Vec3 axis{0, 0, 1};        ///< unit, of the cone of normals
     double cosine_spread = 1;  ///< cosine of the half angle of that cone; -1: all directions
 };

@@ -99,12 +99,14 @@ TreeLight Illumination::Data::tree_light(std::size_t near_light) const {
     if (const auto* spot = std::get_if<SpotLight>(light)) {
         result.intensity *= largest_factor(spot->profile);
         result.bounds.box.include(spot->position);
+        result.bounds.center = spot->position;
         result.bounds.axis = spot->direction;
         result.cosine_reach = std::cos(spot->outer_angle);
     } else {
         const auto& point = std::get<PointLight>(*light);
         result.intensity *= largest_factor(point.profile);
         result.bounds.box.include(point.position);
+        result.bounds.center = point.position;
         result.bounds.cosine_spread = -1.0;
         result.cosine_reach = -1.0;
     }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "alhazen/illumination/light_importance.h"
 #include "alhazen/math/constants.h"
@@ -17,6 +17,12 @@ constexpr int kBins = 12;
 /// Only nodes with a number of lights in this range are split along the best of all axes, others
 /// along their longest axis.
 constexpr std::size_t kTriesAllAxesFrom = 12, kTriesAllAxesTo = 2048;
+
+/// The variance of an importance per variance of the places of its lights; found by experiments
+/// (docs/log/light_transport.md).
+constexpr double kVarianceFactor = 1.4;
+/// The least share of a node in the intensity of all lights: products stay normal numbers.
+constexpr double kLeastIntensity = 1e-12;
 
 /// Bounds of a set of lights.
 struct Cluster {
@@ -85,13 +91,88 @@ double cost_of(const Cluster& c) {
 
 }  // namespace
 
+/// What the importance of a set of lights depends on, in world space.
+struct Moments {
+    Vec3 center;          ///< mean by intensity
+    double variance = 0;  ///< of places, along one axis
+    Vec3 axis;            ///< mean by intensity
+    double intensity = 0;
+    bool two_sided = false;
+    Box3 box;
+    Cluster cone;  ///< if the tree has cones
+};
+
+bool emits_to_all_directions(const TreeLight& l) {
+    return l.bounds.cosine_spread <= -1.0 || l.cosine_reach <= -1.0;
+}
+bool is_surface(const TreeLight& l) {
+    return l.cosine_reach == 0.0;
+}
+
+Moments moments_of(const TreeLight& l) {
+    Moments m;
+    m.center = l.bounds.center;
+    m.box = l.bounds.box;
+    // Emitters fill about their box.
+    m.variance = length_squared(m.box.size()) / 36.0;
+    m.two_sided = l.two_sided;
+    m.intensity = l.intensity;
+    if (is_surface(l) && !emits_to_all_directions(l)) {
+        m.axis = 0.5 * (1.0 + l.bounds.cosine_spread) * l.bounds.axis;
+    } else {
+        // The largest intensity in all directions, and not in one.
+        m.intensity *= l.two_sided ? 2.0 : 4.0;
+    }
+    return m;
+}
+
+Moments united(const Moments& a, const Moments& b) {
+    Moments m;
+    m.intensity = a.intensity + b.intensity;
+    const double of_a = a.intensity / m.intensity, of_b = b.intensity / m.intensity;
+    m.center = of_a * a.center + of_b * b.center;
+    m.variance = of_a * a.variance + of_b * b.variance +
+                 of_a * of_b * length_squared(a.center - b.center) / 3.0;
+    m.two_sided = a.two_sided || b.two_sided;
+    const bool turned = m.two_sided && dot(a.axis, b.axis) < 0.0;
+    m.axis = of_a * a.axis + (turned ? -of_b : of_b) * b.axis;
+    m.box = a.box;
+    m.box.include(b.box);
+    m.cone = a.cone;
+    unite(m.cone, b.cone);
+    return m;
+}
+
+/// The largest squared distance of the point to points of the box.
+double squared_reach(const Box3& box, const Vec3& from) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double reach = std::max(from[k] - box.lo[k], box.hi[k] - from[k]);
+        sum += reach * reach;
+    }
+    return sum;
+}
+
+std::uint32_t low_half(double axis) {
+    const auto number =
+        static_cast<std::int16_t>(std::lround(std::clamp(axis, -1.0, 1.0) * LightTree::kAxisUnits));
+    return static_cast<std::uint16_t>(number);
+}
+
+/// The upper half of a float that is not below `x`.
+std::uint32_t high_half_above(double x) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
+    return (bits + 0x1FFFFu) & 0xFFFF0000u;
+}
+
 class LightTreeBuilder {
   public:
     explicit LightTreeBuilder(const std::vector<TreeLight>& lights) : lights_(lights) {
         for (std::size_t i = 0; i < lights.size(); ++i) {
             if (lights[i].intensity > 0.0 && std::isfinite(lights[i].intensity)) {
                 order_.push_back(static_cast<std::uint32_t>(i));
-                surfaces_only_ = surfaces_only_ && lights[i].cosine_reach == 0.0;
+                has_cones_ =
+                    has_cones_ || !(is_surface(lights[i]) || emits_to_all_directions(lights[i]));
             }
         }
     }
@@ -99,40 +180,49 @@ class LightTreeBuilder {
     void build(LightTree& tree) {
         tree.leaves_.assign(lights_.size(), LightTree::kNone);
         tree.empty_ = order_.empty();
-        tree.surfaces_only_ = surfaces_only_;
         if (order_.empty()) return;
-        const std::size_t pairs = order_.size() - 1;
-        tree.pairs_.resize(pairs);
-        std::uint32_t made = 0;
         // Not recursive: a tree of equal lights may be deep.
         std::vector<Task> waiting{{LightTree::kNone, 0, order_.size()}};
         while (!waiting.empty()) {
             const Task task = waiting.back();
             waiting.pop_back();
-            const bool is_root = task.node == LightTree::kNone;
-            LightTree::Link& link =
-                is_root ? tree.root_ : tree.pairs_[task.node / 2].links[task.node % 2];
-            if (!is_root) {
-                tree.pairs_[task.node / 2].set(task.node % 2, node_of(bound(task)));
-            }
+            const bool is_root = task.child == LightTree::kNone;
+            LightTree::Link& link = is_root ? tree.root_
+                                            : tree.nodes_[task.child / LightTree::kWidth]
+                                                  .links[task.child % LightTree::kWidth];
             if (task.end - task.begin == 1) {
                 const std::uint32_t light = order_[task.begin];
                 link = LightTree::Link::to_light(light);
-                tree.leaves_[light] = task.node;
+                tree.leaves_[light] = task.child;
                 continue;
             }
-            const std::size_t middle = divide(task);
-            link = LightTree::Link::to_siblings(made);
-            tree.pairs_[made].parent = task.node;
-            waiting.push_back({2 * made + 1, middle, task.end});
-            waiting.push_back({2 * made, task.begin, middle});
-            ++made;
+            const auto made = static_cast<std::uint32_t>(tree.nodes_.size());
+            link = LightTree::Link::to_node(made);
+            tree.nodes_.emplace_back();
+            tree.parents_.push_back(task.child);
+            // The halves of both halves.
+            const std::size_t middle = divide(task.begin, task.end);
+            std::array<std::size_t, LightTree::kWidth + 1> ends{task.begin};
+            std::uint32_t children = 0;
+            for (const auto& [begin, end] :
+                 {std::pair{task.begin, middle}, std::pair{middle, task.end}}) {
+                if (end - begin > 1) ends[++children] = divide(begin, end);
+                ends[++children] = end;
+            }
+            std::fill(std::begin(tree.nodes_[made].links) + children,
+                      std::end(tree.nodes_[made].links), LightTree::Link::to_light(0));
+            for (std::uint32_t i = children; i-- > 0;) {
+                waiting.push_back({LightTree::kWidth * made + i, ends[i], ends[i + 1]});
+            }
+            counts_.push_back(children);
         }
+        set_frame(tree);
+        set_numbers(tree);
     }
 
   private:
     struct Task {
-        std::uint32_t node;  ///< kNone: the root
+        std::uint32_t child;  ///< as LightTree::parents_; kNone: the root
         std::size_t begin, end;
     };
     struct Bin {
@@ -173,35 +263,93 @@ class LightTreeBuilder {
         c.cosine_spread = std::min(c.cosine_spread, cosine);
     }
 
-    [[nodiscard]] Cluster bound(const Task& task) const {
-        Bin all;
-        for (std::size_t i = task.begin; i < task.end; ++i) add_to(all, light(i));
-        begin_cone(all);
-        for (std::size_t i = task.begin; i < task.end; ++i) widen_cone(all, light(i));
-        return all.cluster;
-    }
-
-    static LightTree::Node node_of(const Cluster& c) {
-        LightTree::Node node;
-        constexpr float kInf = std::numeric_limits<float>::infinity();
-        for (int k = 0; k < 3; ++k) {
-            node.lo[k] = std::nextafter(static_cast<float>(c.box.lo[k]), -kInf);
-            node.hi[k] = std::nextafter(static_cast<float>(c.box.hi[k]), kInf);
-            node.axis[k] = static_cast<float>(c.axis[k]);
+    void set_frame(LightTree& tree) {
+        Box3 box;
+        for (const std::uint32_t i : order_) {
+            box.include(lights_[i].bounds.box);
+            intensity_ += moments_of(lights_[i]).intensity;
         }
-        // Widened by more than the rounding of the axis.
-        const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0)) + 1e-3;
-        node.cosine_spread = spread >= kPi ? -1.0f : static_cast<float>(std::cos(spread));
-        node.cosine_reach = static_cast<float>(c.cosine_reach);
-        node.intensity = static_cast<float>(std::clamp(c.intensity, 1e-37, 1e37));
-        node.two_sided = c.two_sided;
-        return node;
+        tree.origin_ = box.center();
+        const double radius = 0.5 * length(box.size());
+        tree.scale_ = radius > 0.0 && std::isfinite(1.0 / radius) ? 1.0 / radius : 1.0;
     }
 
-    /// Orders the lights of the task by the sides of a split; returns the end of the first side.
-    std::size_t divide(const Task& task) {
-        const std::size_t count = task.end - task.begin;
-        const std::size_t half = task.begin + count / 2;
+    /// Sets the numbers of all nodes, from the leaves to the root.
+    void set_numbers(LightTree& tree) const {
+        if (has_cones_) tree.cones_.resize(tree.nodes_.size());
+        // A node precedes what is below it, its first child before the rest.
+        std::vector<Moments> made;
+        for (std::size_t k = tree.nodes_.size(); k-- > 0;) {
+            Moments all;
+            for (std::size_t i = 0; i < LightTree::kWidth; ++i) {
+                if (i >= counts_[k]) {
+                    set_none(tree.nodes_[k], i);
+                    continue;
+                }
+                const LightTree::Link link = tree.nodes_[k].links[i];
+                Moments child;
+                if (link.is_leaf()) {
+                    child = moments_of(lights_[link.target()]);
+                    if (has_cones_) child.cone = cone_of(lights_[link.target()]);
+                } else {
+                    child = made.back();
+                    made.pop_back();
+                }
+                set(tree, k, i, child);
+                all = i == 0 ? child : united(all, child);
+            }
+            made.push_back(all);
+        }
+    }
+
+    static void set_none(LightTree::Node& node, std::size_t i) {
+        for (auto& place : node.center) place[i] = 0.0f;
+        node.variance[i] = 1.0f;
+        node.intensity[i] = 0.0f;
+        node.axis_xy[i] = node.axis_z_radius2[i] = 0;
+    }
+
+    static Cluster cone_of(const TreeLight& l) {
+        Cluster c;
+        c.axis = l.bounds.axis;
+        c.cosine_spread = l.bounds.cosine_spread;
+        c.cosine_reach = l.cosine_reach;
+        c.two_sided = l.two_sided;
+        c.count = 1;
+        return c;
+    }
+
+    void set(LightTree& tree, std::size_t node, std::size_t i, const Moments& m) const {
+        LightTree::Node& to = tree.nodes_[node];
+        const Vec3 center = tree.scale_ * (m.center - tree.origin_);
+        for (int k = 0; k < 3; ++k) to.center[k][i] = static_cast<float>(center[k]);
+        // Larger by more than the rounding of places.
+        const double radius = tree.scale_ * std::sqrt(squared_reach(m.box, m.center)) + 1e-6;
+        const double variance = kVarianceFactor * m.variance * (tree.scale_ * tree.scale_);
+        to.variance[i] =
+            static_cast<float>(std::max(variance, std::max(2e-6 * radius * radius, 1e-12)));
+        const auto share =
+            static_cast<float>(std::clamp(m.intensity / intensity_, kLeastIntensity, 1.0));
+        to.intensity[i] = m.two_sided ? -share : share;
+        to.axis_xy[i] = low_half(m.axis.x) | low_half(m.axis.y) << 16;
+        // More than (radius + error)^2, if the square of the error is a hundredth of kGrazing.
+        to.axis_z_radius2[i] = low_half(m.axis.z) | high_half_above(1.01 * radius * radius);
+        if (!has_cones_) return;
+        LightTree::Cones& cones = tree.cones_[node];
+        for (int k = 0; k < 3; ++k) cones.axis[k][i] = static_cast<float>(m.cone.axis[k]);
+        // Widened by more than the rounding of the axis.
+        const double angle = std::acos(std::clamp(m.cone.cosine_spread, -1.0, 1.0)) +
+                             std::acos(std::clamp(m.cone.cosine_reach, -1.0, 1.0)) + 1e-3;
+        const bool open = m.cone.two_sided || angle >= kPi;
+        cones.cosine[i] = open ? -2.0f : static_cast<float>(std::cos(angle));
+        cones.radius[i] = static_cast<float>(1.001 * radius);
+    }
+
+    /// Orders the lights of a range by the sides of a split; returns the end of the first side.
+    std::size_t divide(std::size_t begin, std::size_t end) {
+        const Task task{LightTree::kNone, begin, end};
+        const std::size_t count = end - begin;
+        const std::size_t half = begin + count / 2;
         if (count == 2) return half;
         Box3 centers;
         for (std::size_t i = task.begin; i < task.end; ++i) {
@@ -266,21 +414,24 @@ class LightTreeBuilder {
 
     const std::vector<TreeLight>& lights_;
     std::vector<std::uint32_t> order_;
-    bool surfaces_only_ = true;
+    std::vector<std::uint32_t> counts_;  ///< [node] children
+    double intensity_ = 0;               ///< of all lights
+    bool has_cones_ = false;
 };
 
-void LightTree::Siblings::set(std::size_t sibling, const Node& node) {
-    const Vec3 lo{node.lo[0], node.lo[1], node.lo[2]}, hi{node.hi[0], node.hi[1], node.hi[2]};
-    const Vec3 middle = 0.5 * (lo + hi);
-    for (int k = 0; k < 3; ++k) {
-        center[k][sibling] = middle[k];
-        axis[k][sibling] = node.axis[k];
-    }
-    radius2[sibling] = 0.25 * length_squared(hi - lo);
-    cosine_spread[sibling] = node.cosine_spread;
-    cosine_reach[sibling] = node.cosine_reach;
-    intensity[sibling] = node.two_sided ? -node.intensity : node.intensity;
+namespace {
+
+/// The importances before each child, and of all.
+struct ImportanceSums {
+    LightTree::OfChildren<double> before;
+    double all;
+};
+ImportanceSums sums_of(const std::array<float, LightTree::kWidth>& of) {
+    const double two = double{of[0]} + double{of[1]}, three = two + double{of[2]};
+    return {{0.0, of[0], two, three}, three + double{of[3]}};
 }
+
+}  // namespace
 
 LightTree::LightTree(const std::vector<TreeLight>& lights) {
     LightTreeBuilder(lights).build(*this);
@@ -288,35 +439,38 @@ LightTree::LightTree(const std::vector<TreeLight>& lights) {
 
 ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
     if (empty_) return {};
-    double probability = 1.0;
+    const PointOfTree seen(*this, at);
+    // `rest`: of the choice, less than `probability`.
+    double rest = choice, probability = 1.0;
     Link link = root_;
     while (!link.is_leaf()) {
-        const Siblings& pair = pairs_[link.target()];
-        const auto [first, second] = importances(pair, at);
-        const double sum = first + second;
-        if (!(sum > 0.0)) return {};
-        const double share = first / sum;
-        if (choice < share) {
-            choice = std::min(choice / share, 0x1.fffffffffffffp-1);
-            probability *= share;
-            link = pair.links[0];
-        } else {
-            choice = std::min((choice - share) / (1.0 - share), 0x1.fffffffffffffp-1);
-            probability *= second / sum;
-            link = pair.links[1];
-        }
+        const Node& node = nodes_[link.target()];
+        const auto own = importances(node, cones_of(link.target()), seen);
+        const ImportanceSums sums = sums_of(own);
+        if (!(sums.all > 0.0)) return {};
+        const double at_rest = rest * sums.all;
+        std::size_t i = 0;
+        while (i < kWidth - 1 && at_rest >= probability * sums.before[i + 1]) ++i;
+        const double part = 1.0 / sums.all;
+        rest = std::max(rest - probability * (sums.before[i] * part), 0.0);
+        probability = probability * (double{own[i]} * part);
+        link = node.links[i];
     }
     return {link.target(), probability};
 }
 
 double LightTree::probability(const LitPoint& at, std::size_t light) const {
-    if (empty_ || (leaves_[light] == kNone && !pairs_.empty())) return 0.0;
-    if (pairs_.empty()) return root_.target() == light ? 1.0 : 0.0;
+    if (empty_ || (leaves_[light] == kNone && !nodes_.empty())) return 0.0;
+    if (nodes_.empty()) return root_.target() == light ? 1.0 : 0.0;
+    const PointOfTree seen(*this, at);
     double probability = 1.0;
-    for (std::uint32_t node = leaves_[light]; node != kNone; node = pairs_[node / 2].parent) {
-        const auto [one, two] = importances(pairs_[node / 2], at);
-        if (!(one + two > 0.0)) return 0.0;
-        probability *= (node % 2 == 0 ? one : two) / (one + two);
+    for (std::uint32_t child = leaves_[light]; child != kNone;) {
+        const std::uint32_t node = child / kWidth;
+        const auto own = importances(nodes_[node], cones_of(node), seen);
+        const double sum = sums_of(own).all;
+        if (!(sum > 0.0)) return 0.0;
+        probability *= double{own[child % kWidth]} / sum;
+        child = parents_[node];
     }
     return probability;
 }

@@ -1,16 +1,17 @@
 #pragma once
-/// A binary tree over many lights, with bounds of position, direction and intensity: chooses a
-/// light by an estimate of what it sends to a point.
+/// A tree over many lights, with means and bounds of places, axes and intensities: chooses a light
+/// by an estimate of what it sends to a point.
 ///
 /// Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
 /// Splitting", HPG 2018: orientation cones (section 4.1), the surface area orientation heuristic
-/// (4.4), the importance of a node (5).
-/// Differs: no adaptive splitting: one light is chosen. A node of two-sided emitters has the cone
-/// of one side. Cones of bins are around the mean axis. Large nodes are split along their longest
-/// axis only. The energy of a light is its largest intensity.
+/// (4.4).
+/// Differs: nodes have four children, two levels of their splits. One light is chosen. Importances
+/// are means instead of bounds (light_importance.h). Cones of bins are around the mean axis. Large
+/// nodes are split along their longest axis only. The energy of a light is its largest intensity.
 /// Conventions: every light that may reach a point has a probability above 0. Leaves hold one
-/// light.
-/// Complexity: O(n log n) to build, 132 bytes a light; O(depth) for a choice or a probability.
+/// light. Nodes are in the frame of the tree: the box of all lights is around its origin, its half
+/// diagonal is 1.
+/// Complexity: O(n log n) to build, about 70 bytes a light; O(depth) for a choice or a probability.
 /// Threads: const functions may be called from many.
 
 #include <cstddef>
@@ -26,8 +27,9 @@ namespace alhazen {
 struct TreeLight {
     EmitterBounds bounds;
     bool two_sided = false;
-    double intensity = 0;     ///< 0: not in the tree
-    double cosine_reach = 0;  ///< cosine of the largest angle of emission from a normal
+    double intensity = 0;  ///< 0: not in the tree
+    /// Cosine of the largest angle of emission from a normal; of surfaces 0.
+    double cosine_reach = 0;
 };
 
 class LightTree {
@@ -40,27 +42,19 @@ class LightTree {
     /// The probability of `choose` for a light.
     [[nodiscard]] double probability(const LitPoint& at, std::size_t light) const;
 
-    struct Node {
-        float lo[3], hi[3];  ///< rounded outward
-        float axis[3];
-        float cosine_spread;  ///< as in EmitterBounds
-        float cosine_reach;
-        float intensity;
-        bool two_sided;
-    };
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    /// What a node leads to: a pair of siblings, or a light.
+    /// What a child is: a node, or a light.
     class Link {
       public:
         Link() = default;
-        [[nodiscard]] static Link to_siblings(std::uint32_t pair) { return Link(pair); }
+        [[nodiscard]] static Link to_node(std::uint32_t node) { return Link(node); }
         [[nodiscard]] static Link to_light(std::uint32_t light) { return Link(light | kLight); }
 
         [[nodiscard]] bool is_leaf() const { return (bits_ & kLight) != 0; }
         [[nodiscard]] std::uint32_t bits() const { return bits_; }
         [[nodiscard]] static Link of_bits(std::uint32_t bits) { return Link(bits); }
-        /// The number of the light or of the pair.
+        /// The number of the light or of the node.
         [[nodiscard]] std::uint32_t target() const { return bits_ & ~kLight; }
 
       private:
@@ -69,34 +63,55 @@ class LightTree {
         std::uint32_t bits_ = 0;
     };
 
-    /// Two siblings, [sibling]: the numbers that an importance depends on, and what follows.
-    struct alignas(64) Siblings {
-        double center[3][2];
-        double radius2[2];  ///< squared, of the sphere around the box
-        float axis[3][2];
-        float cosine_spread[2];
-        float cosine_reach[2];
-        float intensity[2];  ///< negative: that of two-sided lights
-        Link links[2];
-        std::uint32_t parent;  ///< a node, or kNone
+    /// Children of a node.
+    static constexpr std::uint32_t kWidth = 4;
+    template <class T>
+    using OfChildren = T[kWidth];
 
-        void set(std::size_t sibling, const Node& node);
+    /// A node, [child]: the numbers that the importance of a child depends on, and what follows.
+    /// Those that it has not have the intensity 0.
+    struct alignas(128) Node {
+        OfChildren<float> center[3];  ///< mean of the lights by intensity
+        OfChildren<float> variance;   ///< about the centre, along one axis; enlarged, never 0
+        OfChildren<float> intensity;  ///< share of all; negative: that of two-sided lights
+        /// x and y of the mean of the axes of emission, in units of 1 / kAxisUnits, 16 bits each.
+        OfChildren<std::uint32_t> axis_xy;
+        /// z of that mean, 16 bits; the upper half of the float of a squared radius around the
+        /// centre, rounded up.
+        OfChildren<std::uint32_t> axis_z_radius2;
+        OfChildren<Link> links;
+    };
+    static constexpr float kAxisUnits = 32767.0f;
+    /// The cones of emission of the children of a node, [child], around all axes of their lights.
+    struct Cones {
+        OfChildren<float> axis[3];
+        OfChildren<float> cosine;  ///< of the half angle; below -1: all directions
+        OfChildren<float> radius;  ///< around the centre
     };
     [[nodiscard]] bool empty() const { return empty_; }
     [[nodiscard]] Link root() const { return root_; }
-    /// True if each light emits up to a right angle from its normals, as surfaces do.
-    [[nodiscard]] bool has_surfaces_only() const { return surfaces_only_; }
-    /// Node 2 k + i is sibling i of pair k.
-    [[nodiscard]] const std::vector<Siblings>& pairs() const { return pairs_; }
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+    /// [node]; empty if all lights are surfaces or emit in all directions.
+    [[nodiscard]] const std::vector<Cones>& cones() const { return cones_; }
+    /// The origin of the frame of the tree in world space, and its units per unit there.
+    [[nodiscard]] const Vec3& origin() const { return origin_; }
+    [[nodiscard]] double scale() const { return scale_; }
 
   private:
     friend class LightTreeBuilder;
 
+    [[nodiscard]] const Cones* cones_of(std::uint32_t node) const {
+        return cones_.empty() ? nullptr : &cones_[node];
+    }
+
     bool empty_ = true;
-    bool surfaces_only_ = true;
     Link root_;
-    std::vector<Siblings> pairs_;
-    std::vector<std::uint32_t> leaves_;  ///< [light]: a node, or kNone
+    Vec3 origin_;
+    double scale_ = 1;
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> parents_;  ///< [node]: kWidth times its parent, and which child
+    std::vector<Cones> cones_;
+    std::vector<std::uint32_t> leaves_;  ///< [light]: the same, or kNone
 };
 
 }  // namespace alhazen

@@ -1,6 +1,6 @@
 #pragma once
-/// `LightTree::choose` for sixteen points, several of them with both siblings in lanes at a time:
-/// eight with AVX-512, else two.
+/// `LightTree::choose` for sixteen points, several of them with all children in lanes at a time:
+/// eight with AVX-512, four with AVX2. Otherwise, and in trees with cones, one by one.
 ///
 /// Conventions: the bits are those of LightTree::choose.
 

@@ -7,7 +7,6 @@
 #include <ctime>
 
 #include "alhazen/illumination/illumination.h"
-#include "alhazen/illumination/light_importance.h"
 #include "alhazen/illumination/light_tree_lanes.h"
 #include "alhazen/simd/targets.h"
 #include "support/light_checks.h"
@@ -29,6 +28,7 @@ TreeLight random_light(RandomStream& random) {
     const Vec3 at{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(0, 9)};
     light.bounds.box.include(at);
     light.bounds.box.include(at + 0.3 * random_unit(random));
+    light.bounds.center = light.bounds.box.center();
     light.bounds.axis = random_unit(random);
     light.bounds.cosine_spread = random.below(3) == 0 ? -1.0 : 1.0;
     light.two_sided = random.below(2) == 0;
@@ -42,66 +42,23 @@ LitPoint random_point(RandomStream& random) {
             random.below(2) == 0};
 }
 
-LightTree::Node random_node(RandomStream& random) {
-    LightTree::Node node{};
-    for (int k = 0; k < 3; ++k) {
-        node.lo[k] = static_cast<float>(random.uniform(-3, 3));
-        const double size = random.below(4) == 0 ? 0.0 : random.uniform(0, 0.5);
-        node.hi[k] = node.lo[k] + static_cast<float>(size);
-    }
-    const Vec3 axis = random_unit(random);
-    for (int k = 0; k < 3; ++k) node.axis[k] = static_cast<float>(axis[k]);
-    const double spreads[] = {-1.0, 1.0, random.uniform(-1, 1)};
-    const double reaches[] = {-1.0, 0.0, random.uniform(-1, 1)};
-    node.cosine_spread = static_cast<float>(spreads[random.below(3)]);
-    node.cosine_reach = static_cast<float>(reaches[random.below(3)]);
-    node.intensity = static_cast<float>(std::exp(random.uniform(-9, 9)));
-    node.two_sided = random.below(2) == 0;
-    return node;
-}
-
-TEST(LightTree, TwoNodesInLanesAreAsOneByOne) {
-    RandomStream random(7);
-    int reached = 0, dark = 0;
-    for (int i = 0; i < 200000; ++i) {
-        const LightTree::Node two[2] = {random_node(random), random_node(random)};
-        LitPoint at = random_point(random);
-        if (i % 5 == 0) at = LitPoint::inside_volume(at.point);
-        if (i % 7 == 0) at.both_sides = true;
-        const LightTree::Node& near = two[i % 2];
-        // In the box, at a corner of it, on the axis.
-        if (i % 11 == 0) at.point = {near.lo[0], near.hi[1], near.lo[2]};
-        if (i % 11 == 1) at.point = {near.lo[0], near.lo[1], 0.5 * (near.lo[2] + near.hi[2])};
-        if (i % 11 == 2) at.point = at.point + 1e9 * at.normal;
-        LightTree::Siblings siblings;
-        siblings.set(0, two[0]);
-        siblings.set(1, two[1]);
-        const std::array<double, 2> lanes = importances(siblings, at);
-        for (const std::size_t k : {0, 1}) {
-            const double alone = importance(two[k], at);
-            ASSERT_EQ(lanes[k], alone) << i;
-            ++(alone > 0.0 ? reached : dark);
-        }
-    }
-    EXPECT_GT(reached, 50000);
-    EXPECT_GT(dark, 50000);
-}
-
 TEST(LightTree, SixteenChoicesInLanesAreAsOneByOne) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         RandomStream random(5);
         int lit = 0, dark = 0;
-        // Among surfaces and for points that count light of one side, tests are left out.
+        // For points that count light of one side, tests are left out. Lights with cones are chosen
+        // one by one.
         for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 300u, 301u, 302u, 303u}) {
-            const bool simple = count % 2 == 1, surfaces_only = simple || count == 300;
+            const bool simple = count % 2 == 1, has_cones = count == 302;
             std::vector<TreeLight> lights(count);
             for (TreeLight& light : lights) {
                 light = random_light(random);
-                if (!surfaces_only) light.cosine_reach = random.uniform(-1, 1);
+                if (has_cones) light.cosine_reach = random.uniform(-1, 1);
+                if (count == 17 && random.below(3) == 0) light.cosine_reach = -1.0;
             }
             const LightTree tree(lights);
-            EXPECT_TRUE(count < 9 || tree.has_surfaces_only() == surfaces_only);
+            EXPECT_EQ(!tree.cones().empty(), has_cones);
             for (int i = 0; i < 500; ++i) {
                 constexpr std::size_t kMost = LitPointLanes::kMost;
                 std::array<LitPoint, kMost> at;
@@ -166,7 +123,8 @@ TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {
 TEST(LightTree, InAVolumeNoCosineCounts) {
     std::vector<TreeLight> lights(2);
     for (std::size_t k = 0; k < 2; ++k) {
-        lights[k].bounds.box.include(k == 0 ? Vec3{2, 0, 0} : Vec3{0, 0, 2});
+        lights[k].bounds.center = k == 0 ? Vec3{2, 0, 0} : Vec3{0, 0, 2};
+        lights[k].bounds.box.include(lights[k].bounds.center);
         lights[k].bounds.cosine_spread = lights[k].cosine_reach = -1.0;
         lights[k].intensity = 1.0;
     }
@@ -242,10 +200,97 @@ TEST(LightTree, WhatMayLightAPointIsChosenSometimes) {
     }
 }
 
+/// The light that a small light sends to a point, without occlusion.
+double sent_to(const LitPoint& at, const TreeLight& light) {
+    const Vec3 to_light = light.bounds.center - at.point;
+    const double distance = length(to_light);
+    double sent = -dot(to_light, light.bounds.axis) / distance;
+    if (light.two_sided) sent = std::abs(sent);
+    if (light.bounds.cosine_spread <= -1.0) sent = 1.0;
+    if (!(sent > light.cosine_reach)) return 0.0;
+    double received = dot(to_light, at.normal) / distance;
+    if (at.both_sides) received = std::abs(received);
+    if (at.in_volume) received = 1.0;
+    return std::max(0.0, light.intensity * sent * received / (distance * distance));
+}
+
+/// Dim lights beside bright ones that are behind the surface or shine elsewhere, far from the
+/// origin, seen from any distance.
+TEST(LightTree, DimLightsAreChosenSometimes) {
+    RandomStream random(6);
+    int lit = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Vec3 origin = (i % 3 == 0 ? 1e7 : 1.0) * random_unit(random);
+        const double size = std::exp(random.uniform(-9, 9)), dimness = i % 2 == 0 ? 1e-9 : 1.0;
+        std::vector<TreeLight> lights(60);
+        for (TreeLight& light : lights) {
+            const bool dim = random.below(5) == 0;
+            const Vec3 place = (dim ? 1.0 : 0.01) * random_unit(random);
+            light.bounds.center = origin + size * place;
+            light.bounds.box.include(light.bounds.center);
+            light.bounds.axis = dim ? random_unit(random) : Vec3{0, 0, 1};
+            light.intensity = dim ? dimness * std::exp(random.uniform(-16, 0)) : 1e3;
+            if (i % 4 == 0) light.cosine_reach = random.uniform(0, 0.9);
+            light.two_sided = i % 5 == 0;
+        }
+        const LightTree tree(lights);
+        for (int k = 0; k < 40; ++k) {
+            const double distance = size * std::exp(random.uniform(-12, 30));
+            LitPoint at{origin + distance * random_unit(random), random_unit(random), k % 7 == 0};
+            if (k % 5 == 0) {
+                const double beside = size * std::exp(random.uniform(-16, -6));
+                at.point = lights[random.below(60)].bounds.center + beside * random_unit(random);
+            }
+            if (k % 11 == 0) at = LitPoint::inside_volume(at.point);
+            if (k % 3 == 0) {
+                // A light is a little above the horizon.
+                const Vec3 to_light = lights[random.below(60)].bounds.center - at.point;
+                const Vec3 along = normalize(to_light);
+                at.normal = normalize(normalize(cross(along, random_unit(random))) + 1e-9 * along);
+            }
+            for (std::size_t j = 0; j < lights.size(); ++j) {
+                if (!(sent_to(at, lights[j]) > 0.0)) continue;
+                ++lit;
+                ASSERT_GT(tree.probability(at, j), 0.0) << i << " " << k << " " << j;
+            }
+        }
+    }
+    EXPECT_GT(lit, 100000);
+}
+
+TEST(LightTree, OfTwoSmallLightsEachIsChosenByItsLight) {
+    RandomStream random(11);
+    int compared = 0;
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<TreeLight> lights(2);
+        for (TreeLight& light : lights) {
+            light.bounds.center = 5.0 * random_unit(random);
+            light.bounds.box.include(light.bounds.center);
+            light.bounds.axis = random_unit(random);
+            light.bounds.cosine_spread = random.below(4) == 0 ? -1.0 : 1.0;
+            light.two_sided = random.below(2) == 0;
+            light.intensity = std::exp(random.uniform(-3, 3));
+        }
+        LitPoint at{random.uniform(0, 30) * random_unit(random), random_unit(random), i % 3 == 0};
+        if (i % 7 == 0) at = LitPoint::inside_volume(at.point);
+        const LightTree tree(lights);
+        const double first = sent_to(at, lights[0]), second = sent_to(at, lights[1]);
+        // Not edge-on.
+        const auto share = [&](const TreeLight& light, double light_sent) {
+            return light_sent / light.intensity * length_squared(light.bounds.center - at.point);
+        };
+        if (share(lights[0], first) < 0.05 || share(lights[1], second) < 0.05) continue;
+        ++compared;
+        EXPECT_NEAR(tree.probability(at, 0), first / (first + second), 2e-3) << i;
+    }
+    EXPECT_GT(compared, 200);
+}
+
 TEST(LightTree, EqualLightsInOnePointAreATree) {
     std::vector<TreeLight> lights(5000);
     for (TreeLight& light : lights) {
-        light.bounds.box.include(Vec3{1, 2, 3});
+        light.bounds.center = {1, 2, 3};
+        light.bounds.box.include(light.bounds.center);
         light.bounds.cosine_spread = -1.0;
         light.cosine_reach = -1.0;
         light.intensity = 1.0;
@@ -307,14 +352,14 @@ double variance_at_points(const Scene& scene, LightChoice choice) {
     return variance / kPoints;
 }
 
-TEST(LightTree, IsFiveTimesMoreEfficientThanChoosingEvenly) {
+TEST(LightTree, IsHundredTimesMoreEfficientThanChoosingEvenly) {
     const Scene scene = many_triangles(100000);
     const double uniform = variance_at_points(scene, LightChoice::Uniform);
     const double power = variance_at_points(scene, LightChoice::Power);
     const double tree = variance_at_points(scene, LightChoice::Tree);
     RecordProperty("uniform_over_tree", std::to_string(uniform / tree));
     std::printf("variance: uniform %g, power %g, tree %g\n", uniform, power, tree);
-    EXPECT_GT(uniform, 5.0 * tree);
+    EXPECT_GT(uniform, 100.0 * tree);
 }
 
 /// A million take 7 s of processor time (docs/design/illumination.md).
