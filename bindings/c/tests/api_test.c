@@ -316,11 +316,13 @@ static void test_errors_of_a_commit_name_the_geometry(AlhazenDevice device) {
 }
 
 static void test_buffers_beyond_all_memory(AlhazenDevice device) {
+#ifndef ALHAZEN_SANITIZED /* Clang's AddressSanitizer ends the program where `new` should throw */
     size_t i;
     for (i = 0; i < 40; ++i) { /* also sizes that the padding carries over the limit */
         EXPECT(alhazenNewBuffer(device, SIZE_MAX / 2 - i) == NULL);
         EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
     }
+#endif
     EXPECT(alhazenNewBuffer(device, SIZE_MAX) == NULL);
     EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
 }

@@ -1,12 +1,14 @@
 #include "alhazen/imaging/image/encoding.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "alhazen/imaging/image/code_lanes.h"
 #include "alhazen/imaging/image/screen_pixels.h"
 #include "unit/imaging/test_images.h"
 
@@ -154,6 +156,23 @@ TEST(Encoding, RowsHaveTheCodesOfTheirValues) {
                 }
                 EXPECT_EQ(codes.back(), 7);
             }
+        }
+    }
+}
+
+TEST(Encoding, CodesBecomeTheirLowBytesInOrder) {
+    for (std::size_t count = 0; count < 70; ++count) {
+        std::vector<std::uint16_t> codes(count);
+        for (std::size_t i = 0; i < count; ++i) codes[i] = std::uint16_t(255 - 3 * i);
+        std::vector<std::uint8_t> bytes(count);
+        EXPECT_TRUE(narrow_codes(codes, bytes.data()));
+        for (std::size_t i = 0; i < count; ++i)
+            EXPECT_EQ(bytes[i], codes[i]) << i << " of " << count;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::vector<std::uint16_t> wide = codes;
+            wide[i] = std::uint16_t(wide[i] + 0xFF00);
+            EXPECT_FALSE(narrow_codes(wide, bytes.data()));
+            EXPECT_EQ(bytes[i], codes[i]);
         }
     }
 }

@@ -50,14 +50,18 @@ bool narrow_codes_of_target(std::span<const std::uint16_t> codes, std::uint8_t* 
 #if HWY_TARGET != HWY_SCALAR
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint16_t, 16> d;
+    const hn::Rebind<std::int16_t, decltype(d)> whole;
     const hn::Rebind<std::uint8_t, decltype(d)> narrow;
+    const auto byte = hn::Set(d, 255);
     auto any = hn::Zero(d);
     for (; i + hn::Lanes(d) <= codes.size(); i += hn::Lanes(d)) {
         const auto code = hn::LoadU(d, codes.data() + i);
         any = hn::Or(any, code);
-        hn::StoreU(hn::TruncateTo(narrow, code), narrow, bytes + i);
+        // TruncateTo mixes up the operands of a permutation in Highway 1.0.3 for AVX3_DL.
+        const auto low = hn::BitCast(whole, hn::And(code, byte));
+        hn::StoreU(hn::DemoteTo(narrow, low), narrow, bytes + i);
     }
-    if (!hn::AllFalse(d, hn::Gt(any, hn::Set(d, 255)))) all = 256;
+    if (!hn::AllFalse(d, hn::Gt(any, byte))) all = 256;
 #endif
     for (; i < codes.size(); ++i) {
         all = std::uint16_t(all | codes[i]);
