@@ -236,6 +236,7 @@ struct LeafQuery {
                 const bool waits = (found.sure >> lane & 1) != 0 || found.lo[lane] <= slabs.s_min;
                 if (waits && (may_wait >> lane & 1) != 0 &&
                     query().waiting.add(block, lane, 1, found.lo[lane])) {
+                    expect_shape(scene, block, lane);
                     continue;
                 }
             }
