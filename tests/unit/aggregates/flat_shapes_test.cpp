@@ -265,9 +265,13 @@ TEST(FlatShapes, RaysOfABatchTryTheLastOccludersBeforeTheTree) {
         const WideBvhAggregate tested(table_of<Polygon>(gears));
         TraversalStats one, all;
         EXPECT_TRUE(tested.occluded(rays[0], {&one}));
-        bool occluded[64];
-        tested.occluded_batch(rays, occluded, {&all});
-        for (const bool hit : occluded) EXPECT_TRUE(hit) << target;
+        RecentOccluders recent;
+        WideBvhScene scene(tested.primitives(), tested.layout());
+        scene.recent = &recent;
+        const WideBvhKernelPair kernels = wide_bvh_kernels(8);
+        for (const Ray& ray : rays) {
+            EXPECT_TRUE(kernels.counting.occluded(scene, ray, &all)) << target;
+        }
         EXPECT_GT(one.node_visits, 0u);
         EXPECT_EQ(all.node_visits, one.node_visits) << target;
         EXPECT_EQ(all.primitive_hits, 64u) << target;
