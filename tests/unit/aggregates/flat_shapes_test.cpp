@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/simd/targets.h"
@@ -250,6 +251,56 @@ TEST(FlatShapes, ASureGearIsNotTestedInDouble) {
             EXPECT_EQ(stats.primitive_tests, 1u) << target;
         }
     }
+}
+
+TEST(FlatShapes, RaysOfABatchTryTheLastOccludersBeforeTheTree) {
+    std::vector<Polygon> gears;
+    for (int i = 0; i < 40; ++i) gears.push_back(gear(2.5 * (i % 8), 2.5 * (i / 8), i % 3));
+    std::vector<Ray> rays;
+    for (int i = 0; i < 64; ++i) {
+        rays.push_back({{5 + 0.005 * i, 2.5, -1}, {0, 0, 1}, 0, kInfinity});
+    }
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const WideBvhAggregate tested(table_of<Polygon>(gears));
+        TraversalStats one, all;
+        EXPECT_TRUE(tested.occluded(rays[0], {&one}));
+        RecentOccluders recent;
+        WideBvhScene scene(tested.primitives(), tested.layout());
+        scene.recent = &recent;
+        const WideBvhKernelPair kernels = wide_bvh_kernels(8);
+        for (const Ray& ray : rays) {
+            EXPECT_TRUE(kernels.counting.occluded(scene, ray, &all)) << target;
+        }
+        EXPECT_GT(one.node_visits, 0u);
+        EXPECT_EQ(all.node_visits, one.node_visits) << target;
+        EXPECT_EQ(all.primitive_hits, 64u) << target;
+    }
+}
+
+TEST(FlatShapes, LastOccludersThatMissAreSeldomTried) {
+    RecentOccluders recent;
+    EXPECT_FALSE(recent.worth_trying());
+    BoxBlock block{};
+    block.ids[3] = BlockId(PrimitiveId{7}, true, false);
+    block.ids[5] = BlockId(PrimitiveId{8}, true, false);
+    recent.add(block, 3);
+    EXPECT_EQ(recent.block().ids[0].id(), PrimitiveId{7});
+    EXPECT_FALSE(recent.block().ids[1].used());
+    for (std::size_t i = 1; i < kBlockWidth; ++i) recent.add(block, 5);
+    EXPECT_EQ(recent.block().ids[0].id(), PrimitiveId{7});
+    recent.add(block, 5);
+    EXPECT_EQ(recent.block().ids[0].id(), PrimitiveId{8});
+    int tries = 0;
+    for (int i = 0; i < 1000; ++i) {
+        if (!recent.worth_trying()) continue;
+        ++tries;
+        recent.tried(false);
+    }
+    EXPECT_GT(tries, 20);
+    EXPECT_LT(tries, 60);
+    recent.tried(true);
+    EXPECT_TRUE(recent.worth_trying());
 }
 
 TEST(FlatShapes, ASureRoundBodyIsNotTestedInDouble) {

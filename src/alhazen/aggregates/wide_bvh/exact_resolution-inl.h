@@ -14,6 +14,8 @@
 #define ALHAZEN_AGGREGATES_WIDE_BVH_EXACT_RESOLUTION_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -24,6 +26,7 @@
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/quadrics/cylinder.h"
 #include "alhazen/shapes/quadrics/sphere.h"
 #include "alhazen/simd/lanes-inl.h"
 
@@ -76,6 +79,20 @@ HWY_INLINE Sphere sphere_of(const WideBvhScene& scene, const SphereBlock& block,
 HWY_INLINE const Sphere& sphere_of(const WideBvhScene& scene, const FrustumBlock& block,
                                    std::size_t lane) {
     return shape_of<Sphere>(*scene.table, block.ids[lane].id());
+}
+
+/// Fetches what the test in double of a waiting shape will read.
+template <class Block>
+HWY_INLINE void expect_shape(const WideBvhScene&, const Block&, std::size_t) {}
+HWY_INLINE void expect_shape(const WideBvhScene& scene, const FrustumBlock& block,
+                             std::size_t lane) {
+    const PrimitiveId id = block.ids[lane].id();
+    if ((block.balls >> lane & 1) != 0) return hwy::Prefetch(&shape_of<Sphere>(*scene.table, id));
+    const Cylinder& cylinder = shape_of<Cylinder>(*scene.table, id);
+    hwy::Prefetch(&cylinder.capped);
+    hwy::Prefetch(&cylinder.frustum.center);
+    hwy::Prefetch(&cylinder.frustum.x_axis);
+    hwy::Prefetch(&cylinder.frustum.bounding_radius_squared);
 }
 
 struct SphereCrossings {

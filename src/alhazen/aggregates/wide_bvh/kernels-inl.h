@@ -39,7 +39,14 @@ struct Kernels {
         bool result = false;
         const bool follows = begins_near_last(scene.layout->frame, ray);
         Occluded query(scene, ray, result);
+        if (scene.recent != nullptr && query.valid &&
+            query.visit_recent(*scene.recent, policy(stats))) {
+            return true;
+        }
         run<W>(query, follows, policy(stats));
+        if (scene.recent != nullptr && query.sure_block != nullptr) {
+            scene.recent->add(*query.sure_block, query.sure_lane);
+        }
         return result;
     }
     static bool all_hits(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 
@@ -22,6 +23,7 @@
 #include "alhazen/aggregates/wide_bvh/lane_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/lone_ray-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/shapes/polygons/polygon_lanes.h"
 #include "alhazen/shapes/span_lanes-inl.h"
@@ -71,15 +73,13 @@ class LaneShapes {
             std::uint32_t met = packet_.intersect_boxes(boxes.rows(), entries);
             HWY_ALIGN float entry[kBlockWidth];
             store_lanes(entries, entry);
+            if (std::popcount(lanes) < kRaysPerShape * std::popcount(met)) {
+                visit_by_rays(block, met, entry, lanes, stats);
+                continue;
+            }
             while (met != 0 && lanes != 0) {
                 auto lane = static_cast<std::size_t>(std::countr_zero(met));
-                if constexpr (Derived::kOrdered) {
-                    for (std::uint32_t others = met & (met - 1); others != 0;
-                         others &= others - 1) {
-                        const auto other = static_cast<std::size_t>(std::countr_zero(others));
-                        if (entry[other] < entry[lane]) lane = other;
-                    }
-                }
+                if constexpr (Derived::kOrdered) lane = nearest_of(met, entry);
                 met &= ~(1u << lane);
                 const PrimitiveId id = block.ids[lane].id();
                 if (!block.ids[lane].used() || !scene_.sees(id)) continue;
@@ -96,6 +96,7 @@ class LaneShapes {
                     if (rest == 0) continue;
                     if ((block.may_be_sure() >> lane & 1) != 0 &&
                         derived().put_off(block, lane, rest)) {
+                        expect_shape(scene_, block, lane);
                         continue;
                     }
                 }
@@ -103,6 +104,109 @@ class LaneShapes {
             }
         }
         derived().left();
+    }
+    /// The same for few rays: each against all shapes. `met`: bits of the shapes to test, `entry`:
+    /// where the frustum enters their boxes.
+    template <class Block, class Stats>
+    HWY_NOINLINE void visit_by_rays(const Block& block, std::uint32_t met, const float* entry,
+                                    std::uint32_t& lanes, Stats stats) {
+        std::uint32_t seen = 0;
+        for (; met != 0; met &= met - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+            if (block.ids[lane].used() && scene_.sees(block.ids[lane].id())) seen |= 1u << lane;
+        }
+        FilteredShapes filtered[kPacketLanes];
+        std::uint32_t passed[kPacketLanes];
+        filter_by_rays(block, lanes, filtered, passed);
+        std::uint32_t rays_at[kBlockWidth] = {}, any = 0;  // [shape] the rays that may hit it
+        alignas(64) PacketRow begin[Derived::kOrdered ? kBlockWidth : 1];
+        for (std::uint32_t rays = lanes; rays != 0; rays &= rays - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rays));
+            const FilteredShapes& found = filtered[i];
+            stats.primitives(filtered_out(block, passed[i]));
+            std::uint32_t rest = passed[i] & seen;
+            if (rest == 0) continue;
+            if (take_sure(i, found, found.sure & rest, stats)) {
+                lanes &= ~(1u << i);
+                continue;
+            }
+            any |= rest;
+            for (; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                if constexpr (Derived::kOrdered) begin[lane][i] = found.lo[lane];
+                rays_at[lane] |= 1u << i;
+            }
+        }
+        while (any != 0) {
+            auto lane = static_cast<std::size_t>(std::countr_zero(any));
+            if constexpr (Derived::kOrdered) lane = nearest_of(any, entry);
+            any &= ~(1u << lane);
+            std::uint32_t rest = rays_at[lane];
+            if constexpr (Derived::kOrdered) {
+                // Written so that a NaN is not passed over.
+                const std::uint32_t beyond =
+                    rest & bits_of(load_row(begin[lane]) > load_row(packet_.s_max));
+                stats.primitives(static_cast<std::uint64_t>(std::popcount(beyond)));
+                rest &= ~beyond;
+            } else {
+                rest &= lanes;
+                if (rest != 0 && (block.may_be_sure() >> lane & 1) != 0 &&
+                    derived().put_off(block, lane, rest)) {
+                    expect_shape(scene_, block, lane);
+                    continue;
+                }
+            }
+            lanes &= ~meet(block, lane, rest, stats);
+        }
+    }
+    /// The filter of a block for single rays; [ray] what it finds. Nothing branches on that.
+    template <class Block>
+    HWY_INLINE void filter_by_rays(const Block& block, std::uint32_t lanes,
+                                   FilteredShapes (&filtered)[kPacketLanes],
+                                   std::uint32_t (&passed)[kPacketLanes]) {
+        const bool pairs = kPairs && packet_.edge_slack < std::numeric_limits<float>::infinity();
+        while (lanes != 0) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+            lanes &= lanes - 1;
+            TriangleFilterRay ray;
+            make_lone_filter_ray(packet_, i, ray);
+            const RayAtBlock<Block> first{block, ray, packet_.s_min[i], packet_.s_max[i],
+                                          filtered[i]};
+            if (!pairs || lanes == 0) {
+                passed[i] = shape_candidates<true>(block, ray, first.s_min, first.s_max, first.out);
+                continue;
+            }
+            const auto k = static_cast<std::size_t>(std::countr_zero(lanes));
+            lanes &= lanes - 1;
+            TriangleFilterRay other;
+            make_lone_filter_ray(packet_, k, other);
+            const RayAtBlock<Block> second{block, other, packet_.s_min[k], packet_.s_max[k],
+                                           filtered[k]};
+            const std::uint32_t both = shape_candidates(first, second);
+            passed[i] = both & kAllLanes;
+            passed[k] = both >> kBlockWidth;
+        }
+    }
+    /// Shapes that a ray certainly hits. True if it needs no more.
+    template <class Stats>
+    HWY_INLINE bool take_sure(std::size_t i, const FilteredShapes& found, std::uint32_t sure,
+                              Stats stats) {
+        float s_max = packet_.s_max[i];
+        for (; sure != 0; sure &= sure - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(sure));
+            if (derived().sure(i, found.hi[lane], s_max, stats)) return true;
+        }
+        return false;
+    }
+    /// The lane with the least entry.
+    [[nodiscard]] static HWY_INLINE std::size_t nearest_of(std::uint32_t lanes,
+                                                           const float* entry) {
+        auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+        for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+            const auto other = static_cast<std::size_t>(std::countr_zero(lanes));
+            if (entry[other] < entry[lane]) lane = other;
+        }
+        return lane;
     }
     /// Tests a shape with rays. Returns those that need no more.
     template <class Block, class Stats>
@@ -230,6 +334,11 @@ class LaneShapes {
   private:
     /// Fewer rays are as fast one by one.
     static constexpr int kLeastTogether = 3;
+    /// Where a block has this many rays for each shape, or more, each shape is tested against all
+    /// rays at once: for closest hits, tests in double are as well.
+    static constexpr int kRaysPerShape = Derived::kOrdered ? 1 : 2;
+    /// Whether the filters of two rays are one.
+    static constexpr bool kPairs = kParts<float, 2 * kBlockWidth> == 1;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -18,6 +18,7 @@
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaves/triangle_tests-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
@@ -236,6 +237,7 @@ struct LeafQuery {
                 const bool waits = (found.sure >> lane & 1) != 0 || found.lo[lane] <= slabs.s_min;
                 if (waits && (may_wait >> lane & 1) != 0 &&
                     query().waiting.add(block, lane, 1, found.lo[lane])) {
+                    expect_shape(scene, block, lane);
                     continue;
                 }
             }
@@ -446,6 +448,8 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
     static constexpr bool kFirstOnly = true;
     bool& occluded;
     WaitingShapes<8> waiting;
+    const BoxBlock* sure_block = nullptr;  ///< of a flat shape that occludes the ray; or null
+    std::size_t sure_lane = 0;
 
     HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
         : Base(s, r), occluded(result) {}
@@ -480,9 +484,26 @@ struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
             if (!id.used() || !scene.sees(id.id())) continue;
             stats.primitives(1);
             stats.primitive_hits(1);
+            if constexpr (std::is_same_v<Block, BoxBlock>) {
+                sure_block = &block;
+                sure_lane = static_cast<std::size_t>(std::countr_zero(rest));
+            }
             return occluded = true;
         }
         return false;
+    }
+    /// Whether a flat shape that occluded a ray of the batch before certainly does.
+    template <class Stats>
+    HWY_INLINE bool visit_recent(RecentOccluders& recent, Stats stats) {
+        if (!recent.worth_trying()) return false;
+        const BoxBlock& block = recent.block();
+        FilteredShapes found;
+        const std::uint32_t rest = shape_candidates<false>(block, this->filter, this->slabs.s_min,
+                                                           this->slabs.s_max, found);
+        const bool hit = rest != 0 && take_sure(block, found, stats);
+        if (!hit) stats.primitives(used_lanes(block));
+        recent.tried(hit);
+        return hit;
     }
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {

@@ -29,6 +29,26 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// The i-th ray of a packet, for filters.
+HWY_INLINE void make_lone_filter_ray(const LanePacket& packet, std::size_t i,
+                                     TriangleFilterRay& filter) {
+    filter.kx = packet.kx;
+    filter.ky = packet.ky;
+    filter.kz = packet.kz;
+    filter.origin[0] = packet.origin[packet.kx][i];
+    filter.origin[1] = packet.origin[packet.ky][i];
+    filter.origin[2] = packet.origin[packet.kz][i];
+    filter.sx = packet.slope[0][i];
+    filter.sy = packet.slope[1][i];
+    filter.sz = packet.reciprocal[packet.kz][i];
+    filter.edge_slack = packet.edge_slack;
+    filter.edge_slack_min = packet.edge_slack_min;
+    filter.near_error = packet.near_error;
+    filter.s_slack = packet.place_error * std::abs(filter.sz);
+    filter.sure_min = packet.sure_min[i];
+    filter.sure_max = packet.sure_max[i];
+}
+
 /// The query that `traverse` takes. `Leaves` has `triangles(lane, block number, found, s_max,
 /// stats)`, `sphere(lane, id, sphere, s_max, stats)`, `first_of(lane, id, shape, s_max, stats)` for
 /// shapes of a known kind without a placement, for all other primitives `shape(lane, id, s_max,
@@ -57,21 +77,7 @@ struct LoneRay {
         slabs.s_min = packet.s_min[i];
         slabs.s_max = s_max;
         slabs.near = kNearRows[octant];
-        filter.kx = packet.kx;
-        filter.ky = packet.ky;
-        filter.kz = packet.kz;
-        filter.origin[0] = packet.origin[packet.kx][i];
-        filter.origin[1] = packet.origin[packet.ky][i];
-        filter.origin[2] = packet.origin[packet.kz][i];
-        filter.sx = packet.slope[0][i];
-        filter.sy = packet.slope[1][i];
-        filter.sz = packet.reciprocal[packet.kz][i];
-        filter.edge_slack = packet.edge_slack;
-        filter.edge_slack_min = packet.edge_slack_min;
-        filter.near_error = packet.near_error;
-        filter.s_slack = packet.place_error * std::abs(filter.sz);
-        filter.sure_min = packet.sure_min[i];
-        filter.sure_max = packet.sure_max[i];
+        make_lone_filter_ray(packet, i, filter);
     }
 
     template <class Stats>
@@ -148,6 +154,7 @@ struct LoneRay {
             // As in LeafQuery.
             const bool waits = (found.sure >> i & 1) != 0 || found.lo[i] <= slabs.s_min;
             if (waits && (may_wait >> i & 1) != 0 && waiting.add(block, i, 1, found.lo[i])) {
+                expect_shape(scene, block, i);
                 continue;
             }
             if (visit_lane(block, i, stats)) return true;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/aggregates/wide_bvh/leaves/recent_occluders.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_file.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/huge_pages.h"
@@ -206,11 +207,14 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
     WideBvhScene seen = batch_scene(query.mask);
     const WideBvhKernels& kernels = kernels_.for_stats(query.stats);
     switch (schedules_.of_batch(coherence)) {
-        case Schedule::Single:
+        case Schedule::Single: {
+            RecentOccluders recent;
+            if (!layout_.others.empty()) seen.recent = &recent;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 if (!occluded[i]) occluded[i] = kernels.occluded(seen, rays[i], query.stats);
             }
             return;
+        }
         case Schedule::Stream:
             return kernels.occluded_batch(seen, rays, occluded, query.stats);
         case Schedule::Packets:

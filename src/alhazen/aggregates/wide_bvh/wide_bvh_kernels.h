@@ -12,6 +12,8 @@
 
 namespace alhazen {
 
+class RecentOccluders;
+
 /// Failures of packets of earlier batches: coherent_queries-inl.h.
 using PacketFailures = std::atomic<std::uint32_t>;
 
@@ -25,6 +27,7 @@ class WideBvhScene {
     const WideBvhLayout* layout;
     RayMask mask;
     PacketFailures* failures = nullptr;  ///< null: each batch starts without failures
+    RecentOccluders* recent = nullptr;   ///< of a batch whose rays are traced one by one
     bool others_alone = false;           ///< see Schedules
     bool waits = false;  ///< rays that leave a packet in lanes are traced several in turn
 

@@ -34,14 +34,101 @@ template <class F>
 struct AxisRows {
     F x, y, z;
 };
-HWY_INLINE AxisRows<Floats> load_rows(const float (&rows)[3][kBlockWidth],
-                                      const TriangleFilterRay& ray) {
-    return {load_lanes(rows[ray.kx]), load_lanes(rows[ray.ky]), load_lanes(rows[ray.kz])};
+
+/// A ray and a block whose shapes it may hit from `s_min` to `s_max`: what a filter takes, and
+/// where it stores what it finds.
+template <class Block>
+struct RayAtBlock {
+    using F = Floats;
+    const Block& block;
+    const TriangleFilterRay& ray;
+    float s_min, s_max;
+    FilteredShapes& out;
+
+    /// `get` takes the block and the ray, or one of them.
+    template <class Get>
+    HWY_INLINE F row(Get&& get) const {
+        return load_lanes(get(block, ray));
+    }
+    template <class Get>
+    HWY_INLINE F number(Get&& get) const {
+        return F(get(*this));
+    }
+    template <class Get>
+    HWY_INLINE std::uint32_t bits(Get&& get) const {
+        return get(block);
+    }
+    HWY_INLINE void set_lo(const F& lo) const { store_lanes(lo, out.lo); }
+    HWY_INLINE void set_none_sure() const { out.sure = 0; }
+    HWY_INLINE void set_sure(std::uint32_t sure, const F& hi) const {
+        out.sure = sure;
+        store_lanes(hi, out.hi);
+    }
+};
+/// The lower half of the lanes.
+template <std::size_t N>
+HWY_INLINE Lanes<float, N / 2> lower_half(const Lanes<float, N>& a) {
+    Lanes<float, N / 2> r;
+    if constexpr (kParts<float, N> == 2 * kParts<float, N / 2>) {
+        for (std::size_t i = 0; i < kParts<float, N / 2>; ++i) r.part[i] = a.part[i];
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to divide
+    } else {
+        r.part[0] = hn::LowerHalf(LaneTag<float, N / 2>(), a.part[0]);
+#endif
+    }
+    return r;
 }
-HWY_INLINE AxisRows<Floats> from_center(const float (&center)[3][kBlockWidth],
-                                        const TriangleFilterRay& ray) {
-    const AxisRows<Floats> c = load_rows(center, ray);
-    return {Floats(ray.origin[0]) - c.x, Floats(ray.origin[1]) - c.y, Floats(ray.origin[2]) - c.z};
+/// Two of them, the second in the upper half of the lanes.
+template <class Block>
+struct TwoRaysAtBlocks {
+    using F = Lanes<float, 2 * kBlockWidth>;
+    const RayAtBlock<Block>&first, &second;
+
+    template <class Get>
+    HWY_INLINE F row(Get&& get) const {
+        return joined(first.row(get), second.row(get));
+    }
+    template <class Get>
+    HWY_INLINE F number(Get&& get) const {
+        const auto upper = lanes_of_bits<float, 2 * kBlockWidth>(kAllLanes << kBlockWidth);
+        return select_lanes(upper, F(get(second)), F(get(first)));
+    }
+    template <class Get>
+    HWY_INLINE std::uint32_t bits(Get&& get) const {
+        return get(first.block) | get(second.block) << kBlockWidth;
+    }
+    HWY_INLINE void set_lo(const F& lo) const {
+        first.set_lo(lower_half(lo));
+        second.set_lo(upper_half(lo));
+    }
+    HWY_INLINE void set_none_sure() const { first.out.sure = second.out.sure = 0; }
+    HWY_INLINE void set_sure(std::uint32_t sure, const F& hi) const {
+        first.set_sure(sure & kAllLanes, lower_half(hi));
+        second.set_sure(sure >> kBlockWidth, upper_half(hi));
+    }
+};
+
+/// Rows along the axes of the ray; `rows` takes a block.
+template <class In, class Rows>
+HWY_INLINE AxisRows<typename In::F> axis_rows(const In& in, Rows&& rows) {
+    const auto row = [&](std::uint32_t TriangleFilterRay::*axis) HWY_ATTR {
+        return in.row([&](const auto& block, const TriangleFilterRay& ray)
+                          HWY_ATTR { return rows(block)[ray.*axis]; });
+    };
+    return {row(&TriangleFilterRay::kx), row(&TriangleFilterRay::ky), row(&TriangleFilterRay::kz)};
+}
+template <class In>
+HWY_INLINE AxisRows<typename In::F> slopes_of(const In& in) {
+    return {in.number([](const auto& at) HWY_ATTR { return at.ray.sx; }),
+            in.number([](const auto& at) HWY_ATTR { return at.ray.sy; }), typename In::F(1.0f)};
+}
+template <class In>
+HWY_INLINE AxisRows<typename In::F> from_center(const In& in) {
+    const auto c = axis_rows(
+        in, [](const auto& block) HWY_ATTR -> const auto& { return block.center; });
+    return {in.number([](const auto& at) HWY_ATTR { return at.ray.origin[0]; }) - c.x,
+            in.number([](const auto& at) HWY_ATTR { return at.ray.origin[1]; }) - c.y,
+            in.number([](const auto& at) HWY_ATTR { return at.ray.origin[2]; }) - c.z};
 }
 template <class F>
 HWY_INLINE F dot_rows(const AxisRows<F>& a, const AxisRows<F>& b) {
@@ -94,19 +181,27 @@ struct SureRange {
         return (min_lanes(a, b) - slack >= min) & (hi <= max);
     }
 };
-HWY_INLINE SureRange<Floats> sure_range(const TriangleFilterRay& ray) {
-    return {Floats(ray.sz), Floats(ray.s_slack), Floats(ray.sure_min), Floats(ray.sure_max)};
+template <class In>
+HWY_INLINE SureRange<typename In::F> sure_range(const In& in) {
+    return {in.number([](const auto& at) HWY_ATTR { return at.ray.sz; }),
+            in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; }),
+            in.number([](const auto& at) HWY_ATTR { return at.ray.sure_min; }),
+            in.number([](const auto& at) HWY_ATTR { return at.ray.sure_max; })};
 }
 
 /// Bits of the lanes whose chord is not empty and overlaps the range of the ray.
-HWY_INLINE std::uint32_t finish_filter(const Chord<Floats>& chord, const TriangleFilterRay& ray,
-                                       float s_min, float s_max, FilteredShapes& out) {
-    const Floats sz(ray.sz), slack(ray.s_slack);
-    const Floats a = chord.first * sz, b = chord.last * sz;
-    const Floats lo = min_lanes(a, b) - slack, hi = max_lanes(a, b) + slack;
-    store_lanes(lo, out.lo);
-    return kAllLanes &
-           ~bits_of((chord.first > chord.last) | (lo > Floats(s_max)) | (hi < Floats(s_min)));
+template <class In>
+HWY_INLINE std::uint32_t finish_filter(const In& in, const Chord<typename In::F>& chord) {
+    using F = typename In::F;
+    const F sz = in.number([](const auto& at) HWY_ATTR { return at.ray.sz; });
+    const F slack = in.number([](const auto& at) HWY_ATTR { return at.ray.s_slack; });
+    const F a = chord.first * sz, b = chord.last * sz;
+    const F lo = min_lanes(a, b) - slack, hi = max_lanes(a, b) + slack;
+    in.set_lo(lo);
+    const F s_min = in.number([](const auto& at) HWY_ATTR { return at.s_min; });
+    const F s_max = in.number([](const auto& at) HWY_ATTR { return at.s_max; });
+    return in.bits([](const auto&) HWY_ATTR { return kAllLanes; }) &
+           ~bits_of((chord.first > chord.last) | (lo > s_max) | (hi < s_min));
 }
 
 /// Passes all lanes, from any parameter, for a ray out of the range of float.
@@ -162,23 +257,26 @@ struct RoundLine {
     }
 };
 
-/// If `kAtOnce`, no branch depends on what is computed: for callers that use the result later.
-template <bool kAtOnce>
-HWY_NOINLINE std::uint32_t shape_candidates(const SphereBlock& block, const TriangleFilterRay& ray,
-                                            float s_min, float s_max, FilteredShapes& out) {
-    if (passes_all(ray, out)) return block.lanes;
-    const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
-    const Floats radius = load_lanes(block.radius), slack(kRoundSlack * ray.edge_slack);
-    const RoundLine<Floats> line(from_center(block.center, ray), slope);
+/// The filters. If `kAtOnce`, no branch depends on what is computed: for callers that use the
+/// result later.
+template <bool kAtOnce, template <class> class In>
+HWY_INLINE std::uint32_t filter_shapes(const In<SphereBlock>& in) {
+    using F = typename In<SphereBlock>::F;
+    const std::uint32_t lanes = in.bits([](const auto& block) HWY_ATTR { return block.lanes; });
+    const F radius =
+        in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.radius; });
+    const F slack =
+        in.number([](const auto& at) HWY_ATTR { return kRoundSlack * at.ray.edge_slack; });
+    const RoundLine<F> line(from_center(in), slopes_of(in));
     std::uint32_t missed;
-    const Chord<Floats> chord = line.chord(radius + slack, missed);
-    if (!kAtOnce && (block.lanes & ~missed) == 0) return 0;
-    const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
+    const Chord<F> chord = line.chord(radius + slack, missed);
+    if (!kAtOnce && (lanes & ~missed) == 0) return 0;
+    const std::uint32_t met = lanes & ~missed & finish_filter(in, chord);
     if (!kAtOnce && met == 0) return 0;
-    Floats hi;
-    out.sure = met & bits_of(line.sure(chord, radius - slack - slack, whole_line<Floats>(),
-                                       sure_range(ray), hi));
-    store_lanes(hi, out.hi);
+    F hi;
+    const std::uint32_t sure = met & bits_of(line.sure(chord, radius - slack - slack,
+                                                       whole_line<F>(), sure_range(in), hi));
+    in.set_sure(sure, hi);
     return met;
 }
 
@@ -203,28 +301,37 @@ struct CylinderLine {
     }
 };
 
-template <bool kAtOnce>
-HWY_NOINLINE std::uint32_t shape_candidates(const FrustumBlock& block, const TriangleFilterRay& ray,
-                                            float s_min, float s_max, FilteredShapes& out) {
-    if (passes_all(ray, out)) return block.lanes;
-    const Floats slack(kRoundSlack * ray.edge_slack);
-    const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
-    const CylinderLine<Floats> line(from_center(block.center, ray), slope,
-                                    load_rows(block.axis, ray));
-    const Floats radius = load_lanes(block.radius), half_height = load_lanes(block.half_height);
+template <bool kAtOnce, template <class> class In>
+HWY_INLINE std::uint32_t filter_shapes(const In<FrustumBlock>& in) {
+    using F = typename In<FrustumBlock>::F;
+    const std::uint32_t lanes = in.bits([](const auto& block) HWY_ATTR { return block.lanes; });
+    const F slack =
+        in.number([](const auto& at) HWY_ATTR { return kRoundSlack * at.ray.edge_slack; });
+    const CylinderLine<F> line(
+        from_center(in), slopes_of(in),
+        axis_rows(
+            in, [](const auto& block) HWY_ATTR -> const auto& { return block.axis; }));
+    const F radius =
+        in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.radius; });
+    const F half_height = in.row([](const auto& block, const auto&)
+                                     HWY_ATTR -> const auto& { return block.half_height; });
     std::uint32_t missed;
-    const Chord<Floats> side = line.round.chord(radius + slack, missed);
-    if (!kAtOnce && (block.lanes & ~missed) == 0) return 0;
-    const SlabLine<Floats> slab = line_in_slab(line.along, line.climb);
-    Chord<Floats> chord = side;
+    const Chord<F> side = line.round.chord(radius + slack, missed);
+    if (!kAtOnce && (lanes & ~missed) == 0) return 0;
+    const SlabLine<F> slab = line_in_slab(line.along, line.climb);
+    Chord<F> chord = side;
     clip_to_slab(slab, half_height + slack, chord);
-    const std::uint32_t met = block.lanes & ~missed & finish_filter(chord, ray, s_min, s_max, out);
-    out.sure = 0;
-    if (!kAtOnce && (met & block.certain) == 0) return met;
-    Floats hi;
-    out.sure = met & block.certain &
-               bits_of(line.sure(side, slab, half_height, radius, slack, sure_range(ray), hi));
-    store_lanes(hi, out.hi);
+    const std::uint32_t met = lanes & ~missed & finish_filter(in, chord);
+    const std::uint32_t certain =
+        met & in.bits([](const auto& block) HWY_ATTR { return block.certain; });
+    if (!kAtOnce && certain == 0) {
+        in.set_none_sure();
+        return met;
+    }
+    F hi;
+    const std::uint32_t sure =
+        certain & bits_of(line.sure(side, slab, half_height, radius, slack, sure_range(in), hi));
+    in.set_sure(sure, hi);
     return met;
 }
 
@@ -290,28 +397,58 @@ HWY_INLINE auto outside_ball(const F& off, const F& spread, const F& radius, con
     return (inset < F(BoxBlock::kNotFlat)) & (off > reach * reach);
 }
 
-/// For a ray out of the range of float, unused lanes pass as well.
-template <bool kAtOnce>
-HWY_NOINLINE std::uint32_t shape_candidates(const BoxBlock& block, const TriangleFilterRay& ray,
-                                            float s_min, float s_max, FilteredShapes& out) {
-    if (passes_all(ray, out)) return kAllLanes;
-    const Floats slack(kSlabSlack * ray.edge_slack);
-    const AxisRows<Floats> slope{Floats(ray.sx), Floats(ray.sy), Floats(1.0f)};
-    const AxisRows<Floats> direction[3] = {load_rows(block.direction[0], ray),
-                                           load_rows(block.direction[1], ray),
-                                           load_rows(block.direction[2], ray)};
-    const Floats half[3] = {load_lanes(block.half[0]) + slack, load_lanes(block.half[1]) + slack,
-                            load_lanes(block.half[2]) + slack};
-    const BoxLine<Floats> line(from_center(block.center, ray), slope, direction);
-    const Floats inset = load_lanes(block.inset);
-    std::uint32_t met = finish_filter(line.chord(half, inset), ray, s_min, s_max, out);
+template <bool kAtOnce, template <class> class In>
+HWY_INLINE std::uint32_t filter_shapes(const In<BoxBlock>& in) {
+    using F = typename In<BoxBlock>::F;
+    const F slack =
+        in.number([](const auto& at) HWY_ATTR { return kSlabSlack * at.ray.edge_slack; });
+    const auto direction_of = [&](std::size_t k) HWY_ATTR {
+        return axis_rows(
+            in, [k](const auto& block) HWY_ATTR -> const auto& { return block.direction[k]; });
+    };
+    const auto half_of = [&](std::size_t k) HWY_ATTR {
+        return slack + in.row([k](const auto& block, const auto&)
+                                  HWY_ATTR -> const auto& { return block.half[k]; });
+    };
+    const AxisRows<F> direction[3] = {direction_of(0), direction_of(1), direction_of(2)};
+    const F half[3] = {half_of(0), half_of(1), half_of(2)};
+    const BoxLine<F> line(from_center(in), slopes_of(in), direction);
+    const F inset =
+        in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.inset; });
+    const F radius =
+        in.row([](const auto& block, const auto&) HWY_ATTR -> const auto& { return block.radius; });
+    std::uint32_t met = finish_filter(in, line.chord(half, inset));
     if (!kAtOnce && met == 0) return 0;
-    const Floats off = line.off_axis(), spread = line.spread(half[2]);
-    met &= ~bits_of(outside_ball(off, spread, load_lanes(block.radius) + slack + slack, inset));
-    Floats hi;
-    out.sure = met & bits_of(line.sure(half, inset, slack, off, spread, sure_range(ray), hi));
-    store_lanes(hi, out.hi);
+    const F off = line.off_axis(), spread = line.spread(half[2]);
+    met &= ~bits_of(outside_ball(off, spread, radius + slack + slack, inset));
+    F hi;
+    const std::uint32_t sure =
+        met & bits_of(line.sure(half, inset, slack, off, spread, sure_range(in), hi));
+    in.set_sure(sure, hi);
     return met;
+}
+
+/// Bits of the lanes that pass all of it where a ray is out of the range of float.
+HWY_INLINE std::uint32_t all_lanes(const BoxBlock&) {
+    return kAllLanes;  // unused ones as well
+}
+template <class Block>
+HWY_INLINE std::uint32_t all_lanes(const Block& block) {
+    return block.lanes;
+}
+
+/// Bits of the lanes that the ray may hit. Not inlined.
+template <bool kAtOnce, class Block>
+HWY_NOINLINE std::uint32_t shape_candidates(const Block& block, const TriangleFilterRay& ray,
+                                            float s_min, float s_max, FilteredShapes& out) {
+    if (passes_all(ray, out)) return all_lanes(block);
+    return filter_shapes<kAtOnce>(RayAtBlock<Block>{block, ray, s_min, s_max, out});
+}
+/// The same for two rays that do not pass all lanes; those of the second in the upper half.
+template <class Block>
+HWY_NOINLINE std::uint32_t shape_candidates(const RayAtBlock<Block>& first,
+                                            const RayAtBlock<Block>& second) {
+    return filter_shapes<true>(TwoRaysAtBlocks<Block>{first, second});
 }
 
 }  // namespace HWY_NAMESPACE
