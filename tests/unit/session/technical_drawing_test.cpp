@@ -202,6 +202,36 @@ TEST(TechnicalDrawing, CylindersThatCrossMeetInACurveOnBoth) {
     EXPECT_GT(both, segments - 8);  // ends of sight lie on the chords between
 }
 
+/// The chords of a curve on a convex solid lie inside of it.
+TEST(TechnicalDrawing, CurvesOfAConvexSolidAreSeenInFront) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    const auto lens = maker.object("lens");
+    maker.description().objects[static_cast<std::size_t>(lens)].combine = Combine::Intersection;
+    maker.add(Sphere{.center = {0, 0, 0}, .radius = 1}, grey, {}, lens);
+    maker.add(Cylinder{.base = {-1.2, 0.3, 0}, .top = {1.2, 0.3, 0}, .radius = 0.5}, grey, {},
+              lens);
+    maker.add(lens, grey);
+    const Sheet sheet(maker);
+    int seen = 0, wrong = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        if (line.arc) continue;
+        // Not the points next to where a curve turns to the back.
+        for (std::size_t k = 2; k + 2 < line.points.size(); ++k) {
+            const Ray ray = sheet.ray(line.points[k]);
+            Hit hit;
+            if (!sheet.loaded.scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Eye)}))
+                continue;
+            const Vec3 at = ray.at(hit.t);
+            const bool in_front = std::abs(length(at) - 1) < 2e-3 &&
+                                  std::abs(std::hypot(at.y - 0.3, at.z) - 0.5) < 2e-3;
+            (line.style == LineStyle::Hidden ? wrong : seen) += in_front;
+        }
+    }
+    EXPECT_GT(seen, 30);
+    EXPECT_LE(wrong, 2);
+}
+
 TEST(TechnicalDrawing, ItNeedsGeometry) {
     LoadedScene loaded;
     EXPECT_THROW((void)technical_drawing(loaded, {}, {.tolerance = 0.1}), Error);
