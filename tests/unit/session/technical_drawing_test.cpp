@@ -19,9 +19,9 @@ using testing::SceneMaker;
 constexpr int kWidth = 160, kHeight = 120;
 
 struct Sheet {
-    explicit Sheet(SceneMaker& maker, bool hidden = true) {
+    explicit Sheet(SceneMaker& maker, bool hidden = true, const Vec3& middle = {}) {
         maker.description().cameras[0].camera =
-            look_along({2.5, -6, 3.2}, {-2.5, 6, -2.6}, {0, 0, 1}, 0.66, 4.0 / 3.0);
+            look_along(middle + Vec3{2.5, -6, 3.2}, {-2.5, 6, -2.6}, {0, 0, 1}, 0.66, 4.0 / 3.0);
         maker.description().cameras[0].aspect = 4.0 / 3.0;
         loaded.description = maker.description();
         loaded.scene = compile(loaded.description);
@@ -128,6 +128,19 @@ TEST(TechnicalDrawing, WhatIsBehindIsDashedOrLeftOut) {
     const Sheet both(maker);
     EXPECT_GE(both.segments(LineStyle::Hidden), 3u + 3u + 2u);
     EXPECT_GE(both.segments(LineStyle::Silhouette), 6u + 4u);
+}
+
+TEST(TechnicalDrawing, WhatIsBehindIsHiddenFarFromTheOrigin) {
+    for (const double far : {1e3, 1e6, 1e8}) {
+        SCOPED_TRACE(far);
+        SceneMaker maker;
+        const Vec3 middle{far, 0, far};
+        maker.add(BoxShape{middle + Vec3{-1, -1, 0}, middle + Vec3{1, 1, 1}}, maker.material({}));
+        const Sheet sheet(maker, true, middle);
+        EXPECT_EQ(sheet.segments(LineStyle::Hidden), 3u);
+        EXPECT_EQ(sheet.segments(LineStyle::Silhouette), 6u);
+        EXPECT_EQ(sheet.segments(LineStyle::Crease), 3u);
+    }
 }
 
 /// Points along a line of a drawing.
