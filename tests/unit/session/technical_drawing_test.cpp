@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/base/error.h"
@@ -243,6 +244,79 @@ TEST(TechnicalDrawing, CurvesOfAConvexSolidAreSeenInFront) {
     }
     EXPECT_GT(seen, 30);
     EXPECT_LE(wrong, 2);
+}
+
+TEST(TechnicalDrawing, SeparateObjectsHaveLinesWhereTheyPenetrate) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, grey);
+    const int alone = Sheet(maker).count(LineStyle::Silhouette);
+    maker.add(BoxShape{{-0.4, -2, -0.4}, {0.4, 0.5, 0.4}}, grey);
+    const Sheet sheet(maker);
+    EXPECT_GT(sheet.count(LineStyle::Silhouette), alone);
+    double seen = 0, hidden = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        if (line.arc) continue;
+        for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+            std::array<Vec3, 2> ends;
+            bool on = true;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const Ray ray = sheet.ray(line.points[k + i]);
+                ends[i] = ray.at((-1 - ray.origin.y) / ray.direction.y);
+                on &= std::abs(std::max(std::abs(ends[i].x), std::abs(ends[i].z)) - 0.4) < 1e-3;
+            }
+            if (on && line.style == LineStyle::Silhouette) seen += length(ends[1] - ends[0]);
+            if (on && line.style == LineStyle::Hidden) hidden += length(ends[1] - ends[0]);
+        }
+    }
+    // The upper and the right line of the square are seen from the right and above.
+    EXPECT_NEAR(seen, 1.6, 0.02);
+    EXPECT_NEAR(hidden, 1.6, 0.02);
+}
+
+TEST(TechnicalDrawing, SpheresHaveACircleWhereTheyPenetrateButNotWhereTheyTouch) {
+    for (const double apart : {1.0 - 1e-6, 0.8}) {
+        SceneMaker maker;
+        const MaterialId grey = maker.material({});
+        maker.add(Sphere{.center = {-0.5 * apart, 0, 0}, .radius = 0.5}, grey);
+        maker.add(Sphere{.center = {0.5 * apart, 0, 0}, .radius = 0.5}, grey);
+        const Sheet sheet(maker);
+        int on_circle = 0, tiny = 0;
+        for (const DrawingLine& line : sheet.drawing.lines) {
+            ASSERT_TRUE(line.arc);
+            tiny += std::hypot(line.arc->u.x, line.arc->u.y) < 1;
+            const Ray ray = sheet.ray(line.arc->at(0.5 * (line.arc->from + line.arc->to)));
+            const Vec3 at = ray.at(-ray.origin.x / ray.direction.x);
+            on_circle += std::abs(std::hypot(at.y, at.z) - 0.3) < 1e-9;
+        }
+        EXPECT_EQ(tiny, 0);
+        EXPECT_EQ(on_circle > 0, apart < 0.9);
+    }
+}
+
+TEST(TechnicalDrawing, EdgesOfAnObjectInAFaceOfAnotherAreDrawnOnce) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, grey);
+    // The front faces of both lie in one plane.
+    maker.add(BoxShape{{0.3, -1, 0.5}, {0.8, 0.5, 1.5}}, grey);
+    const Sheet sheet(maker);
+    std::vector<std::array<Vec2, 2>> segments;
+    const auto same = [](const Vec2& a, const Vec2& b) {
+        return std::hypot(a.x - b.x, a.y - b.y) < 0.1;
+    };
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+            const Vec2 a = line.points[k], b = line.points[k + 1];
+            if (same(a, b)) continue;
+            for (const std::array<Vec2, 2>& s : segments) {
+                EXPECT_FALSE((same(s[0], a) && same(s[1], b)) || (same(s[0], b) && same(s[1], a)))
+                    << a.x << ' ' << a.y << ' ' << b.x << ' ' << b.y;
+            }
+            segments.push_back({a, b});
+        }
+    }
+    EXPECT_GT(segments.size(), 20u);
 }
 
 TEST(TechnicalDrawing, ItNeedsGeometry) {
