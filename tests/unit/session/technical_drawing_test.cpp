@@ -302,18 +302,22 @@ TEST(TechnicalDrawing, EdgesOfAnObjectInAFaceOfAnotherAreDrawnOnce) {
     maker.add(BoxShape{{0.3, -1, 0.5}, {0.8, 0.5, 1.5}}, grey);
     const Sheet sheet(maker);
     std::vector<std::array<Vec2, 2>> segments;
-    const auto same = [](const Vec2& a, const Vec2& b) {
-        return std::hypot(a.x - b.x, a.y - b.y) < 0.1;
-    };
     for (const DrawingLine& line : sheet.drawing.lines) {
         for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-            const Vec2 a = line.points[k], b = line.points[k + 1];
-            if (same(a, b)) continue;
-            for (const std::array<Vec2, 2>& s : segments) {
-                EXPECT_FALSE((same(s[0], a) && same(s[1], b)) || (same(s[0], b) && same(s[1], a)))
-                    << a.x << ' ' << a.y << ' ' << b.x << ' ' << b.y;
-            }
-            segments.push_back({a, b});
+            segments.push_back({line.points[k], line.points[k + 1]});
+        }
+    }
+    const auto is_on = [](const Vec2& p, const std::array<Vec2, 2>& s) {
+        const Vec2 d = s[1] - s[0], e = p - s[0];
+        const double size = std::hypot(d.x, d.y), t = (d.x * e.x + d.y * e.y) / size;
+        return t > 1 && t < size - 1 && std::abs(d.x * e.y - d.y * e.x) < 0.05 * size;
+    };
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const Vec2 from = segments[i][0], along = segments[i][1] - from;
+        for (std::size_t k = 0; k < segments.size(); ++k) {
+            EXPECT_FALSE(i != k && is_on(from + 0.3 * along, segments[k]) &&
+                         is_on(from + 0.7 * along, segments[k]))
+                << from.x << ' ' << from.y << ' ' << along.x << ' ' << along.y;
         }
     }
     EXPECT_GT(segments.size(), 20u);
