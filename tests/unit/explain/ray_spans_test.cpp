@@ -119,5 +119,35 @@ TEST(PolynomialsOnRay, RootsAreItsZeros) {
     }
 }
 
+TEST(PolynomialsOnRay, EveryChangeOfSignInTheRangeIsARoot) {
+    for (const char* name : {"algebraic.alhazen", "quadrics.alhazen", "solids.alhazen"}) {
+        SCOPED_TRACE(name);
+        const LoadedScene loaded = loaded_file(name);
+        RandomStream random(5);
+        int changes = 0;
+        for (int i = 0; i < 200; ++i) {
+            const double x = random.uniform(0, 1), y = random.uniform(0, 1);
+            const Ray ray = eye_ray(loaded.scene.cameras.front().camera, x, y);
+            for (const PolynomialOnRay& p : polynomials_on_ray(loaded, ray)) {
+                constexpr int kSteps = 200;
+                const double step = (p.to - p.from) / kSteps, least = 1e-9 * largest(p);
+                EXPECT_GE(p.from, 0.0);
+                for (int k = 0; k < kSteps; ++k) {
+                    const double a = value_at(p, p.from + k * step),
+                                 b = value_at(p, p.from + (k + 1) * step);
+                    if (std::abs(a) < least || std::abs(b) < least || (a > 0) == (b > 0)) continue;
+                    ++changes;
+                    bool found = false;
+                    for (const double t : p.roots) {
+                        found |= std::abs(t - p.from - (k + 0.5) * step) < 0.6 * step;
+                    }
+                    EXPECT_TRUE(found) << p.part << ' ' << p.from + k * step;
+                }
+            }
+        }
+        EXPECT_GT(changes, 25);
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -254,6 +254,21 @@ TEST(RayTree, SaysThatARayHasPassedTheMostSurfaces) {
     }
 }
 
+TEST(RayTree, SurfacesBehindVeilsCountTFromTheOriginOfTheRay) {
+    ExplainOptions options;
+    options.render.width = options.render.height = 3;
+    options.accelerator = "";
+    options.with_picture = false;
+    const RayNode tree = explain_pixel(loaded_of(many_veils(0.3, 4)), options).tree;
+    ASSERT_EQ(tree.surfaces.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const SurfaceNode& surface = tree.surfaces[i];
+        const Vec3 at = tree.ray.origin + surface.t * tree.ray.direction;
+        EXPECT_LT(length(at - surface.point), 1e-9) << i;
+        EXPECT_NEAR(at.z, i < 4 ? -0.001 * static_cast<double>(i) : -6.0, 1e-9);
+    }
+}
+
 TEST(RayTree, ConesAreNamedByTheirLights) {
     SceneMaker scene;
     scene.light(PointLight{.position = {-4, 0, 4}, .color = {1, 1, 1}});

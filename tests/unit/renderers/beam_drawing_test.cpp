@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alhazen/imaging/image/encoding.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/renderers/beam_tracing/beam_cells.h"
 #include "alhazen/renderers/beam_tracing/linear_shade.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -38,14 +39,14 @@ Rgb color_at(const DrawingRegion& region, const Vec2& p) {
     return (1 - share) * g.at_from + share * g.at_to;
 }
 
-Drawing drawing_of(SceneMaker& maker, const Scene& scene, bool lines) {
+Drawing drawing_of(SceneMaker& maker, const Scene& scene, bool lines, int size = 48) {
     const RenderJob job{
         .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
     const auto limit = static_cast<std::int32_t>(kBeamFilm);
     const BeamScene facets = beam_scene(maker.description(), scene);
     const BeamTree tree =
         beam_tree(job, facets, lattice_rectangle({-limit, -limit}, {limit, limit}), {});
-    return beam_drawing(job, facets, tree, {.width = 48, .height = 48, .lines = lines});
+    return beam_drawing(job, facets, tree, {.width = size, .height = size, .lines = lines});
 }
 
 /// A mirror wall, a box on a floor, and a light that casts its shadow.
@@ -153,6 +154,66 @@ TEST(BeamDrawing, ARectangleHasItsTexture) {
     EXPECT_EQ(left.g, 0.0);
     EXPECT_NEAR(right.g, 1.0, 1e-12);
     EXPECT_EQ(right.r, 0.0);
+}
+
+/// A floor from above, 10 units and 400 pixels wide.
+struct Floor {
+    Floor(const Light& light, double diffuse) {
+        Material matt;
+        matt.diffuse.color = {diffuse, diffuse, diffuse};
+        matt.specular.color = {0.7, 0.7, 0.7};
+        matt.shininess.value = 20000;
+        maker.add(Rectangle{.corner = {-5, -5, 0}, .edge_u = {10, 0, 0}, .edge_v = {0, 10, 0}},
+                  maker.material(matt));
+        maker.light(light);
+        maker.description().cameras[0].camera =
+            OrthographicCamera{{0, 0, 9}, {0, 0, -1}, {10, 0, 0}, {0, 10, 0}};
+        drawing = drawing_of(maker, scene = maker.compile(), false, 400);
+    }
+    [[nodiscard]] double red_at(double x, double y) const {
+        const Vec2 p{200 + 40 * x + 0.013, 200 - 40 * y + 0.017};
+        for (const DrawingGroup& group : drawing.groups) {
+            for (const DrawingRegion& region : group.regions) {
+                if (holds(region, p)) return color_at(region, p).r;
+            }
+        }
+        return -1;
+    }
+    SceneMaker maker;
+    Scene scene;
+    Drawing drawing;
+};
+
+TEST(BeamDrawing, ASpotSmallerThanTheGridOfSamplesIsDrawn) {
+    const Vec3 at{1.1, 0.3, 4}, axis = normalize(Vec3{0.2, 0.4, -4});
+    const double degree = kPi / 180;
+    const Floor floor(SpotLight{.position = at,
+                                .direction = axis,
+                                .inner_angle = 7 * degree,
+                                .outer_angle = 8 * degree},
+                      0.2);
+    int lit = 0, dark = 0;
+    for (double y = -1; y <= 2.5; y += 0.07) {
+        for (double x = -0.5; x <= 3; x += 0.07) {
+            const double angle = std::acos(dot(axis, normalize(Vec3{x, y, 0} - at))) / degree;
+            // Regions of 4 pixels cross the border.
+            if (angle < 5) {
+                ++lit;
+                EXPECT_GT(floor.red_at(x, y), 0.19) << x << ' ' << y;
+            } else if (angle > 10) {
+                ++dark;
+                EXPECT_LT(floor.red_at(x, y), 0.01) << x << ' ' << y;
+            }
+        }
+    }
+    EXPECT_GT(lit, 50);
+    EXPECT_GT(dark, 500);
+}
+
+TEST(BeamDrawing, AHighlightSmallerThanTheGridOfSamplesIsDrawn) {
+    // Straight below the light, as the floor is seen from above.
+    const Floor floor(PointLight{.position = {0.9, 0.8, 6}}, 0.0);
+    EXPECT_GT(floor.red_at(0.9, 0.8), floor.red_at(2, 2) + 0.2);
 }
 
 TEST(FitShade, FindsTheDirectionOfALinearChange) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alhazen/base/error.h"
@@ -19,9 +20,9 @@ using testing::SceneMaker;
 constexpr int kWidth = 160, kHeight = 120;
 
 struct Sheet {
-    explicit Sheet(SceneMaker& maker, bool hidden = true) {
+    explicit Sheet(SceneMaker& maker, bool hidden = true, const Vec3& middle = {}) {
         maker.description().cameras[0].camera =
-            look_along({2.5, -6, 3.2}, {-2.5, 6, -2.6}, {0, 0, 1}, 0.66, 4.0 / 3.0);
+            look_along(middle + Vec3{2.5, -6, 3.2}, {-2.5, 6, -2.6}, {0, 0, 1}, 0.66, 4.0 / 3.0);
         maker.description().cameras[0].aspect = 4.0 / 3.0;
         loaded.description = maker.description();
         loaded.scene = compile(loaded.description);
@@ -130,6 +131,19 @@ TEST(TechnicalDrawing, WhatIsBehindIsDashedOrLeftOut) {
     EXPECT_GE(both.segments(LineStyle::Silhouette), 6u + 4u);
 }
 
+TEST(TechnicalDrawing, WhatIsBehindIsHiddenFarFromTheOrigin) {
+    for (const double far : {1e3, 1e6, 1e8}) {
+        SCOPED_TRACE(far);
+        SceneMaker maker;
+        const Vec3 middle{far, 0, far};
+        maker.add(BoxShape{middle + Vec3{-1, -1, 0}, middle + Vec3{1, 1, 1}}, maker.material({}));
+        const Sheet sheet(maker, true, middle);
+        EXPECT_EQ(sheet.segments(LineStyle::Hidden), 3u);
+        EXPECT_EQ(sheet.segments(LineStyle::Silhouette), 6u);
+        EXPECT_EQ(sheet.segments(LineStyle::Crease), 3u);
+    }
+}
+
 /// Points along a line of a drawing.
 std::vector<Vec2> points_of(const DrawingLine& line) {
     if (!line.arc) return line.points;
@@ -200,6 +214,113 @@ TEST(TechnicalDrawing, CylindersThatCrossMeetInACurveOnBoth) {
     }
     EXPECT_GT(segments, 40);
     EXPECT_GT(both, segments - 8);  // ends of sight lie on the chords between
+}
+
+/// The chords of a curve on a convex solid lie inside of it.
+TEST(TechnicalDrawing, CurvesOfAConvexSolidAreSeenInFront) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    const auto lens = maker.object("lens");
+    maker.description().objects[static_cast<std::size_t>(lens)].combine = Combine::Intersection;
+    maker.add(Sphere{.center = {0, 0, 0}, .radius = 1}, grey, {}, lens);
+    maker.add(Cylinder{.base = {-1.2, 0.3, 0}, .top = {1.2, 0.3, 0}, .radius = 0.5}, grey, {},
+              lens);
+    maker.add(lens, grey);
+    const Sheet sheet(maker);
+    int seen = 0, wrong = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        if (line.arc) continue;
+        // Not the points next to where a curve turns to the back.
+        for (std::size_t k = 2; k + 2 < line.points.size(); ++k) {
+            const Ray ray = sheet.ray(line.points[k]);
+            Hit hit;
+            if (!sheet.loaded.scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Eye)}))
+                continue;
+            const Vec3 at = ray.at(hit.t);
+            const bool in_front = std::abs(length(at) - 1) < 2e-3 &&
+                                  std::abs(std::hypot(at.y - 0.3, at.z) - 0.5) < 2e-3;
+            (line.style == LineStyle::Hidden ? wrong : seen) += in_front;
+        }
+    }
+    EXPECT_GT(seen, 30);
+    EXPECT_LE(wrong, 2);
+}
+
+TEST(TechnicalDrawing, SeparateObjectsHaveLinesWhereTheyPenetrate) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, grey);
+    const int alone = Sheet(maker).count(LineStyle::Silhouette);
+    maker.add(BoxShape{{-0.4, -2, -0.4}, {0.4, 0.5, 0.4}}, grey);
+    const Sheet sheet(maker);
+    EXPECT_GT(sheet.count(LineStyle::Silhouette), alone);
+    double seen = 0, hidden = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        if (line.arc) continue;
+        for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+            std::array<Vec3, 2> ends;
+            bool on = true;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const Ray ray = sheet.ray(line.points[k + i]);
+                ends[i] = ray.at((-1 - ray.origin.y) / ray.direction.y);
+                on &= std::abs(std::max(std::abs(ends[i].x), std::abs(ends[i].z)) - 0.4) < 1e-3;
+            }
+            if (on && line.style == LineStyle::Silhouette) seen += length(ends[1] - ends[0]);
+            if (on && line.style == LineStyle::Hidden) hidden += length(ends[1] - ends[0]);
+        }
+    }
+    // The upper and the right line of the square are seen from the right and above.
+    EXPECT_NEAR(seen, 1.6, 0.02);
+    EXPECT_NEAR(hidden, 1.6, 0.02);
+}
+
+TEST(TechnicalDrawing, SpheresHaveACircleWhereTheyPenetrateButNotWhereTheyTouch) {
+    for (const double apart : {1.0 - 1e-6, 0.8}) {
+        SceneMaker maker;
+        const MaterialId grey = maker.material({});
+        maker.add(Sphere{.center = {-0.5 * apart, 0, 0}, .radius = 0.5}, grey);
+        maker.add(Sphere{.center = {0.5 * apart, 0, 0}, .radius = 0.5}, grey);
+        const Sheet sheet(maker);
+        int on_circle = 0, tiny = 0;
+        for (const DrawingLine& line : sheet.drawing.lines) {
+            ASSERT_TRUE(line.arc);
+            tiny += std::hypot(line.arc->u.x, line.arc->u.y) < 1;
+            const Ray ray = sheet.ray(line.arc->at(0.5 * (line.arc->from + line.arc->to)));
+            const Vec3 at = ray.at(-ray.origin.x / ray.direction.x);
+            on_circle += std::abs(std::hypot(at.y, at.z) - 0.3) < 1e-9;
+        }
+        EXPECT_EQ(tiny, 0);
+        EXPECT_EQ(on_circle > 0, apart < 0.9);
+    }
+}
+
+TEST(TechnicalDrawing, EdgesOfAnObjectInAFaceOfAnotherAreDrawnOnce) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, grey);
+    // The front faces of both lie in one plane.
+    maker.add(BoxShape{{0.3, -1, 0.5}, {0.8, 0.5, 1.5}}, grey);
+    const Sheet sheet(maker);
+    std::vector<std::array<Vec2, 2>> segments;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+            segments.push_back({line.points[k], line.points[k + 1]});
+        }
+    }
+    const auto is_on = [](const Vec2& p, const std::array<Vec2, 2>& s) {
+        const Vec2 d = s[1] - s[0], e = p - s[0];
+        const double size = std::hypot(d.x, d.y), t = (d.x * e.x + d.y * e.y) / size;
+        return t > 1 && t < size - 1 && std::abs(d.x * e.y - d.y * e.x) < 0.05 * size;
+    };
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const Vec2 from = segments[i][0], along = segments[i][1] - from;
+        for (std::size_t k = 0; k < segments.size(); ++k) {
+            EXPECT_FALSE(i != k && is_on(from + 0.3 * along, segments[k]) &&
+                         is_on(from + 0.7 * along, segments[k]))
+                << from.x << ' ' << from.y << ' ' << along.x << ' ' << along.y;
+        }
+    }
+    EXPECT_GT(segments.size(), 20u);
 }
 
 TEST(TechnicalDrawing, ItNeedsGeometry) {

@@ -23,7 +23,7 @@ function polynomialPlot(p: PolynomialOnRay) {
   const path = values.map((v, i) => `${i ? "L" : "M"}${x(i / count).toFixed(1)} ${y(v).toFixed(1)}`).join("");
   const polygon = p.bernstein.map((b, i) => `${x(i / n).toFixed(1)},${y(b).toFixed(1)}`).join(" ");
   const title = `${p.shape} \u2018${p.object}\u2019: degree ${n}, ` +
-                (p.roots.length ? `roots at t = ${p.roots.map(number).join(", ")}` : "no real root on the ray");
+                (p.roots.length ? `roots at t = ${p.roots.map(number).join(", ")}` : "no real root in its bounds");
   const svg = element("svg:svg", {viewBox: `0 0 ${w} ${h}`, role: "img", "aria-label": title},
     element("svg:line", {class: "zero", x1: 8, x2: w - 8, y1: h / 2, y2: h / 2}),
     element("svg:polyline", {class: "polygon", points: polygon}),

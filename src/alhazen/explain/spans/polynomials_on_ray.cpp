@@ -99,6 +99,39 @@ Interval range_in(const Box3& box, const Ray& ray) {
     return range;
 }
 
+double value_at(const PolynomialOnRay& p, double t) {
+    std::vector<double> b = p.bernstein;
+    const double u = (t - p.from) / (p.to - p.from);
+    for (std::size_t n = b.size() - 1; n > 0; --n) {
+        for (std::size_t i = 0; i < n; ++i) b[i] = (1.0 - u) * b[i] + u * b[i + 1];
+    }
+    return b[0];
+}
+
+/// Where the polynomial changes its sign from sample to sample of its range.
+std::vector<double> sign_changes(const PolynomialOnRay& p) {
+    constexpr int kSamples = 512;
+    double size = 0.0;
+    for (const double b : p.bernstein) size = std::max(size, std::abs(b));
+    std::vector<double> found;
+    double last = 0.0, last_t = p.from;
+    for (int k = 0; k <= kSamples; ++k) {
+        const double t = p.from + (p.to - p.from) * k / kSamples, value = value_at(p, t);
+        if (!(std::abs(value) > 1e-12 * size)) continue;  // its sign is not certain
+        if (last != 0.0 && (value > 0.0) != (last > 0.0)) {
+            double lo = last_t, hi = t;
+            for (int n = 0; n < 60; ++n) {
+                const double middle = 0.5 * (lo + hi);
+                ((value_at(p, middle) > 0.0) == (last > 0.0) ? lo : hi) = middle;
+            }
+            found.push_back(lo);
+        }
+        last = value;
+        last_t = t;
+    }
+    return found;
+}
+
 class Finder {
   public:
     Finder(const LoadedScene& loaded, std::vector<PolynomialOnRay>& found)
@@ -164,7 +197,7 @@ class Finder {
         if (!std::isfinite(range.lo)) range.lo = p.roots.empty() ? 0.0 : p.roots.front() - 1.0;
         if (!std::isfinite(range.hi)) range.hi = p.roots.empty() ? 10.0 : p.roots.back() + 1.0;
         const double margin = kMargin * (range.hi - range.lo);
-        p.from = range.lo - margin;
+        p.from = std::max(range.lo - margin, 0.0);
         p.to = range.hi + margin;
         const PolynomialExpression polynomial(equation.text);
         p.degree = polynomial.degree();
@@ -174,8 +207,31 @@ class Finder {
             return Point3<double>{local.x, local.y, local.z};
         };
         p.bernstein.resize(static_cast<std::size_t>(p.degree) + 1);
-        polynomial.restricted(at(p.from), at(p.to), p.bernstein.data());
+        const auto restrict_to_range = [&] {
+            polynomial.restricted(at(p.from), at(p.to), p.bernstein.data());
+        };
+        restrict_to_range();
+        if (add_roots(range, p)) restrict_to_range();
         return true;
+    }
+
+    /// Adds the sign changes within `bounds` that are not among the roots, and ends the range
+    /// before those beyond. True if the range has changed.
+    static bool add_roots(const Interval& bounds, PolynomialOnRay& p) {
+        const double near = 1e-4 * (p.to - p.from), from = p.from, to = p.to;
+        for (const double t : sign_changes(p)) {
+            const auto is_it = [&](double root) { return std::abs(root - t) < near; };
+            if (std::any_of(p.roots.begin(), p.roots.end(), is_it)) continue;
+            if (t < bounds.lo) {
+                p.from = std::max(p.from, 0.5 * (t + bounds.lo));
+            } else if (t > bounds.hi) {
+                p.to = std::min(p.to, 0.5 * (t + bounds.hi));
+            } else {
+                p.roots.push_back(t);
+            }
+        }
+        std::sort(p.roots.begin(), p.roots.end());
+        return p.from != from || p.to != to;
     }
 
     const LoadedScene& loaded_;

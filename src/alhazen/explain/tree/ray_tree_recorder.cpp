@@ -45,8 +45,13 @@ void RayTreeRecorder::meet(const ShadingPoint& point, double t, const Path& path
                            const MetSurface& met) {
     SurfaceNode node;
     const MaterialSample& m = *point.material;
-    node.t = t;
     node.point = point.surface.point;
+    const Level& here = level(depth);
+    const RayNode& ray = here.rays[here.base + met.ray];
+    // Behind a surface that covers in part, `t` counts from that surface.
+    const Vec3& along = ray.ray.direction;
+    node.t =
+        ray.surfaces.empty() ? t : dot(node.point - ray.ray.origin, along) / length_squared(along);
     node.normal = point.normal;
     node.part = point.surface.part;
     node.material = static_cast<std::uint32_t>(point.surface.materials[0]);

@@ -1,11 +1,13 @@
 #include "alhazen/renderers/beam_tracing/beam_drawing.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/renderers/beam_tracing/beam_cells.h"
 #include "alhazen/renderers/beam_tracing/beam_outlines.h"
 #include "alhazen/renderers/beam_tracing/beam_shading.h"
+#include "alhazen/renderers/beam_tracing/light_features.h"
 #include "alhazen/renderers/beam_tracing/linear_shade.h"
 
 namespace alhazen {
@@ -50,6 +52,7 @@ class CellPainter {
     CellPainter(const RenderJob& job, const BeamScene& scene, const BeamTree& tree,
                 const BeamDrawingOptions& options)
         : job_(job),
+          scene_(scene),
           tree_(tree),
           options_(options),
           picture_(options.width, options.height),
@@ -61,13 +64,58 @@ class CellPainter {
             regions.push_back({picture_.loops(cell.region), {1, 1, 1}, {}});
             return;
         }
-        shade_points(cell);
-        const LinearShade shade = fit_shade(points_, options_.tolerance);
-        if (shade.error > options_.tolerance && is_large(cell.region)) return divide(cell, regions);
-        regions.push_back({picture_.loops(cell.region), shade.mean, shade.gradient});
+        paint(cell, features_of(cell), regions);
     }
 
   private:
+    /// `features`: points of the window around which the shading may change.
+    void paint(const BeamCell& cell, std::span<const Vec2> features,
+               std::vector<DrawingRegion>& regions) {
+        if (cell.region.empty()) return;
+        const std::vector<Vec2> close = close_to(cell.region.bounds(), features);
+        shade_points(cell, close);
+        const LinearShade shade = fit_shade(points_, options_.tolerance);
+        if (shade.error > options_.tolerance && is_large(cell.region)) {
+            return divide(cell, close, regions);
+        }
+        regions.push_back({picture_.loops(cell.region), shade.mean, shade.gradient});
+    }
+
+    [[nodiscard]] std::vector<Vec2> features_of(const BeamCell& cell) const {
+        std::vector<Vec2> features;
+        std::vector<Vec3> points;
+        for (const BeamTerm& term : cell.terms) {
+            const BeamPiece& piece = tree_.pieces[term.piece];
+            if (piece.seen.facet == kNoFacet) continue;
+            const BeamView& view = tree_.beams[piece.beam].view;
+            points.clear();
+            for (const std::uint32_t l : term.lights) {
+                add_light_features(job_.scene.lights[piece.lights[l].light],
+                                   scene_.plane(piece.seen.facet), view.apex, points);
+            }
+            for (const Vec3& p : points) {
+                const Vec3 at = view.projection(p);
+                if (at.z > 0.0) features.push_back({at.x / at.z, at.y / at.z});
+            }
+        }
+        return features;
+    }
+
+    /// The features whose distance from a box is at most its size.
+    [[nodiscard]] static std::vector<Vec2> close_to(const LatticeBox& box,
+                                                    std::span<const Vec2> features) {
+        const double x = box.lo.x, y = box.lo.y, width = box.hi.x - x, height = box.hi.y - y;
+        const double reach = std::max(width, height);
+        std::vector<Vec2> close;
+        for (const Vec2& f : features) {
+            if (std::abs(f.x - x - 0.5 * width) <= 0.5 * width + reach &&
+                std::abs(f.y - y - 0.5 * height) <= 0.5 * height + reach) {
+                close.push_back(f);
+            }
+        }
+        return close;
+    }
+
     [[nodiscard]] bool is_large(const PolygonSet& region) const {
         const LatticeBox& box = region.bounds();
         const double width = 0.5 * options_.width * (box.hi.x - box.lo.x) / kBeamFilm;
@@ -75,7 +123,8 @@ class CellPainter {
         return std::max(width, height) > kLeastSide;
     }
 
-    void divide(const BeamCell& cell, std::vector<DrawingRegion>& regions) {
+    void divide(const BeamCell& cell, std::span<const Vec2> features,
+                std::vector<DrawingRegion>& regions) {
         const LatticeBox box = cell.region.bounds();
         LatticePoint middle = box.hi;
         const double width = double(options_.width) * (box.hi.x - box.lo.x);
@@ -84,11 +133,11 @@ class CellPainter {
                                                      ? box.lo.x + (box.hi.x - box.lo.x) / 2
                                                      : box.lo.y + (box.hi.y - box.lo.y) / 2;
         const PolygonCut halves = cut(cell.region, lattice_rectangle(box.lo, middle));
-        paint({halves.inside, cell.terms}, regions);
-        paint({halves.outside, cell.terms}, regions);
+        paint({halves.inside, cell.terms}, features, regions);
+        paint({halves.outside, cell.terms}, features, regions);
     }
 
-    void shade_points(const BeamCell& cell) {
+    void shade_points(const BeamCell& cell, std::span<const Vec2> features) {
         points_.clear();
         const std::vector<LatticeTriangle> triangles = triangulate(cell.region);
         const std::size_t step = triangles.size() / kMostTriangles + 1;
@@ -111,6 +160,20 @@ class CellPainter {
                 if (side_of_point(cell.region, p) == PointSide::Inside) {
                     add(cell, {double(p.x), double(p.y)});
                 }
+            }
+        }
+        // The points of the box nearest to the features.
+        nearest_.clear();
+        for (const Vec2& f : features) {
+            nearest_.push_back(
+                {static_cast<std::int32_t>(std::clamp(f.x, double(box.lo.x), double(box.hi.x))),
+                 static_cast<std::int32_t>(std::clamp(f.y, double(box.lo.y), double(box.hi.y)))});
+        }
+        std::sort(nearest_.begin(), nearest_.end());
+        nearest_.erase(std::unique(nearest_.begin(), nearest_.end()), nearest_.end());
+        for (const LatticePoint p : nearest_) {
+            if (side_of_point(cell.region, p) != PointSide::Outside) {
+                add(cell, {double(p.x), double(p.y)});
             }
         }
     }
@@ -137,11 +200,13 @@ class CellPainter {
     }
 
     const RenderJob& job_;
+    const BeamScene& scene_;
     const BeamTree& tree_;
     const BeamDrawingOptions& options_;
     ToPicture picture_;
     BeamShading shading_;
     std::vector<ShadePoint> points_;
+    std::vector<LatticePoint> nearest_;
 };
 
 /// Regions of the pieces by part, in the order in which parts are first visible.

@@ -4,7 +4,9 @@
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984, section 6 (the
 /// tree as polygons, for any resolution).
-/// Differs: a region whose shading is not linear within the tolerance is divided. Lines follow from
+/// Differs: a region whose shading is not linear within the tolerance is divided. It is tested at
+/// the points of a grid, and at those nearest to features of its lights (light_features.h), which
+/// the grid may miss. Lines follow from
 /// the regions: the border of a plane is that of the union of its pieces, so that cuts of the tree
 /// and of shadows do not produce lines.
 /// Conventions: those of Drawing. Threads: regions are shaded in parallel; the drawing is

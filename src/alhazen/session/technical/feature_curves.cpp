@@ -186,17 +186,66 @@ class CurveGatherer {
                   double tolerance)
         : d_(d), triangles_(triangles), eye_(eye), tolerance_(tolerance) {}
 
-    std::vector<FeatureCurve> gather() {
+    std::vector<FeatureCurve> gather(std::vector<std::string>& left_out) {
         add_object(static_cast<std::size_t>(d_.root), {});
+        add_crossings(left_out);
         return std::move(curves_);
     }
 
   private:
+    /// A part or solid with faces, in world space.
+    struct Body {
+        Part part;
+        Box3 box;
+    };
+
+    void add_body(Part part, const Affine& placed) {
+        part.object_from_part = placed;
+        const std::optional<FacedSolid> faced = FacedSolid::of(d_, {&part, 1});
+        if (faced) bodies_.push_back({std::move(part), faced->box()});
+    }
+
+    /// Adds the curves in which bodies cross.
+    void add_crossings(std::vector<std::string>& left_out) {
+        constexpr std::size_t kMostPairs = 2000;
+        std::sort(bodies_.begin(), bodies_.end(),
+                  [](const Body& a, const Body& b) { return a.box.lo.x < b.box.lo.x; });
+        std::size_t pairs = 0;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const Box3& box = bodies_[i].box;
+            for (std::size_t k = i + 1; k < bodies_.size(); ++k) {
+                if (bodies_[k].box.lo.x >= box.hi.x) break;
+                // Bodies that only touch do not cross.
+                const Vec3 shared = intersection(box, bodies_[k].box).size();
+                const double least = 1e-9 * length(box.size());
+                if (!(std::min({shared.x, shared.y, shared.z}) > least)) continue;
+                if (++pairs > kMostPairs) {
+                    left_out.push_back(
+                        "lines where objects penetrate each other: more than 2000 "
+                        "pairs overlap");
+                    return;
+                }
+                add_crossing(bodies_[i].part, bodies_[k].part);
+            }
+        }
+    }
+    void add_crossing(const Part& a, const Part& b) {
+        const std::array<Part, 2> parts{a, b};
+        const std::optional<FacedSolid> both = FacedSolid::of(d_, parts),
+                                        one = FacedSolid::of(d_, {&a, 1}),
+                                        other = FacedSolid::of(d_, {&b, 1});
+        if (both && one && other) add_crossing_curves(*both, *one, *other, eye_, curves_);
+    }
+
     void add_object(std::size_t index, const Affine& world) {
         const bool solid = d_.objects[index].combine != Combine::Group;
         if (solid) {
             const std::optional<FacedSolid> faced = FacedSolid::of(d_, index, world);
-            if (faced && add_solid_curves(*faced, eye_, curves_)) return;
+            if (faced && add_solid_curves(*faced, eye_, curves_)) {
+                Part part;
+                part.what = ObjectIndex{static_cast<std::uint32_t>(index)};
+                return add_body(std::move(part), world);
+            }
         }
         const std::vector<Part>& parts = (solid ? triangles_ : d_).objects[index].parts;
         for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -209,7 +258,10 @@ class CurveGatherer {
             }
             CurvePlacer placer(placed, eye_, curves_);
             const auto* shape = std::get_if<AnyShape>(&part.what);
-            if (shape != nullptr && add_exact(*shape, placer)) continue;
+            if (shape != nullptr && add_exact(*shape, placer)) {
+                if (!solid) add_body(part, placed);
+                continue;
+            }
             const auto* mesh = std::get_if<MeshIndex>(&triangles_.objects[index].parts[k].what);
             if (mesh == nullptr) continue;
             const MeshSource source = solid              ? MeshSource::Solid
@@ -238,6 +290,7 @@ class CurveGatherer {
     BeamApex eye_;
     double tolerance_;
     std::vector<FeatureCurve> curves_;
+    std::vector<Body> bodies_;
 };
 
 }  // namespace
@@ -258,7 +311,7 @@ std::vector<FeatureCurve> feature_curves(const SceneDescription& description, co
         }
     }
     left_out = tessellate(triangles, tolerance, true).kept;
-    return CurveGatherer(description, triangles, eye, tolerance).gather();
+    return CurveGatherer(description, triangles, eye, tolerance).gather(left_out);
 }
 
 }  // namespace alhazen

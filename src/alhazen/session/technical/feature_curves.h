@@ -34,7 +34,8 @@ struct FeatureCurve {
 };
 
 /// The curves that `eye` (in world space) sees. Parts without a tessellation within `tolerance`
-/// (unbounded ones) are omitted and named in `left_out`.
+/// (unbounded ones) are omitted and named in `left_out`. Separate spheres, cylinders, cones, boxes
+/// and solids of these have lines where they penetrate each other; other shapes have none there.
 [[nodiscard]] std::vector<FeatureCurve> feature_curves(const SceneDescription& description,
                                                        const BeamApex& eye, double tolerance,
                                                        std::vector<std::string>& left_out);

@@ -136,6 +136,7 @@ void SolidCurveParts::divide(const SolidCurve& curve, FeatureCurve& result, cons
     result.points = {a.p, b.p - a.p, {}};
     result.out = {at.out, {}, {}};
     result.other_out = {at.other_out, {}, {}};
+    result.off = off;
     curves_.push_back(result);
 }
 

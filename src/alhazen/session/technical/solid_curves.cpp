@@ -17,6 +17,9 @@ using Kind = SolidFace::Kind;
 using Line = std::array<Vec3, 2>;  ///< a point and a direction
 
 constexpr int kSamples = SolidCurveParts::kSamples;
+/// Circles in which bodies cross are contacts below this radius, relative to the smaller body:
+/// spheres that penetrate each other by 5e-5 of their radius.
+constexpr double kContact = 3e-3;
 
 SolidCurve line_curve(const SolidFace& face, const Vec3& from, const Vec3& along) {
     SolidCurve curve;
@@ -82,14 +85,16 @@ std::array<std::optional<double>, 2> roots_of(const SolidFace& f, const Line& li
 /// Finds the curves, and their parts that are edges or outlines.
 class SolidCurveFinder {
   public:
-    SolidCurveFinder(const FacedSolid& solid, const BeamApex& eye)
-        : solid_(solid), eye_(eye), parts_(solid, eye) {}
+    /// `split`: only curves of a leaf before this one with one from it on; 0: all curves.
+    SolidCurveFinder(const FacedSolid& solid, const BeamApex& eye, std::size_t split = 0)
+        : solid_(solid), eye_(eye), parts_(solid, eye), split_(split) {}
 
     bool find() {
         const std::vector<SolidFace>& faces = solid_.faces();
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            outline(faces[i]);
+            if (split_ == 0) outline(faces[i]);
             for (std::size_t k = i + 1; k < faces.size(); ++k) {
+                if (split_ != 0 && (faces[i].leaf < split_) == (faces[k].leaf < split_)) continue;
                 const Box3 both =
                     intersection(solid_.leaf(faces[i]).box, solid_.leaf(faces[k]).box);
                 if (both.empty()) continue;
@@ -317,7 +322,19 @@ class SolidCurveFinder {
     const FacedSolid& solid_;
     BeamApex eye_;
     SolidCurveParts parts_;
+    std::size_t split_;
 };
+
+/// True if both surfaces are smooth at a point of the curve.
+bool is_smooth(const FacedSolid& one, const FacedSolid& other, const FeatureCurve& curve,
+               double t) {
+    const double c = std::cos(t), s = std::sin(t);
+    const CurveForm& form = curve.points;
+    const Vec3 p = curve.round ? form.origin + c * form.u + s * form.v : form.origin + t * form.u;
+    const Vec3 tangent = curve.round ? c * form.v - s * form.u : form.u;
+    const SolidWheel a = one.wheel(p, tangent), b = other.wheel(p, tangent);
+    return a.surface && b.surface && !a.edge && !b.edge;
+}
 
 }  // namespace
 
@@ -327,6 +344,25 @@ bool add_solid_curves(const FacedSolid& solid, const BeamApex& eye,
     if (!finder.find()) return false;
     for (const FeatureCurve& curve : finder.take()) curves.push_back(curve);
     return true;
+}
+
+void add_crossing_curves(const FacedSolid& both, const FacedSolid& one, const FacedSolid& other,
+                         const BeamApex& eye, std::vector<FeatureCurve>& curves) {
+    SolidCurveFinder finder(both, eye, one.leaf_count());
+    if (!finder.find()) return;
+    const double size = std::min(length(one.box().size()), length(other.box().size()));
+    for (FeatureCurve& curve : finder.take()) {
+        // Round bodies that touch, up to the digits of a file.
+        if (curve.round && length(curve.points.u) < kContact * size) continue;
+        // Only the ends of a chord lie on the surfaces.
+        const bool crosses =
+            curve.off > 0.0
+                ? is_smooth(one, other, curve, curve.from) || is_smooth(one, other, curve, curve.to)
+                : is_smooth(one, other, curve, 0.5 * (curve.from + curve.to));
+        if (!crosses) continue;
+        curve.style = LineStyle::Silhouette;
+        curves.push_back(curve);
+    }
 }
 
 }  // namespace alhazen

@@ -22,4 +22,10 @@ namespace alhazen {
 [[nodiscard]] bool add_solid_curves(const FacedSolid& solid, const BeamApex& eye,
                                     std::vector<FeatureCurve>& curves);
 
+/// Adds the curves in which the surfaces of two solids of different objects cross, as silhouettes.
+/// `both` is their union, with the leaves of `one` first. Edges of one of them are no such curves.
+/// Adds none where `add_solid_curves` would return false.
+void add_crossing_curves(const FacedSolid& both, const FacedSolid& one, const FacedSolid& other,
+                         const BeamApex& eye, std::vector<FeatureCurve>& curves);
+
 }  // namespace alhazen

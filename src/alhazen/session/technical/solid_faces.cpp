@@ -107,14 +107,32 @@ std::optional<FacedSolid> FacedSolid::of(const SceneDescription& description, st
     return solid;
 }
 
+std::optional<FacedSolid> FacedSolid::of(const SceneDescription& description,
+                                         std::span<const Part> parts) {
+    FacedSolid solid;
+    if (!solid.add_parts(description, Combine::Union, parts, {}, solid.root_)) return std::nullopt;
+    return solid;
+}
+
+Box3 FacedSolid::box() const {
+    Box3 box;
+    for (const SolidLeaf& leaf : leaves_) box.include(leaf.box);
+    return box;
+}
+
 bool FacedSolid::add_object(const SceneDescription& d, std::size_t object, const Affine& world,
                             std::uint32_t& node) {
+    const ObjectDescription& o = d.objects[object];
+    return add_parts(d, o.combine, o.parts, world, node);
+}
+
+bool FacedSolid::add_parts(const SceneDescription& d, Combine combine, std::span<const Part> parts,
+                           const Affine& world, std::uint32_t& node) {
     node = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
-    const ObjectDescription& o = d.objects[object];
     // A group is the union of its parts.
-    nodes_[node].combine = o.combine == Combine::Group ? Combine::Union : o.combine;
-    for (const Part& part : o.parts) {
+    nodes_[node].combine = combine == Combine::Group ? Combine::Union : combine;
+    for (const Part& part : parts) {
         const Affine placed = world * part.object_from_part;
         std::uint32_t child = 0;
         if (const auto* inner = std::get_if<ObjectIndex>(&part.what)) {
@@ -169,7 +187,16 @@ Vec3 FacedSolid::normal(const SolidFace& face, const Vec3& p) const {
 }
 
 SolidWheel FacedSolid::wheel(const Vec3& p, const Vec3& tangent, const SolidFace& face) const {
-    const Vec3 along = unit_or(tangent, {}), x = normal(face, p), y = cross(along, x);
+    return wheel_around(p, unit_or(tangent, {}), normal(face, p));
+}
+
+SolidWheel FacedSolid::wheel(const Vec3& p, const Vec3& tangent) const {
+    const Vec3 along = unit_or(tangent, {1, 0, 0});
+    return wheel_around(p, along, normalize(perpendicular(along)));
+}
+
+SolidWheel FacedSolid::wheel_around(const Vec3& p, const Vec3& along, const Vec3& x) const {
+    const Vec3 y = cross(along, x);
     std::vector<bool> in_leaf(leaves_.size(), true);
     struct Touching {
         std::uint32_t leaf;

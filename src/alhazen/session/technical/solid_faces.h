@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "alhazen/geometry/box.h"
@@ -56,11 +57,19 @@ class FacedSolid {
     /// None if a part has no such faces, or if there are more than 400 parts.
     [[nodiscard]] static std::optional<FacedSolid> of(const SceneDescription& description,
                                                       std::size_t object, const Affine& world);
+    /// The union of parts, which are placed in world space.
+    [[nodiscard]] static std::optional<FacedSolid> of(const SceneDescription& description,
+                                                      std::span<const Part> parts);
 
     [[nodiscard]] const std::vector<SolidFace>& faces() const { return faces_; }
     [[nodiscard]] const SolidLeaf& leaf(const SolidFace& face) const { return leaves_[face.leaf]; }
+    [[nodiscard]] std::size_t leaf_count() const { return leaves_.size(); }
+    /// The box of all leaves.
+    [[nodiscard]] Box3 box() const;
     /// The neighbourhood of `p` on a curve along `tangent` in `face`.
     [[nodiscard]] SolidWheel wheel(const Vec3& p, const Vec3& tangent, const SolidFace& face) const;
+    /// Likewise, of a curve that need not lie in a face.
+    [[nodiscard]] SolidWheel wheel(const Vec3& p, const Vec3& tangent) const;
     /// The unit outward normal in world space.
     [[nodiscard]] Vec3 normal(const SolidFace& face, const Vec3& p) const;
 
@@ -72,6 +81,11 @@ class FacedSolid {
     };
     [[nodiscard]] bool add_object(const SceneDescription& d, std::size_t object,
                                   const Affine& world, std::uint32_t& node);
+    [[nodiscard]] bool add_parts(const SceneDescription& d, Combine combine,
+                                 std::span<const Part> parts, const Affine& world,
+                                 std::uint32_t& node);
+    /// Angles of sectors count around `along` from `x`, perpendicular to it.
+    [[nodiscard]] SolidWheel wheel_around(const Vec3& p, const Vec3& along, const Vec3& x) const;
     [[nodiscard]] bool add_leaf(const AnyShape& shape, const Affine& world);
     [[nodiscard]] bool inside(std::uint32_t node, const std::vector<bool>& in_leaf) const;
 

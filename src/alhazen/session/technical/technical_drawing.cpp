@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "alhazen/base/error.h"
 #include "alhazen/math/constants.h"
@@ -17,6 +18,9 @@ namespace {
 
 /// Distance of tested points of a curve, and precision of its visible ends; pixels.
 constexpr double kStep = 1.5, kNear = 0.02;
+/// Least distance of tested points from the surfaces: relative to the size of the scene, and to
+/// coordinates, whose rounding moves hits by some units of the last place.
+constexpr double kLift = 1e-6, kRounding = 1e-13;
 
 /// The mapping from space to the picture.
 class CurveView {
@@ -62,11 +66,8 @@ Vec3 at(const CurveForm& form, bool round, double t) {
 
 class CurveDrawer {
   public:
-    CurveDrawer(const Scene& scene, const CurveView& view, bool hidden)
-        : scene_(scene), view_(view), hidden_(hidden) {
-        const Box3 box = scene.aggregate->box();
-        size_ = box.bounded() ? length(box.size()) : 0.0;
-    }
+    CurveDrawer(const Scene& scene, const CurveView& view, bool hidden, double size)
+        : scene_(scene), view_(view), hidden_(hidden), size_(size) {}
 
     void draw(const FeatureCurve& curve) {
         const double pixels = length_of(curve);
@@ -117,7 +118,8 @@ class CurveDrawer {
     [[nodiscard]] int state_of(const FeatureCurve& curve, double t) const {
         const Vec3 p = at(curve.points, curve.round, t);
         if (!view_.is_before(p)) return kBehind;
-        const double off = std::max(3.0 * curve.off, 1e-6 * std::max(size_, length(p)));
+        const double reach = length(p) + view_.eye().weight * length(view_.eye().at);
+        const double off = std::max({3.0 * curve.off, kLift * size_, kRounding * reach});
         const Vec3 n = off * unit_or(at(curve.out, curve.round, t), {});
         const Vec3 m = off * unit_or(at(curve.other_out, curve.round, t), {});
         for (const Vec3& lifted : {p + n + m, p + n, p + m}) {
@@ -191,9 +193,22 @@ class CurveDrawer {
     const Scene& scene_;
     const CurveView& view_;
     bool hidden_;
-    double size_ = 0;
+    double size_;
     std::vector<DrawingLine> lines_;
 };
+
+/// The size of a scene; that of its curves if it has no bounds.
+double size_of_all(const Scene& scene, std::span<const FeatureCurve> curves) {
+    Box3 box = scene.aggregate->box();
+    if (box.bounded()) return length(box.size());
+    box = Box3();
+    for (const FeatureCurve& c : curves) {
+        for (const double t : {c.from, 0.5 * (c.from + c.to), c.to}) {
+            box.include(at(c.points, c.round, t));
+        }
+    }
+    return box.bounded() ? length(box.size()) : 0.0;
+}
 
 }  // namespace
 
@@ -210,9 +225,10 @@ Drawing technical_drawing(const LoadedScene& loaded, const RenderOptions& option
     Drawing drawing;
     drawing.width = frame.width;
     drawing.height = frame.height;
-    CurveDrawer drawer(loaded.scene, view, technical.hidden);
-    for (const FeatureCurve& curve :
-         feature_curves(loaded.description, view.eye(), technical.tolerance, drawing.notes)) {
+    const std::vector<FeatureCurve> curves =
+        feature_curves(loaded.description, view.eye(), technical.tolerance, drawing.notes);
+    CurveDrawer drawer(loaded.scene, view, technical.hidden, size_of_all(loaded.scene, curves));
+    for (const FeatureCurve& curve : curves) {
         if (options.stop != nullptr && options.stop->requested()) break;
         drawer.draw(curve);
     }
